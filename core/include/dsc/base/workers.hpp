@@ -1,0 +1,30 @@
+#pragma once
+// Threads over fixed blocks. The split into blocks never depends on the number of threads, so results do not either.
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace dsc {
+
+/// A small pool of worker threads. One loop at a time. [step]
+class Workers {
+public:
+    /// `threads` 0 or 1: everything runs on the caller.
+    explicit Workers(unsigned threads = 1);
+    ~Workers();
+    Workers(const Workers&) = delete;
+    Workers& operator=(const Workers&) = delete;
+
+    unsigned threads() const noexcept;
+
+    /// Calls body(begin, end) for the blocks [0, block), [block, 2 block), ... of [0, count), in any order, possibly at
+    /// the same time. The exception of the block with the lowest index is rethrown after all blocks ended.
+    void for_blocks(std::size_t count, std::size_t block, const std::function<void(std::size_t, std::size_t)>& body);
+
+private:
+    struct Pool;
+    std::unique_ptr<Pool> pool_;
+};
+
+}  // namespace dsc

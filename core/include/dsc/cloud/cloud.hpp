@@ -1,0 +1,18 @@
+#pragma once
+// A point cloud in double precision.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <dsc/geometry/vec.hpp>
+
+namespace dsc::cloud {
+
+/// Points in the units of their file. No normals are used anywhere.
+struct Cloud {
+    std::vector<Vec3> points;
+    std::vector<std::array<std::uint8_t, 3>> colours;  ///< empty, or one RGB a point
+};
+
+}  // namespace dsc::cloud

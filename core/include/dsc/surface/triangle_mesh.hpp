@@ -1,0 +1,18 @@
+#pragma once
+// A triangle mesh as plain arrays: what surface files hold.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <dsc/geometry/vec.hpp>
+
+namespace dsc::surface {
+
+/// Faces are counter-clockwise seen from outside.
+struct TriangleMesh {
+    std::vector<Vec3> points;
+    std::vector<std::array<std::uint32_t, 3>> faces;  ///< indices into points
+};
+
+}  // namespace dsc::surface

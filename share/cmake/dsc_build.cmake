@@ -1,0 +1,63 @@
+# How every target of the project is compiled, and the few functions that declare one.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
+set(DSC_PLUGIN_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib/dsc/plugins")
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+find_program(DSC_CCACHE ccache)
+if(DSC_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${DSC_CCACHE}")
+endif()
+
+# Flags for our own code only; third-party headers come in as SYSTEM.
+add_library(dsc_flags INTERFACE)
+target_compile_options(dsc_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual
+  -ffp-contract=off $<$<BOOL:${DSC_WERROR}>:-Werror>)
+if(DSC_SANITIZE STREQUAL "address")
+  target_compile_options(dsc_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  target_link_options(dsc_flags INTERFACE -fsanitize=address,undefined)
+elseif(DSC_SANITIZE STREQUAL "thread")
+  target_compile_options(dsc_flags INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+  target_link_options(dsc_flags INTERFACE -fsanitize=thread)
+elseif(NOT DSC_SANITIZE STREQUAL "")
+  message(FATAL_ERROR "DSC_SANITIZE=${DSC_SANITIZE}: accepted are address and thread")
+endif()
+
+# dsc_module(NAME SOURCES ... [USES modules...] [LINK third-party targets...])
+# One module of the core. Its objects go into the shared core; the static library dsc_NAME is for tests, which link only
+# the modules named by USES: a call in the wrong direction does not link.
+function(dsc_module name)
+  cmake_parse_arguments(arg "" "" "SOURCES;USES;LINK" ${ARGN})
+  list(TRANSFORM arg_USES PREPEND dsc_ OUTPUT_VARIABLE used)
+  add_library(dsc_${name}_objects OBJECT ${arg_SOURCES})
+  target_include_directories(dsc_${name}_objects PRIVATE ${PROJECT_SOURCE_DIR}/core/include
+    ${PROJECT_BINARY_DIR}/core/include ${PROJECT_SOURCE_DIR}/core/src)
+  target_link_libraries(dsc_${name}_objects PRIVATE Eigen3::Eigen dsc_flags ${arg_LINK})
+  add_library(dsc_${name} STATIC $<TARGET_OBJECTS:dsc_${name}_objects>)
+  set_target_properties(dsc_${name} PROPERTIES LINKER_LANGUAGE CXX)
+  target_include_directories(dsc_${name} INTERFACE ${PROJECT_SOURCE_DIR}/core/include ${PROJECT_BINARY_DIR}/core/include)
+  target_link_libraries(dsc_${name} PUBLIC ${used} Eigen3::Eigen PRIVATE ${arg_LINK})
+  set_property(GLOBAL APPEND PROPERTY DSC_MODULES ${name})
+  set_property(GLOBAL APPEND PROPERTY DSC_CORE_LINK ${arg_LINK})
+endfunction()
+
+# dsc_unit_test(MODULE SOURCES ... [USES modules...] [LINK targets...] [LABELS ...]): doctest executable test_MODULE.
+function(dsc_unit_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;USES;LINK;LABELS" ${ARGN})
+  add_executable(test_${name} ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/tests/unit/main.cpp)
+  list(TRANSFORM arg_USES PREPEND dsc_ OUTPUT_VARIABLE used)
+  target_link_libraries(test_${name} PRIVATE ${used} dsc_flags doctest::doctest ${arg_LINK})
+  target_compile_definitions(test_${name} PRIVATE DSC_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  set(labels unit ${arg_LABELS})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  doctest_discover_tests(test_${name} TEST_PREFIX "${name}." PROPERTIES LABELS "${labels}" TIMEOUT ${arg_TIMEOUT})
+endfunction()

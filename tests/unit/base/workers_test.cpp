@@ -1,0 +1,41 @@
+#include <dsc/base/workers.hpp>
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+TEST_CASE("every index is visited once, whatever the number of threads") {
+    for (const unsigned threads : {1U, 2U, 5U}) {
+        dsc::Workers workers(threads);
+        for (const std::size_t count : {0UL, 1UL, 7UL, 1000UL}) {
+            std::vector<std::atomic<int>> visits(count);
+            workers.for_blocks(count, 64, [&](std::size_t begin, std::size_t end) {
+                CHECK(begin % 64 == 0);
+                for (std::size_t i = begin; i < end; ++i) ++visits[i];
+            });
+            for (const auto& v : visits) CHECK(v == 1);
+        }
+    }
+}
+
+TEST_CASE("the failure of the first block is reported") {
+    for (const unsigned threads : {1U, 3U}) {
+        dsc::Workers workers(threads);
+        std::string message;
+        try {
+            workers.for_blocks(1000, 10, [](std::size_t begin, std::size_t) {
+                if (begin >= 200) throw std::runtime_error(std::to_string(begin));
+            });
+        } catch (const std::runtime_error& error) {
+            message = error.what();
+        }
+        CHECK(message == "200");
+        int blocks = 0;
+        dsc::Workers one(1);
+        one.for_blocks(30, 10, [&](std::size_t, std::size_t) { ++blocks; });
+        CHECK(blocks == 3);
+    }
+}
