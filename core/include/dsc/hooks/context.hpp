@@ -1,0 +1,56 @@
+#pragma once
+// What the host tells a strategy. Everything is in normalised units (the box is [-1.5, 1.5]^3 unless an initial mesh says
+// otherwise); `to_input` leads back to the units of the input.
+
+#include <cstdint>
+#include <iosfwd>
+#include <span>
+
+#include <dsc/base/progress.hpp>
+#include <dsc/base/random.hpp>
+#include <dsc/cloud/normalize.hpp>
+#include <dsc/cloud/target.hpp>
+#include <dsc/geometry/vec.hpp>
+#include <dsc/surface/surface_view.hpp>
+
+namespace dsc::hooks {
+
+/// Half-open range of view vertices.
+struct Range {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    std::size_t size() const { return end - begin; }
+};
+
+/// Constant for the length of one step.
+struct StepContext {
+    std::uint64_t step = 0;
+    const surface::SurfaceView& surface;
+    const cloud::TargetCloud* cloud = nullptr;  ///< null when the experiment has no input cloud
+    double target_length = 0.0;                 ///< L
+    Box3 box;
+    cloud::Transform to_normalised;             ///< input to normalised units; the identity without input
+    std::uint64_t seed = 0;
+    std::uint64_t instance = 0;                 ///< stream id of this strategy's place in the experiment
+    const CancelToken* cancel = nullptr;
+
+    /// The random stream of one element (a birth id) in this step. Order and thread count do not matter. [parallel]
+    RandomStream random(std::uint64_t element) const { return RandomStream(RandomKey{seed, instance, step, element}); }
+    bool cancelled() const { return cancel != nullptr && cancel->cancelled(); }
+};
+
+/// Base of all strategies: state that must survive a checkpoint. Empty by default.
+class Strategy {
+public:
+    Strategy() = default;
+    virtual ~Strategy();
+    Strategy(const Strategy&) = delete;
+    Strategy& operator=(const Strategy&) = delete;
+
+    /// Writes whatever evaluate() depends on beyond parameters and context. [step]
+    virtual void save(std::ostream& out) const;
+    /// Reads it back; throws on damaged input. [step]
+    virtual void load(std::istream& in);
+};
+
+}  // namespace dsc::hooks

@@ -1,0 +1,35 @@
+#pragma once
+// Hook `observer`: reads reports, adds figures to metrics.csv and summary.json, changes nothing.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <dsc/hooks/context.hpp>
+
+namespace dsc::hooks {
+
+/// Name and value; names are snake_case, the same in every step.
+using Figures = std::vector<std::pair<std::string, double>>;
+
+/// Figures of the run so far, handed to observers after each step.
+struct StepFigures {
+    std::uint64_t step = 0;
+    std::size_t interface_vertices = 0;
+    std::size_t tets = 0;
+    double volume = 0.0;  ///< of all labels above 0, normalised units
+    double min_tet_quality = 0.0;
+};
+
+class Observer : public Strategy {
+public:
+    ~Observer() override;
+    /// The state before the first step. [step]
+    virtual void begin(const StepContext& context) = 0;
+    /// After each step: figures for the step's row of metrics.csv. [step]
+    virtual Figures step(const StepContext& context, const StepFigures& figures) = 0;
+    /// After the last step: figures for summary.json. [step]
+    virtual Figures end(const StepContext& context) = 0;
+};
+
+}  // namespace dsc::hooks

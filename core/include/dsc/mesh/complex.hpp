@@ -1,0 +1,222 @@
+#pragma once
+// The labelled tetrahedral complex: compact tets with neighbours, vertices with a seed tet, no stored edges or faces.
+//
+// A tet (v0,v1,v2,v3) is positive: orient3d(v0,v1,v2,v3) == 1, always and exactly. Face i is the one opposite vertex i.
+// Everything is derived from labels: a face is interface when its two tets carry different labels, a box face when its
+// tet's label is not 0. Three primitives change a complex, each keeps it valid: replace(), move(), relabel().
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <dsc/geometry/vec.hpp>
+#include <dsc/mesh/tet_mesh.hpp>
+
+namespace dsc::mesh {
+
+using VertexId = std::uint32_t;
+using TetId = std::uint32_t;
+
+/// No vertex, no tet, no neighbour (a face on the box).
+inline constexpr std::uint32_t none = 0xffffffffU;
+/// Stands for the vertex that an Edit creates, before it has an id.
+inline constexpr VertexId created_vertex = 0xfffffffeU;
+
+/// Local vertex indices of face i, counter-clockwise seen from outside a positive tet.
+inline constexpr std::array<std::array<std::uint8_t, 3>, 4> face_vertices = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+/// Local vertex indices of the six edges.
+inline constexpr std::array<std::array<std::uint8_t, 2>, 6> edge_vertices = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+/// Four vertices and, for each face, 4 * neighbour + its face index there, or none. 32 bytes.
+struct Tet {
+    std::array<VertexId, 4> v;
+    std::array<std::uint32_t, 4> n;
+};
+
+inline TetId neighbour_tet(std::uint32_t code) { return code >> 2U; }
+inline unsigned neighbour_face(std::uint32_t code) { return code & 3U; }
+
+/// Local index of v in the tet, 4 if it is not there.
+inline unsigned index_of(const Tet& tet, VertexId v) {
+    for (unsigned i = 0; i < 4; ++i) {
+        if (tet.v[i] == v) return i;
+    }
+    return 4;
+}
+inline bool has_vertex(const Tet& tet, VertexId v) { return index_of(tet, v) < 4; }
+
+/// The tets round an edge ab in rotation order. tets[i] holds a, b, link[i], link[i+1] and
+/// orient3d(a, b, link[i], link[i+1]) == 1. Closed: link has as many entries as tets (indices wrap); open (an edge on
+/// the box): one more.
+struct EdgeRing {
+    std::vector<TetId> tets;
+    std::vector<VertexId> link;
+    bool closed = false;
+};
+
+/// A tet that an Edit adds; vertices in positive order, `created_vertex` allowed.
+struct NewTet {
+    std::array<VertexId, 4> v;
+    Label label;
+};
+
+/// A cavity and what fills it: every local operation is one of these. Reuse one object; nothing is allocated once its
+/// arrays have grown.
+struct Edit {
+    std::vector<TetId> removed;
+    std::vector<NewTet> added;
+    VertexId moved = none;  ///< an existing vertex whose position changes with the edit; all its tets must be removed
+    Vec3 moved_to = Vec3::Zero();
+    bool creates = false;  ///< the edit makes one vertex
+    Vec3 created_at = Vec3::Zero();
+    VertexId deleted = none;  ///< a vertex that no added tet uses; all its tets must be removed
+
+    // Filled by Complex::link(): neighbours of the added tets. An entry is a code 4*tet+face outside the cavity, none,
+    // or virtual_code + 4*i+face for added tet i.
+    std::vector<std::array<std::uint32_t, 4>> neighbours;
+    // Filled by the caller's evaluation; replace() computes them when empty.
+    std::vector<float> qualities;
+
+    static constexpr std::uint32_t virtual_code = 0x80000000U;
+    void clear();
+};
+
+/// See the head of the file. Reading functions that walk (star, ring) use internal marks: one thread at a time. [step]
+class Complex {
+public:
+    Complex() = default;
+
+    // ---- sizes and plain reads ------------------------------------------------------------------------------------
+    /// Slots include dead entries: loop over slots and test alive.
+    std::size_t vertex_slots() const { return vertices_.size(); }
+    std::size_t tet_slots() const { return tets_.size(); }
+    std::size_t vertex_count() const { return vertices_.size() - free_vertices_.size(); }
+    std::size_t tet_count() const { return tets_.size() - free_tets_.size(); }
+    bool vertex_alive(VertexId v) const { return vertices_[v].seed != none; }
+    bool tet_alive(TetId t) const { return tets_[t].v[0] != none; }
+
+    const Vec3& position(VertexId v) const { return vertices_[v].position; }
+    const Tet& tet(TetId t) const { return tets_[t]; }
+    Label label(TetId t) const { return labels_[t]; }
+    /// Volume-length quality in (0, 1], cached.
+    float quality(TetId t) const { return qualities_[t]; }
+    /// Value of the change clock when the tet was made, moved or relabelled last.
+    std::uint32_t date(TetId t) const { return dates_[t]; }
+    /// Value of the change clock when the tet's slot was filled last: differs when another tet took the slot.
+    std::uint32_t birth_date(TetId t) const { return birth_dates_[t]; }
+    /// Value of the change clock when any tet of the vertex' star changed last.
+    std::uint32_t vertex_date(VertexId v) const { return vertices_[v].date; }
+    /// Counts the committed changes.
+    std::uint32_t clock() const { return clock_; }
+    /// Order in which vertices came into being; survives renumbering and resuming.
+    std::uint32_t birth(VertexId v) const { return vertices_[v].birth; }
+
+    Box3 box() const { return box_; }
+    bool on_box(VertexId v) const { return vertices_[v].on_box; }
+    /// Number of different labels in the star, the outside of the box counting as 0; capped at 3.
+    unsigned phases(VertexId v) const { return vertices_[v].phases; }
+    bool on_interface(VertexId v) const { return vertices_[v].phases > 1; }
+    /// Interface, not on the box, not where three labels meet.
+    bool movable(VertexId v) const { return vertices_[v].phases == 2 && !vertices_[v].on_box; }
+    /// All interface vertices, in no promised order (sort by birth).
+    std::span<const VertexId> interface_vertices() const { return interface_; }
+    /// Label behind face i: of the neighbour, or 0 outside the box.
+    Label label_across(TetId t, unsigned face) const {
+        const std::uint32_t code = tets_[t].n[face];
+        return code == none ? 0 : labels_[neighbour_tet(code)];
+    }
+    bool interface_face(TetId t, unsigned face) const { return labels_[t] != label_across(t, face); }
+    double volume(TetId t) const;
+
+    // ---- walks ----------------------------------------------------------------------------------------------------
+    /// All tets that contain v, the seed first. [step]
+    void star(VertexId v, std::vector<TetId>& out) const;
+    TetId seed(VertexId v) const { return vertices_[v].seed; }
+    /// The ring of edge (a, b), both vertices of tet t. [step]
+    void ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const;
+    /// A tet that contains both, none if a and b are not joined. [step]
+    TetId find_edge(VertexId a, VertexId b) const;
+
+    // ---- the three primitives -------------------------------------------------------------------------------------
+    /// Computes the added tets' neighbours. False if the added tets do not fill the cavity's boundary exactly (a face
+    /// used twice, a hole, a change of the box). Changes nothing but the edit. [step]
+    bool link(Edit& edit) const;
+    /// Commits a linked edit whose tets are positive. Returns the id of the created vertex or none. [step]
+    VertexId replace(Edit& edit);
+    /// Moves a vertex; `star` are its tets, all positive at the new position. [step]
+    void move(VertexId v, const Vec3& position, std::span<const TetId> star);
+    /// Gives tets another label. [step]
+    void relabel(std::span<const TetId> tets, Label label);
+
+    /// Ids of the tets that the last replace() wrote, in the order of Edit::added.
+    std::span<const TetId> last_added() const { return last_added_; }
+
+    // ---- change tracking ------------------------------------------------------------------------------------------
+    /// Tets made, moved or relabelled since the last call of take_changes(), each once; may hold dead ids.
+    std::span<const TetId> changes() const { return changes_; }
+    /// Hands the change list over and starts a new one.
+    void take_changes(std::vector<TetId>& out);
+
+    // ---- making and copying ---------------------------------------------------------------------------------------
+    /// Builds from arrays that are already positive, conforming and box-filling (see adopt() for files).
+    /// `neighbours` as in Tet::n.
+    static Complex assemble(std::vector<Vec3> points, std::span<const Tet> tets, std::span<const Label> labels);
+    /// Compact arrays, vertices in birth order, tets in the order of their sorted births: the same complex gives the
+    /// same bytes whatever its slots. `ids`, if given, receives the complex' vertex of each point.
+    TetMesh to_mesh(std::vector<VertexId>* ids = nullptr) const;
+
+    /// A new epoch for marks on tets: tet_marked(t) is false for all until mark_tet(t). [step]
+    void new_epoch() const { ++epoch_; }
+    void mark_tet(TetId t) const { marks_[t] = epoch_; }
+    bool tet_marked(TetId t) const { return marks_[t] == epoch_; }
+
+private:
+    struct Vertex {
+        Vec3 position;
+        TetId seed;
+        std::uint32_t birth;
+        std::uint32_t date;
+        std::uint32_t interface_slot;  // index into interface_, none if not there
+        std::uint8_t phases;
+        bool on_box;
+    };
+
+    VertexId allocate_vertex(const Vec3& position);
+    TetId allocate_tet();
+    void touch(TetId t);
+    void refresh_phases(VertexId v);
+    void set_phases(VertexId v, unsigned phases);
+
+    std::vector<Vertex> vertices_;
+    std::vector<Tet> tets_;
+    std::vector<Label> labels_;
+    std::vector<float> qualities_;
+    std::vector<std::uint32_t> dates_;
+    std::vector<std::uint32_t> birth_dates_;
+    std::vector<std::uint32_t> changed_;  // change-list round in which the tet was listed last
+    mutable std::vector<std::uint32_t> marks_;
+    mutable std::uint32_t epoch_ = 0;
+    std::vector<VertexId> free_vertices_;
+    std::vector<TetId> free_tets_;
+    std::vector<VertexId> interface_;
+    std::vector<TetId> changes_;
+    std::vector<TetId> last_added_;
+    std::vector<VertexId> touched_vertices_;
+    mutable std::vector<TetId> star_scratch_;
+    std::uint32_t change_round_ = 1;
+    std::uint32_t clock_ = 0;
+    std::uint32_t next_birth_ = 0;
+    Box3 box_;
+
+    struct FaceSlot {
+        std::array<VertexId, 3> key;
+        std::uint32_t code;
+        std::uint32_t stamp;
+        bool used;
+    };
+    mutable std::vector<FaceSlot> face_table_;
+    mutable std::uint32_t face_stamp_ = 0;
+};
+
+}  // namespace dsc::mesh

@@ -1,0 +1,45 @@
+#pragma once
+// The interface as flat arrays: what velocities, curvatures and refinements read.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <dsc/mesh/complex.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
+
+namespace dsc::surface {
+
+/// A snapshot of the interface of a complex. Vertices are in birth order, faces in the order of their least vertex and
+/// then of the other two: the same complex gives the same view whatever its slots. Indices below are view indices.
+struct SurfaceView {
+    std::vector<mesh::VertexId> vertex_ids;       ///< complex vertex of each view vertex
+    std::vector<std::uint32_t> births;            ///< birth id of each view vertex, ascending; keys of random streams
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;                    ///< unit, out of the larger label; mean of the unit normals of the faces
+                                                  ///< round the vertex; zero where they cancel
+    std::vector<std::uint8_t> movable;            ///< 0 on the box and where three labels meet
+    std::vector<std::array<std::uint32_t, 3>> faces;  ///< counter-clockwise seen from the smaller label
+    std::vector<mesh::TetId> face_tets;           ///< the tet with the larger label behind each face
+    std::vector<Vec3> face_normals;               ///< unit
+    std::vector<double> face_areas;
+    std::vector<std::uint32_t> face_offsets;      ///< faces of vertex i: vertex_faces[face_offsets[i] .. face_offsets[i+1])
+    std::vector<std::uint32_t> vertex_faces;
+    double mean_edge = 0.0;
+
+    std::size_t vertex_count() const { return vertex_ids.size(); }
+    std::size_t face_count() const { return faces.size(); }
+    std::span<const std::uint32_t> faces_of(std::size_t vertex) const {
+        return std::span(vertex_faces).subspan(face_offsets[vertex], face_offsets[vertex + 1] - face_offsets[vertex]);
+    }
+};
+
+/// Fills `view`, reusing its memory. The cost grows with the interface, not with the volume. [step]
+void build_view(const mesh::Complex& complex, SurfaceView& view);
+
+/// The label interface of plain arrays as a triangle mesh, points in the order of the arrays; the judge of results,
+/// independent of Complex. `vertex_of`, if given, receives each point's index in `mesh.points`.
+TriangleMesh extract_interface(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vertex_of = nullptr);
+
+}  // namespace dsc::surface

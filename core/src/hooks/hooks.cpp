@@ -1,0 +1,35 @@
+// The one home of the hooks' virtual tables: a type made by a plugin is the type that the host knows.
+#include <dsc/base/error.hpp>
+#include <dsc/hooks/context.hpp>
+#include <dsc/hooks/curvature_estimator.hpp>
+#include <dsc/hooks/improvement.hpp>
+#include <dsc/hooks/initial_mesh.hpp>
+#include <dsc/hooks/observer.hpp>
+#include <dsc/hooks/refinement_policy.hpp>
+#include <dsc/hooks/velocity_field.hpp>
+
+#include <algorithm>
+
+namespace dsc::hooks {
+
+Strategy::~Strategy() = default;
+void Strategy::save(std::ostream&) const {}
+void Strategy::load(std::istream&) {}
+
+VelocityField::~VelocityField() = default;
+void VelocityField::sample(std::span<const Vec3>, std::span<const Vec3>, std::span<Vec3>) const {
+    throw StrategyError("strategy.no_sampling", "this velocity field has no value away from the vertices (can_sample() is false)");
+}
+
+CurvatureEstimator::~CurvatureEstimator() = default;
+RefinementPolicy::~RefinementPolicy() = default;
+InitialMesh::~InitialMesh() = default;
+
+Improvement::~Improvement() = default;
+void Improvement::select(const StepContext&, std::span<const mesh::TopologyCandidate>, std::span<std::uint8_t> accept) {
+    std::fill(accept.begin(), accept.end(), std::uint8_t{1});
+}
+
+Observer::~Observer() = default;
+
+}  // namespace dsc::hooks
