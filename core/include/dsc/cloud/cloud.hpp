@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <dsc/geometry/vec.hpp>
@@ -12,7 +13,8 @@ namespace dsc::cloud {
 /// Points in the units of their file. No normals are used anywhere.
 struct Cloud {
     std::vector<Vec3> points;
-    std::vector<std::array<std::uint8_t, 3>> colours;  ///< empty, or one RGB a point
+    std::vector<std::array<std::uint8_t, 3>> colours{};  ///< empty, or one RGB a point
+    std::string source{};  ///< the file or shape that the points come from, named in error messages; may be empty
 };
 
 }  // namespace dsc::cloud

@@ -1,0 +1,44 @@
+#pragma once
+// Brings a cloud into the units of the simulation, and the results back.
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <dsc/cloud/cloud.hpp>
+#include <dsc/geometry/vec.hpp>
+
+namespace dsc::cloud {
+
+/// Uniform: normalised = (input - centre) * scale. The default is the identity.
+struct Transform {
+    Vec3 centre = Vec3::Zero();
+    double scale = 1.0;  ///< above 0
+
+    Vec3 apply(const Vec3& input) const { return (input - centre) * scale; }
+    Vec3 inverse(const Vec3& normalised) const { return normalised / scale + centre; }
+    bool identity() const { return scale == 1.0 && centre == Vec3::Zero(); }
+};
+
+/// The box of the thesis: 3 units wide round the origin.
+inline Box3 simulation_box() { return {Vec3::Constant(-1.5), Vec3::Constant(1.5)}; }
+
+struct Normalized {
+    std::vector<Vec3> points;  ///< in normalised units, in the order of the cloud
+    Transform transform;
+};
+
+/// Refuses points that bound no volume: fewer than 4, all equal, all on a line, all on a plane; "all on" is decided by
+/// exact predicates, and clouds thinner than 1e-9 of their diagonal count as flat. `name` opens the message.
+/// Throws GeometryError "cloud.few", "cloud.equal", "cloud.collinear", "cloud.coplanar", "cloud.non_finite". [setup]
+void require_volume(std::span<const Vec3> points, std::string_view name);
+
+/// The thesis' normalisation: the centre of the cloud's box goes to the origin, its largest half-extent becomes
+/// `scale_target`. Throws as require_volume, and GeometryError "cloud.scale" unless 0 < scale_target <= 1.5. [setup]
+Normalized normalize(const Cloud& cloud, double scale_target = 0.9);
+
+/// Leaves the coordinates as they are, with the identity as transform. Throws as require_volume, and GeometryError
+/// "cloud.outside_box" unless `box` holds every point. [setup]
+Normalized keep_coordinates(const Cloud& cloud, const Box3& box = simulation_box());
+
+}  // namespace dsc::cloud

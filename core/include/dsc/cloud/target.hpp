@@ -1,0 +1,36 @@
+#pragma once
+// The cloud as strategies see it: normalised points, a search in them and the way back to the input's units.
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include <dsc/cloud/normalize.hpp>
+#include <dsc/cloud/search.hpp>
+
+namespace dsc::cloud {
+
+/// Immutable; copies share the points and the tree. All methods may be called from several threads at once.
+class TargetCloud {
+public:
+    /// Builds the search tree. Throws as NearestSearch. [setup]
+    explicit TargetCloud(const Normalized& normalized);
+
+    /// Normalised points, in the order of the cloud. [parallel]
+    std::span<const Vec3> points() const noexcept { return search_->points(); }
+    std::size_t size() const noexcept { return points().size(); }
+    const Vec3& operator[](std::size_t index) const { return points()[index]; }
+    /// [parallel]
+    const NearestSearch& search() const noexcept { return *search_; }
+    /// From the input's units to normalised ones. [parallel]
+    const Transform& transform() const noexcept { return transform_; }
+    /// Of the normalised points. [parallel]
+    const Box3& box() const noexcept { return box_; }
+
+private:
+    std::shared_ptr<const NearestSearch> search_;
+    Transform transform_;
+    Box3 box_;
+};
+
+}  // namespace dsc::cloud
