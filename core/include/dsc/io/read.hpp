@@ -1,0 +1,25 @@
+#pragma once
+// Readers of surfaces and volumes. Strict: whatever is wrong ends in one IoError that names file, place,
+// cause, remedy.
+
+#include <dsc/mesh/tet_mesh.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
+#include <filesystem>
+
+namespace dsc::io {
+
+/// Reads .obj, .ply (ASCII and binary), .off or .stl (ASCII and binary). Polygons become fans of triangles,
+/// coordinates keep every bit of the file's numbers, points of an STL are joined where they are equal. At
+/// least one face is required.
+///
+/// Throws IoError: "io.missing", "io.directory", "io.unreadable", "io.empty", "io.format" (unknown
+/// extension), "io.syntax", "io.truncated", "io.index", "io.not_finite", "io.count", "io.no_faces". [setup]
+surface::TriangleMesh read_surface(const std::filesystem::path& file);
+
+/// Reads .dsc or .vtu. Tets come in the file's order and orientation; a .vtu needs an integer cell array
+/// "label" and holds tets only. At least one tet is required.
+///
+/// Throws IoError with the codes of read_surface() and "io.no_tets", "io.no_labels", "io.cell_type". [setup]
+mesh::TetMesh read_volume(const std::filesystem::path& file);
+
+}  // namespace dsc::io

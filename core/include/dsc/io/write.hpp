@@ -1,0 +1,40 @@
+#pragma once
+// Writers of surfaces and volumes. Atomic: the file appears whole under its name, or the old one stays and
+// IoError tells why.
+
+#include <dsc/mesh/tet_mesh.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dsc::io {
+
+/// A further array for a .vtu: one number a tet (cells) or a point (points).
+struct DataArray {
+    std::string name;
+    std::vector<double> values;
+};
+
+/// Further arrays of a volume; .dsc has no room for them and leaves them out.
+struct VolumeData {
+    std::vector<DataArray> cells;
+    std::vector<DataArray> points;
+};
+
+/// Writes .obj or .off (shortest decimal text that reads back to the same double), .ply (binary, doubles) or
+/// .stl (binary floats; an STL holds floats only, so the box's centre is subtracted first and named in the
+/// header).
+///
+/// Throws IoError "io.format", "io.index", "io.not_finite", "io.write". [setup]
+void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh);
+
+/// Writes .dsc (shortest decimal text that reads back to the same double) or .vtu (doubles, zlib, cell arrays
+/// "label" and "quality" first). Every tet must be exactly positive in the numbers that are written.
+///
+/// Throws IoError as write_surface(), GeometryError "volume.inverted" (naming the first tet and the count),
+/// GeometryError "volume.size" when labels or arrays do not fit. [setup]
+void write_volume(const std::filesystem::path& file, const mesh::TetMesh& mesh, const VolumeData& data = {});
+
+}  // namespace dsc::io

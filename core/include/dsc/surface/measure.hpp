@@ -1,0 +1,34 @@
+#pragma once
+// Sizes, normals and cleaning of triangle meshes.
+
+#include <dsc/surface/triangle_mesh.hpp>
+#include <vector>
+
+namespace dsc::surface {
+
+/// Throws GeometryError "surface.index" (naming the first face) when a face refers to a point that does not
+/// exist, "surface.not_finite" when a point is NaN or infinite. [setup]
+void require_sound(const TriangleMesh& mesh);
+
+/// Sum of the faces' areas, in squared units of the points. The mesh must be sound. [parallel]
+double area(const TriangleMesh& mesh);
+
+/// Signed enclosed volume by the divergence theorem, positive when faces look outwards; it has a meaning for
+/// closed meshes only. The mesh must be sound. [parallel]
+double volume(const TriangleMesh& mesh);
+
+/// Box of the points that faces use; empty without faces. The mesh must be sound. [parallel]
+Box3 used_box(const TriangleMesh& mesh);
+
+/// Unit normal of every face, zero where a face is degenerate. The mesh must be sound. [parallel]
+std::vector<Vec3> face_normals(const TriangleMesh& mesh);
+
+/// Unit normal of every point, weighted by the angle of each face at it [Thurmer1998]; zero where no face is.
+/// The mesh must be sound. [parallel]
+std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
+
+/// Joins points of equal coordinates (-0 equals 0), drops faces that use a point twice and points that no
+/// face uses. The order of what stays is kept. The mesh must be sound. [parallel]
+TriangleMesh weld(const TriangleMesh& mesh);
+
+}  // namespace dsc::surface
