@@ -9,13 +9,6 @@
 
 namespace dsc::hooks {
 
-/// Limits of topology changes that the kernel needs before it looks for candidates.
-struct TopologyLimits {
-    double thickness = 0.6;      ///< in target lengths; 0 switches topology changes off
-    double min_component = 2.0;  ///< in regular tets of edge L; smaller components vanish; 0: none does
-    bool open = true, merge = true, cut = true;  ///< kinds worth looking for
-};
-
 /// Proposes; the kernel re-evaluates each request at its turn and owns the invariants. [step]
 class Improvement : public Strategy {
 public:
@@ -27,7 +20,7 @@ public:
     /// Cosine between unit normals above which neighbouring interface faces count as flat.
     virtual double flatness() const { return 0.995; }
 
-    virtual TopologyLimits topology_limits() const { return {}; }
+    virtual mesh::TopologyLimits topology_limits() const { return {}; }
     /// All candidates of a step as one batch; sets accept[i] to 1 for those that may happen. Sizes are equal.
     virtual void select(const StepContext& context, std::span<const mesh::TopologyCandidate> candidates,
                         std::span<std::uint8_t> accept);

@@ -73,6 +73,13 @@ struct RepairRound {
     bool settled;                          ///< no motion is left: the last round of the step
 };
 
+/// Limits of topology changes that the kernel needs before it looks for candidates.
+struct TopologyLimits {
+    double thickness = 0.6;      ///< in target lengths; 0 switches topology changes off
+    double min_component = 2.0;  ///< in regular tets of edge L; smaller components vanish; 0: none does
+    bool open = true, merge = true, cut = true;  ///< kinds worth looking for
+};
+
 /// A topology change that the kernel found possible.
 struct TopologyCandidate {
     enum class Kind : std::uint8_t { open, merge, cut };

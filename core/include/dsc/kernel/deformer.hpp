@@ -1,0 +1,82 @@
+#pragma once
+// Moves the interface of a complex to its destinations as far as no tet inverts, repairs the mesh, and goes on.
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <dsc/base/workers.hpp>
+#include <dsc/kernel/step_report.hpp>
+#include <dsc/mesh/complex.hpp>
+#include <dsc/mesh/repair.hpp>
+
+namespace dsc::kernel {
+
+/// Limits of the kernel; lengths in target lengths, volumes in regular tets of edge L.
+struct DeformerOptions {
+    double quality_floor = 1e-3;     ///< no commit leaves a touched tet below min(floor, its value before)
+    double free_path = 0.9;          ///< fraction of the way to the first inversion that a move may take
+    unsigned max_rounds = 50;        ///< repair rounds a step
+    unsigned stall_rounds = 5;       ///< rounds in which the distance left must fall by stall_ratio
+    double stall_ratio = 0.01;
+    double max_edit_distance = 0.5;  ///< by which one edit may move the interface
+    double max_edit_volume = 1.0;    ///< by which one edit may change a phase
+    bool audit = false;              ///< compare the queues with a full scan each round; throws GeometryError on a difference
+};
+
+/// The decisions that the kernel leaves to others.
+struct RepairPolicy {
+    /// Appends the requests of a round. Empty: no repair.
+    std::function<void(const mesh::RepairRound&, std::vector<mesh::Request>&)> propose;
+    /// Accepts topology candidates; empty: all are accepted.
+    std::function<void(std::span<const mesh::TopologyCandidate>, std::span<std::uint8_t>)> select;
+    mesh::TopologyLimits topology;
+    double flatness = 0.995;
+};
+
+/// What refine() did.
+struct RefineReport {
+    std::size_t requested = 0;
+    std::size_t committed = 0;
+    bool length_changed = false;
+};
+
+/// Owns a complex and advances it. Results do not depend on the workers' thread count.
+class Deformer {
+public:
+    /// L becomes the mean interface edge of the complex.
+    Deformer(mesh::Complex complex, const DeformerOptions& options = {});
+    ~Deformer();
+    Deformer(Deformer&&) noexcept;
+    Deformer& operator=(Deformer&&) noexcept;
+
+    const mesh::Complex& complex() const;
+    /// L: constant between refinements.
+    double target_length() const;
+    /// For resuming: sets L and the step counter.
+    void restore(double target_length, std::uint64_t step);
+    std::uint64_t step_count() const;
+
+    /// One step: `vertices[i]` wants to move by `displacements[i]`, counted from where it is now; not movable vertices
+    /// are ignored. The rest of the motion that cannot be reached is dropped and counted. [step]
+    StepReport step(std::span<const mesh::VertexId> vertices, std::span<const Vec3> displacements,
+                    const RepairPolicy& policy);
+
+    /// Splits interface faces (longest edge, midpoint) and edges; faces are given as (tet, vertices a, b, c), edges as
+    /// pairs. Requests whose simplex is gone by their turn are skipped. If anything was split, L becomes the new mean
+    /// interface edge. [step]
+    RefineReport refine(std::span<const std::array<mesh::VertexId, 3>> faces,
+                        std::span<const std::array<mesh::VertexId, 2>> edges);
+
+    /// Relabels tets at a plugin's request: box vertices and irregular results refused or unpinched as in adopt; events
+    /// go to `events`. [step]
+    std::size_t relabel(std::span<const mesh::TetId> tets, std::span<const mesh::Label> labels,
+                        const RepairPolicy& policy, std::vector<Event>& events);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace dsc::kernel
