@@ -2,11 +2,10 @@
 // Diagnostics: collects every fault of a configuration, so that a user sees all of them at once.
 
 #include <cstddef>
+#include <dsc/config/source.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <dsc/config/source.hpp>
 
 namespace dsc::config {
 

@@ -3,14 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <dsc/config/source.hpp>
 #include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
-
-#include <dsc/config/source.hpp>
 
 namespace dsc::config {
 
@@ -28,15 +27,15 @@ class ConfigNode {
 public:
     /// Null.
     ConfigNode();
-    ConfigNode(bool value);                // NOLINT(google-explicit-constructor): values convert
-    ConfigNode(double value);              // NOLINT(google-explicit-constructor)
-    ConfigNode(const char* value);         // NOLINT(google-explicit-constructor)
-    ConfigNode(std::string value);         // NOLINT(google-explicit-constructor)
-    ConfigNode(std::string_view value);    // NOLINT(google-explicit-constructor)
+    ConfigNode(bool value);              // NOLINT(google-explicit-constructor): values convert
+    ConfigNode(double value);            // NOLINT(google-explicit-constructor)
+    ConfigNode(const char* value);       // NOLINT(google-explicit-constructor)
+    ConfigNode(std::string value);       // NOLINT(google-explicit-constructor)
+    ConfigNode(std::string_view value);  // NOLINT(google-explicit-constructor)
     /// Any integer type; a value above the largest std::int64_t throws ConfigError "config.range".
     template <class Integer>
-        requires(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>)
-    ConfigNode(Integer value) : ConfigNode(from_integer(value)) {}  // NOLINT(google-explicit-constructor)
+    requires(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>) ConfigNode(Integer value)
+        : ConfigNode(from_integer(value)) {}  // NOLINT(google-explicit-constructor)
 
     static ConfigNode list(std::vector<ConfigNode> items);
     static ConfigNode list();

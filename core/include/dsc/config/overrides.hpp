@@ -1,11 +1,10 @@
 #pragma once
 // Overrides of the command line: `velocity.alpha=0.3`, `schedule.0.steps=5`.
 
-#include <span>
-#include <string>
-
 #include <dsc/config/node.hpp>
 #include <dsc/config/yaml.hpp>
+#include <span>
+#include <string>
 
 namespace dsc::config {
 

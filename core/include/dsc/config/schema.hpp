@@ -3,15 +3,15 @@
 // authors of strategies declare theirs through ParamSchema (params.hpp).
 
 #include <cstdint>
+#include <dsc/config/diagnostics.hpp>
+#include <dsc/config/node.hpp>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <dsc/config/diagnostics.hpp>
-#include <dsc/config/node.hpp>
 
 namespace dsc::config {
 
@@ -20,16 +20,16 @@ enum class FieldType {
     integer,
     real,
     string,
-    choice,         ///< a string out of `choices`
-    file,           ///< a path; a relative one counts from the folder of the file that names it
-    vec3,           ///< a list of three real numbers
-    integer_list,   ///<
-    real_list,      ///<
+    choice,  ///< a string out of `choices`
+    file,    ///< a path; a relative one counts from the folder of the file that names it
+    vec3,    ///< a list of three real numbers
+    integer_list,
+    real_list,
     string_list,    ///< out of `choices` where there are any
     object,         ///< a map with a schema of its own
-    object_list,    ///<
+    object_list,    ///< a list of such maps
     strategy,       ///< `{type: ID, parameters...}` of `kind`
-    strategy_list,  ///<
+    strategy_list,  ///< a list of such maps
 };
 
 /// "real", "list of strategies", ...
@@ -47,8 +47,9 @@ class Schema;
 struct Field {
     std::string name;
     FieldType type = FieldType::string;
-    std::string doc;   ///< one or more sentences, never empty
-    std::string unit;  ///< "1", "length", "mean edges", "steps", "radians", ...; empty where it makes no sense
+    std::string doc;  ///< one or more sentences, never empty
+    std::string
+        unit;  ///< "1", "length", "mean edges", "steps", "radians", ...; empty where it makes no sense
     std::optional<Bound> minimum;  ///< of a number, of every component or item
     std::optional<Bound> maximum;
     std::optional<std::size_t> min_size;  ///< of a list

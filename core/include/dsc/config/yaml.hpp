@@ -2,13 +2,13 @@
 // YAML to ConfigNode and back. The YAML library stays behind this header.
 
 #include <cstddef>
+#include <dsc/config/node.hpp>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include <dsc/config/node.hpp>
 
 namespace dsc::config {
 
