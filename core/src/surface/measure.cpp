@@ -1,0 +1,125 @@
+#include <dsc/surface/measure.hpp>
+
+#include <dsc/base/error.hpp>
+#include <dsc/geometry/quality.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace dsc::surface {
+namespace {
+
+std::array<double, 3> key_of(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+double angle_at(const Vec3& apex, const Vec3& a, const Vec3& b) {
+    const Vec3 u = a - apex, v = b - apex;
+    return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+}  // namespace
+
+void require_sound(const TriangleMesh& mesh) {
+    const std::size_t count = mesh.points.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (mesh.points[i].allFinite()) continue;
+        throw GeometryError("surface.not_finite", "surface: point " + std::to_string(i) +
+                                                      " is NaN or infinite; remove it or repair the file");
+    }
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        for (const std::uint32_t v : mesh.faces[f]) {
+            if (v < count) continue;
+            throw GeometryError("surface.index", "surface: face " + std::to_string(f) + " refers to point " +
+                                                     std::to_string(v) + " of " + std::to_string(count) +
+                                                     "; remove the face or add the point");
+        }
+    }
+}
+
+double area(const TriangleMesh& mesh) {
+    double sum = 0.0;
+    for (const auto& [a, b, c] : mesh.faces) {
+        sum += geometry::triangle_area(mesh.points[a], mesh.points[b], mesh.points[c]);
+    }
+    return sum;
+}
+
+double volume(const TriangleMesh& mesh) {
+    if (mesh.faces.empty()) return 0.0;
+    // About the centre, so that a small mesh far from the origin keeps its digits.
+    const Vec3 centre = used_box(mesh).centre();
+    double sum = 0.0;
+    for (const auto& [a, b, c] : mesh.faces) {
+        const Vec3 p = mesh.points[a] - centre, q = mesh.points[b] - centre, r = mesh.points[c] - centre;
+        sum += p.dot(q.cross(r));
+    }
+    return sum / 6.0;
+}
+
+Box3 used_box(const TriangleMesh& mesh) {
+    Box3 box;
+    for (const auto& face : mesh.faces) {
+        for (const std::uint32_t v : face) box.extend(mesh.points[v]);
+    }
+    return box;
+}
+
+std::vector<Vec3> face_normals(const TriangleMesh& mesh) {
+    std::vector<Vec3> normals;
+    normals.reserve(mesh.faces.size());
+    for (const auto& [a, b, c] : mesh.faces) {
+        normals.push_back(geometry::triangle_normal(mesh.points[a], mesh.points[b], mesh.points[c]));
+    }
+    return normals;
+}
+
+std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
+    std::vector<Vec3> normals(mesh.points.size(), Vec3::Zero());
+    for (const auto& face : mesh.faces) {
+        const std::array<Vec3, 3> p = {mesh.points[face[0]], mesh.points[face[1]], mesh.points[face[2]]};
+        const Vec3 normal = geometry::triangle_normal(p[0], p[1], p[2]);
+        for (std::size_t k = 0; k < 3; ++k)
+            normals[face[k]] += angle_at(p[k], p[(k + 1) % 3], p[(k + 2) % 3]) * normal;
+    }
+    for (Vec3& n : normals) {
+        const double length = n.norm();
+        n = length > 0.0 ? Vec3(n / length) : Vec3(Vec3::Zero());
+    }
+    return normals;
+}
+
+TriangleMesh weld(const TriangleMesh& mesh) {
+    std::vector<std::uint32_t> order(mesh.points.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+        const auto a = key_of(mesh.points[i]), b = key_of(mesh.points[j]);
+        return a != b ? a < b : i < j;
+    });
+    // The first of equal points stands for all of them.
+    std::vector<std::uint32_t> first(mesh.points.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const bool same = k > 0 && key_of(mesh.points[order[k]]) == key_of(mesh.points[order[k - 1]]);
+        first[order[k]] = same ? first[order[k - 1]] : order[k];
+    }
+    TriangleMesh out;
+    std::vector<bool> used(mesh.points.size(), false);
+    for (const auto& face : mesh.faces) {
+        const std::array<std::uint32_t, 3> f = {first[face[0]], first[face[1]], first[face[2]]};
+        if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
+        out.faces.push_back(f);
+        for (const std::uint32_t v : f) used[v] = true;
+    }
+    std::vector<std::uint32_t> renumbered(mesh.points.size(), 0);
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        if (!used[i]) continue;
+        renumbered[i] = static_cast<std::uint32_t>(out.points.size());
+        out.points.push_back(mesh.points[i]);
+    }
+    for (auto& face : out.faces) {
+        for (std::uint32_t& v : face) v = renumbered[v];
+    }
+    return out;
+}
+
+}  // namespace dsc::surface
