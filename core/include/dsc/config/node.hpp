@@ -19,6 +19,7 @@ enum class NodeType { null, boolean, integer, real, string, list, map };
 std::string_view type_name(NodeType type);
 
 struct ConfigEntry;
+struct NodeFactory;
 
 /// A value of a configuration: null, a scalar, a list, or a map that keeps the order of its keys. Copies share the
 /// tree, nothing can change it. Nodes made by code convert from the plain types:
@@ -74,7 +75,7 @@ public:
     const ConfigNode& at(std::size_t index) const;
 
     /// Dotted path from the root, "schedule.0.steps"; empty at the root.
-    const std::string& path() const noexcept;
+    std::string path() const;
     const SourcePosition& position() const noexcept;
     /// True for a scalar written in quotes (or as a block), which is a string whatever it looks like.
     bool quoted() const noexcept;
@@ -96,7 +97,9 @@ public:
     friend bool operator!=(const ConfigNode& a, const ConfigNode& b) { return !(a == b); }
 
 private:
+    friend struct NodeFactory;
     struct Data;
+    struct PathPart;
     explicit ConfigNode(std::shared_ptr<const Data> data);
     static ConfigNode integer_node(std::int64_t value);
     [[noreturn]] static void integer_too_large();
@@ -107,6 +110,8 @@ private:
         }
         return integer_node(static_cast<std::int64_t>(value));
     }
+    ConfigNode rebased(const std::shared_ptr<const PathPart>& parent, const std::string& key) const;
+    ConfigNode rebased(std::shared_ptr<const PathPart> path) const;
     [[noreturn]] void wrong_type(std::string_view wanted) const;
 
     std::shared_ptr<const Data> data_;

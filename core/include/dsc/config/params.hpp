@@ -82,7 +82,7 @@ private:
 /// }
 /// ```
 /// Defaults are the members of `defaults`, a value-initialised T unless given. A member of type std::optional may stay
-/// unset. The name "type" is reserved. [setup]
+/// unset. The parameters of a strategy must not be called "type". [setup]
 template <class T>
 class ParamSchema {
 public:

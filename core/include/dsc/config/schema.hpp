@@ -100,9 +100,9 @@ public:
     const Field* find(std::string_view name) const noexcept;
     std::vector<std::string> names() const;
 
-    /// Faults of the declaration itself: a field without doc, a name twice or reserved ("type", "include"), a default
-    /// outside its range, a bound on a string. Empty for a sound schema. Nested objects are included, with their path.
-    std::vector<std::string> problems() const;
+    /// Faults of the declaration itself: a field without doc, a name twice, a default outside its range, a bound on a
+    /// string. Empty for a sound schema. A strategy's parameters must not be called "type" besides.
+    std::vector<std::string> problems(bool of_strategy = false) const;
 
 private:
     std::vector<Field> fields_;

@@ -56,7 +56,7 @@ ConfigNode merge(const ConfigNode& earlier, const ConfigNode& later);
 /// "config.range" for a number that is not finite. [setup]
 std::string to_yaml(const ConfigNode& node);
 
-/// Shortest text that reads back as the same double and never as an integer: "0.1", "1.0", "3e-4" -> "0.0003".
+/// Shortest text that reads back as the same double and never as an integer: "0.1", "1.0", "0.0003".
 std::string real_text(double value);
 
 }  // namespace dsc::config
