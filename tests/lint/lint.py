@@ -1,0 +1,274 @@
+#!/usr/bin/env python3
+"""The project's rules that a compiler does not check, checked over the sources.
+
+    lint.py ROOT        prints one line a finding, exits 1 if there is one
+
+Every rule is a function that yields findings; lint_test.py plants a violation of each and expects it to be found.
+"""
+
+import os
+import re
+import sys
+from collections import namedtuple
+from pathlib import Path, PurePosixPath
+
+Finding = namedtuple("Finding", "rule path line text")
+
+# Who may include whom in core. An app may use everything; nobody may use the app.
+BELOW = {
+    "base": set(),
+    "geometry": {"base"},
+    "mesh": {"base", "geometry"},
+    "kernel": {"base", "geometry", "mesh"},
+    "surface": {"base", "geometry", "mesh"},
+    "cloud": {"base", "geometry"},
+    "config": {"base"},
+    "io": {"base", "geometry", "mesh", "surface", "cloud"},
+    "hooks": {"base", "geometry", "mesh", "surface", "cloud", "config"},
+    "plugin": {"base", "geometry", "mesh", "surface", "cloud", "config", "hooks"},
+    "run": {"base", "geometry", "mesh", "kernel", "surface", "cloud", "config", "io", "hooks", "plugin"},
+}
+FOR_STRATEGIES = BELOW["plugin"] | {"plugin"}
+
+# A third-party header and the folders that may include it.
+WALLS = {
+    "pcl/": ("core/src/cloud/",),
+    "OpenMesh/": ("core/src/surface/", "core/src/io/"),
+    "yaml-cpp/": ("core/src/config/",),
+    "vtk": ("core/src/io/",),
+    "dlfcn.h": ("plugins/host/",),
+    "embree": ("core/src/io/",),
+    "CLI/": ("core/app/",),
+    "CGAL/": ("tests/",),
+    "doctest/": ("tests/",),
+}
+TOP_LEVEL = {"core", "plugins", "strategies", "configs", "tests", "share"}
+SKIPPED_FOLDERS = {"build", "runs", "__pycache__"}
+SOURCE = {".cpp", ".hpp", ".h"}
+TEXT = SOURCE | {".txt", ".cmake", ".md", ".yaml", ".yml", ".json", ".py", ".sh", ".in", ".cff", ".bib", ""}
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+class Tree:
+    """The text files below a root, read once."""
+
+    def __init__(self, root):
+        self.root = Path(root)
+        self.folders = sorted(p.name for p in self.root.iterdir() if p.is_dir())
+        self.files = {}
+        for folder, names, files in os.walk(self.root):
+            names[:] = sorted(n for n in names if self.is_ours(Path(folder), n))
+            for name in sorted(files):
+                path = Path(folder) / name
+                if path.suffix in TEXT and path.stat().st_size < 1_000_000:
+                    text = path.read_text(encoding="utf-8", errors="replace")
+                    self.files[path.relative_to(self.root).as_posix()] = text.splitlines()
+
+    def is_ours(self, folder, name):
+        at_top = folder == self.root
+        return name != "__pycache__" and not (at_top and (name in SKIPPED_FOLDERS or name in {".git", ".cache"}))
+
+    def lines(self, suffixes=TEXT, under=("",)):
+        for path, lines in self.files.items():
+            if PurePosixPath(path).suffix in suffixes and path.startswith(tuple(under)):
+                for number, line in enumerate(lines, 1):
+                    yield path, number, line
+
+    def includes(self, under=("",)):
+        for path, number, line in self.lines(SOURCE, under):
+            match = INCLUDE.match(line)
+            if match:
+                yield path, number, match.group(1) == "<", match.group(2)
+
+
+def is_test(path):
+    return path.startswith("tests/") or path.endswith("_test.cpp")
+
+
+def core_module(path):
+    """core/include/dsc/mesh/x.hpp and core/src/mesh/x.cpp -> mesh."""
+    match = re.match(r"core/(?:include/dsc|src)/([^/]+)/", path)
+    return match.group(1) if match else None
+
+
+def strategy_of(path):
+    """strategies/velocity/normal/x.cpp -> strategies/velocity/normal."""
+    parts = PurePosixPath(path).parts
+    return "/".join(parts[:3]) if len(parts) > 3 and parts[0] == "strategies" else None
+
+
+def third_party_walls(tree):
+    """A third-party library is seen only behind its wall."""
+    for path, number, _, header in tree.includes(("core/", "plugins/", "strategies/")):
+        for prefix, homes in WALLS.items():
+            is_unit_test = prefix == "doctest/" and is_test(path)
+            if header.startswith(prefix) and not path.startswith(homes) and not is_unit_test:
+                yield path, number, f"<{header}> belongs behind the wall of {' and '.join(homes)}"
+
+
+def core_direction(tree):
+    """Modules of core depend on the modules below them, and on nothing outside of core."""
+    for path, number, angled, header in tree.includes(("core/include/", "core/src/")):
+        module = core_module(path)
+        parts = header.split("/")
+        if parts[0] == "dsc" and len(parts) > 2:
+            if parts[1] != module and parts[1] not in BELOW.get(module, set()):
+                yield path, number, f"{module} must not use {parts[1]}"
+        elif not angled and parts[0] in BELOW and parts[0] != module and len(parts) > 1:
+            yield path, number, f"{header} is private to {parts[0]}"
+        elif re.search(r"(^|/)(plugins|strategies|app)/", header):
+            yield path, number, f"core must not use {header}"
+
+
+def declared_direction(tree):
+    """The USES of a module's CMakeLists.txt obeys the same direction."""
+    for path, lines in tree.files.items():
+        if not re.fullmatch(r"core/src/[^/]+/CMakeLists\.txt", path):
+            continue
+        text = "\n".join(line.split("#")[0] for line in lines)
+        for name, arguments in re.findall(r"dsc_module\(\s*(\w+)([^)]*)\)", text):
+            uses = re.search(r"\bUSES\b([\w\s]*?)(?:\bLINK\b|\bSOURCES\b|$)", arguments)
+            for used in uses.group(1).split() if uses else []:
+                if used not in BELOW.get(name, set()):
+                    yield path, 1, f"{name} declares USES {used}, which is not below it"
+
+
+def strategy_direction(tree):
+    """A strategy sees the hooks and what they are made of: no other strategy, no host, no kernel."""
+    for path, number, _, header in tree.includes(("strategies/",)):
+        if is_test(path):
+            continue
+        own = strategy_of(path)
+        parts = header.split("/")
+        if parts[0] == "dsc" and len(parts) > 2 and parts[1] not in FOR_STRATEGIES:
+            yield path, number, f"a strategy must not use {parts[1]}"
+        landed = os.path.normpath(os.path.join(os.path.dirname(path), header)).replace(os.sep, "/")
+        for target in (landed, header):
+            if target.startswith("plugins/") or (target.startswith("strategies/") and strategy_of(target) != own):
+                yield path, number, f"a strategy must not use {target}"
+                break
+
+
+def plugin_direction(tree):
+    """core <- plugins/host <- plugins/conformance, and no part of plugins knows a strategy."""
+    for path, number, _, header in tree.includes(("plugins/",)):
+        if re.search(r"(^|/)strategies/", header):
+            yield path, number, f"plugins must not use {header}"
+        if path.startswith("plugins/host/") and re.search(r"(^|/)conformance/", header):
+            yield path, number, f"the host must not use {header}"
+
+
+def nobody_uses_the_app(tree):
+    """The command line sees everything and is seen by nobody."""
+    for path, number, _, header in tree.includes():
+        if re.search(r"(^|/)app/", header) and not path.startswith(("core/app/", "tests/")):
+            yield path, number, f"{header} belongs to the command line"
+
+
+def banned_headers(tree):
+    """clang 14 with libstdc++ 12 cannot use these."""
+    for path, number, angled, header in tree.includes():
+        if angled and header in {"ranges", "format", "source_location"}:
+            yield path, number, f"<{header}> does not work with every supported compiler"
+
+
+def libraries_do_not_print(tree):
+    """Library code throws; printing and leaving is for the command line."""
+    speaks = re.compile(r"\bstd::(cout|cerr|clog|exit|quick_exit|abort|terminate)\b|(?<![\w.:>])f?printf\s*\(|\bputs\s*\(")
+    for path, number, line in tree.lines(SOURCE, ("core/include/", "core/src/", "strategies/")):
+        if not is_test(path) and speaks.search(line.split("//")[0]):
+            yield path, number, "library code must not print or exit"
+
+
+def header_guards(tree):
+    """Every header starts with #pragma once."""
+    for path, lines in tree.files.items():
+        if path.endswith((".hpp", ".h")) and (not lines or lines[0].strip() != "#pragma once"):
+            yield path, 1, "the first line of a header is #pragma once"
+
+
+def short_files(tree):
+    """A source file has at most 900 lines."""
+    for path, lines in tree.files.items():
+        if PurePosixPath(path).suffix in SOURCE | {".py", ".sh"} and len(lines) > 900:
+            yield path, len(lines), f"{len(lines)} lines; split it by purpose"
+
+
+def open_ends(tree):
+    """Nothing is left open in the sources."""
+    marks = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
+    stubs = re.compile(r"not (yet )?implemen" r"ted|place" r"holder|for no" r"w,|in a real (system|implemen" r"tation)", re.I)
+    for path, number, line in tree.lines(under=tuple(f"{name}/" for name in sorted(TOP_LEVEL))):
+        if marks.search(line) or (not path.startswith("tests/") and stubs.search(line)):
+            yield path, number, f"an open end: {line.strip()[:80]}"
+
+
+def machine_paths(tree):
+    """No path of somebody's machine and no host of a package registry."""
+    paths = re.compile(r"(?<![A-Za-z0-9_.])/(?:work|farm|root|tmp|home)/")
+    hosts = re.compile(r"\b(?:deb|security)\.debian\.org|\bpypi\.org|registry\.npmjs|crates\.io|proxy\.golang|conda\.anaconda")
+    for path, number, line in tree.lines():
+        found = paths.search(line) or hosts.search(line)
+        if found:
+            yield path, number, f"{found.group(0)} is of one machine or registry"
+
+
+def top_level(tree):
+    """The top level holds the folders of the project's card and nothing else."""
+    for name in tree.folders:
+        if not name.startswith(".") and name not in TOP_LEVEL | SKIPPED_FOLDERS:
+            yield name, 1, "not one of " + ", ".join(sorted(TOP_LEVEL))
+
+
+def readme_commands(tree):
+    """The README names both commands, before anything else that is a command."""
+    text = "\n".join(tree.files.get("README.md", []))
+    for command in ("share/setup.sh run", "share/setup.sh test"):
+        if command not in text:
+            yield "README.md", 1, f"does not name {command}"
+
+
+def paper_keys(tree):
+    """A paper that a comment names is in the bibliography."""
+    known = set(re.findall(r"@\w+\{(\w+),", "\n".join(tree.files.get("share/doc/references.bib", []))))
+    for path, number, line in tree.lines(SOURCE | {".md"}):
+        for key in re.findall(r"\[([A-Z][A-Za-z]+(?:19|20)\d\d[a-z]?)\]", line):
+            if key not in known:
+                yield path, number, f"[{key}] is not in share/doc/references.bib"
+
+
+def linked_pages(tree):
+    """A relative link in a page leads to a file that exists."""
+    for path, number, line in tree.lines({".md"}):
+        for target in re.findall(r"\]\(([^)#\s]+)", line):
+            if "://" not in target and not target.startswith("mailto:"):
+                if not (tree.root / os.path.dirname(path) / target).exists():
+                    yield path, number, f"{target} does not exist"
+
+
+RULES = [
+    third_party_walls, core_direction, declared_direction, strategy_direction, plugin_direction, nobody_uses_the_app,
+    banned_headers, libraries_do_not_print, header_guards, short_files, open_ends, machine_paths, top_level, readme_commands,
+    paper_keys, linked_pages,
+]
+
+
+def check(root):
+    """All findings below `root`, in the order of the rules."""
+    tree = Tree(root)
+    return [Finding(rule.__name__, *found) for rule in RULES for found in rule(tree)]
+
+
+def main(arguments):
+    if len(arguments) != 1 or not (Path(arguments[0]) / "core").is_dir():
+        print("usage: lint.py ROOT, a checkout of the project", file=sys.stderr)
+        return 2
+    findings = check(arguments[0])
+    for finding in findings:
+        print(f"{finding.path}:{finding.line}: [{finding.rule}] {finding.text}")
+    print(f"{len(RULES)} rules, {len(findings)} findings")
+    return 1 if findings else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
