@@ -1,0 +1,59 @@
+#pragma once
+// Carries out the schedule of an experiment: strategies say what, the kernel does how, figures are reported.
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include <dsc/base/progress.hpp>
+#include <dsc/base/workers.hpp>
+#include <dsc/cloud/target.hpp>
+#include <dsc/mesh/tet_mesh.hpp>
+#include <dsc/plugin/catalogue.hpp>
+#include <dsc/run/experiment.hpp>
+#include <dsc/run/figures.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
+
+namespace dsc::run {
+
+/// The strategies of an experiment, made and guarded by the catalogue.
+struct Strategies {
+    std::unique_ptr<hooks::InitialMesh> initial_mesh;
+    std::unique_ptr<hooks::VelocityField> velocity;
+    std::unique_ptr<hooks::Improvement> improvement;
+    std::vector<std::unique_ptr<hooks::RefinementPolicy>> refinements;  ///< one an item of the schedule, null for none
+    std::vector<std::unique_ptr<hooks::Observer>> observers;
+};
+
+/// Makes them and checks that they fit together: a refinement that samples the velocity needs one that can be sampled
+/// (ConfigError "config.no_sampling"). Throws as Catalogue::create. [setup]
+Strategies make_strategies(const Experiment& experiment, const plugin::Catalogue& catalogue);
+
+/// What a run is given besides the experiment.
+struct DriveOptions {
+    Workers* workers = nullptr;             ///< null: one thread
+    const CancelToken* cancel = nullptr;    ///< checked between steps
+    std::function<bool()> out_of_time;      ///< checked between steps; true ends the run like a cancellation
+    std::function<void(const StepMetrics&, std::uint64_t planned)> on_step;  ///< also for row 0
+    std::function<void(const kernel::Event&)> on_event;
+};
+
+/// Where a run ended, normalised units.
+struct DriveResult {
+    mesh::TetMesh mesh;
+    surface::TriangleMesh surface;  ///< label interface of `mesh`
+    RunTotals totals;
+    StepMetrics last;
+};
+
+/// Number of steps that the schedule asks for.
+std::uint64_t planned_steps(const Experiment& experiment);
+
+/// Runs the schedule. `cloud` may be null. Converged: the largest speed stayed below stop.speed mean edges for
+/// stop.patience steps at the end of the last series; each series ends that way on its own. Stalled: in five steps in
+/// a row less than 1 % of the asked motion came about, which ends the run. The result depends on neither the workers
+/// nor the callbacks. Throws GeometryError (mesh, cloud outside the box), StrategyError. [setup]
+DriveResult drive(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
+                  const DriveOptions& options);
+
+}  // namespace dsc::run

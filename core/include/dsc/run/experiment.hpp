@@ -1,0 +1,136 @@
+#pragma once
+// An experiment: the typed form of a configuration, and the way from a file with overrides to it.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <dsc/config/diagnostics.hpp>
+#include <dsc/config/node.hpp>
+#include <dsc/config/params.hpp>
+#include <dsc/config/schema.hpp>
+#include <dsc/config/yaml.hpp>
+
+namespace dsc::run {
+
+/// A cloud sampled from a built-in shape (cloud/shapes.hpp).
+struct SampleInput {
+    std::string shape = "teapot";
+    std::uint64_t n = 10000;
+    double noise = 0.0;
+    double outliers = 0.0;
+};
+
+/// Where the points come from: exactly one of `file` and `sample`.
+struct CloudInput {
+    std::optional<std::string> file;  ///< absolute
+    std::optional<SampleInput> sample;
+    std::vector<config::StrategyConfig> filters;  ///< of kind "filter", in the order in which they work
+};
+
+/// The thesis' normalisation.
+struct NormalizeInput {
+    double scale = 0.9;  ///< longest half-extent of the cloud in normalised units
+};
+
+struct Input {
+    CloudInput cloud;
+    std::optional<NormalizeInput> normalize;  ///< empty: the coordinates stay as they are
+};
+
+/// An item of the schedule: steps, a refinement, or steps with a refinement after every so many of them.
+struct Series {
+    std::optional<std::uint32_t> steps;
+    std::optional<std::uint32_t> every;
+    config::StrategyConfig refine;
+};
+
+/// When a series of steps ends early.
+struct Stop {
+    double speed = 1.0e-3;  ///< mean edges a step
+    std::uint32_t patience = 3;
+};
+
+/// Parts of format 1 that this version accepts and does not write yet; a warning says so.
+struct CheckpointOutput {
+    std::uint32_t every = 20;
+    std::uint32_t keep = 2;
+};
+struct SeriesOutput {
+    std::uint32_t every = 10;
+};
+
+struct Output {
+    std::vector<std::string> surface = {"obj", "ply"};
+    std::vector<std::string> volume = {"vtu", "dsc"};
+    std::optional<CheckpointOutput> checkpoint;
+    std::optional<SeriesOutput> series;
+    std::optional<bool> report;
+};
+
+/// Everything that a run depends on, defaults included.
+struct Experiment {
+    std::uint32_t format = 1;  ///< key `dsc`
+    std::string name;
+    std::uint64_t seed = 1;
+    std::vector<std::string> plugins;  ///< libraries or folders, absolute
+    std::optional<Input> input;
+    config::StrategyConfig initial_mesh;
+    config::StrategyConfig velocity;
+    config::StrategyConfig improvement;
+    std::vector<Series> schedule;
+    std::optional<Stop> stop;
+    std::vector<config::StrategyConfig> observers;
+    Output output;
+
+    static void declare(config::ParamSchema<Experiment>& schema);
+};
+
+/// The schema of format 1. [setup]
+std::shared_ptr<const config::Schema> experiment_schema();
+
+/// The strategies of a host plus kind "filter", the cloud filters that are part of the core. `host` must outlive it.
+class ExperimentLookup : public config::StrategyLookup {
+public:
+    explicit ExperimentLookup(const config::StrategyLookup& host);
+    ~ExperimentLookup() override;
+    const config::Schema* find_schema(const std::string& kind, const std::string& id) const override;
+    std::vector<std::string> ids(const std::string& kind) const override;
+
+private:
+    const config::StrategyLookup* host_;
+};
+
+/// A validated experiment.
+struct LoadedExperiment {
+    Experiment experiment;
+    config::ConfigNode resolved;  ///< all defaults written out, file names absolute
+    std::string warnings;         ///< text of the diagnostics that are no errors, empty for none
+};
+
+/// Looks up strategies once the plugins that the experiment names are loaded: gets the absolute paths of `plugins:`
+/// and returns a lookup that lives longer than the call.
+using PluginLoader = std::function<const config::StrategyLookup&(const std::vector<std::string>&)>;
+
+/// Reads `file`, applies the overrides, loads the plugins and validates. Throws ConfigError with every fault that was
+/// found, IoError for an unreadable file, and what the loader throws. [setup]
+LoadedExperiment load_experiment(const std::string& file, std::span<const std::string> overrides,
+                                 const PluginLoader& load_plugins, const config::YamlOptions& options = {});
+
+/// The same for a tree made by code. [setup]
+LoadedExperiment resolve_experiment(const config::ConfigNode& root, const PluginLoader& load_plugins);
+
+/// What `--print-config` prints and config.resolved.yaml holds.
+std::string resolved_text(const LoadedExperiment& loaded);
+
+/// SHA-256 (64 hex digits) of the canonical resolved configuration. A file parameter counts by its content, not its
+/// name, so do plugins. Throws IoError for a file that cannot be read. [setup]
+std::string config_hash(const LoadedExperiment& loaded, const config::StrategyLookup& lookup);
+
+/// Files that the experiment names in its input and its strategies' parameters, in the order of the schema. [setup]
+std::vector<std::string> input_files(const LoadedExperiment& loaded, const config::StrategyLookup& lookup);
+
+}  // namespace dsc::run

@@ -1,0 +1,95 @@
+#pragma once
+// The figures of a run: one row of metrics.csv a step, and the sums that summary.json reports.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <dsc/hooks/observer.hpp>
+#include <dsc/kernel/step_report.hpp>
+#include <dsc/mesh/adopt.hpp>
+
+namespace dsc::run {
+
+/// How a run ended.
+enum class Status { converged, max_steps, stalled, cancelled };
+std::string_view name(Status status);
+
+/// A row of metrics.csv, normalised units. Row 0 is the state before the first step.
+struct StepMetrics {
+    std::uint64_t step = 0;
+    std::size_t interface_vertices = 0;
+    std::size_t interface_faces = 0;
+    std::size_t tets = 0;
+    double mean_edge = 0.0;    ///< of the interface
+    double mean_speed = 0.0;   ///< length of the displacements of the movable vertices
+    double max_speed = 0.0;
+    std::optional<double> vertex_to_cloud_mean;   ///< interface vertices to the nearest cloud point; empty without cloud
+    std::optional<double> vertex_to_cloud_max;
+    std::optional<double> cloud_to_surface_mean;  ///< at most cloud_probes points, evenly taken, to the surface
+    double volume = 0.0;       ///< of all labels above 0
+    double min_tet_quality = 0.0;
+    unsigned rounds = 0;
+    std::size_t requested = 0;
+    std::size_t arrived = 0;
+    std::size_t clamped = 0;
+    double dropped_motion = 0.0;
+    double edit_volume = 0.0;
+    double relabelled_volume = 0.0;
+    std::uint64_t committed = 0;  ///< operations of the step
+    std::size_t events = 0;
+    std::vector<std::pair<std::string, double>> observers;  ///< "observers.ID.figure"
+};
+
+/// Cloud points at which cloud_to_surface_mean is measured each step; the summary uses all of them.
+inline constexpr std::size_t cloud_probes = 2000;
+
+/// First line of metrics.csv for rows like `row`, with its newline.
+std::string csv_header(const StepMetrics& row);
+/// The row, numbers in the shortest form that reads back to the same double, with its newline.
+std::string csv_row(const StepMetrics& row);
+/// A line of events.jsonl: place and volume in the input's units, with its newline.
+std::string event_line(const kernel::Event& event, const cloud::Transform& to_normalised);
+
+/// Wall time by phase.
+struct PhaseSeconds {
+    double velocity = 0.0;
+    double move = 0.0;
+    double improve = 0.0;
+    double refine = 0.0;
+    double measure = 0.0;
+    double io = 0.0;
+};
+
+/// Sums over all steps, normalised units.
+struct RunTotals {
+    std::uint64_t steps = 0;
+    Status status = Status::max_steps;
+    double volume_initial = 0.0;
+    double target_length = 0.0;
+    std::uint64_t rounds = 0;
+    std::uint64_t requested = 0;
+    std::uint64_t arrived = 0;
+    std::uint64_t clamped = 0;
+    double dropped_motion = 0.0;
+    double edit_distance = 0.0;
+    double edit_volume = 0.0;
+    double relabelled_volume = 0.0;
+    std::uint64_t refinements = 0;
+    std::uint64_t refine_requested = 0;
+    std::uint64_t refine_committed = 0;
+    kernel::OperationTable operations{};
+    mesh::EventCounts events;
+    mesh::AdoptReport adopted;
+    PhaseSeconds seconds;
+    std::vector<std::pair<std::string, hooks::Figures>> observers;  ///< by observer id, from its end()
+
+    void add(const kernel::StepReport& report);
+    /// Refused operations by reason, over all operations.
+    std::uint64_t refused(mesh::Refusal reason) const;
+};
+
+}  // namespace dsc::run

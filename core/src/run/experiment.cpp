@@ -1,0 +1,184 @@
+#include <dsc/base/error.hpp>
+#include <dsc/config/overrides.hpp>
+#include <dsc/run/experiment.hpp>
+#include <dsc/run/sha256.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace dsc::run {
+namespace {
+
+namespace fs = std::filesystem;
+using config::ConfigEntry;
+using config::ConfigNode;
+using config::Field;
+using config::FieldType;
+using config::Schema;
+using config::StrategyLookup;
+
+constexpr const char* data_variable = "DSC_DATA";
+constexpr const char* data_hint =
+    "note: DSC_DATA names the folder that holds the thesis' point clouds bunny.obj, teapot.obj and cow.obj; they are "
+    "public with the thesis' program, https://github.com/JaronOrchard/PointCloudDSC. Then: export DSC_DATA=FOLDER\n";
+
+/// Folder that relative names in `node` count from.
+fs::path folder_of(const ConfigNode& node) {
+    const config::SourcePosition& position = node.position();
+    if (!position.known() || position.from_command_line()) return fs::current_path();
+    return fs::absolute(position.source->name).parent_path();
+}
+
+/// `plugins:` before anything is validated: wrong types are left to the schema.
+std::vector<std::string> plugin_paths(const ConfigNode& root) {
+    std::vector<std::string> paths;
+    const ConfigNode* list = root.find("plugins");
+    if (list == nullptr || !list->is_list()) return paths;
+    for (const ConfigNode& item : list->items()) {
+        if (!item.is_string()) continue;
+        paths.push_back((folder_of(item) / item.as_string()).lexically_normal().string());
+    }
+    return paths;
+}
+
+/// Replaces the values of all file fields by `change(value)`, through nested objects and strategies.
+ConfigNode map_files(const ConfigNode& node, const Schema& schema, const StrategyLookup& lookup,
+                     const std::function<ConfigNode(const std::string&)>& change);
+
+ConfigNode map_strategy(const ConfigNode& node, const std::string& kind, const StrategyLookup& lookup,
+                        const std::function<ConfigNode(const std::string&)>& change) {
+    const ConfigNode* type = node.find("type");
+    if (type == nullptr || !type->is_string()) return node;
+    const Schema* schema = lookup.find_schema(kind, type->as_string());
+    return schema == nullptr ? node : map_files(node, *schema, lookup, change);
+}
+
+ConfigNode map_value(const ConfigNode& value, const Field& field, const StrategyLookup& lookup,
+                     const std::function<ConfigNode(const std::string&)>& change) {
+    if (value.is_null()) return value;
+    std::vector<ConfigNode> items;
+    switch (field.type) {
+        case FieldType::file: return change(value.as_string());
+        case FieldType::object: return map_files(value, *field.object, lookup, change);
+        case FieldType::strategy: return map_strategy(value, field.kind, lookup, change);
+        case FieldType::object_list:
+            for (const ConfigNode& item : value.items()) items.push_back(map_files(item, *field.object, lookup, change));
+            return ConfigNode::list(std::move(items));
+        case FieldType::strategy_list:
+            for (const ConfigNode& item : value.items()) items.push_back(map_strategy(item, field.kind, lookup, change));
+            return ConfigNode::list(std::move(items));
+        default: return value;
+    }
+}
+
+ConfigNode map_files(const ConfigNode& node, const Schema& schema, const StrategyLookup& lookup,
+                     const std::function<ConfigNode(const std::string&)>& change) {
+    std::vector<ConfigEntry> entries;
+    for (const ConfigEntry& entry : node.entries()) {
+        const Field* field = schema.find(entry.key);
+        entries.emplace_back(entry.key, field == nullptr ? entry.value : map_value(entry.value, *field, lookup, change));
+    }
+    return ConfigNode::map(std::move(entries));
+}
+
+/// Content of a plugin path: the hash of a library, or those of all libraries of a folder in the order of their names.
+ConfigNode plugin_content(const std::string& path) {
+    std::vector<fs::path> files;
+    if (fs::is_directory(path)) {
+        for (const auto& entry : fs::directory_iterator(path)) {
+            if (entry.path().extension() == ".so") files.push_back(entry.path());
+        }
+        std::sort(files.begin(), files.end());
+    } else {
+        files.emplace_back(path);
+    }
+    std::vector<ConfigNode> hashes;
+    for (const fs::path& file : files) hashes.emplace_back("sha256:" + sha256_of_file(file));
+    return ConfigNode::list(std::move(hashes));
+}
+
+void warn_of_unwritten(const Experiment& experiment, const ConfigNode& resolved, config::Diagnostics& diagnostics) {
+    const auto warn = [&](const char* key) {
+        const ConfigNode* output = resolved.find("output");
+        const ConfigNode* value = output == nullptr ? nullptr : output->find(key);
+        diagnostics.warning("config.unwritten", value == nullptr ? config::SourcePosition{} : value->position(),
+                            std::string("output.") + key + " is not written by this version");
+    };
+    if (experiment.output.checkpoint) warn("checkpoint");
+    if (experiment.output.series) warn("series");
+    if (experiment.output.report.value_or(false)) warn("report");
+}
+
+}  // namespace
+
+LoadedExperiment resolve_experiment(const ConfigNode& root, const PluginLoader& load_plugins) {
+    const std::vector<std::string> plugins = plugin_paths(root);
+    const ExperimentLookup lookup(load_plugins(plugins));
+    config::Diagnostics diagnostics;
+    const std::shared_ptr<const Schema> schema = experiment_schema();
+    LoadedExperiment loaded;
+    loaded.resolved = config::validate(root, *schema, lookup, diagnostics);
+    diagnostics.throw_if_errors();
+
+    if (const ConfigNode* list = loaded.resolved.find("plugins"); list != nullptr && list->is_list()) {
+        for (std::size_t i = 0; i < list->size(); ++i) {
+            loaded.resolved = loaded.resolved.with(
+                "plugins", loaded.resolved.at("plugins").with_item(i, ConfigNode(plugins.at(i))));
+        }
+    }
+    config::ParamSchema<Experiment> reader;
+    Experiment::declare(reader);
+    loaded.experiment = reader.read(loaded.resolved);
+    warn_of_unwritten(loaded.experiment, loaded.resolved, diagnostics);
+    loaded.warnings = diagnostics.text(config::Severity::warning);
+    return loaded;
+}
+
+LoadedExperiment load_experiment(const std::string& file, std::span<const std::string> overrides,
+                                 const PluginLoader& load_plugins, const config::YamlOptions& options) {
+    bool data_unset = false;
+    config::YamlOptions watched = options;
+    watched.environment = [&](const std::string& name) {
+        std::optional<std::string> value = options.environment(name);
+        if (!value && name == data_variable) data_unset = true;
+        return value;
+    };
+    try {
+        ConfigNode root = config::load_yaml(file, watched);
+        root = config::apply_overrides(root, overrides, watched);
+        if (root.is_map() && root.find("name") == nullptr) {
+            root = root.with("name", ConfigNode(fs::path(file).stem().string()));
+        }
+        return resolve_experiment(root, load_plugins);
+    } catch (const ConfigError& error) {
+        if (!data_unset) throw;
+        std::string text = error.what();
+        if (text.empty() || text.back() != '\n') text += '\n';
+        throw ConfigError(error.code(), text + data_hint);
+    }
+}
+
+std::string resolved_text(const LoadedExperiment& loaded) { return config::to_yaml(loaded.resolved); }
+
+std::string config_hash(const LoadedExperiment& loaded, const StrategyLookup& lookup) {
+    const ExperimentLookup all(lookup);
+    ConfigNode canonical = map_files(loaded.resolved, *experiment_schema(), all, [](const std::string& file) {
+        return ConfigNode("sha256:" + sha256_of_file(file));
+    });
+    std::vector<ConfigNode> plugins;
+    for (const std::string& path : loaded.experiment.plugins) plugins.push_back(plugin_content(path));
+    canonical = canonical.with("plugins", ConfigNode::list(std::move(plugins)));
+    return sha256(config::to_yaml(canonical));
+}
+
+std::vector<std::string> input_files(const LoadedExperiment& loaded, const StrategyLookup& lookup) {
+    std::vector<std::string> files;
+    const ExperimentLookup all(lookup);
+    map_files(loaded.resolved, *experiment_schema(), all, [&](const std::string& file) {
+        if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+        return ConfigNode(file);
+    });
+    return files;
+}
+
+}  // namespace dsc::run

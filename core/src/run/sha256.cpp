@@ -1,0 +1,30 @@
+#include <dsc/run/sha256.hpp>
+
+#include <openssl/evp.h>
+
+#include <array>
+#include <dsc/base/error.hpp>
+#include <dsc/io/atomic_file.hpp>
+#include <memory>
+
+namespace dsc::run {
+
+std::string sha256(std::string_view bytes) {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned size = 0;
+    if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
+        throw Error(ExitCode::internal, "run.sha256", "the system's OpenSSL offers no SHA-256");
+    }
+    static constexpr std::string_view hex = "0123456789abcdef";
+    std::string text;
+    text.reserve(2 * size);
+    for (unsigned i = 0; i < size; ++i) {
+        text += hex[digest[i] >> 4U];
+        text += hex[digest[i] & 15U];
+    }
+    return text;
+}
+
+std::string sha256_of_file(const std::filesystem::path& file) { return sha256(io::read_file(file)); }
+
+}  // namespace dsc::run
