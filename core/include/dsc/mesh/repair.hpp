@@ -48,15 +48,15 @@ struct Request {
     float accept_above = 2.0F;                ///< accept when the new least quality is above this, or above the old one
 };
 
-/// Why a request did not change anything.
-enum class Refusal : std::uint8_t { none, stale, irregular, quality, bound, box, not_applicable, no_gain };
+/// What became of a request: `committed`, or why it did not change anything.
+enum class Refusal : std::uint8_t { committed, stale, irregular, quality, bound, box, not_applicable, no_gain };
 inline constexpr std::size_t refusal_count = 8;
 std::string_view name(Refusal refusal);
 
 /// What became of a request.
 struct Outcome {
     std::uint32_t request = 0;  ///< index into the round's requests
-    Refusal refusal = Refusal::none;  ///< none: committed
+    Refusal refusal = Refusal::committed;
 };
 
 /// What a repair round knows. Spans live as long as the call.

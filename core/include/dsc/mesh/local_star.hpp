@@ -1,0 +1,58 @@
+#pragma once
+// The star of one vertex as a labelled graph, in the complex as it is, with trial labels, or as an edit would leave it:
+// is the vertex regular, and what does it add to the interface's Euler number?
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <dsc/mesh/complex.hpp>
+
+namespace dsc::mesh {
+
+/// Nodes are the tets of the star, joined through faces that contain the vertex; a box vertex has one more node, the
+/// outside with label 0. Reuse one object: nothing is allocated once its arrays have grown.
+class LocalStar {
+public:
+    explicit LocalStar(const Complex& complex) : complex_(complex) {}
+
+    /// The star as it is.
+    void build(VertexId v);
+    /// The star as it is, but with `trial` for the tets in `region`.
+    void build(VertexId v, std::span<const TetId> region, Label trial);
+    /// The star of v (which may be created_vertex) after a linked edit.
+    void build(VertexId v, const Edit& edit);
+
+    /// For every label present its tets form one face-connected group, and all the others together form one.
+    bool regular();
+    /// Groups of face-connected equal labels.
+    unsigned groups();
+    /// Group of each node, valid after groups(); node order is that of nodes().
+    std::span<const std::uint32_t> group_of() const { return group_; }
+    /// Tets of the nodes (none for the outside). Only for stars built without an edit.
+    std::span<const TetId> nodes() const { return tets_; }
+    Label label(std::size_t node) const { return labels_[node]; }
+    /// Neighbouring nodes by face; none where the face does not contain the vertex.
+    const std::array<std::uint32_t, 4>& neighbours(std::size_t node) const { return adjacent_[node]; }
+
+    bool on_interface() const;
+    /// Six times the vertex' share of V - E + F of the interface: 6 - 3 (interface edges) + 2 (interface faces), 0 off it.
+    int euler_share() const;
+
+private:
+    unsigned flood(bool complement, Label label);
+
+    const Complex& complex_;
+    VertexId vertex_ = none;
+    std::vector<TetId> tets_;
+    std::vector<Label> labels_;
+    std::vector<std::array<std::uint32_t, 4>> adjacent_;
+    std::vector<std::array<VertexId, 4>> corners_;
+    std::vector<std::uint32_t> group_;
+    std::vector<std::uint32_t> stack_;
+    mutable std::vector<VertexId> ends_;
+    std::vector<std::uint32_t> local_;  // node of a tet, valid where the tet is marked
+    std::vector<TetId> star_;
+};
+
+}  // namespace dsc::mesh

@@ -1,0 +1,251 @@
+#include <dsc/mesh/adopt.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <dsc/base/error.hpp>
+#include <dsc/geometry/predicates.hpp>
+#include <dsc/geometry/quality.hpp>
+
+#include "mesh/unpinch.hpp"
+
+namespace dsc::mesh {
+namespace {
+
+[[noreturn]] void refuse(std::string_view name, const std::string& code, const std::string& cause, const std::string& remedy) {
+    throw GeometryError("mesh." + code, std::string(name) + ": " + cause + "; " + remedy);
+}
+
+std::string point_text(const Vec3& p) {
+    const auto number = [](double x) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.6g", x);
+        return std::string(text);
+    };
+    return "(" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ")";
+}
+
+void check_arrays(const TetMesh& mesh, std::string_view name) {
+    if (mesh.tets.empty()) refuse(name, "empty", "the mesh has no tets", "a box filled with labelled tets is needed");
+    if (mesh.labels.size() != mesh.tets.size()) {
+        refuse(name, "labels", std::to_string(mesh.labels.size()) + " labels for " + std::to_string(mesh.tets.size()) + " tets",
+               "give one label a tet");
+    }
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        if (!mesh.points[i].allFinite()) {
+            refuse(name, "not_finite", "vertex " + std::to_string(i) + " has a coordinate that is not finite", "mend the vertex");
+        }
+    }
+    for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
+        for (const std::uint32_t v : mesh.tets[i]) {
+            if (v < mesh.points.size()) continue;
+            refuse(name, "index", "tet " + std::to_string(i) + " uses vertex " + std::to_string(v) + " of " +
+                                      std::to_string(mesh.points.size()),
+                   "indices count from 0");
+        }
+    }
+}
+
+// Drops unused points; `tets` get the new indices.
+std::vector<Vec3> used_points(const TetMesh& mesh, std::vector<Tet>& tets, AdoptReport& report) {
+    std::vector<std::uint32_t> index(mesh.points.size(), none);
+    for (const auto& t : mesh.tets) {
+        for (const std::uint32_t v : t) index[v] = 0;
+    }
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < index.size(); ++i) {
+        if (index[i] == none) {
+            ++report.dropped_vertices;
+            continue;
+        }
+        index[i] = static_cast<std::uint32_t>(points.size());
+        points.push_back(mesh.points[i]);
+    }
+    tets.resize(mesh.tets.size());
+    for (std::size_t i = 0; i < tets.size(); ++i) {
+        for (unsigned k = 0; k < 4; ++k) tets[i].v[k] = index[mesh.tets[i][k]];
+        tets[i].n = {none, none, none, none};
+    }
+    return points;
+}
+
+void orient(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name, AdoptReport& report) {
+    std::size_t flat = 0, first = 0;
+    for (std::size_t i = 0; i < tets.size(); ++i) {
+        auto& v = tets[i].v;
+        const int sign = geometry::orient3d(points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
+        if (sign < 0) {
+            std::swap(v[2], v[3]);
+            ++report.reoriented_tets;
+        } else if (sign == 0 && flat++ == 0) {
+            first = i;
+        }
+    }
+    if (flat == 0) return;
+    refuse(name, "flat_tet",
+           "tet " + std::to_string(first) + " at " + point_text(points[tets[first].v[0]]) + " has zero volume (" +
+               std::to_string(flat) + " such in all)",
+           "remove flat tets, or write the coordinates with more digits");
+}
+
+// Joins equal faces; positive tets on both sides of a face see it in opposite order.
+void join_faces(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name) {
+    struct Face {
+        std::array<VertexId, 3> key;
+        std::uint32_t code;
+        bool odd;
+    };
+    std::vector<Face> faces;
+    faces.reserve(4 * tets.size());
+    for (std::size_t t = 0; t < tets.size(); ++t) {
+        for (unsigned f = 0; f < 4; ++f) {
+            std::array<VertexId, 3> key{};
+            for (unsigned k = 0; k < 3; ++k) key[k] = tets[t].v[face_vertices[f][k]];
+            bool odd = false;
+            const auto exchange = [&](unsigned i, unsigned j) {
+                if (key[i] <= key[j]) return;
+                std::swap(key[i], key[j]);
+                odd = !odd;
+            };
+            exchange(0, 1);
+            exchange(1, 2);
+            exchange(0, 1);
+            faces.push_back({key, static_cast<std::uint32_t>(4 * t + f), odd});
+        }
+    }
+    std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key != b.key ? a.key < b.key : a.code < b.code; });
+    std::size_t crowded = 0, same_side = 0;
+    const Face* crowded_face = nullptr;
+    const Face* same_side_face = nullptr;
+    for (std::size_t i = 0; i < faces.size();) {
+        std::size_t j = i + 1;
+        while (j < faces.size() && faces[j].key == faces[i].key) ++j;
+        if (j - i > 2) {
+            if (crowded++ == 0) crowded_face = &faces[i + 2];
+        } else if (j - i == 2) {
+            if (faces[i].odd == faces[i + 1].odd) {
+                if (same_side++ == 0) same_side_face = &faces[i + 1];
+            } else {
+                tets[faces[i].code >> 2U].n[faces[i].code & 3U] = faces[i + 1].code;
+                tets[faces[i + 1].code >> 2U].n[faces[i + 1].code & 3U] = faces[i].code;
+            }
+        }
+        i = j;
+    }
+    const auto face_text = [&](const Face& face) {
+        return "tet " + std::to_string(face.code >> 2U) + " at " + point_text(points[face.key[0]]);
+    };
+    if (crowded > 0) {
+        refuse(name, "crowded_face",
+               face_text(*crowded_face) + " has a face that two other tets have already (" + std::to_string(crowded) + " such in all)",
+               "remove duplicate tets: some writers repeat the last line of the file");
+    }
+    if (same_side > 0) {
+        refuse(name, "same_side",
+               face_text(*same_side_face) + " lies on the same side of a face as its neighbour (" + std::to_string(same_side) +
+                   " such in all)",
+               "tets must not overlap");
+    }
+}
+
+void check_volume(const std::vector<Vec3>& points, const std::vector<Tet>& tets, std::string_view name) {
+    double sum = 0.0;
+    for (const Tet& t : tets) sum += geometry::tet_volume(points[t.v[0]], points[t.v[1]], points[t.v[2]], points[t.v[3]]);
+    const Vec3 size = bounding_box(points).size();
+    const double box = size.x() * size.y() * size.z();
+    if (std::abs(sum - box) <= 1e-9 * box) return;
+    char text[96];
+    std::snprintf(text, sizeof text, "the tets' volumes add up to %.12g, their bounding box has %.12g", sum, box);
+    refuse(name, "volume", text, "the tets must fill an axis-parallel box without gaps or overlaps");
+}
+
+void check_stars(const Complex& c, std::string_view name) {
+    std::vector<std::uint32_t> degree(c.vertex_slots(), 0);
+    for (TetId t = 0; t < c.tet_slots(); ++t) {
+        for (const VertexId v : c.tet(t).v) ++degree[v];
+    }
+    std::vector<TetId> star;
+    for (VertexId v = 0; v < c.vertex_slots(); ++v) {
+        c.star(v, star);
+        if (star.size() == degree[v]) continue;
+        refuse(name, "torn_star",
+               "the tets at vertex " + std::to_string(v) + " " + point_text(c.position(v)) + " are not joined through faces",
+               "the mesh must be conforming");
+    }
+}
+
+double mean_interface_edge(const Complex& c) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (TetId t = 0; t < c.tet_slots(); ++t) {
+        for (unsigned f = 0; f < 4; ++f) {
+            if (!c.tet_alive(t) || !c.interface_face(t, f)) continue;
+            for (unsigned k = 0; k < 3; ++k) {
+                sum += (c.position(c.tet(t).v[face_vertices[f][k]]) - c.position(c.tet(t).v[face_vertices[f][(k + 1) % 3]])).norm();
+                ++count;
+            }
+        }
+    }
+    return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
+// Face-connected components of equal label below the volume take the label around them if it is one. The largest
+// label-0 component and everything on the box stay.
+std::size_t remove_small_components(Complex& c, double volume) {
+    std::size_t removed = 0;
+    std::vector<char> seen(c.tet_slots(), 0);
+    std::vector<TetId> component;
+    for (TetId start = 0; start < c.tet_slots(); ++start) {
+        if (!c.tet_alive(start) || seen[start] != 0) continue;
+        component.assign(1, start);
+        seen[start] = 1;
+        double sum = 0.0;
+        Label around = c.label(start);
+        bool one = true, box = false;
+        for (std::size_t i = 0; i < component.size(); ++i) {
+            const Tet& tet = c.tet(component[i]);
+            sum += c.volume(component[i]);
+            for (unsigned f = 0; f < 4; ++f) {
+                if (tet.n[f] == none) {
+                    box = true;
+                    continue;
+                }
+                const TetId next = neighbour_tet(tet.n[f]);
+                if (c.label(next) != c.label(start)) {
+                    if (around != c.label(start) && around != c.label(next)) one = false;
+                    around = c.label(next);
+                } else if (seen[next] == 0) {
+                    seen[next] = 1;
+                    component.push_back(next);
+                }
+            }
+        }
+        if (sum >= volume || box || !one || around == c.label(start)) continue;
+        c.relabel(component, around);
+        ++removed;
+    }
+    return removed;
+}
+
+}  // namespace
+
+Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report, double min_component) {
+    AdoptReport local;
+    AdoptReport& out = report != nullptr ? *report : local;
+    out = {};
+    check_arrays(mesh, name);
+    std::vector<Tet> tets;
+    std::vector<Vec3> points = used_points(mesh, tets, out);
+    orient(points, tets, name, out);
+    join_faces(points, tets, name);
+    check_volume(points, tets, name);
+    Complex complex = Complex::assemble(std::move(points), tets, mesh.labels);
+    check_stars(complex, name);
+    out.unpinched_vertices = unpinch(complex, name);
+    const double edge = mean_interface_edge(complex);
+    out.vanished_components = remove_small_components(complex, min_component * geometry::regular_tet_volume(edge));
+    return complex;
+}
+
+}  // namespace dsc::mesh

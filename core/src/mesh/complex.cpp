@@ -1,0 +1,277 @@
+#include <dsc/mesh/complex.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+#include <dsc/geometry/quality.hpp>
+
+namespace dsc::mesh {
+
+double Complex::volume(TetId t) const {
+    const auto& v = tets_[t].v;
+    return geometry::tet_volume(position(v[0]), position(v[1]), position(v[2]), position(v[3]));
+}
+
+VertexId Complex::allocate_vertex(const Vec3& position) {
+    VertexId v = none;
+    if (free_vertices_.empty()) {
+        v = static_cast<VertexId>(vertices_.size());
+        vertices_.emplace_back();
+    } else {
+        v = free_vertices_.back();
+        free_vertices_.pop_back();
+    }
+    // Dated before this change, so that touch() lists it.
+    vertices_[v] = {position, none, next_birth_++, clock_ - 1, none, 1, false};
+    return v;
+}
+
+TetId Complex::allocate_tet() {
+    if (!free_tets_.empty()) {
+        const TetId t = free_tets_.back();
+        free_tets_.pop_back();
+        return t;
+    }
+    const auto t = static_cast<TetId>(tets_.size());
+    tets_.emplace_back();
+    labels_.push_back(0);
+    qualities_.push_back(0);
+    dates_.push_back(0);
+    birth_dates_.push_back(0);
+    changed_.push_back(0);
+    marks_.push_back(0);
+    return t;
+}
+
+void Complex::touch(TetId t) {
+    dates_[t] = clock_;
+    if (changed_[t] != change_round_) {
+        changed_[t] = change_round_;
+        changes_.push_back(t);
+    }
+    for (const VertexId v : tets_[t].v) {
+        if (vertices_[v].date == clock_) continue;
+        vertices_[v].date = clock_;
+        touched_vertices_.push_back(v);
+    }
+}
+
+void Complex::take_changes(std::vector<TetId>& out) {
+    out.clear();
+    std::swap(out, changes_);
+    ++change_round_;
+}
+
+void Complex::set_phases(VertexId v, unsigned phases) {
+    Vertex& vertex = vertices_[v];
+    vertex.phases = static_cast<std::uint8_t>(phases);
+    const bool listed = vertex.interface_slot != none;
+    if (phases > 1 && !listed) {
+        vertex.interface_slot = static_cast<std::uint32_t>(interface_.size());
+        interface_.push_back(v);
+    } else if (phases <= 1 && listed) {
+        const VertexId last = interface_.back();
+        interface_[vertex.interface_slot] = last;
+        vertices_[last].interface_slot = vertex.interface_slot;
+        interface_.pop_back();
+        vertex.interface_slot = none;
+    }
+}
+
+void Complex::refresh_phases(VertexId v) {
+    star(v, star_scratch_);
+    std::array<Label, 3> seen{};
+    unsigned count = 0;
+    const auto note = [&](Label label) {
+        if (count < 3 && std::find(seen.begin(), seen.begin() + count, label) == seen.begin() + count) {
+            seen[count++] = label;
+        }
+    };
+    for (const TetId t : star_scratch_) note(labels_[t]);
+    if (vertices_[v].on_box) note(0);
+    set_phases(v, count);
+}
+
+void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star) {
+    ++clock_;
+    touched_vertices_.clear();
+    vertices_[v].position = position;
+    for (const TetId t : star) {
+        const auto& x = tets_[t].v;
+        qualities_[t] = static_cast<float>(
+            geometry::tet_quality(this->position(x[0]), this->position(x[1]), this->position(x[2]), this->position(x[3])));
+        touch(t);
+    }
+}
+
+void Complex::relabel(std::span<const TetId> tets, Label label) {
+    ++clock_;
+    touched_vertices_.clear();
+    for (const TetId t : tets) {
+        labels_[t] = label;
+        touch(t);
+    }
+    for (const VertexId v : touched_vertices_) refresh_phases(v);
+}
+
+VertexId Complex::replace(Edit& edit) {
+    ++clock_;
+    touched_vertices_.clear();
+    bool one_label = true;
+    const Label first = edit.added.empty() ? 0 : edit.added.front().label;
+    for (const TetId t : edit.removed) one_label = one_label && labels_[t] == first;
+    for (const NewTet& tet : edit.added) one_label = one_label && tet.label == first;
+
+    VertexId created = none;
+    if (edit.creates) created = allocate_vertex(edit.created_at);
+    if (edit.moved != none) vertices_[edit.moved].position = edit.moved_to;
+
+    // The cavity's slots are filled first, so that new tets stay near old ones in memory.
+    last_added_.resize(edit.added.size());
+    for (std::size_t i = 0; i < edit.added.size(); ++i) {
+        last_added_[i] = i < edit.removed.size() ? edit.removed[i] : allocate_tet();
+    }
+    for (std::size_t i = 0; i < edit.added.size(); ++i) {
+        const TetId t = last_added_[i];
+        Tet& tet = tets_[t];
+        tet.v = edit.added[i].v;
+        for (VertexId& v : tet.v) {
+            if (v == created_vertex) v = created;
+        }
+        for (unsigned f = 0; f < 4; ++f) {
+            const std::uint32_t code = edit.neighbours[i][f];
+            if (code == none) {
+                tet.n[f] = none;
+            } else if ((code & Edit::virtual_code) != 0) {
+                const std::uint32_t local = code & ~Edit::virtual_code;
+                tet.n[f] = 4 * last_added_[local >> 2U] + (local & 3U);
+            } else {
+                tet.n[f] = code;
+                tets_[neighbour_tet(code)].n[neighbour_face(code)] = 4 * t + f;
+            }
+        }
+        labels_[t] = edit.added[i].label;
+        birth_dates_[t] = clock_;
+        for (const VertexId v : tet.v) vertices_[v].seed = t;
+    }
+    const bool have_qualities = edit.qualities.size() == edit.added.size();
+    for (std::size_t i = 0; i < edit.added.size(); ++i) {
+        const TetId t = last_added_[i];
+        const auto& x = tets_[t].v;
+        qualities_[t] = have_qualities ? edit.qualities[i]
+                                       : static_cast<float>(geometry::tet_quality(position(x[0]), position(x[1]),
+                                                                                  position(x[2]), position(x[3])));
+        touch(t);
+    }
+    for (std::size_t i = edit.added.size(); i < edit.removed.size(); ++i) {
+        const TetId t = edit.removed[i];
+        tets_[t].v[0] = none;
+        birth_dates_[t] = clock_;
+        dates_[t] = clock_;
+        free_tets_.push_back(t);
+    }
+    if (edit.deleted != none) {
+        set_phases(edit.deleted, 1);
+        vertices_[edit.deleted].seed = none;
+        free_vertices_.push_back(edit.deleted);
+    }
+    if (!one_label) {
+        for (const VertexId v : touched_vertices_) refresh_phases(v);
+    }
+    return created;
+}
+
+Complex Complex::assemble(std::vector<Vec3> points, std::span<const Tet> tets, std::span<const Label> labels) {
+    Complex c;
+    c.vertices_.reserve(points.size());
+    for (const Vec3& p : points) {
+        c.vertices_.push_back({p, none, c.next_birth_++, 0, none, 1, false});
+        c.box_.extend(p);
+    }
+    c.tets_.assign(tets.begin(), tets.end());
+    c.labels_.assign(labels.begin(), labels.end());
+    const std::size_t n = tets.size();
+    c.qualities_.resize(n);
+    c.dates_.assign(n, 1);
+    c.birth_dates_.assign(n, 1);
+    c.changed_.assign(n, 0);
+    c.marks_.assign(n, 0);
+    c.clock_ = 1;
+    for (TetId t = 0; t < n; ++t) {
+        const auto& v = c.tets_[t].v;
+        c.qualities_[t] = static_cast<float>(
+            geometry::tet_quality(c.position(v[0]), c.position(v[1]), c.position(v[2]), c.position(v[3])));
+        for (unsigned f = 0; f < 4; ++f) {
+            c.vertices_[v[f]].seed = t;
+            if (c.tets_[t].n[f] != none) continue;
+            for (const auto i : face_vertices[f]) c.vertices_[v[i]].on_box = true;
+        }
+        c.touch(t);
+    }
+    // Vertices whose star is one label everywhere stay as they are; only ends of interface faces need a look.
+    std::vector<char> candidate(c.vertices_.size(), 0);
+    for (TetId t = 0; t < n; ++t) {
+        for (unsigned f = 0; f < 4; ++f) {
+            if (!c.interface_face(t, f)) continue;
+            for (const auto i : face_vertices[f]) candidate[c.tets_[t].v[i]] = 1;
+        }
+    }
+    for (VertexId v = 0; v < c.vertices_.size(); ++v) {
+        if (candidate[v] != 0) c.refresh_phases(v);
+    }
+    return c;
+}
+
+TetMesh Complex::to_mesh(std::vector<VertexId>* ids) const {
+    std::vector<VertexId> order;
+    order.reserve(vertex_count());
+    for (VertexId v = 0; v < vertices_.size(); ++v) {
+        if (vertex_alive(v)) order.push_back(v);
+    }
+    std::sort(order.begin(), order.end(), [this](VertexId a, VertexId b) { return birth(a) < birth(b); });
+    std::vector<std::uint32_t> index(vertices_.size(), none);
+    TetMesh mesh;
+    mesh.points.reserve(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        index[order[i]] = static_cast<std::uint32_t>(i);
+        mesh.points.push_back(position(order[i]));
+    }
+    struct Row {
+        std::array<std::uint32_t, 4> v;
+        Label label;
+    };
+    std::vector<Row> rows;
+    rows.reserve(tet_count());
+    for (TetId t = 0; t < tets_.size(); ++t) {
+        if (!tet_alive(t)) continue;
+        std::array<std::uint32_t, 4> v{};
+        for (unsigned i = 0; i < 4; ++i) v[i] = index[tets_[t].v[i]];
+        // Sort; an odd number of exchanges turns the tet inside out, which exchanging the last two mends.
+        bool odd = false;
+        for (unsigned i = 1; i < 4; ++i) {
+            for (unsigned j = i; j > 0 && v[j] < v[j - 1]; --j) {
+                std::swap(v[j], v[j - 1]);
+                odd = !odd;
+            }
+        }
+        if (odd) std::swap(v[2], v[3]);
+        rows.push_back({v, labels_[t]});
+    }
+    std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
+        auto x = a.v, y = b.v;
+        if (x[3] < x[2]) std::swap(x[2], x[3]);
+        if (y[3] < y[2]) std::swap(y[2], y[3]);
+        return x < y;
+    });
+    mesh.tets.reserve(rows.size());
+    mesh.labels.reserve(rows.size());
+    for (const Row& row : rows) {
+        mesh.tets.push_back(row.v);
+        mesh.labels.push_back(row.label);
+    }
+    if (ids != nullptr) *ids = std::move(order);
+    return mesh;
+}
+
+}  // namespace dsc::mesh

@@ -1,0 +1,88 @@
+// Linking a cavity: who neighbours whom among the added tets and across the cavity's boundary.
+#include <dsc/mesh/complex.hpp>
+
+#include <algorithm>
+#include <bit>
+
+namespace dsc::mesh {
+
+void Edit::clear() {
+    removed.clear();
+    added.clear();
+    moved = none;
+    creates = false;
+    deleted = none;
+    neighbours.clear();
+    qualities.clear();
+}
+
+namespace {
+
+std::array<VertexId, 3> face_key(const std::array<VertexId, 4>& v, unsigned face) {
+    std::array<VertexId, 3> key = {v[face_vertices[face][0]], v[face_vertices[face][1]], v[face_vertices[face][2]]};
+    if (key[0] > key[1]) std::swap(key[0], key[1]);
+    if (key[1] > key[2]) std::swap(key[1], key[2]);
+    if (key[0] > key[1]) std::swap(key[0], key[1]);
+    return key;
+}
+
+std::size_t hash(const std::array<VertexId, 3>& key) {
+    std::uint64_t h = key[0] * 0x9e3779b97f4a7c15ULL;
+    h = (h ^ key[1]) * 0xbf58476d1ce4e5b9ULL;
+    h = (h ^ key[2]) * 0x94d049bb133111ebULL;
+    return static_cast<std::size_t>(h >> 32U);
+}
+
+}  // namespace
+
+bool Complex::link(Edit& edit) const {
+    const std::size_t wanted = std::bit_ceil(8 * (edit.removed.size() + edit.added.size()) + 16);
+    if (face_table_.size() < wanted) {
+        face_table_.assign(wanted, FaceSlot{{none, none, none}, none, 0, false});
+        face_stamp_ = 0;
+    }
+    ++face_stamp_;
+    const std::size_t mask = face_table_.size() - 1;
+    const auto find = [&](const std::array<VertexId, 3>& key) -> FaceSlot& {
+        std::size_t at = hash(key) & mask;
+        while (face_table_[at].stamp == face_stamp_ && face_table_[at].key != key) at = (at + 1) & mask;
+        return face_table_[at];
+    };
+    new_epoch();
+    for (const TetId t : edit.removed) mark_tet(t);
+    std::size_t open = 0;
+    for (const TetId t : edit.removed) {
+        for (unsigned f = 0; f < 4; ++f) {
+            const std::uint32_t code = tets_[t].n[f];
+            if (code != none && tet_marked(neighbour_tet(code))) continue;
+            FaceSlot& slot = find(face_key(tets_[t].v, f));
+            if (slot.stamp == face_stamp_) return false;
+            slot = {face_key(tets_[t].v, f), code, face_stamp_, false};
+            ++open;
+        }
+    }
+    edit.neighbours.assign(edit.added.size(), {none, none, none, none});
+    for (std::size_t i = 0; i < edit.added.size(); ++i) {
+        for (unsigned f = 0; f < 4; ++f) {
+            const auto key = face_key(edit.added[i].v, f);
+            const std::uint32_t self = Edit::virtual_code | static_cast<std::uint32_t>(4 * i + f);
+            FaceSlot& slot = find(key);
+            if (slot.stamp != face_stamp_) {
+                slot = {key, self, face_stamp_, false};
+                ++open;
+                continue;
+            }
+            if (slot.used) return false;
+            slot.used = true;
+            --open;
+            edit.neighbours[i][f] = slot.code;
+            if (slot.code != none && (slot.code & Edit::virtual_code) != 0) {
+                const std::uint32_t other = slot.code & ~Edit::virtual_code;
+                edit.neighbours[other >> 2U][other & 3U] = self;
+            }
+        }
+    }
+    return open == 0;
+}
+
+}  // namespace dsc::mesh

@@ -1,0 +1,96 @@
+// Walks through the complex: star of a vertex, ring of an edge.
+#include <dsc/mesh/complex.hpp>
+
+namespace dsc::mesh {
+namespace {
+
+// Whether (i, j, k, l) is an even permutation of (0, 1, 2, 3).
+bool even_permutation(unsigned i, unsigned j, unsigned k, unsigned l) {
+    const std::array<unsigned, 4> p = {i, j, k, l};
+    unsigned inversions = 0;
+    for (unsigned a = 0; a < 4; ++a) {
+        for (unsigned b = a + 1; b < 4; ++b) inversions += p[a] > p[b] ? 1 : 0;
+    }
+    return inversions % 2 == 0;
+}
+
+VertexId fourth(const Tet& tet, VertexId a, VertexId b, VertexId c) {
+    return tet.v[0] ^ tet.v[1] ^ tet.v[2] ^ tet.v[3] ^ a ^ b ^ c;
+}
+
+}  // namespace
+
+void Complex::star(VertexId v, std::vector<TetId>& out) const {
+    out.clear();
+    new_epoch();
+    const TetId first = vertices_[v].seed;
+    mark_tet(first);
+    out.push_back(first);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const Tet& tet = tets_[out[i]];
+        for (unsigned f = 0; f < 4; ++f) {
+            if (tet.v[f] == v || tet.n[f] == none) continue;
+            const TetId next = neighbour_tet(tet.n[f]);
+            if (tet_marked(next)) continue;
+            mark_tet(next);
+            out.push_back(next);
+        }
+    }
+}
+
+void Complex::ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const {
+    out.tets.clear();
+    out.link.clear();
+    const unsigned i = index_of(tets_[t], a), j = index_of(tets_[t], b);
+    unsigned k = 0;
+    while (k == i || k == j) ++k;
+    unsigned l = 6 - i - j - k;
+    if (!even_permutation(i, j, k, l)) std::swap(k, l);
+    VertexId p = tets_[t].v[k], q = tets_[t].v[l];
+
+    // Back to the first tet of an open ring, or once round a closed one.
+    TetId first = t;
+    out.closed = false;
+    while (true) {
+        const std::uint32_t code = tets_[first].n[index_of(tets_[first], q)];
+        if (code == none) break;
+        const TetId previous = neighbour_tet(code);
+        if (previous == t) {
+            out.closed = true;
+            first = t;
+            p = tets_[t].v[k];
+            q = tets_[t].v[l];
+            break;
+        }
+        const VertexId s = fourth(tets_[previous], a, b, p);
+        q = p;
+        p = s;
+        first = previous;
+    }
+    TetId current = first;
+    while (true) {
+        out.tets.push_back(current);
+        out.link.push_back(p);
+        const std::uint32_t code = tets_[current].n[index_of(tets_[current], p)];
+        if (code == none) {
+            out.link.push_back(q);
+            return;
+        }
+        const TetId next = neighbour_tet(code);
+        if (next == first) return;
+        const VertexId r = fourth(tets_[next], a, b, q);
+        p = q;
+        q = r;
+        current = next;
+    }
+}
+
+TetId Complex::find_edge(VertexId a, VertexId b) const {
+    star(a, star_scratch_);
+    for (const TetId t : star_scratch_) {
+        if (has_vertex(tets_[t], b)) return t;
+    }
+    return none;
+}
+
+}  // namespace dsc::mesh

@@ -1,0 +1,105 @@
+#include <dsc/surface/surface_view.hpp>
+
+#include <algorithm>
+
+#include <dsc/geometry/quality.hpp>
+
+namespace dsc::surface {
+namespace {
+
+struct RawFace {
+    std::array<mesh::VertexId, 3> v;
+    mesh::TetId tet;
+};
+
+// Interface faces round v for which v is the vertex of least birth, each once, oriented out of the larger label.
+void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::TetId>& star, std::vector<RawFace>& out) {
+    c.star(v, star);
+    for (const mesh::TetId t : star) {
+        const mesh::Tet& tet = c.tet(t);
+        for (unsigned f = 0; f < 4; ++f) {
+            if (tet.v[f] == v) continue;
+            // Of the two tets at a face the one with the larger label reports it.
+            if (c.label(t) <= c.label_across(t, f)) continue;
+            std::array<mesh::VertexId, 3> corners{};
+            bool least = true;
+            for (unsigned k = 0; k < 3; ++k) {
+                corners[k] = tet.v[mesh::face_vertices[f][k]];
+                least = least && c.birth(v) <= c.birth(corners[k]);
+            }
+            if (!least) continue;
+            while (corners[0] != v) std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+            out.push_back({corners, t});
+        }
+    }
+}
+
+}  // namespace
+
+void build_view(const mesh::Complex& c, SurfaceView& view) {
+    static thread_local std::vector<mesh::TetId> star;
+    static thread_local std::vector<RawFace> raw;
+    static thread_local std::vector<std::uint32_t> index;
+    const auto interface = c.interface_vertices();
+    view.vertex_ids.assign(interface.begin(), interface.end());
+    std::sort(view.vertex_ids.begin(), view.vertex_ids.end(),
+              [&c](mesh::VertexId a, mesh::VertexId b) { return c.birth(a) < c.birth(b); });
+    const std::size_t n = view.vertex_ids.size();
+    view.births.resize(n);
+    view.positions.resize(n);
+    view.movable.resize(n);
+    if (index.size() < c.vertex_slots()) index.resize(c.vertex_slots());
+    for (std::size_t i = 0; i < n; ++i) {
+        const mesh::VertexId v = view.vertex_ids[i];
+        index[v] = static_cast<std::uint32_t>(i);
+        view.births[i] = c.birth(v);
+        view.positions[i] = c.position(v);
+        view.movable[i] = c.movable(v) ? 1 : 0;
+    }
+    view.faces.clear();
+    view.face_tets.clear();
+    for (std::size_t i = 0; i < n; ++i) {
+        raw.clear();
+        faces_led_by(c, view.vertex_ids[i], star, raw);
+        std::sort(raw.begin(), raw.end(), [&](const RawFace& a, const RawFace& b) {
+            return std::pair(index[a.v[1]], index[a.v[2]]) < std::pair(index[b.v[1]], index[b.v[2]]);
+        });
+        for (const RawFace& face : raw) {
+            view.faces.push_back({index[face.v[0]], index[face.v[1]], index[face.v[2]]});
+            view.face_tets.push_back(face.tet);
+        }
+    }
+    const std::size_t m = view.faces.size();
+    view.face_normals.resize(m);
+    view.face_areas.resize(m);
+    view.face_offsets.assign(n + 1, 0);
+    double edges = 0.0;
+    for (std::size_t f = 0; f < m; ++f) {
+        const Vec3 &p = view.positions[view.faces[f][0]], &q = view.positions[view.faces[f][1]], &r = view.positions[view.faces[f][2]];
+        const Vec3 cross = (q - p).cross(r - p);
+        const double length = cross.norm();
+        view.face_areas[f] = 0.5 * length;
+        view.face_normals[f] = length > 0.0 ? Vec3(cross / length) : Vec3(Vec3::Zero());
+        edges += (q - p).norm() + (r - q).norm() + (p - r).norm();
+        for (const auto v : view.faces[f]) ++view.face_offsets[v + 1];
+    }
+    view.mean_edge = m > 0 ? edges / static_cast<double>(3 * m) : 0.0;
+    for (std::size_t i = 0; i < n; ++i) view.face_offsets[i + 1] += view.face_offsets[i];
+    view.vertex_faces.resize(3 * m);
+    view.normals.assign(n, Vec3::Zero());
+    // Filling in face order keeps each vertex' faces in ascending order; offsets are restored by the shift below.
+    for (std::size_t f = 0; f < m; ++f) {
+        for (const auto v : view.faces[f]) {
+            view.vertex_faces[view.face_offsets[v]++] = static_cast<std::uint32_t>(f);
+            view.normals[v] += view.face_normals[f];
+        }
+    }
+    for (std::size_t i = n; i > 0; --i) view.face_offsets[i] = view.face_offsets[i - 1];
+    view.face_offsets[0] = 0;
+    for (Vec3& normal : view.normals) {
+        const double length = normal.norm();
+        normal = length > 1e-8 ? Vec3(normal / length) : Vec3(Vec3::Zero());
+    }
+}
+
+}  // namespace dsc::surface
