@@ -1,0 +1,54 @@
+#pragma once
+// Registrar: a plugin's enroll function tells it which strategies the library holds.
+
+#include <dsc/config/params.hpp>
+#include <dsc/plugin/kind.hpp>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace dsc::plugin {
+
+class Setup;
+
+/// Makes a strategy from its resolved parameters.
+using Factory = std::unique_ptr<hooks::Strategy> (*)(const config::ConfigNode& resolved, const Setup& setup);
+
+/// One strategy as its plugin declares it.
+struct StrategyRecord {
+    Kind kind{};
+    std::string id;       ///< [a-z][a-z0-9_]*, unique within its kind
+    std::string summary;  ///< one line
+    std::shared_ptr<const config::Schema> schema;
+    Factory make = nullptr;
+};
+
+/// Belongs to a host; nothing is registered behind its back.
+class Registrar {
+public:
+    virtual ~Registrar();
+
+    /// Registers `T`: a class derived from one hook, with a struct `T::Params`, a function
+    /// `static void T::declare(config::ParamSchema<Params>&)` and a constructor `T(const Params&, const Setup&)`.
+    /// Throws PluginError for a malformed or repeated id and for a faulty declaration. [setup]
+    template <class T>
+    void add(std::string id, std::string summary) {
+        config::ParamSchema<typename T::Params> params;
+        T::declare(params);
+        enroll({kind_of<T>(), std::move(id), std::move(summary), params.shared_schema(), &make<T>});
+    }
+
+protected:
+    Registrar() = default;
+    virtual void enroll(StrategyRecord record) = 0;
+
+private:
+    template <class T>
+    static std::unique_ptr<hooks::Strategy> make(const config::ConfigNode& resolved, const Setup& setup) {
+        config::ParamSchema<typename T::Params> params;
+        T::declare(params);
+        return std::make_unique<T>(params.read(resolved), setup);
+    }
+};
+
+}  // namespace dsc::plugin

@@ -1,0 +1,60 @@
+#pragma once
+// Wrappers round strategies of each kind: they guard every call, give the contexts the strategy's own instance number
+// and judge what comes back. Catalogue::create hands out nothing else.
+
+#include <dsc/plugin/guarded.hpp>
+#include <memory>
+
+namespace dsc::plugin {
+
+/// What a wrapper knows about its strategy.
+struct Attribution {
+    Identity who;
+    std::uint64_t instance = 0;
+
+    Call call(std::string_view hook, std::optional<std::uint64_t> step = std::nullopt) const { return {who, hook, step}; }
+};
+
+/// Save and load of any wrapped hook.
+template <class Hook>
+class Checked : public Hook {
+public:
+    Checked(std::unique_ptr<Hook> inner, Attribution attribution)
+        : inner_(std::move(inner)), attribution_(std::move(attribution)) {}
+
+    void save(std::ostream& out) const override {
+        guarded(call("save"), [&] { inner_->save(out); });
+    }
+    void load(std::istream& in) override {
+        guarded(call("load"), [&] { inner_->load(in); });
+    }
+
+protected:
+    Hook& inner() { return *inner_; }
+    const Hook& inner() const { return *inner_; }
+    std::uint64_t instance() const { return attribution_.instance; }
+    Call call(std::string_view hook, std::optional<std::uint64_t> step = std::nullopt) const {
+        return attribution_.call(hook, step);
+    }
+    /// The context with the strategy's own instance number.
+    hooks::StepContext own(const hooks::StepContext& context) const {
+        hooks::StepContext copy = context;
+        copy.instance = attribution_.instance;
+        return copy;
+    }
+
+private:
+    std::unique_ptr<Hook> inner_;
+    Attribution attribution_;
+};
+
+std::unique_ptr<hooks::Strategy> check_velocity(std::unique_ptr<hooks::VelocityField> inner, Attribution attribution);
+std::unique_ptr<hooks::Strategy> check_curvature(std::unique_ptr<hooks::CurvatureEstimator> inner,
+                                                 Attribution attribution);
+std::unique_ptr<hooks::Strategy> check_refinement(std::unique_ptr<hooks::RefinementPolicy> inner,
+                                                  Attribution attribution);
+std::unique_ptr<hooks::Strategy> check_initial_mesh(std::unique_ptr<hooks::InitialMesh> inner, Attribution attribution);
+std::unique_ptr<hooks::Strategy> check_improvement(std::unique_ptr<hooks::Improvement> inner, Attribution attribution);
+std::unique_ptr<hooks::Strategy> check_observer(std::unique_ptr<hooks::Observer> inner, Attribution attribution);
+
+}  // namespace dsc::plugin

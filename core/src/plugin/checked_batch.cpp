@@ -1,0 +1,131 @@
+// Velocity and curvature: batches of values a vertex, called concurrently.
+#include "plugin/checked.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dsc/config/yaml.hpp>
+#include <limits>
+
+namespace dsc::plugin {
+namespace {
+
+constexpr double unset = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view values_remedy =
+    "every entry of the output must be written with a finite number; report this to the plugin's authors";
+
+std::string number(double value) {
+    if (std::isfinite(value)) return config::real_text(value);
+    if (std::isnan(value)) return "nan";  // never "-nan", whatever its sign bit
+    return value > 0 ? "inf" : "-inf";
+}
+
+std::string vector_text(const Vec3& v) {
+    return "(" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + ")";
+}
+
+// "vertex 12 (birth id 40, at (0.1, 0.2, 0.3))"
+std::string vertex_text(const hooks::StepContext& context, std::size_t vertex) {
+    const surface::SurfaceView& view = context.surface;
+    std::string text = "vertex " + std::to_string(vertex) + " (";
+    if (vertex < view.births.size()) text += "birth id " + std::to_string(view.births[vertex]) + ", ";
+    if (vertex < view.positions.size()) text += "at " + vector_text(view.positions[vertex]);
+    return text + ")";
+}
+
+// The context that evaluate() calls refer to until the next prepare().
+class StepMemory {
+public:
+    const hooks::StepContext& keep(hooks::StepContext context) { return context_.emplace(std::move(context)); }
+    const hooks::StepContext& get(const Call& call) const {
+        if (!context_) throw Error(ExitCode::internal, "plugin.not_prepared", call.who.describe() + ": not prepared");
+        return *context_;
+    }
+
+private:
+    std::optional<hooks::StepContext> context_;
+};
+
+class CheckedVelocity final : public Checked<hooks::VelocityField> {
+public:
+    using Checked::Checked;
+
+    void prepare(const hooks::StepContext& context) override {
+        const hooks::StepContext& kept = step_.keep(own(context));
+        guarded(call("prepare", kept.step), [&] { inner().prepare(kept); });
+    }
+
+    void evaluate(hooks::Range range, std::span<Vec3> out) const override {
+        const hooks::StepContext& context = step_.get(call("evaluate"));
+        const Call current = call("evaluate", context.step);
+        std::fill(out.begin(), out.end(), Vec3::Constant(unset));
+        guarded(current, [&] { inner().evaluate(range, out); });
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            if (out[i].allFinite()) continue;
+            fail(current, "strategy.not_finite",
+                 "gave the displacement " + vector_text(out[i]) + " to " + vertex_text(context, range.begin + i),
+                 values_remedy);
+        }
+    }
+
+    bool can_sample() const override {
+        return guarded(call("can_sample"), [&] { return inner().can_sample(); });
+    }
+
+    void sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals,
+                std::span<Vec3> out) const override {
+        const Call current = call("sample", step_.get(call("sample")).step);
+        std::fill(out.begin(), out.end(), Vec3::Constant(unset));
+        guarded(current, [&] { inner().sample(points, unit_normals, out); });
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            if (out[i].allFinite()) continue;
+            fail(current, "strategy.not_finite",
+                 "gave the displacement " + vector_text(out[i]) + " to point " + std::to_string(i) + " at " +
+                     vector_text(points[i]),
+                 values_remedy);
+        }
+    }
+
+private:
+    StepMemory step_;
+};
+
+class CheckedCurvature final : public Checked<hooks::CurvatureEstimator> {
+public:
+    using Checked::Checked;
+
+    void prepare(const hooks::StepContext& context) override {
+        const hooks::StepContext& kept = step_.keep(own(context));
+        guarded(call("prepare", kept.step), [&] { inner().prepare(kept); });
+    }
+
+    void evaluate(hooks::Range range, std::span<double> scalar, std::span<Vec3> vector) const override {
+        const hooks::StepContext& context = step_.get(call("evaluate"));
+        const Call current = call("evaluate", context.step);
+        std::fill(scalar.begin(), scalar.end(), unset);
+        std::fill(vector.begin(), vector.end(), Vec3::Constant(unset));
+        guarded(current, [&] { inner().evaluate(range, scalar, vector); });
+        for (std::size_t i = 0; i < scalar.size(); ++i) {
+            if (std::isfinite(scalar[i]) && vector[i].allFinite()) continue;
+            fail(current, "strategy.not_finite",
+                 "gave the curvature " + number(scalar[i]) + " and the vector " + vector_text(vector[i]) + " to " +
+                     vertex_text(context, range.begin + i),
+                 values_remedy);
+        }
+    }
+
+private:
+    StepMemory step_;
+};
+
+}  // namespace
+
+std::unique_ptr<hooks::Strategy> check_velocity(std::unique_ptr<hooks::VelocityField> inner, Attribution attribution) {
+    return std::make_unique<CheckedVelocity>(std::move(inner), std::move(attribution));
+}
+
+std::unique_ptr<hooks::Strategy> check_curvature(std::unique_ptr<hooks::CurvatureEstimator> inner,
+                                                 Attribution attribution) {
+    return std::make_unique<CheckedCurvature>(std::move(inner), std::move(attribution));
+}
+
+}  // namespace dsc::plugin

@@ -1,0 +1,244 @@
+// Refinement, initial mesh, improvement and observer: called from one thread, answers of any size.
+#include "plugin/checked.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dsc::plugin {
+namespace {
+
+constexpr std::string_view report = "report this to the plugin's authors";
+
+std::string at(std::string_view what, std::size_t index) { return std::string(what) + " " + std::to_string(index); }
+
+class CheckedRefinement final : public Checked<hooks::RefinementPolicy> {
+public:
+    using Checked::Checked;
+
+    bool needs_sampling() const override {
+        return guarded(call("needs_sampling"), [&] { return inner().needs_sampling(); });
+    }
+
+    void refine(const hooks::RefinementContext& context, hooks::RefinementRequests& out) override {
+        const hooks::StepContext step = own(context.step);
+        const Call current = call("refine", step.step);
+        guarded(current, [&] { inner().refine({step, context.velocity}, out); });
+        const surface::SurfaceView& view = step.surface;
+        const std::size_t vertices = view.vertex_count();
+        for (std::size_t i = 0; i < out.split_faces.size(); ++i) {
+            if (out.split_faces[i] >= view.face_count()) bad_index(current, at("split_faces", i), out.split_faces[i]);
+        }
+        for (std::size_t i = 0; i < out.split_edges.size(); ++i) {
+            for (const std::uint32_t v : out.split_edges[i]) {
+                if (v >= vertices) bad_index(current, at("split_edges", i), v);
+            }
+        }
+        if (!out.sizing.empty() && out.sizing.size() != vertices) {
+            fail(current, "strategy.size",
+                 "gave a sizing field of " + std::to_string(out.sizing.size()) + " entries for " +
+                     std::to_string(vertices) + " vertices",
+                 report);
+        }
+        for (std::size_t i = 0; i < out.sizing.size(); ++i) {
+            if (std::isfinite(out.sizing[i]) && out.sizing[i] > 0) continue;
+            fail(current, "strategy.not_finite",
+                 "gave vertex " + std::to_string(i) + " the target length " + std::to_string(out.sizing[i]),
+                 "lengths must be finite and above 0; report this to the plugin's authors");
+        }
+        for (std::size_t i = 0; i < out.relabel.size(); ++i) {
+            constexpr auto greatest = static_cast<std::uint32_t>(std::numeric_limits<mesh::Label>::max());
+            if (out.relabel[i][1] > greatest) bad_index(current, at("relabel", i), out.relabel[i][1]);
+        }
+    }
+
+private:
+    [[noreturn]] static void bad_index(const Call& current, const std::string& where, std::uint32_t value) {
+        fail(current, "strategy.range", "asked in " + where + " for " + std::to_string(value) + ", which does not exist",
+             report);
+    }
+};
+
+class CheckedInitialMesh final : public Checked<hooks::InitialMesh> {
+public:
+    using Checked::Checked;
+
+    mesh::TetMesh build(const hooks::InitialMeshContext& context) override {
+        hooks::InitialMeshContext own_context = context;
+        own_context.instance = instance();
+        const Call current = call("build");
+        mesh::TetMesh mesh = guarded(current, [&] { return inner().build(own_context); });
+        if (mesh.tets.empty()) fail(current, "strategy.size", "gave a mesh without tets", report);
+        if (mesh.labels.size() != mesh.tets.size()) {
+            fail(current, "strategy.size",
+                 "gave " + std::to_string(mesh.labels.size()) + " labels for " + std::to_string(mesh.tets.size()) +
+                     " tets",
+                 report);
+        }
+        for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+            if (!mesh.points[i].allFinite()) {
+                fail(current, "strategy.not_finite", "gave " + at("point", i) + " a coordinate that is not finite",
+                     report);
+            }
+        }
+        for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
+            for (const std::uint32_t v : mesh.tets[i]) {
+                if (v < mesh.points.size()) continue;
+                fail(current, "strategy.range", "gave " + at("tet", i) + " the point " + std::to_string(v) + " of " +
+                         std::to_string(mesh.points.size()),
+                     report);
+            }
+            if (mesh.labels[i] < 0) {
+                fail(current, "strategy.range",
+                     "gave " + at("tet", i) + " the label " + std::to_string(mesh.labels[i]) + " below 0", report);
+            }
+        }
+        return mesh;
+    }
+};
+
+class CheckedImprovement final : public Checked<hooks::Improvement> {
+public:
+    using Checked::Checked;
+
+    void propose(const hooks::StepContext& context, const mesh::RepairRound& round,
+                 std::vector<mesh::Request>& out) override {
+        const hooks::StepContext step = own(context);
+        const Call current = call("propose", step.step);
+        const std::size_t before = out.size();
+        guarded(current, [&] { inner().propose(step, round, out); });
+        if (out.size() < before) fail(current, "strategy.size", "removed requests that were there before", report);
+        for (std::size_t i = before; i < out.size(); ++i) judge(current, round.complex, out[i], i - before);
+    }
+
+    double flatness() const override {
+        const Call current = call("flatness");
+        const double cosine = guarded(current, [&] { return inner().flatness(); });
+        if (!(cosine >= -1 && cosine <= 1)) {
+            fail(current, "strategy.range", "gave " + std::to_string(cosine) + ", which is no cosine", report);
+        }
+        return cosine;
+    }
+
+    mesh::TopologyLimits topology_limits() const override {
+        const Call current = call("topology_limits");
+        const mesh::TopologyLimits limits = guarded(current, [&] { return inner().topology_limits(); });
+        for (const double value : {limits.thickness, limits.min_component}) {
+            if (std::isfinite(value) && value >= 0) continue;
+            fail(current, "strategy.range", "gave the limit " + std::to_string(value),
+                 "limits must be finite and at least 0; report this to the plugin's authors");
+        }
+        return limits;
+    }
+
+    void select(const hooks::StepContext& context, std::span<const mesh::TopologyCandidate> candidates,
+                std::span<std::uint8_t> accept) override {
+        const hooks::StepContext step = own(context);
+        const Call current = call("select", step.step);
+        constexpr std::uint8_t unset = 255;
+        std::fill(accept.begin(), accept.end(), unset);
+        guarded(current, [&] { inner().select(step, candidates, accept); });
+        for (std::size_t i = 0; i < accept.size(); ++i) {
+            if (accept[i] <= 1) continue;
+            fail(current, "strategy.range",
+                 "gave " + at("candidate", i) + " the answer " + std::to_string(accept[i]) + " where 0 or 1 is due",
+                 report);
+        }
+    }
+
+private:
+    static void judge(const Call& current, const mesh::Complex& complex, const mesh::Request& request,
+                      std::size_t index) {
+        const std::string where = "in " + at("request", index);
+        if (static_cast<std::size_t>(request.operation) >= mesh::operation_count) {
+            fail(current, "strategy.range", "named an operation that does not exist " + where, report);
+        }
+        if (request.tet != mesh::none && request.tet >= complex.tet_slots()) {
+            fail(current, "strategy.range", "named tet " + std::to_string(request.tet) + ", which does not exist, " + where,
+                 report);
+        }
+        for (const mesh::VertexId v : request.vertices) {
+            if (v == mesh::none || v < complex.vertex_slots()) continue;
+            fail(current, "strategy.range", "named vertex " + std::to_string(v) + ", which does not exist, " + where,
+                 report);
+        }
+        for (const float value : {request.parameter, request.only_below, request.accept_above}) {
+            if (std::isnan(value)) fail(current, "strategy.not_finite", "gave a number that is NaN " + where, report);
+        }
+    }
+};
+
+class CheckedObserver final : public Checked<hooks::Observer> {
+public:
+    using Checked::Checked;
+
+    void begin(const hooks::StepContext& context) override {
+        const hooks::StepContext step = own(context);
+        guarded(call("begin", step.step), [&] { inner().begin(step); });
+    }
+
+    hooks::Figures step(const hooks::StepContext& context, const hooks::StepFigures& figures) override {
+        const hooks::StepContext own_context = own(context);
+        const Call current = call("step", own_context.step);
+        hooks::Figures result = guarded(current, [&] { return inner().step(own_context, figures); });
+        judge(current, result);
+        std::vector<std::string> names;
+        for (const auto& figure : result) names.push_back(figure.first);
+        if (names_ && *names_ != names) {
+            fail(current, "strategy.size", "gave figures of other names than in its first step",
+                 "the columns of metrics.csv must stay the same; report this to the plugin's authors");
+        }
+        names_ = std::move(names);
+        return result;
+    }
+
+    hooks::Figures end(const hooks::StepContext& context) override {
+        const hooks::StepContext step = own(context);
+        const Call current = call("end", step.step);
+        hooks::Figures result = guarded(current, [&] { return inner().end(step); });
+        judge(current, result);
+        return result;
+    }
+
+private:
+    static void judge(const Call& current, const hooks::Figures& figures) {
+        std::vector<std::string_view> seen;
+        for (const auto& [name, value] : figures) {
+            const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+                return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+            });
+            if (!plain || std::find(seen.begin(), seen.end(), name) != seen.end()) {
+                fail(current, "strategy.range", "gave a figure the name '" + name + "'",
+                     "names are snake_case and differ; report this to the plugin's authors");
+            }
+            seen.push_back(name);
+            if (!std::isfinite(value)) {
+                fail(current, "strategy.not_finite", "gave the figure '" + name + "' the value " + std::to_string(value),
+                     report);
+            }
+        }
+    }
+
+    std::optional<std::vector<std::string>> names_;
+};
+
+}  // namespace
+
+std::unique_ptr<hooks::Strategy> check_refinement(std::unique_ptr<hooks::RefinementPolicy> inner,
+                                                  Attribution attribution) {
+    return std::make_unique<CheckedRefinement>(std::move(inner), std::move(attribution));
+}
+
+std::unique_ptr<hooks::Strategy> check_initial_mesh(std::unique_ptr<hooks::InitialMesh> inner, Attribution attribution) {
+    return std::make_unique<CheckedInitialMesh>(std::move(inner), std::move(attribution));
+}
+
+std::unique_ptr<hooks::Strategy> check_improvement(std::unique_ptr<hooks::Improvement> inner, Attribution attribution) {
+    return std::make_unique<CheckedImprovement>(std::move(inner), std::move(attribution));
+}
+
+std::unique_ptr<hooks::Strategy> check_observer(std::unique_ptr<hooks::Observer> inner, Attribution attribution) {
+    return std::make_unique<CheckedObserver>(std::move(inner), std::move(attribution));
+}
+
+}  // namespace dsc::plugin
