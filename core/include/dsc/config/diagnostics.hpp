@@ -43,7 +43,7 @@ public:
     bool has_errors() const noexcept { return errors_ > 0; }
     /// In the order in which they were found.
     const std::vector<Diagnostic>& all() const noexcept { return all_; }
-    /// All of one severity, text by text, sorted by place within each file.
+    /// All of one severity, text by text, sorted by place within each file; beyond 100 only their number.
     std::string text(Severity severity) const;
     /// Throws ConfigError with all errors and a last line "N errors; nothing was run". Its code is that of the only
     /// error, or "config.invalid" for several. Does nothing without errors.

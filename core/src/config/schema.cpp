@@ -1,0 +1,225 @@
+#include <algorithm>
+#include <dsc/config/schema.hpp>
+#include <dsc/config/spelling.hpp>
+#include <dsc/config/yaml.hpp>
+#include <set>
+
+#include "config/field_value.hpp"
+
+namespace dsc::config {
+namespace {
+
+bool is_name(const std::string& name) {
+    const auto letter = [](char c) { return c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const auto rest = [&](char c) { return letter(c) || (c >= '0' && c <= '9'); };
+    return !name.empty() && letter(name[0]) && std::all_of(name.begin(), name.end(), rest);
+}
+
+bool is_list_type(FieldType type) {
+    switch (type) {
+        case FieldType::vec3:
+        case FieldType::integer_list:
+        case FieldType::real_list:
+        case FieldType::string_list:
+        case FieldType::object_list:
+        case FieldType::strategy_list:
+            return true;
+        default:
+            return false;
+    }
+}
+
+bool is_numeric_type(FieldType type) {
+    switch (type) {
+        case FieldType::integer:
+        case FieldType::real:
+        case FieldType::vec3:
+        case FieldType::integer_list:
+        case FieldType::real_list:
+            return true;
+        default:
+            return false;
+    }
+}
+
+bool has_object(FieldType type) { return type == FieldType::object || type == FieldType::object_list; }
+bool has_kind(FieldType type) { return type == FieldType::strategy || type == FieldType::strategy_list; }
+
+std::string short_text(const ConfigNode& node) {
+    if (node.is_string()) return node.as_string().empty() ? "''" : node.as_string();
+    if (node.is_map()) {
+        const ConfigNode* type = node.find("type");
+        return type ? type->as_string() : "as below";
+    }
+    if (node.is_list()) {
+        std::vector<std::string> items;
+        for (const ConfigNode& item : node.items()) items.push_back(short_text(item));
+        return "[" + join(items) + "]";
+    }
+    std::string text = to_yaml(node);
+    text.pop_back();
+    return text;
+}
+
+std::string number_text(const Field& field, double value) {
+    const bool integer = field.type == FieldType::integer || field.type == FieldType::integer_list;
+    if (integer) return std::to_string(static_cast<std::int64_t>(value));
+    std::string text = real_text(value);
+    if (text.size() > 2 && text.compare(text.size() - 2, 2, ".0") == 0) text.resize(text.size() - 2);
+    return text;
+}
+
+/// The faults of one field, without its place.
+std::vector<std::string> field_problems(const Field& field) {
+    std::vector<std::string> faults;
+    if (!is_name(field.name)) faults.emplace_back("has a name that is no identifier");
+    if (field.doc.empty()) faults.emplace_back("has no doc");
+    const bool bounded = field.minimum || field.maximum;
+    if (bounded && !is_numeric_type(field.type)) faults.emplace_back("has a range but is no number");
+    if (field.minimum && field.maximum && field.minimum->value > field.maximum->value) {
+        faults.emplace_back("has an empty range");
+    }
+    if ((field.min_size || field.max_size) && !is_list_type(field.type)) {
+        faults.emplace_back("has a size but is no list");
+    }
+    if (field.type == FieldType::choice && field.choices.empty()) faults.emplace_back("has no choices");
+    if (!field.choices.empty() && field.type != FieldType::choice && field.type != FieldType::string_list) {
+        faults.emplace_back("has choices but is no choice");
+    }
+    if (!field.extensions.empty() && field.type != FieldType::file) {
+        faults.emplace_back("has extensions but is no file");
+    }
+    if (has_object(field.type) && !field.object) faults.emplace_back("has no schema");
+    if (has_kind(field.type) && field.kind.empty()) faults.emplace_back("names no kind of strategy");
+    if (field.required && field.optional) faults.emplace_back("is both required and optional");
+    const ConfigNode& value = field.default_value;
+    if (field.required || (field.optional && value.is_null()) || !is_plain_field(field.type)) return faults;
+    if (faults.empty()) {
+        Diagnostics diagnostics;
+        resolve_value(field, value, field.name, {}, diagnostics);
+        for (const Diagnostic& d : diagnostics.all()) faults.push_back("has a bad default: " + d.message);
+    }
+    return faults;
+}
+
+}  // namespace
+
+std::string_view type_name(FieldType type) {
+    switch (type) {
+        case FieldType::boolean:
+            return "boolean";
+        case FieldType::integer:
+            return "integer";
+        case FieldType::real:
+            return "real";
+        case FieldType::string:
+            return "string";
+        case FieldType::choice:
+            return "choice";
+        case FieldType::file:
+            return "file";
+        case FieldType::vec3:
+            return "vector of 3 reals";
+        case FieldType::integer_list:
+            return "list of integers";
+        case FieldType::real_list:
+            return "list of reals";
+        case FieldType::string_list:
+            return "list of strings";
+        case FieldType::object:
+            return "map";
+        case FieldType::object_list:
+            return "list of maps";
+        case FieldType::strategy:
+            return "strategy";
+        case FieldType::strategy_list:
+            return "list of strategies";
+    }
+    return "string";
+}
+
+bool Field::has_tag(std::string_view tag) const {
+    return std::find(tags.begin(), tags.end(), tag) != tags.end();
+}
+
+std::string Field::range_text() const {
+    const auto text = [&](const Bound& bound) { return number_text(*this, bound.value); };
+    if (minimum && maximum) {
+        return (minimum->open ? "(" : "[") + text(*minimum) + ", " + text(*maximum) +
+               (maximum->open ? ")" : "]");
+    }
+    if (minimum) return (minimum->open ? "above " : "at least ") + text(*minimum);
+    if (maximum) return (maximum->open ? "below " : "at most ") + text(*maximum);
+    return {};
+}
+
+std::string Field::summary() const {
+    std::string out;
+    if (type == FieldType::choice) {
+        out = "one of " + join(choices, " | ");
+    } else if (type == FieldType::strategy) {
+        out = kind + " strategy";
+    } else if (type == FieldType::strategy_list) {
+        out = "list of " + kind + " strategies";
+    } else {
+        out = type_name(type);
+        if (!choices.empty()) out += " out of " + join(choices, " | ");
+        if (!extensions.empty()) out += " (" + join(extensions, " ") + ")";
+    }
+    if (!unit.empty() && unit != "1") out += " in " + unit;
+    if (const std::string range = range_text(); !range.empty()) out += ", " + range;
+    if (required) return out + ", required";
+    if (optional && default_value.is_null()) return out + ", optional";
+    if (type != FieldType::object) out += ", default " + short_text(default_value);
+    return out;
+}
+
+std::size_t Schema::add(Field field) {
+    fields_.push_back(std::move(field));
+    return fields_.size() - 1;
+}
+
+void Schema::deprecate(std::string old_name, std::string new_name) {
+    deprecations_.push_back({std::move(old_name), std::move(new_name)});
+}
+
+void Schema::check(CrossCheck check) { checks_.push_back(std::move(check)); }
+
+const Field* Schema::find(std::string_view name) const noexcept {
+    for (const Field& field : fields_) {
+        if (field.name == name) return &field;
+    }
+    return nullptr;
+}
+
+std::vector<std::string> Schema::names() const {
+    std::vector<std::string> out;
+    for (const Field& field : fields_) out.push_back(field.name);
+    return out;
+}
+
+std::vector<std::string> Schema::problems(bool of_strategy) const {
+    std::vector<std::string> out;
+    std::set<std::string> seen;
+    for (const Field& field : fields_) {
+        const std::string subject = "parameter '" + field.name + "' ";
+        if (!seen.insert(field.name).second) out.push_back(subject + "is declared twice");
+        if (of_strategy && field.name == "type")
+            out.push_back(subject + "has the name that picks the strategy");
+        for (const std::string& fault : field_problems(field)) out.push_back(subject + fault);
+        if (!field.object) continue;
+        for (const std::string& inner : field.object->problems())
+            out.push_back("in '" + field.name + "': " + inner);
+    }
+    for (const Deprecation& d : deprecations_) {
+        if (!find(d.new_name))
+            out.push_back("'" + d.old_name + "' stands for '" + d.new_name + "', which is no parameter");
+        if (find(d.old_name)) out.push_back("'" + d.old_name + "' is both a parameter and an old name");
+    }
+    for (const CrossCheck& c : checks_) {
+        if (c.message.empty()) out.emplace_back("a cross check has no message");
+    }
+    return out;
+}
+
+}  // namespace dsc::config

@@ -1,0 +1,373 @@
+#include "config/yaml_reader.hpp"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "config/node_factory.hpp"
+#include "config/scalar.hpp"
+#include "config/text.hpp"
+
+namespace dsc::config {
+namespace {
+
+/// Turns the library's marks (0-based, in bytes) into positions (1-based, in characters).
+class Places {
+public:
+    Places(std::shared_ptr<const SourceText> source, std::size_t begin)
+        : source_(std::move(source)), begin_(begin) {
+        starts_.push_back(0);
+        for (std::size_t i = 0; i < source_->text.size(); ++i) {
+            if (source_->text[i] == '\n') starts_.push_back(i + 1);
+        }
+    }
+
+    /// Byte of the text that a mark points to.
+    std::size_t offset(const YAML::Mark& mark) const {
+        const std::string& text = source_->text;
+        if (mark.line < 0 || static_cast<std::size_t>(mark.line) >= starts_.size()) return text.size();
+        const auto line = static_cast<std::size_t>(mark.line);
+        const std::size_t start = line == 0 ? begin_ : starts_[line];
+        return std::min(start + static_cast<std::size_t>(std::max(mark.column, 0)), text.size());
+    }
+
+    SourcePosition at(std::size_t offset, std::size_t length) const {
+        const auto next = std::upper_bound(starts_.begin(), starts_.end(), offset);
+        const std::size_t start = *(next - 1);
+        const std::string_view before = std::string_view(source_->text).substr(start, offset - start);
+        return {source_, static_cast<int>(next - starts_.begin()),
+                static_cast<int>(character_count(before)) + 1,
+                static_cast<int>(std::max<std::size_t>(length, 1))};
+    }
+    SourcePosition at(const YAML::Mark& mark) const { return at(offset(mark), 1); }
+
+    /// The place of a scalar: behind its anchor, underlined to its end on this line.
+    SourcePosition scalar(const YAML::Mark& mark, std::string_view value) const {
+        const std::string_view text = source_->text;
+        std::size_t begin = offset(mark);
+        if (begin < text.size() && text[begin] == '&') {
+            begin = std::min(text.find_first_of(" \t\r\n", begin), text.size());
+            begin = std::min(text.find_first_not_of(" \t\r\n", begin), text.size());
+        }
+        if (begin >= text.size()) return at(begin, 1);
+        const char first = text[begin];
+        if (first == '|' || first == '>') return at(begin, 1);
+        const std::string_view line = text.substr(begin, text.find_first_of("\r\n", begin) - begin);
+        if (first != '"' && first != '\'') {
+            const std::size_t shared = std::min(value.size(), line.size());
+            return at(begin, character_count(line.substr(0, shared)));
+        }
+        std::size_t end = 1;
+        while (end < line.size() && line[end] != first) end += first == '"' && line[end] == '\\' ? 2 : 1;
+        return at(begin, character_count(line.substr(0, end + 1)));
+    }
+
+private:
+    std::shared_ptr<const SourceText> source_;
+    std::size_t begin_;
+    std::vector<std::size_t> starts_;
+};
+
+/// Builds the tree from the parser's events.
+class TreeBuilder : public YAML::EventHandler {
+public:
+    explicit TreeBuilder(const ReadJob& job) : job_(job), places_(job.source, job.begin) {}
+
+    ConfigNode take() { return std::move(root_); }
+    const Places& places() const { return places_; }
+    bool started() const { return started_; }
+    /// Where a second document starts, if there is one.
+    void expect_no_more() { only_document_read_ = true; }
+
+    void OnDocumentStart(const YAML::Mark& mark) override {
+        if (only_document_read_) {
+            fail("config.yaml", places_.at(mark), "malformed YAML: a second document starts here",
+                 "a configuration is one document");
+        }
+        started_ = true;
+    }
+    void OnDocumentEnd() override {}
+
+    void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+        if (expects_key()) {
+            fail("config.yaml", places_.at(mark), "malformed YAML: a key is empty or null",
+                 "write it in quotes");
+        }
+        // An empty value is marked where the next token stands; its key is the better place.
+        const bool in_map = !frames_.empty() && frames_.back().is_map;
+        count(mark);
+        finish(ConfigNode().placed(in_map ? frames_.back().key_position : places_.at(mark)), anchor, 1);
+    }
+
+    void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+        if (expects_key()) fail("config.yaml", places_.at(mark), "malformed YAML: an alias cannot be a key");
+        const auto found = anchors_.find(anchor);
+        if (found == anchors_.end()) {
+            fail("config.yaml", places_.at(mark), "malformed YAML: an alias inside its own anchor");
+        }
+        count(mark, found->second.nodes);
+        if (frames_.size() + found->second.depth > job_.options->max_depth) too_deep(mark);
+        finish(found->second.node, 0, found->second.nodes, found->second.depth);
+    }
+
+    void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  const std::string& value) override {
+        const SourcePosition position = places_.scalar(mark, value);
+        refuse_tag(tag, position);
+        const bool quoted = tag == "!";
+        if (expects_key()) {
+            take_key(value, quoted, position);
+            return;
+        }
+        count(mark);
+        finish(scalar_node(value, quoted, position), anchor, 1);
+    }
+
+    void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                         YAML::EmitterStyle::value style) override {
+        open(mark, tag, anchor, style, false);
+    }
+    void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                    YAML::EmitterStyle::value style) override {
+        open(mark, tag, anchor, style, true);
+    }
+    void OnSequenceEnd() override {
+        Frame frame = std::move(frames_.back());
+        frames_.pop_back();
+        finish(NodeFactory::list(std::move(frame.items), frame.position), frame.anchor, frame.nodes,
+               frame.depth);
+    }
+    void OnMapEnd() override {
+        Frame frame = std::move(frames_.back());
+        frames_.pop_back();
+        finish(NodeFactory::map(std::move(frame.entries), frame.position), frame.anchor, frame.nodes,
+               frame.depth);
+    }
+
+private:
+    struct Frame {
+        bool is_map = false;
+        SourcePosition position;
+        YAML::anchor_t anchor = 0;
+        std::size_t nodes = 1;  ///< in this subtree, aliases expanded
+        std::size_t depth = 1;  ///< of this subtree
+        std::vector<ConfigNode> items;
+        std::vector<ConfigEntry> entries;
+        std::unordered_map<std::string, SourcePosition> seen;
+        bool has_key = false;
+        bool drop_value = false;  ///< of a key that was refused
+        std::string key;
+        SourcePosition key_position;
+    };
+    struct Anchored {
+        ConfigNode node;
+        std::size_t nodes = 1;
+        std::size_t depth = 0;
+    };
+
+    bool expects_key() const { return !frames_.empty() && frames_.back().is_map && !frames_.back().has_key; }
+
+    void refuse_tag(const std::string& tag, const SourcePosition& position) {
+        if (tag.empty() || tag == "?" || tag == "!") return;
+        fail("config.yaml", position, "the YAML tag " + quoted_text(tag) + " is not supported",
+             "write the value alone; quotes make a string");
+    }
+
+    void take_key(const std::string& key, bool quoted, const SourcePosition& position) {
+        Frame& frame = frames_.back();
+        frame.has_key = true;
+        frame.key = key;
+        frame.key_position = position;
+        frame.drop_value = true;
+        if (key == "<<" && !quoted) {
+            job_.diagnostics->error("config.merge_key", position, "the merge key '<<' is not supported",
+                                    "use 'include: FILE' at the top of the file");
+            return;
+        }
+        const auto [first, fresh] = frame.seen.emplace(key, position);
+        if (!fresh) {
+            job_.diagnostics->error("config.duplicate_key", position,
+                                    "duplicate key " + quoted_text(key) + ", first given in line " +
+                                        std::to_string(first->second.line),
+                                    "remove one of the two");
+            return;
+        }
+        frame.drop_value = false;
+    }
+
+    ConfigNode scalar_node(const std::string& value, bool quoted, const SourcePosition& position) {
+        ConfigNode node(value);
+        if (!quoted) {
+            PlainScalar plain = read_plain(value);
+            if (!plain.fault.empty()) {
+                job_.diagnostics->error("config.not_finite", position, plain.fault,
+                                        "write a finite decimal number");
+            }
+            node = std::move(plain.value);
+        }
+        if (node.is_string()) {
+            node = ConfigNode(
+                expand_variables(node.as_string(), position, job_.options->environment, *job_.diagnostics));
+        }
+        return node.placed(position, quoted);
+    }
+
+    void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+              YAML::EmitterStyle::value style, bool is_map) {
+        const SourcePosition position = places_.at(mark);
+        refuse_tag(tag, position);
+        if (expects_key()) {
+            fail("config.yaml", position, "malformed YAML: a list or map cannot be a key",
+                 "text with ${...} or other braces belongs in quotes");
+        }
+        if (job_.flow_only && style == YAML::EmitterStyle::Block) {
+            fail("config.yaml", position, "malformed YAML: expected a scalar, [list] or {map}",
+                 "put text with ': ' or '- ' in quotes");
+        }
+        count(mark);
+        if (frames_.size() >= job_.options->max_depth) too_deep(mark);
+        Frame frame;
+        frame.is_map = is_map;
+        frame.position = position;
+        frame.anchor = anchor;
+        frames_.push_back(std::move(frame));
+    }
+
+    void count(const YAML::Mark& mark, std::size_t nodes = 1) {
+        if (nodes > *job_.nodes_left) {
+            fail("config.too_large", places_.at(mark),
+                 "more than " + std::to_string(job_.options->max_nodes) + " values, aliases expanded");
+        }
+        *job_.nodes_left -= nodes;
+    }
+
+    [[noreturn]] void too_deep(const YAML::Mark& mark) {
+        fail("config.too_deep", places_.at(mark),
+             "lists and maps are nested more than " + std::to_string(job_.options->max_depth) + " deep");
+    }
+
+    void finish(ConfigNode node, YAML::anchor_t anchor, std::size_t nodes, std::size_t depth = 0) {
+        if (anchor != 0) anchors_[anchor] = Anchored{node, nodes, depth};
+        if (frames_.empty()) {
+            root_ = std::move(node);
+            return;
+        }
+        Frame& frame = frames_.back();
+        frame.nodes += nodes;
+        frame.depth = std::max(frame.depth, depth + 1);
+        if (!frame.is_map) {
+            frame.items.push_back(std::move(node));
+            return;
+        }
+        frame.has_key = false;
+        if (!frame.drop_value) frame.entries.emplace_back(frame.key, std::move(node), frame.key_position);
+    }
+
+    const ReadJob& job_;
+    Places places_;
+    std::vector<Frame> frames_;
+    std::unordered_map<YAML::anchor_t, Anchored> anchors_;  // looked up only, never walked
+    ConfigNode root_;
+    bool started_ = false;
+    bool only_document_read_ = false;
+};
+
+/// What usually causes a fault of the syntax at this place.
+std::string syntax_hint(std::string_view line) {
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (line.substr(0, first).find('\t') != std::string_view::npos) return "indent with blanks, not tabs";
+    const std::size_t variable = line.find("${");
+    if (variable != std::string_view::npos &&
+        line.substr(0, variable).find_first_of("\"'") == std::string_view::npos) {
+        return "put text with ${...} in quotes";
+    }
+    return {};
+}
+
+void refuse_non_text(const ReadJob& job, const Places& places) {
+    const std::string& text = job.source->text;
+    const auto bad = first_non_text(std::string_view(text).substr(job.begin));
+    if (!bad) return;
+    const std::size_t offset = job.begin + *bad;
+    constexpr const char* digits = "0123456789abcdef";
+    const auto byte = static_cast<unsigned char>(text[offset]);
+    fail("config.yaml", places.at(offset, 1),
+         std::string("malformed YAML: the byte 0x") + digits[byte >> 4U] + digits[byte & 15U] + " is no text",
+         "a configuration is a text file in UTF-8");
+}
+
+}  // namespace
+
+ConfigNode read_yaml(const ReadJob& job) {
+    TreeBuilder builder(job);
+    refuse_non_text(job, builder.places());
+    std::istringstream stream(job.source->text.substr(job.begin));
+    try {
+        YAML::Parser parser(stream);
+        parser.HandleNextDocument(builder);
+        builder.expect_no_more();
+        parser.HandleNextDocument(builder);
+    } catch (const YAML::Exception& error) {
+        const SourcePosition position = builder.places().at(error.mark);
+        fail("config.yaml", position, "malformed YAML: " + printable(error.msg),
+             syntax_hint(job.source->line(position.line)));
+    }
+    return builder.take();
+}
+
+std::string expand_variables(std::string_view text, const SourcePosition& position,
+                             const Environment& environment, Diagnostics& diagnostics) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        if (text.substr(at, 3) == "$${") {
+            out += "${";
+            at += 3;
+            continue;
+        }
+        if (text.substr(at, 2) != "${") {
+            out += text[at++];
+            continue;
+        }
+        const std::size_t end = text.find('}', at);
+        const std::string name(text.substr(at + 2, end == std::string_view::npos ? end : end - at - 2));
+        const bool is_name =
+            !name.empty() && (name[0] < '0' || name[0] > '9') &&
+            std::all_of(name.begin(), name.end(), [](char c) {
+                return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+            });
+        if (end == std::string_view::npos || !is_name) {
+            diagnostics.error("config.variable", position, "'${' does not start the name of a variable",
+                              "write ${NAME}, or $${ for the characters themselves");
+            return std::string(text);
+        }
+        const std::optional<std::string> value = environment(name);
+        if (!value) {
+            std::vector<std::string> notes;
+            if (name == "DSC_DATA") {
+                notes = {"DSC_DATA is the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj",
+                         "they are public models: the Stanford bunny (graphics.stanford.edu/data/3Dscanrep), "
+                         "the teapot and the cow (the common OBJ test models)"};
+            }
+            diagnostics.error("config.variable", position,
+                              "the environment variable '" + name + "' is not set",
+                              "set it: export " + name + "=...", std::move(notes));
+        } else if (first_non_text(*value)) {
+            diagnostics.error("config.variable", position,
+                              "the environment variable '" + name + "' holds bytes that are no text");
+        } else {
+            out += *value;
+        }
+        at = end + 1;
+    }
+    return out;
+}
+
+}  // namespace dsc::config
