@@ -49,8 +49,9 @@ inline constexpr std::size_t cloud_probes = 2000;
 
 /// First line of metrics.csv for rows like `row`, with its newline.
 std::string csv_header(const StepMetrics& row);
-/// The row, numbers in the shortest form that reads back to the same double, with its newline.
-std::string csv_row(const StepMetrics& row);
+/// The row, numbers in the shortest form that reads back to the same double, with its newline. Missing figures of
+/// observers, as in row 0, become empty cells up to `observer_columns`.
+std::string csv_row(const StepMetrics& row, std::size_t observer_columns = 0);
 /// A line of events.jsonl: place and volume in the input's units, with its newline.
 std::string event_line(const kernel::Event& event, const cloud::Transform& to_normalised);
 
@@ -88,6 +89,8 @@ struct RunTotals {
     std::vector<std::pair<std::string, hooks::Figures>> observers;  ///< by observer id, from its end()
 
     void add(const kernel::StepReport& report);
+    /// One more event, of those that no step reports.
+    void count(kernel::Event::Kind kind);
     /// Refused operations by reason, over all operations.
     std::uint64_t refused(mesh::Refusal reason) const;
 };

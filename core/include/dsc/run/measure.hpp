@@ -40,7 +40,7 @@ struct VolumeMeasure {
     Box3 box;
     std::map<mesh::Label, std::size_t> label_tets;
     std::map<mesh::Label, double> label_volumes;
-    surface::TriangleMesh interface;   ///< label interface, empty for a mesh with faults
+    surface::TriangleMesh interface;   ///< label interface, empty for a mesh with faults of its tets
     SurfaceMeasure interface_measure;
 
     /// Every face has one tet or two on opposite sides.
@@ -51,8 +51,8 @@ struct VolumeMeasure {
     bool solid() const { return adjacency_valid() && inverted_tets == 0 && tets > 0 && interface_measure.solid(); }
 };
 
-/// [step]
-VolumeMeasure measure(const mesh::TetMesh& mesh, Workers* workers = nullptr);
+/// `with_interface` false: the interface is neither extracted nor measured. [step]
+VolumeMeasure measure(const mesh::TetMesh& mesh, Workers* workers = nullptr, bool with_interface = true);
 
 /// Whether two meshes have the same points and faces, bit for bit and in the same order. [parallel]
 bool identical(const surface::TriangleMesh& a, const surface::TriangleMesh& b);

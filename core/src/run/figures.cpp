@@ -1,0 +1,121 @@
+#include <array>
+#include <charconv>
+#include <dsc/run/figures.hpp>
+
+namespace dsc::run {
+namespace {
+
+std::string number(double value) {
+    std::array<char, 32> buffer{};
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+    return std::string(buffer.data(), end);
+}
+
+std::string number(const std::optional<double>& value) { return value ? number(*value) : std::string(); }
+
+}  // namespace
+
+std::string_view name(Status status) {
+    switch (status) {
+        case Status::converged: return "converged";
+        case Status::max_steps: return "max_steps";
+        case Status::stalled: return "stalled";
+        case Status::cancelled: return "cancelled";
+    }
+    return "cancelled";
+}
+
+std::string csv_header(const StepMetrics& row) {
+    std::string text =
+        "step,interface_vertices,interface_faces,tets,mean_edge,mean_speed,max_speed,vertex_to_cloud_mean,"
+        "vertex_to_cloud_max,cloud_to_surface_mean,volume,min_tet_quality,rounds,requested,arrived,clamped,"
+        "dropped_motion,edit_volume,relabelled_volume,committed,events";
+    for (const auto& [figure, value] : row.observers) text += "," + figure;
+    return text + "\n";
+}
+
+std::string csv_row(const StepMetrics& row, std::size_t observer_columns) {
+    std::string text;
+    const auto integer = [&](std::uint64_t value) { text += (text.empty() ? "" : ",") + std::to_string(value); };
+    const auto real = [&](const auto& value) { text += "," + number(value); };
+    integer(row.step);
+    integer(row.interface_vertices);
+    integer(row.interface_faces);
+    integer(row.tets);
+    real(row.mean_edge);
+    real(row.mean_speed);
+    real(row.max_speed);
+    real(row.vertex_to_cloud_mean);
+    real(row.vertex_to_cloud_max);
+    real(row.cloud_to_surface_mean);
+    real(row.volume);
+    real(row.min_tet_quality);
+    integer(row.rounds);
+    integer(row.requested);
+    integer(row.arrived);
+    integer(row.clamped);
+    real(row.dropped_motion);
+    real(row.edit_volume);
+    real(row.relabelled_volume);
+    integer(row.committed);
+    integer(row.events);
+    for (const auto& [figure, value] : row.observers) real(value);
+    for (std::size_t i = row.observers.size(); i < observer_columns; ++i) text += ",";
+    return text + "\n";
+}
+
+std::string event_line(const kernel::Event& event, const cloud::Transform& to_normalised) {
+    const Vec3 place = to_normalised.inverse(event.place);
+    const double scale = to_normalised.scale;
+    std::string text = "{\"kind\":\"" + std::string(kernel::name(event.kind)) + "\"";
+    text += ",\"step\":" + std::to_string(event.step);
+    text += ",\"place\":[" + number(place.x()) + "," + number(place.y()) + "," + number(place.z()) + "]";
+    text += ",\"label\":" + std::to_string(event.label);
+    text += ",\"tets\":" + std::to_string(event.tets);
+    text += ",\"volume\":" + number(event.volume / (scale * scale * scale));
+    text += ",\"thickness\":" + number(event.thickness);
+    return text + "}\n";
+}
+
+void RunTotals::add(const kernel::StepReport& report) {
+    ++steps;
+    rounds += report.rounds;
+    requested += report.requested;
+    arrived += report.arrived;
+    clamped += report.clamped;
+    dropped_motion += report.dropped_motion;
+    edit_distance += report.edit_distance;
+    edit_volume += report.edit_volume;
+    relabelled_volume += report.relabelled_volume;
+    for (std::size_t i = 0; i < operations.size(); ++i) operations[i] += report.operations[i];
+    events.merge += report.event_counts.merge;
+    events.split += report.event_counts.split;
+    events.handle_opened += report.event_counts.handle_opened;
+    events.handle_closed += report.event_counts.handle_closed;
+    events.vanished += report.event_counts.vanished;
+    events.born += report.event_counts.born;
+    events.unpinched += report.event_counts.unpinched;
+    seconds.move += report.move_seconds;
+    seconds.improve += report.repair_seconds;
+}
+
+void RunTotals::count(kernel::Event::Kind kind) {
+    using Kind = kernel::Event::Kind;
+    switch (kind) {
+        case Kind::merge: ++events.merge; break;
+        case Kind::split: ++events.split; break;
+        case Kind::handle_opened: ++events.handle_opened; break;
+        case Kind::handle_closed: ++events.handle_closed; break;
+        case Kind::vanished: ++events.vanished; break;
+        case Kind::born: ++events.born; break;
+        case Kind::unpinched: ++events.unpinched; break;
+    }
+}
+
+std::uint64_t RunTotals::refused(mesh::Refusal reason) const {
+    std::uint64_t sum = 0;
+    for (const kernel::OperationCounts& counts : operations) sum += counts.refused[static_cast<std::size_t>(reason)];
+    return sum;
+}
+
+}  // namespace dsc::run

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <dsc/geometry/predicates.hpp>
+#include <dsc/geometry/quality.hpp>
+#include <dsc/mesh/complex.hpp>
+#include <dsc/run/measure.hpp>
+#include <dsc/surface/surface_view.hpp>
+
+namespace dsc::run {
+namespace {
+
+using TetCorners = std::array<std::uint32_t, 4>;
+
+bool sound(const mesh::TetMesh& mesh, const TetCorners& tet) {
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (tet[i] >= mesh.points.size() || !mesh.points[tet[i]].allFinite()) return false;
+        for (std::size_t j = 0; j < i; ++j) {
+            if (tet[i] == tet[j]) return false;
+        }
+    }
+    return true;
+}
+
+/// A tet's face: its vertices in ascending order and the vertex opposite.
+struct FaceUse {
+    std::array<std::uint32_t, 3> key;
+    std::uint32_t apex;
+    bool operator<(const FaceUse& other) const { return key < other.key; }
+};
+
+/// Counts faces by the number and the sides of their tets.
+void count_faces(const mesh::TetMesh& mesh, const std::vector<char>& valid, VolumeMeasure& measure) {
+    std::vector<FaceUse> uses;
+    uses.reserve(4 * mesh.tets.size());
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        if (!valid[t]) continue;
+        const TetCorners& tet = mesh.tets[t];
+        for (std::size_t face = 0; face < 4; ++face) {
+            std::array<std::uint32_t, 3> key{};
+            for (std::size_t i = 0; i < 3; ++i) key[i] = tet[mesh::face_vertices[face][i]];
+            std::sort(key.begin(), key.end());
+            uses.push_back({key, tet[face]});
+        }
+    }
+    std::stable_sort(uses.begin(), uses.end());
+    for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+        end = begin + 1;
+        while (end < uses.size() && uses[end].key == uses[begin].key) ++end;
+        if (end - begin == 1) {
+            ++measure.boundary_faces;
+        } else if (end - begin > 2) {
+            ++measure.overused_faces;
+        } else {
+            const auto& [a, b, c] = uses[begin].key;
+            const auto side = [&](std::size_t use) {
+                return geometry::orient3d(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[uses[use].apex]);
+            };
+            if (side(begin) * side(begin + 1) >= 0) ++measure.folded_faces;
+        }
+    }
+}
+
+}  // namespace
+
+SurfaceMeasure measure(const surface::TriangleMesh& mesh, Workers* workers) {
+    SurfaceMeasure result;
+    result.report = surface::analyse(mesh);
+    if (result.report.invalid_faces == 0) result.intersections = surface::self_intersections(mesh, 16, workers);
+    return result;
+}
+
+bool VolumeMeasure::fills_box() const {
+    return box_volume > 0.0 && std::abs(volume - box_volume) <= 1e-9 * box_volume;
+}
+
+VolumeMeasure measure(const mesh::TetMesh& mesh, Workers* workers, bool with_interface) {
+    VolumeMeasure result;
+    result.points = mesh.points.size();
+    result.tets = mesh.tets.size();
+    std::vector<char> used(mesh.points.size(), 0);
+    std::vector<char> valid(mesh.tets.size(), 0);
+    double quality_sum = 0.0;
+    result.min_quality = mesh.tets.empty() ? 0.0 : 1.0;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const TetCorners& tet = mesh.tets[t];
+        if (!sound(mesh, tet)) {
+            ++result.invalid_tets;
+            continue;
+        }
+        valid[t] = 1;
+        const auto& [a, b, c, d] = tet;
+        const Vec3 &pa = mesh.points[a], &pb = mesh.points[b], &pc = mesh.points[c], &pd = mesh.points[d];
+        for (const std::uint32_t v : tet) {
+            used[v] = 1;
+            result.box.extend(mesh.points[v]);
+        }
+        if (geometry::orient3d(pa, pb, pc, pd) != 1) ++result.inverted_tets;
+        const double quality = geometry::tet_quality(pa, pb, pc, pd);
+        const double volume = geometry::tet_volume(pa, pb, pc, pd);
+        result.min_quality = std::min(result.min_quality, quality);
+        quality_sum += quality;
+        result.volume += volume;
+        if (t < mesh.labels.size()) {
+            ++result.label_tets[mesh.labels[t]];
+            result.label_volumes[mesh.labels[t]] += volume;
+        }
+    }
+    result.unused_points = static_cast<std::size_t>(std::count(used.begin(), used.end(), 0));
+    const std::size_t counted = result.tets - result.invalid_tets;
+    result.mean_quality = counted == 0 ? 0.0 : quality_sum / static_cast<double>(counted);
+    result.box_volume = result.box.empty() ? 0.0 : result.box.size().prod();
+    count_faces(mesh, valid, result);
+    if (with_interface && result.adjacency_valid() && mesh.labels.size() == mesh.tets.size()) {
+        result.interface = surface::extract_interface(mesh);
+        result.interface_measure = measure(result.interface, workers);
+    }
+    return result;
+}
+
+bool identical(const surface::TriangleMesh& a, const surface::TriangleMesh& b) {
+    if (a.points.size() != b.points.size() || a.faces != b.faces) return false;
+    for (std::size_t i = 0; i < a.points.size(); ++i) {
+        if (std::memcmp(a.points[i].data(), b.points[i].data(), 3 * sizeof(double)) != 0) return false;
+    }
+    return true;
+}
+
+}  // namespace dsc::run

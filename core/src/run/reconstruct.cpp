@@ -1,0 +1,2 @@
+#include <dsc/cloud/normalize.hpp>
+#include <dsc/run/reconstruct.hpp>

@@ -1,0 +1,78 @@
+#include <array>
+#include <dsc/base/error.hpp>
+#include <dsc/io/atomic_file.hpp>
+#include <dsc/run/run_folder.hpp>
+#include <nlohmann/json.hpp>
+
+namespace dsc::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a run writes. Those that look like a result come first.
+constexpr std::array result_names = {"result", ".result.part", "summary.json", "preview.png", "report.html", "series"};
+constexpr std::array other_names = {"metrics.csv", "events.jsonl", "config.resolved.yaml", "provenance.json",
+                                    "checkpoint"};
+
+[[noreturn]] void cannot(const fs::path& folder, const char* what, const std::error_code& error) {
+    throw IoError("run.folder", folder.string(), "", std::string(what) + ": " + error.message(),
+                  "choose another folder with -o or make this one writable");
+}
+
+void discard(const fs::path& path) {
+    std::error_code error;
+    fs::remove_all(path, error);
+    if (error) cannot(path, "cannot be removed", error);
+}
+
+}  // namespace
+
+bool RunFolder::is_ours(const fs::path& folder) {
+    std::ifstream file(folder / "status.json");
+    if (!file) return false;
+    const nlohmann::json status = nlohmann::json::parse(file, nullptr, false);
+    return status.is_object() && status.value("format", "") == "dsc-run-1";
+}
+
+RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
+    std::error_code error;
+    const fs::file_status status = fs::status(folder_, error);
+    if (fs::exists(status) && !fs::is_directory(status)) {
+        throw UsageError("run.folder", folder_.string() + " is a file; name a folder with -o");
+    }
+    if (fs::is_directory(status)) {
+        const bool empty = fs::is_empty(folder_, error);
+        if (error) cannot(folder_, "cannot be read", error);
+        if (!empty && !is_ours(folder_)) {
+            throw UsageError("run.folder", folder_.string() +
+                                               " is not empty and no run wrote it; nothing in it was changed; name "
+                                               "another folder with -o or empty it");
+        }
+    }
+    fs::create_directories(folder_, error);
+    if (error) cannot(folder_, "cannot be made", error);
+    remove_results();
+    for (const char* name : other_names) discard(folder_ / name);
+}
+
+void RunFolder::write(std::string_view name, std::string_view content) const { io::write_file(file(name), content); }
+
+void RunFolder::open_staging() const {
+    discard(staging());
+    std::error_code error;
+    fs::create_directory(staging(), error);
+    if (error) cannot(staging(), "cannot be made", error);
+}
+
+void RunFolder::publish_results() const {
+    discard(file("result"));
+    std::error_code error;
+    fs::rename(staging(), file("result"), error);
+    if (error) cannot(file("result"), "cannot be made", error);
+}
+
+void RunFolder::remove_results() const {
+    for (const char* name : result_names) discard(folder_ / name);
+}
+
+}  // namespace dsc::run

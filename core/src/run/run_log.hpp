@@ -1,0 +1,34 @@
+#pragma once
+// The tables that a run writes while it goes on: metrics.csv and events.jsonl.
+
+#include <dsc/run/figures.hpp>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+
+namespace dsc::run {
+
+/// Every row is flushed, so that a reader may follow the run. Throws IoError "io.write".
+class RunLog {
+public:
+    RunLog(const std::filesystem::path& folder, const cloud::Transform& to_normalised);
+
+    void add(const StepMetrics& row);
+    void add(const kernel::Event& event);
+    /// Writes what still waits and closes the files.
+    void close();
+
+private:
+    void write(std::ofstream& stream, const std::filesystem::path& file, const std::string& text);
+
+    std::filesystem::path metrics_file_;
+    std::filesystem::path events_file_;
+    std::ofstream metrics_;
+    std::ofstream events_;
+    cloud::Transform to_normalised_;
+    std::optional<StepMetrics> waiting_;  // row 0, until the first step tells which figures the observers have
+    std::optional<std::size_t> columns_;
+};
+
+}  // namespace dsc::run

@@ -1,0 +1,233 @@
+#include <dsc/base/error.hpp>
+#include <dsc/base/log.hpp>
+#include <dsc/geometry/quality.hpp>
+#include <dsc/io/picture.hpp>
+#include <dsc/io/read.hpp>
+#include <dsc/io/write.hpp>
+#include <dsc/run/provenance.hpp>
+#include <dsc/run/run_folder.hpp>
+#include <dsc/run/runner.hpp>
+#include <dsc/surface/surface_view.hpp>
+
+#include <algorithm>
+
+#include "run_log.hpp"
+#include "stopwatch.hpp"
+#include "summary.hpp"
+
+namespace dsc::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Writes the result into the staging folder and measures it as it stands on the disk.
+class ResultFiles {
+public:
+    ResultFiles(const RunFolder& folder, const Output& output, Workers& workers)
+        : folder_(folder), output_(output), workers_(workers) {}
+
+    void write(const mesh::TetMesh& mesh, RunOutcome& outcome) const {
+        folder_.open_staging();
+        const surface::TriangleMesh surface = surface::extract_interface(mesh);
+        if (surface.faces.empty()) {
+            throw GeometryError("run.vanished",
+                                "the surface vanished: no tet with a label above 0 is left, so there is no result; make the "
+                                "steps smaller or stop earlier");
+        }
+        for (const std::string& extension : output_.surface) {
+            io::write_surface(staged("surface.", extension), surface);
+            outcome.surfaces.push_back(folder_.file("result") / ("surface." + extension));
+        }
+        for (const std::string& extension : output_.volume) {
+            io::write_volume(staged("volume.", extension), mesh);
+            outcome.volumes.push_back(folder_.file("result") / ("volume." + extension));
+        }
+    }
+
+    void measure_files(RunOutcome& outcome) const {
+        const mesh::TetMesh volume = io::read_volume(staged("volume.", preferred(output_.volume, {"dsc", "vtu"})));
+        const surface::TriangleMesh surface =
+            io::read_surface(staged("surface.", preferred(output_.surface, {"obj", "ply", "off", "stl"})));
+        outcome.surface = measure(surface, &workers_);
+        outcome.volume = measure(volume, &workers_, false);
+        outcome.volume.interface = surface::extract_interface(volume);
+        outcome.conforms = true;
+        for (const std::string& extension : output_.surface) {
+            if (extension == "stl") continue;  // holds floats
+            outcome.conforms = outcome.conforms && identical(io::read_surface(staged("surface.", extension)),
+                                                             outcome.volume.interface);
+        }
+        outcome.volume.interface_measure = outcome.surface;
+    }
+
+private:
+    fs::path staged(const char* stem, const std::string& extension) const { return folder_.staging() / (stem + extension); }
+
+    static std::string preferred(const std::vector<std::string>& given, std::initializer_list<const char*> order) {
+        for (const char* extension : order) {
+            if (std::find(given.begin(), given.end(), extension) != given.end()) return extension;
+        }
+        return given.front();
+    }
+
+    const RunFolder& folder_;
+    const Output& output_;
+    Workers& workers_;
+};
+
+void require_valid(const RunOutcome& outcome) {
+    const VolumeMeasure& v = outcome.volume;
+    if (v.inverted_tets == 0 && v.adjacency_valid() && outcome.conforms) return;
+    throw GeometryError("run.invalid_result",
+                        "the result as written is not valid: " + std::to_string(v.inverted_tets) + " inverted tets, " +
+                            std::to_string(v.overused_faces + v.folded_faces) + " wrong faces, the surface is " +
+                            (outcome.conforms ? "" : "not ") +
+                            "the interface of the volume; if the coordinates are huge, move the input nearer to the origin");
+}
+
+fs::path folder_of(const LoadedExperiment& loaded, const std::string& hash) {
+    return fs::path("runs") / loaded.experiment.name / hash.substr(0, 12);
+}
+
+void draw(const RunFolder& folder, const surface::TriangleMesh& surface, Workers& workers) {
+    io::RenderOptions options;
+    options.workers = &workers;
+    io::write_png(folder.file("preview.png"), io::render(surface, options));
+}
+
+/// Everything between "running" and "done" in status.json.
+class Job {
+public:
+    Job(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue, const RunOptions& options)
+        : loaded_(loaded), catalogue_(catalogue), options_(options), workers_(std::max(1U, options.threads)) {}
+
+    RunOutcome run() {
+        state_.state = "running";
+        state_.started = utc_now();
+        state_.hash = config_hash(loaded_, catalogue_);
+        Strategies strategies = make_strategies(loaded_.experiment, catalogue_);
+        const RunFolder folder(options_.folder.empty() ? folder_of(loaded_, state_.hash) : options_.folder);
+        folder.write("status.json", status_json(state_));
+        try {
+            RunOutcome outcome = work(folder, strategies);
+            state_.finished = utc_now();
+            state_.state = outcome.totals.status == Status::cancelled ? "stopped" : "done";
+            state_.exit_code = static_cast<int>(state_.state == "done" ? ExitCode::ok : ExitCode::stopped);
+            state_.totals = outcome.totals;
+            folder.write("provenance.json", provenance(state_.finished));
+            folder.write("status.json", status_json(state_));
+            return outcome;
+        } catch (const Error& error) {
+            fail(folder, static_cast<int>(error.exit_code()), error.code(), error.what());
+            throw;
+        } catch (const std::exception& error) {
+            fail(folder, static_cast<int>(ExitCode::internal), "internal", error.what());
+            throw;
+        }
+    }
+
+private:
+    RunOutcome work(const RunFolder& folder, Strategies& strategies) {
+        const Experiment& experiment = loaded_.experiment;
+        folder.write("config.resolved.yaml", resolved_text(loaded_));
+        folder.write("provenance.json", provenance(""));
+        std::optional<LoadedInput> input;
+        if (experiment.input) {
+            input = load_input(*experiment.input, experiment.seed);
+            report_input(input->report);
+        }
+        const cloud::TargetCloud* target = input ? &input->target : nullptr;
+        const cloud::Transform to_normalised = target != nullptr ? target->transform() : cloud::Transform{};
+
+        RunLog run_log(folder.path(), to_normalised);
+        DriveOptions drive_options;
+        drive_options.workers = &workers_;
+        drive_options.cancel = options_.cancel;
+        if (options_.time_budget) {
+            drive_options.out_of_time = [this] { return watch_.seconds() > *options_.time_budget; };
+        }
+        drive_options.on_step = [&](const StepMetrics& row, std::uint64_t planned) {
+            run_log.add(row);
+            if (options_.on_step) options_.on_step(row, planned);
+        };
+        drive_options.on_event = [&](const kernel::Event& event) { run_log.add(event); };
+        DriveResult driven = drive(experiment, strategies, target, drive_options);
+        run_log.close();
+
+        RunOutcome outcome;
+        outcome.folder = folder.path();
+        outcome.totals = driven.totals;
+        const Stopwatch io_watch;
+        const ResultFiles files(folder, experiment.output, workers_);
+        files.write(to_input(driven.mesh, to_normalised), outcome);
+        files.measure_files(outcome);
+        require_valid(outcome);
+        draw(folder, outcome.volume.interface, workers_);
+        outcome.picture = folder.file("preview.png");
+        std::optional<surface::CloudEvaluation> distances;
+        if (target != nullptr) distances = surface::evaluate_cloud(driven.surface, target->points(), &workers_);
+        outcome.totals.seconds.io = io_watch.seconds();
+        folder.publish_results();
+        folder.write("summary.json",
+                     summary_json({loaded_, state_.hash, outcome.totals, input ? &*input : nullptr, distances,
+                                   outcome.surface, outcome.volume, outcome.conforms, to_normalised, watch_.seconds(),
+                                   process_usage()}));
+        return outcome;
+    }
+
+    std::string provenance(const std::string& finished) const {
+        return provenance_json(loaded_, catalogue_, state_.hash, options_.command, workers_.threads(), state_.started,
+                               finished);
+    }
+
+    static void report_input(const InputReport& report) {
+        std::string text = report.source + ": " + std::to_string(report.points) + " points";
+        if (report.dropped > 0) text += ", " + std::to_string(report.dropped) + " with NaN or infinity dropped";
+        for (const cloud::FilterReport& filter : report.filters) {
+            text += ", " + filter.filter + " removed " + std::to_string(filter.removed);
+        }
+        log(report.dropped > 0 ? LogLevel::warning : LogLevel::info, text);
+    }
+
+    /// The folder tells of the failure and holds nothing that looks like a result. The first error counts: what goes
+    /// wrong here (a full disk, say) must not hide it.
+    void fail(const RunFolder& folder, int exit_code, const std::string& code, const std::string& message) {
+        state_.state = "failed";
+        state_.finished = utc_now();
+        state_.exit_code = exit_code;
+        state_.error_code = code;
+        state_.error = message;
+        try {
+            folder.remove_results();
+            folder.write("status.json", status_json(state_));
+        } catch (const std::exception& second) {
+            log(LogLevel::warning, second.what());
+        }
+    }
+
+    const LoadedExperiment& loaded_;
+    const plugin::Catalogue& catalogue_;
+    const RunOptions& options_;
+    Workers workers_;
+    Stopwatch watch_;
+    RunState state_;
+};
+
+}  // namespace
+
+RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue, const RunOptions& options) {
+    return Job(loaded, catalogue, options).run();
+}
+
+fs::path default_folder(const LoadedExperiment& loaded, const config::StrategyLookup& lookup) {
+    return folder_of(loaded, config_hash(loaded, lookup));
+}
+
+mesh::TetMesh to_input(const mesh::TetMesh& mesh, const cloud::Transform& to_normalised) {
+    mesh::TetMesh result = mesh;
+    if (to_normalised.identity()) return result;
+    for (Vec3& p : result.points) p = to_normalised.inverse(p);
+    return result;
+}
+
+}  // namespace dsc::run

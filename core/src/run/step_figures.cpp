@@ -1,0 +1,74 @@
+#include "step_figures.hpp"
+
+#include <algorithm>
+#include <dsc/surface/distance.hpp>
+
+namespace dsc::run {
+namespace {
+
+constexpr std::size_t block = 256;
+
+/// value(i) for all i, computed in blocks; sums are then taken in order, so threads do not matter.
+template <class Value>
+std::vector<double> table(std::size_t count, Workers& workers, const Value& value) {
+    std::vector<double> values(count);
+    workers.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) values[i] = value(i);
+    });
+    return values;
+}
+
+double mean(const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+double enclosed_volume(const mesh::Complex& complex, const surface::SurfaceView& view) {
+    double sum = 0.0;
+    for (std::size_t f = 0; f < view.face_count(); ++f) {
+        const auto& [a, b, c] = view.faces[f];
+        const mesh::TetId t = view.face_tets[f];
+        const mesh::Tet& tet = complex.tet(t);
+        unsigned face = 0;
+        for (; face < 3; ++face) {
+            const mesh::VertexId apex = tet.v[face];
+            if (apex != view.vertex_ids[a] && apex != view.vertex_ids[b] && apex != view.vertex_ids[c]) break;
+        }
+        // Between two labels above 0 nothing ends.
+        if (std::min(complex.label(t), complex.label_across(t, face)) > 0) continue;
+        sum += view.positions[a].dot(view.positions[b].cross(view.positions[c]));
+    }
+    return sum / 6.0;
+}
+
+void measure_state(const mesh::Complex& complex, const surface::SurfaceView& view, const cloud::TargetCloud* cloud,
+                   Workers& workers, StepMetrics& row) {
+    row.interface_vertices = view.vertex_count();
+    row.interface_faces = view.face_count();
+    row.tets = complex.tet_count();
+    row.mean_edge = view.mean_edge;
+    row.volume = enclosed_volume(complex, view);
+    float quality = 1.0F;
+    for (mesh::TetId t = 0; t < complex.tet_slots(); ++t) {
+        if (complex.tet_alive(t)) quality = std::min(quality, complex.quality(t));
+    }
+    row.min_tet_quality = static_cast<double>(quality);
+    if (cloud == nullptr || view.face_count() == 0) return;
+
+    const std::vector<double> to_cloud = table(view.vertex_count(), workers, [&](std::size_t i) {
+        return cloud->search().nearest(view.positions[i]).distance;
+    });
+    row.vertex_to_cloud_mean = mean(to_cloud);
+    row.vertex_to_cloud_max = *std::max_element(to_cloud.begin(), to_cloud.end());
+
+    const surface::TriangleTree tree(surface::TriangleMesh{view.positions, view.faces});
+    const std::size_t probes = std::min(cloud->size(), cloud_probes);
+    row.cloud_to_surface_mean = mean(table(probes, workers, [&](std::size_t i) {
+        return tree.nearest((*cloud)[i * cloud->size() / probes]).distance;
+    }));
+}
+
+}  // namespace dsc::run

@@ -1,0 +1,152 @@
+#include "summary.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace dsc::run {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+ordered_json distances(const std::optional<surface::CloudEvaluation>& figures, bool vertices) {
+    if (!figures) return nullptr;
+    const surface::DistanceFigures& f = vertices ? figures->vertex_to_cloud : figures->cloud_to_surface;
+    ordered_json json = {{"mean", f.mean}};
+    if (vertices) json["min"] = f.min;
+    json["max"] = f.max;
+    return json;
+}
+
+ordered_json events(const RunTotals& totals) {
+    const mesh::EventCounts& e = totals.events;
+    return {{"merge", e.merge},
+            {"split", e.split},
+            {"handle_opened", e.handle_opened},
+            {"handle_closed", e.handle_closed},
+            {"vanished", e.vanished},
+            {"born", e.born},
+            {"unpinched", e.unpinched + totals.adopted.unpinched_vertices}};
+}
+
+ordered_json operations(const RunTotals& totals) {
+    ordered_json table = ordered_json::object();
+    for (std::size_t i = 0; i < totals.operations.size(); ++i) {
+        const kernel::OperationCounts& counts = totals.operations[i];
+        ordered_json row = {{"tried", counts.tried}, {"committed", counts.committed}};
+        for (std::size_t r = 1; r < counts.refused.size(); ++r) {
+            if (counts.refused[r] > 0) row[std::string(mesh::name(static_cast<mesh::Refusal>(r)))] = counts.refused[r];
+        }
+        table[std::string(mesh::name(static_cast<mesh::Operation>(i)))] = row;
+    }
+    return table;
+}
+
+ordered_json input(const LoadedInput* loaded) {
+    if (loaded == nullptr) return nullptr;
+    const InputReport& report = loaded->report;
+    ordered_json filters = ordered_json::array();
+    for (const cloud::FilterReport& f : report.filters) {
+        filters.push_back({{"type", f.filter}, {"kept", f.kept}, {"removed", f.removed}});
+    }
+    return {{"source", report.source},   {"format", report.format}, {"points", report.points},
+            {"dropped", report.dropped}, {"filters", filters},      {"used", report.used},
+            {"diagonal", report.diagonal}};
+}
+
+ordered_json observers(const RunTotals& totals) {
+    ordered_json all = ordered_json::object();
+    for (const auto& [id, figures] : totals.observers) {
+        for (const auto& [figure, value] : figures) all[id][figure] = value;
+    }
+    return all;
+}
+
+}  // namespace
+
+std::string summary_json(const SummaryParts& parts) {
+    const RunTotals& totals = parts.totals;
+    const surface::SurfaceReport& s = parts.surface.report;
+    const double scale = parts.to_normalised.scale;
+    const ordered_json root = {
+        {"format", "dsc-summary-1"},
+        {"name", parts.loaded.experiment.name},
+        {"config_sha256", parts.hash},
+        {"status", std::string(name(totals.status))},
+        {"steps", totals.steps},
+        {"interface_vertices", s.vertices},
+        {"interface_faces", s.faces},
+        {"tets", parts.volume.tets},
+        {"min_tet_quality", parts.volume.min_quality},
+        {"inverted_tets", parts.volume.inverted_tets},
+        {"components", s.components},
+        {"genus", s.genus},
+        {"boundary_edges", s.boundary_edges},
+        {"nonmanifold_edges", s.nonmanifold_edges},
+        {"nonmanifold_vertices", s.nonmanifold_vertices},
+        {"self_intersections", parts.surface.intersections.count},
+        {"volume", s.volume},
+        {"volume_initial", totals.volume_initial / (scale * scale * scale)},
+        {"shells", s.shells},
+        {"cavities", s.cavities},
+        {"surface_is_interface_of_volume", parts.conforms},
+        {"events", events(totals)},
+        {"target_length", totals.target_length},
+        {"clamped", totals.clamped},
+        {"dropped_motion", totals.dropped_motion},
+        {"edit_volume", totals.edit_volume},
+        {"relabelled_volume", totals.relabelled_volume},
+        {"rounds", totals.rounds},
+        {"refused",
+         {{"irregular", totals.refused(mesh::Refusal::irregular)},
+          {"quality", totals.refused(mesh::Refusal::quality)},
+          {"bound", totals.refused(mesh::Refusal::bound)},
+          {"box", totals.refused(mesh::Refusal::box)}}},
+        {"vertex_to_cloud", distances(parts.distances, true)},
+        {"cloud_to_surface", distances(parts.distances, false)},
+        {"units",
+         "volume and volume_initial: units of the input, cubed; every other length and volume: normalised units, "
+         "(input - centre) * scale"},
+        {"to_normalised", {{"centre", point(parts.to_normalised.centre)}, {"scale", scale}}},
+        {"input", input(parts.input)},
+        {"adopted",
+         {{"reoriented_tets", totals.adopted.reoriented_tets},
+          {"dropped_vertices", totals.adopted.dropped_vertices},
+          {"unpinched_vertices", totals.adopted.unpinched_vertices},
+          {"vanished_components", totals.adopted.vanished_components}}},
+        {"refinements",
+         {{"calls", totals.refinements}, {"requested", totals.refine_requested}, {"committed", totals.refine_committed}}},
+        {"operations", operations(totals)},
+        {"observers", observers(totals)},
+        {"wall_s", parts.wall_seconds},
+        {"cpu_s", parts.usage.cpu_seconds},
+        {"peak_rss_mb", parts.usage.peak_rss_mb},
+        {"phase_s",
+         {{"velocity", totals.seconds.velocity},
+          {"move", totals.seconds.move},
+          {"improve", totals.seconds.improve},
+          {"refine", totals.seconds.refine},
+          {"measure", totals.seconds.measure},
+          {"io", totals.seconds.io}}}};
+    return root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string status_json(const RunState& state) {
+    ordered_json root = {{"format", "dsc-run-1"},
+                         {"state", state.state},
+                         {"config_sha256", state.hash},
+                         {"started", state.started},
+                         {"finished", state.finished.empty() ? ordered_json() : ordered_json(state.finished)}};
+    if (state.totals) {
+        root["status"] = std::string(name(state.totals->status));
+        root["steps"] = state.totals->steps;
+    }
+    if (state.state != "running") root["exit_code"] = state.exit_code;
+    if (!state.error_code.empty()) {
+        root["error_code"] = state.error_code;
+        root["error"] = state.error;
+    }
+    return root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace dsc::run

@@ -1,0 +1,43 @@
+#pragma once
+// The texts of summary.json and status.json.
+
+#include <dsc/run/driver.hpp>
+#include <dsc/run/input.hpp>
+#include <dsc/run/measure.hpp>
+#include <dsc/run/provenance.hpp>
+#include <dsc/surface/distance.hpp>
+#include <optional>
+#include <string>
+
+namespace dsc::run {
+
+/// All that summary.json reports.
+struct SummaryParts {
+    const LoadedExperiment& loaded;
+    const std::string& hash;
+    const RunTotals& totals;
+    const LoadedInput* input;                                ///< null without a cloud
+    const std::optional<surface::CloudEvaluation>& distances;  ///< normalised units
+    const SurfaceMeasure& surface;
+    const VolumeMeasure& volume;
+    bool conforms;
+    cloud::Transform to_normalised;
+    double wall_seconds;
+    Usage usage;
+};
+std::string summary_json(const SummaryParts& parts);
+
+/// What status.json says.
+struct RunState {
+    std::string state;  ///< running, done, stopped, failed
+    std::string hash;
+    std::string started;
+    std::string finished;             ///< empty while running
+    std::optional<RunTotals> totals;  ///< of a run that ended by itself
+    int exit_code = 0;
+    std::string error_code;
+    std::string error;
+};
+std::string status_json(const RunState& state);
+
+}  // namespace dsc::run
