@@ -48,31 +48,36 @@ missing_packages() {
 
 apt() {
     local prefix=()
-    if [ "$(id -u)" != 0 ]; then
-        command -v sudo >/dev/null || fail 1 "installing needs root and there is no sudo; as root: apt-get $*"
-        prefix=(sudo)
-    fi
+    [ "$(id -u)" = 0 ] || prefix=(sudo)
     "${prefix[@]}" env DEBIAN_FRONTEND=noninteractive apt-get "$@"
 }
 
 # Installs those of the named packages that are missing; the package lists are fetched only where they are absent or stale.
+# What apt-get says goes to a log, its end to the terminal where it failed.
 install_missing() {
-    local missing install
+    local missing install log="$root/build/packages.log"
     mapfile -t missing < <(missing_packages "$@")
     [ ${#missing[@]} -gt 0 ] || return 0
-    say "setup: installing ${missing[*]}"
+    if [ "$(id -u)" != 0 ] && ! command -v sudo >/dev/null; then
+        fail 1 "installing needs root and there is no sudo; as root: apt-get install --no-install-recommends ${missing[*]}"
+    fi
+    say "setup: installing ${missing[*]}; this takes a minute or two"
     install=(install -y -q --no-install-recommends "${missing[@]}")
-    if apt-cache show "${missing[@]}" >/dev/null 2>&1 && apt "${install[@]}" >&2; then
+    mkdir -p "$root/build"
+    if apt-cache show "${missing[@]}" >/dev/null 2>&1 && apt "${install[@]}" >"$log" 2>&1; then
         return 0
     fi
-    apt update -q >&2
-    apt "${install[@]}" >&2
+    if apt update -q >"$log" 2>&1 && apt "${install[@]}" >>"$log" 2>&1; then
+        return 0
+    fi
+    tail -n 20 "$log" >&2
+    return 1
 }
 
 # provide PACKAGES...: on Debian 12 installs them, elsewhere names them and leaves the verdict to the build.
 provide() {
     if is_debian_12; then
-        install_missing "$@" || fail 1 "the packages above could not be installed; see apt-get's message"
+        install_missing "$@" || fail 1 "the packages could not be installed; the end of apt-get's log is above"
     else
         say "setup: not Debian 12, nothing is installed; needed are, by their Debian 12 names: $*"
         local tool

@@ -24,7 +24,7 @@ TOOLS = {
     "apt-cache": '[ -e "$FAKE/lists" ]',
     "apt-get": """echo "apt-get $*" >>"$FAKE/calls"
 [ "$1" != update ] || { touch "$FAKE/lists"; exit 0; }
-[ ! -e "$FAKE/apt_fails" ] || exit 100
+[ ! -e "$FAKE/apt_fails" ] || { echo "the reason of apt-get"; exit 100; }
 for p; do
     case "$p" in install|-*) continue ;; esac
     if [ "$p" = chromium ] && [ -e "$FAKE/no_chromium" ]; then exit 100; fi
@@ -96,6 +96,7 @@ class Setup(unittest.TestCase):
         result = self.setup("run")
         self.assertEqual(result.returncode, 1)
         self.assertIn("could not be installed", result.stderr)
+        self.assertIn("the reason of apt-get", result.stderr)
         self.assertEqual([call.split()[1] for call in self.calls("apt-get")], ["install", "update", "install"])
         self.assertEqual(self.calls("cmake"), [])
 
@@ -103,6 +104,15 @@ class Setup(unittest.TestCase):
         self.put("uid", "1000\n")
         self.assertEqual(self.setup("run").returncode, 0)
         self.assertEqual(self.calls("sudo"), ["sudo"])
+
+    @unittest.skipIf(shutil.which("sudo", path="/usr/bin:/bin"), "this machine has a sudo that cannot be hidden")
+    def test_somebody_without_sudo_is_told_what_to_install(self):
+        self.put("uid", "1000\n")
+        (self.fake / "bin/sudo").unlink()
+        result = self.setup("run")
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stderr, r"as root: apt-get install --no-install-recommends .*libpcl-dev")
+        self.assertEqual(self.calls("cmake"), [])
 
     def test_another_distribution_gets_the_list_and_goes_on(self):
         self.put("os", "ID=fedora\nVERSION_ID=40\n")
