@@ -89,19 +89,23 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
     return normals;
 }
 
-TriangleMesh weld(const TriangleMesh& mesh) {
-    std::vector<std::uint32_t> order(mesh.points.size());
+std::vector<std::uint32_t> first_equal(std::span<const Vec3> points) {
+    std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-        const auto a = key_of(mesh.points[i]), b = key_of(mesh.points[j]);
+        const auto a = key_of(points[i]), b = key_of(points[j]);
         return a != b ? a < b : i < j;
     });
-    // The first of equal points stands for all of them.
-    std::vector<std::uint32_t> first(mesh.points.size());
+    std::vector<std::uint32_t> first(points.size());
     for (std::size_t k = 0; k < order.size(); ++k) {
-        const bool same = k > 0 && key_of(mesh.points[order[k]]) == key_of(mesh.points[order[k - 1]]);
+        const bool same = k > 0 && key_of(points[order[k]]) == key_of(points[order[k - 1]]);
         first[order[k]] = same ? first[order[k - 1]] : order[k];
     }
+    return first;
+}
+
+TriangleMesh weld(const TriangleMesh& mesh) {
+    const std::vector<std::uint32_t> first = first_equal(mesh.points);
     TriangleMesh out;
     std::vector<bool> used(mesh.points.size(), false);
     for (const auto& face : mesh.faces) {

@@ -24,17 +24,17 @@ struct VolumeData {
 };
 
 /// Writes .obj or .off (shortest decimal text that reads back to the same double), .ply (binary, doubles) or
-/// .stl (binary floats; an STL holds floats only, so the box's centre is subtracted first and named in the
-/// header).
+/// .stl (binary floats). An STL holds floats only: where the mesh is farther from the origin than it is
+/// large, its centre is subtracted before the cast and named in the header, and read_surface() adds it again.
 ///
-/// Throws IoError "io.format", "io.index", "io.not_finite", "io.write". [setup]
+/// Throws IoError "io.format", "io.write", and GeometryError as surface::require_sound(). [setup]
 void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh);
 
 /// Writes .dsc (shortest decimal text that reads back to the same double) or .vtu (doubles, zlib, cell arrays
 /// "label" and "quality" first). Every tet must be exactly positive in the numbers that are written.
 ///
-/// Throws IoError as write_surface(), GeometryError "volume.inverted" (naming the first tet and the count),
-/// GeometryError "volume.size" when labels or arrays do not fit. [setup]
+/// Throws IoError "io.format", "io.write"; GeometryError "volume.inverted" (naming the first tet and the
+/// count), "volume.index", "volume.not_finite", "volume.size" when labels or arrays do not fit. [setup]
 void write_volume(const std::filesystem::path& file, const mesh::TetMesh& mesh, const VolumeData& data = {});
 
 }  // namespace dsc::io

@@ -2,6 +2,7 @@
 // Sizes, normals and cleaning of triangle meshes.
 
 #include <dsc/surface/triangle_mesh.hpp>
+#include <span>
 #include <vector>
 
 namespace dsc::surface {
@@ -26,6 +27,9 @@ std::vector<Vec3> face_normals(const TriangleMesh& mesh);
 /// Unit normal of every point, weighted by the angle of each face at it [Thurmer1998]; zero where no face is.
 /// The mesh must be sound. [parallel]
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh);
+
+/// For every point the first one with equal coordinates (-0 equals 0), itself or an earlier one. [parallel]
+std::vector<std::uint32_t> first_equal(std::span<const Vec3> points);
 
 /// Joins points of equal coordinates (-0 equals 0), drops faces that use a point twice and points that no
 /// face uses. The order of what stays is kept. The mesh must be sound. [parallel]

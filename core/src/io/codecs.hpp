@@ -1,0 +1,36 @@
+#pragma once
+// One pair of functions a format: bytes to mesh and back. `file` is for messages only.
+
+#include <string>
+#include <string_view>
+
+#include <dsc/io/write.hpp>
+#include <dsc/mesh/tet_mesh.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
+
+namespace dsc::io {
+
+surface::TriangleMesh decode_obj(std::string_view content, std::string_view file);
+surface::TriangleMesh decode_off(std::string_view content, std::string_view file);
+surface::TriangleMesh decode_ply(std::string_view content, std::string_view file);
+surface::TriangleMesh decode_stl(std::string_view content, std::string_view file);
+mesh::TetMesh decode_dsc(std::string_view content, std::string_view file);
+mesh::TetMesh decode_vtu(const std::string& content, std::string_view file);
+
+std::string encode_obj(const surface::TriangleMesh& mesh);
+std::string encode_off(const surface::TriangleMesh& mesh);
+std::string encode_ply(const surface::TriangleMesh& mesh);
+std::string encode_stl(const surface::TriangleMesh& mesh);
+std::string encode_dsc(const mesh::TetMesh& mesh);
+/// Throws IoError "io.write" when VTK reports a failure.
+std::string encode_vtu(const mesh::TetMesh& mesh, const VolumeData& data, std::string_view file);
+
+/// Appends the fan of triangles of a polygon.
+template <class Indices>
+void append_fan(surface::TriangleMesh& mesh, const Indices& polygon) {
+    for (std::size_t k = 2; k < polygon.size(); ++k) {
+        mesh.faces.push_back({polygon[0], polygon[k - 1], polygon[k]});
+    }
+}
+
+}  // namespace dsc::io

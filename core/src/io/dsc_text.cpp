@@ -1,0 +1,88 @@
+// The method's own text format: "v x y z" and "t i j k l label" in any order, indices from 0.
+#include <limits>
+
+#include "io/codecs.hpp"
+#include "io/text.hpp"
+
+namespace dsc::io {
+namespace {
+
+struct Reference {
+    std::size_t line = 0;
+    std::uint32_t index = 0;
+};
+
+std::uint32_t read_index(Tokens& tokens) {
+    const std::int64_t index = tokens.integer();
+    if (index < 0 || index >= std::numeric_limits<std::uint32_t>::max()) {
+        fail("io.index", tokens.place(), "vertex index " + std::to_string(index) + " is out of range",
+             "indices count from 0; export the file again");
+    }
+    return static_cast<std::uint32_t>(index);
+}
+
+mesh::Label read_label(Tokens& tokens) {
+    const std::int64_t label = tokens.integer();
+    if (label < 0 || label > std::numeric_limits<mesh::Label>::max()) {
+        fail("io.syntax", tokens.place(), "label " + std::to_string(label) + " is out of range",
+             "labels are 0 (outside) and up");
+    }
+    return static_cast<mesh::Label>(label);
+}
+
+}  // namespace
+
+mesh::TetMesh decode_dsc(std::string_view content, std::string_view file) {
+    mesh::TetMesh mesh;
+    Tokens tokens(content, file);
+    // The largest index decides whether all are in range; vertices may follow the tets that name them.
+    Reference largest;
+    for (std::string_view tag = tokens.next(); !tag.empty(); tag = tokens.next()) {
+        if (tag == "v") {
+            const double x = tokens.coordinate(), y = tokens.coordinate(), z = tokens.coordinate();
+            mesh.points.emplace_back(x, y, z);
+        } else if (tag == "t") {
+            std::array<std::uint32_t, 4> tet{};
+            for (std::uint32_t& v : tet) {
+                v = read_index(tokens);
+                if (v > largest.index || largest.line == 0) largest = {tokens.place().line, v};
+            }
+            mesh.tets.push_back(tet);
+            mesh.labels.push_back(read_label(tokens));
+        } else {
+            fail("io.syntax", tokens.place(), in_quotes(tag) + " is neither 'v' nor 't'", export_again);
+        }
+    }
+    if (!mesh.tets.empty() && largest.index >= mesh.points.size()) {
+        fail("io.index", {file, largest.line},
+             "vertex index " + std::to_string(largest.index) + " of " + std::to_string(mesh.points.size()),
+             "indices count from 0; export the file again");
+    }
+    return mesh;
+}
+
+std::string encode_dsc(const mesh::TetMesh& mesh) {
+    std::string out;
+    out.reserve(60 * mesh.points.size() + 32 * mesh.tets.size());
+    for (const Vec3& p : mesh.points) {
+        out += 'v';
+        for (int k = 0; k < 3; ++k) {
+            out += ' ';
+            append_number(out, p[k]);
+        }
+        out += '\n';
+    }
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        out += 't';
+        for (const std::uint32_t v : mesh.tets[t]) {
+            out += ' ';
+            append_number(out, std::uint64_t{v});
+        }
+        out += ' ';
+        out += std::to_string(mesh.labels[t]);
+        out += '\n';
+    }
+    return out;
+}
+
+}  // namespace dsc::io

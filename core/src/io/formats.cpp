@@ -1,0 +1,51 @@
+#include <dsc/io/formats.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace dsc::io {
+namespace {
+
+constexpr std::array<Format, 6> table = {{
+    {".obj", "Wavefront OBJ", true, false},
+    {".ply", "PLY", true, false},
+    {".off", "Geomview OFF", true, false},
+    {".stl", "STL", true, false},
+    {".vtu", "VTK unstructured grid", false, true},
+    {".dsc", "deformable simplicial complex", false, true},
+}};
+
+template <class Predicate>
+std::string list(Predicate&& wanted) {
+    std::string out;
+    for (const Format& format : table) {
+        if (!wanted(format)) continue;
+        if (!out.empty()) out += ", ";
+        out += format.extension;
+    }
+    return out;
+}
+
+}  // namespace
+
+std::span<const Format> formats() { return table; }
+
+const Format* find_format(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension) {
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    const auto found =
+        std::find_if(table.begin(), table.end(), [&](const Format& f) { return f.extension == extension; });
+    return found == table.end() ? nullptr : &*found;
+}
+
+std::string surface_extensions() {
+    return list([](const Format& f) { return f.surface; });
+}
+
+std::string volume_extensions() {
+    return list([](const Format& f) { return f.volume; });
+}
+
+}  // namespace dsc::io

@@ -1,0 +1,147 @@
+// Wavefront OBJ: vertices and polygons; everything else that the format knows is skipped.
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "io/codecs.hpp"
+#include "io/text.hpp"
+
+namespace dsc::io {
+namespace {
+
+constexpr std::array<std::string_view, 42> skipped = {
+    "vt",        "vn",   "vp",     "g",     "o",      "s",      "usemtl",   "mtllib",   "l",
+    "p",         "mg",   "cstype", "deg",   "bmat",   "step",   "curv",     "surf",     "curv2",
+    "parm",      "trim", "hole",   "scrv",  "sp",     "end",    "con",      "bevel",    "lod",
+    "call",      "csh",  "ctech",  "stech", "maplib", "usemap", "c_interp", "d_interp", "shadow_obj",
+    "trace_obj", "bsp",  "bzp",    "cdc",   "cdp",    "res"};
+
+struct Reference {
+    std::size_t line;
+    std::int64_t index;
+};
+
+class ObjReader {
+public:
+    ObjReader(std::string_view content, std::string_view file) : lines_(content, file, true) {}
+
+    surface::TriangleMesh read() {
+        std::string_view line;
+        while (lines_.next(line)) {
+            Fields fields(line.substr(0, line.find('#')));
+            const std::string_view keyword = fields.next();
+            if (keyword.empty()) continue;
+            if (keyword == "v")
+                vertex(fields);
+            else if (keyword == "f" || keyword == "fo")
+                face(fields);
+            else if (std::find(skipped.begin(), skipped.end(), keyword) == skipped.end()) {
+                fail("io.syntax", lines_.place(), "unknown keyword " + in_quotes(keyword), export_again);
+            }
+        }
+        check_later_vertices();
+        return std::move(mesh_);
+    }
+
+private:
+    /// Code of a line with too few numbers: cut at the end of the file, wrong elsewhere.
+    const char* short_line() const { return lines_.cut() ? "io.truncated" : "io.syntax"; }
+    const std::string& short_remedy() const { return lines_.cut() ? copy_again : export_again; }
+
+    void vertex(Fields& fields) {
+        Vec3 p;
+        for (int k = 0; k < 3; ++k) {
+            const std::string_view field = fields.next();
+            if (field.empty()) {
+                fail(short_line(), lines_.place(), "vertex with " + std::to_string(k) + " of 3 coordinates",
+                     short_remedy());
+            }
+            p[k] = parse_coordinate(field, lines_.place());
+        }
+        if (mesh_.points.size() == std::numeric_limits<std::uint32_t>::max()) {
+            fail("io.count", lines_.place(), "more than 4294967295 vertices", "split the file");
+        }
+        mesh_.points.push_back(p);
+    }
+
+    void face(Fields& fields) {
+        polygon_.clear();
+        for (std::string_view field = fields.next(); !field.empty(); field = fields.next()) {
+            polygon_.push_back(corner(field));
+        }
+        if (polygon_.size() < 3) {
+            fail(short_line(), lines_.place(),
+                 "face with " + counted(polygon_.size(), "corner") + ", at least 3 are needed",
+                 short_remedy());
+        }
+        append_fan(mesh_, polygon_);
+    }
+
+    /// "7", "7/1", "7//3", "7/1/3"; counts from 1, negative from the last vertex backwards.
+    std::uint32_t corner(std::string_view field) {
+        const std::size_t slash = field.find('/');
+        if (slash != std::string_view::npos &&
+            field.find_first_not_of("0123456789/-+", slash) != std::string_view::npos) {
+            fail("io.syntax", lines_.place(), in_quotes(field) + " is not a corner", export_again);
+        }
+        const std::int64_t index = parse_integer(field.substr(0, slash), lines_.place());
+        const auto count = static_cast<std::int64_t>(mesh_.points.size());
+        if (index == 0)
+            fail("io.index", lines_.place(), "vertex index 0", "OBJ counts from 1; export the file again");
+        if (index < -count) {
+            fail("io.index", lines_.place(),
+                 "vertex index " + std::to_string(index) + " with only " +
+                     counted(mesh_.points.size(), "vertex before it"),
+                 export_again);
+        }
+        if (index > std::numeric_limits<std::uint32_t>::max())
+            later_.push_back({lines_.place().line, index});
+        else if (index > count)
+            later_.push_back({lines_.place().line, index});
+        return static_cast<std::uint32_t>(index > 0 ? index - 1 : count + index);
+    }
+
+    void check_later_vertices() {
+        for (const Reference& r : later_) {
+            if (r.index <= static_cast<std::int64_t>(mesh_.points.size())) continue;
+            fail("io.index", {lines_.place().file, r.line},
+                 "vertex index " + std::to_string(r.index) + " of " + std::to_string(mesh_.points.size()),
+                 export_again);
+        }
+    }
+
+    Lines lines_;
+    surface::TriangleMesh mesh_;
+    std::vector<std::uint32_t> polygon_;
+    std::vector<Reference> later_;  ///< corners that name a vertex which had not come yet
+};
+
+}  // namespace
+
+surface::TriangleMesh decode_obj(std::string_view content, std::string_view file) {
+    return ObjReader(content, file).read();
+}
+
+std::string encode_obj(const surface::TriangleMesh& mesh) {
+    std::string out;
+    out.reserve(60 * mesh.points.size() + 24 * mesh.faces.size());
+    for (const Vec3& p : mesh.points) {
+        out += 'v';
+        for (int k = 0; k < 3; ++k) {
+            out += ' ';
+            append_number(out, p[k]);
+        }
+        out += '\n';
+    }
+    for (const auto& face : mesh.faces) {
+        out += 'f';
+        for (const std::uint32_t v : face) {
+            out += ' ';
+            append_number(out, std::uint64_t{v} + 1);
+        }
+        out += '\n';
+    }
+    return out;
+}
+
+}  // namespace dsc::io

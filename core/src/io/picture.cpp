@@ -1,0 +1,281 @@
+#include <dsc/io/picture.hpp>
+
+#include <dsc/base/error.hpp>
+#include <dsc/base/workers.hpp>
+#include <dsc/surface/measure.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "io/ray_scene.hpp"
+#include "io/shading_normals.hpp"
+
+namespace dsc::io {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, View>, 7> view_names = {{{"front", View::front},
+                                                                          {"back", View::back},
+                                                                          {"left", View::left},
+                                                                          {"right", View::right},
+                                                                          {"top", View::top},
+                                                                          {"bottom", View::bottom},
+                                                                          {"iso", View::iso}}};
+constexpr int largest_size = 16384;
+constexpr float margin = 0.05F;          // of the frame, on each side
+constexpr unsigned occlusion_rays = 16;  // a sample; four samples a pixel
+
+/// Rows: right, up, towards the viewer, in the mesh's coordinates.
+Eigen::Matrix3d view_axes(View view, UpAxis up) {
+    Vec3 towards(0, 0, 1), above(0, 1, 0);
+    switch (view) {
+        case View::front:
+            break;
+        case View::back:
+            towards = {0, 0, -1};
+            break;
+        case View::left:
+            towards = {-1, 0, 0};
+            break;
+        case View::right:
+            towards = {1, 0, 0};
+            break;
+        case View::top:
+            towards = {0, 1, 0}, above = {0, 0, -1};
+            break;
+        case View::bottom:
+            towards = {0, -1, 0}, above = {0, 0, 1};
+            break;
+        case View::iso:
+            towards = Vec3(0.62, 0.48, 1.0).normalized();
+            break;
+    }
+    const Vec3 right = above.cross(towards).normalized();
+    Eigen::Matrix3d axes;
+    axes.row(0) = right;
+    axes.row(1) = towards.cross(right);
+    axes.row(2) = towards;
+    if (up == UpAxis::y) return axes;
+    // With z up the front is where y is least: (x, y, z) is seen as (x, z, -y).
+    Eigen::Matrix3d turn;
+    turn << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+    return axes * turn;
+}
+
+/// The points in pixels: x to the right and y upwards from the middle of the frame, z towards the viewer, z
+/// <= 0.
+std::vector<Vec3f> project(const surface::TriangleMesh& mesh, const RenderOptions& options) {
+    const Eigen::Matrix3d axes = view_axes(options.view, options.up);
+    // Everything is centred in doubles before it becomes float.
+    const Vec3 middle = surface::used_box(mesh).centre();
+    Box3 box;
+    for (const auto& face : mesh.faces) {
+        for (const std::uint32_t v : face) box.extend(axes * (mesh.points[v] - middle));
+    }
+    const double width = options.width * (1.0 - 2.0 * margin), height = options.height * (1.0 - 2.0 * margin);
+    const Vec3 size = box.size().cwiseMax(1e-9 * box.diagonal());
+    const double scale = box.diagonal() > 0.0 ? std::min(width / size.x(), height / size.y()) : 1.0;
+    const Vec3 origin(box.centre().x(), box.centre().y(), box.high.z());
+    std::vector<Vec3f> out;
+    out.reserve(mesh.points.size());
+    for (const Vec3& p : mesh.points) out.push_back((scale * (axes * (p - middle) - origin)).cast<float>());
+    return out;
+}
+
+using Colour = Eigen::Array3f;  // linear light
+
+const Colour front_colour(0.36F, 0.50F, 0.62F);
+const Colour back_colour(0.62F, 0.30F, 0.20F);
+const Colour line_colour(0.015F, 0.02F, 0.03F);
+const Colour sky_light(0.52F, 0.56F, 0.62F);
+const Colour ground_light(0.26F, 0.23F, 0.21F);
+const Colour key_light(0.92F, 0.88F, 0.82F);
+const Colour head_light(0.16F, 0.17F, 0.18F);
+
+/// A quiet gradient, lighter above.
+Colour background(float height) {
+    const Colour low(0.80F, 0.83F, 0.87F), high(0.97F, 0.98F, 0.99F);
+    return low + height * (high - low);
+}
+
+Colour shade(const Vec3f& normal, const Colour& material, float open) {
+    const Vec3f key = Vec3f(-0.45F, 0.62F, 0.64F).normalized();
+    const Vec3f half = (key + Vec3f(0, 0, 1)).normalized();
+    const float lit = std::max(0.0F, (normal.dot(key) + 0.12F) / 1.12F);
+    const Colour ambient = ground_light + (0.5F + 0.5F * normal.y()) * (sky_light - ground_light);
+    // Crevices see less of the key light too; half of the effect stands in for its soft shadow.
+    const Colour light =
+        open * ambient + (0.45F + 0.55F * open) * lit * key_light + std::max(0.0F, normal.z()) * head_light;
+    const float gloss = 0.10F * std::pow(std::max(0.0F, normal.dot(half)), 36.0F) * open;
+    return material * light + gloss;
+}
+
+std::uint8_t to_srgb(float linear) {
+    const float x = std::clamp(linear, 0.0F, 1.0F);
+    const float y = x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1.0F / 2.4F) - 0.055F;
+    return static_cast<std::uint8_t>(std::lround(255.0F * y));
+}
+
+float radical_inverse(unsigned i) {
+    float value = 0.0F, digit = 0.5F;
+    for (; i != 0; i >>= 1U, digit *= 0.5F) value += (i & 1U) != 0 ? digit : 0.0F;
+    return value;
+}
+
+class Painter {
+public:
+    Painter(const surface::TriangleMesh& mesh, const RenderOptions& options)
+        : options_(options),
+          faces_(mesh.faces),
+          points_(project(mesh, options)),
+          normals_(shading_normals(points_, faces_)),
+          scene_(points_, faces_) {
+        Eigen::AlignedBox3f box;
+        for (const auto& face : faces_) {
+            for (const std::uint32_t v : face) box.extend(points_[v]);
+        }
+        reach_ = 0.25F * box.diagonal().norm();
+        lift_ = 2e-5F * box.diagonal().norm();
+    }
+
+    void paint_row(int y, Image& image) const {
+        // A turned grid of 2 x 2 samples: near-vertical and near-horizontal lines get four steps instead of
+        // two.
+        constexpr std::array<std::array<float, 2>, 4> offsets = {
+            {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};
+        auto out = image.pixels.begin() + 3 * static_cast<std::ptrdiff_t>(y) * image.width;
+        for (int x = 0; x < image.width; ++x) {
+            Colour sum = Colour::Zero();
+            for (unsigned s = 0; s < offsets.size(); ++s) {
+                const float px =
+                    static_cast<float>(x) + offsets[s][0] - 0.5F * static_cast<float>(image.width);
+                const float py =
+                    0.5F * static_cast<float>(image.height) - static_cast<float>(y) - offsets[s][1];
+                // Clamped before the mean, so that an edge before the light background stays smooth.
+                sum += sample(px, py, pattern(x, y, s)).min(1.0F);
+            }
+            for (int k = 0; k < 3; ++k) *out++ = to_srgb(0.25F * sum[k]);
+        }
+    }
+
+private:
+    /// Turns the rays of neighbouring samples against each other; 4 x 4 pixels of 4 samples share 64 angles
+    /// evenly.
+    static float pattern(int x, int y, unsigned s) {
+        constexpr std::array<unsigned, 16> order = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+        const unsigned tile = order[static_cast<unsigned>(y % 4) * 4 + static_cast<unsigned>(x % 4)];
+        return (static_cast<float>(tile) * 4.0F + static_cast<float>(s)) / 64.0F;
+    }
+
+    Colour sample(float x, float y, float turn) const {
+        RayHit hit;
+        if (!scene_.first_hit(Vec3f(x, y, 1.0F), Vec3f(0, 0, -1), hit)) {
+            return background(0.5F + y / static_cast<float>(options_.height));
+        }
+        const auto& face = faces_[hit.face];
+        const Vec3f &a = points_[face[0]], &b = points_[face[1]], &c = points_[face[2]];
+        Vec3f flat = (b - a).cross(c - a).normalized();
+        const auto& corner = normals_[hit.face];
+        Vec3f normal =
+            ((1.0F - hit.u - hit.v) * corner[0] + hit.u * corner[1] + hit.v * corner[2]).normalized();
+        const bool front = flat.z() >= 0.0F;
+        if (!front) {
+            flat = -flat;
+            normal = -normal;
+        }
+        const Vec3f point(x, y, 1.0F - hit.distance);
+        const float open =
+            options_.ambient_occlusion ? openness(point + lift_ * flat, normal, flat, turn) : 1.0F;
+        const Colour colour = shade(normal, front ? front_colour : back_colour, open);
+        if (!options_.edges) return colour;
+        const float line = line_strength(x, y, a, b, c);
+        return colour + line * (line_colour - colour);
+    }
+
+    /// Share of the hemisphere that is free nearby, cosine-weighted.
+    float openness(const Vec3f& from, const Vec3f& normal, const Vec3f& flat, float turn) const {
+        const Vec3f side =
+            (std::abs(normal.x()) < 0.8F ? Vec3f(1, 0, 0) : Vec3f(0, 1, 0)).cross(normal).normalized();
+        const Vec3f other = normal.cross(side);
+        unsigned cast = 0, free = 0;
+        for (unsigned i = 0; i < occlusion_rays; ++i) {
+            const float share =
+                (static_cast<float>(i) + radical_inverse(static_cast<unsigned>(turn * 64.0F))) /
+                static_cast<float>(occlusion_rays);
+            const float angle = 2.0F * std::numbers::pi_v<float> * (radical_inverse(i) + turn);
+            const float radius = std::sqrt(share);
+            const Vec3f direction = radius * std::cos(angle) * side + radius * std::sin(angle) * other +
+                                    std::sqrt(std::max(0.0F, 1.0F - share)) * normal;
+            // Rays below the flat face are an artefact of the smooth normal.
+            if (direction.dot(flat) <= 0.01F) continue;
+            ++cast;
+            if (!scene_.blocked(from, direction, reach_)) ++free;
+        }
+        return cast == 0 ? 1.0F : static_cast<float>(free) / static_cast<float>(cast);
+    }
+
+    /// 1 on an edge of the triangle as it is seen, fading where triangles are only a few pixels wide.
+    static float line_strength(float x, float y, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+        constexpr float half_width = 0.6F, full_height = 7.0F;
+        const Eigen::Vector2f p(x, y);
+        const std::array<Eigen::Vector2f, 3> q = {a.head<2>(), b.head<2>(), c.head<2>()};
+        const Eigen::Vector2f ab = q[1] - q[0], ac = q[2] - q[0];
+        const float doubled_area = std::abs(ab.x() * ac.y() - ab.y() * ac.x());
+        float nearest = std::numeric_limits<float>::infinity(), longest = 0.0F;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Eigen::Vector2f edge = q[(k + 1) % 3] - q[k];
+            const float length = edge.norm();
+            longest = std::max(longest, length);
+            const float t =
+                length > 0.0F ? std::clamp((p - q[k]).dot(edge) / (length * length), 0.0F, 1.0F) : 0.0F;
+            nearest = std::min(nearest, (p - q[k] - t * edge).norm());
+        }
+        if (nearest > half_width || longest <= 0.0F) return 0.0F;
+        return 0.85F * std::clamp(doubled_area / longest / full_height, 0.12F, 1.0F);
+    }
+
+    const RenderOptions& options_;
+    const std::vector<std::array<std::uint32_t, 3>>& faces_;
+    std::vector<Vec3f> points_;
+    std::vector<std::array<Vec3f, 3>> normals_;
+    RayScene scene_;
+    float reach_ = 0.0F;
+    float lift_ = 0.0F;
+};
+
+}  // namespace
+
+std::optional<View> view_from_name(std::string_view name) {
+    for (const auto& [known, view] : view_names) {
+        if (known == name) return view;
+    }
+    return std::nullopt;
+}
+
+Image render(const surface::TriangleMesh& mesh, const RenderOptions& options) {
+    for (const int size : {options.width, options.height}) {
+        if (size >= 1 && size <= largest_size) continue;
+        throw UsageError("picture.size", "picture: size " + std::to_string(options.width) + "x" +
+                                             std::to_string(options.height) + "; each side may be 1 to " +
+                                             std::to_string(largest_size) + " pixels");
+    }
+    surface::require_sound(mesh);
+    if (mesh.faces.empty()) {
+        throw GeometryError("surface.empty", "picture: the mesh has no faces; a picture needs at least one");
+    }
+    const Painter painter(mesh, options);
+    Image image{options.width, options.height, {}};
+    image.pixels.resize(3 * static_cast<std::size_t>(options.width) *
+                        static_cast<std::size_t>(options.height));
+    Workers alone;
+    (options.workers != nullptr ? *options.workers : alone)
+        .for_blocks(static_cast<std::size_t>(options.height), 8, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t y = begin; y < end; ++y) painter.paint_row(static_cast<int>(y), image);
+        });
+    return image;
+}
+
+}  // namespace dsc::io

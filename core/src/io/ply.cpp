@@ -1,0 +1,292 @@
+// PLY surfaces: text, little and big endian. Elements and properties that we do not need are skipped.
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "io/bytes.hpp"
+#include "io/codecs.hpp"
+#include "io/ply_header.hpp"
+#include "io/text.hpp"
+
+namespace dsc::io {
+namespace {
+
+using namespace ply;
+
+/// Values of a text body.
+class TextBody {
+public:
+    TextBody(std::string_view body, std::string_view file, std::size_t first_line)
+        : tokens_(body, file, first_line) {}
+    double real(Type) { return tokens_.coordinate(); }
+    std::int64_t integer(Type) { return tokens_.integer(); }
+    /// Anything that is a number; NaN is allowed where we do not look.
+    void skip(Type) { tokens_.require("a number"); }
+    void skip_list(Type type, std::uint64_t count) {
+        for (std::uint64_t i = 0; i < count; ++i) skip(type);
+    }
+    Place place() const { return tokens_.place(); }
+    /// What there is in a body whose values take at least one digit and one blank.
+    static std::size_t least_size(Type) { return 2; }
+    bool ended() { return tokens_.next().empty(); }
+
+private:
+    Tokens tokens_;
+};
+
+/// Values of a binary body. Bounds are checked at every step.
+class BinaryBody {
+public:
+    BinaryBody(std::string_view content, std::string_view file, std::size_t start, std::endian order)
+        : content_(content), file_(file), at_(start), order_(order) {}
+
+    double real(Type type) {
+        const double value = type == Type::float32   ? static_cast<double>(take<float>())
+                             : type == Type::float64 ? take<double>()
+                                                     : static_cast<double>(integer(type));
+        if (!std::isfinite(value)) {
+            fail("io.not_finite", place(),
+                 "the coordinate before byte " + std::to_string(at_) + " is NaN or infinite",
+                 "remove the point and its faces or export the file again");
+        }
+        return value;
+    }
+    std::int64_t integer(Type type) {
+        switch (type) {
+            case Type::int8:
+                return take<std::int8_t>();
+            case Type::uint8:
+                return take<std::uint8_t>();
+            case Type::int16:
+                return take<std::int16_t>();
+            case Type::uint16:
+                return take<std::uint16_t>();
+            case Type::int32:
+                return take<std::int32_t>();
+            case Type::uint32:
+                return take<std::uint32_t>();
+            default:
+                fail("io.syntax", place(), "indices are fractions", export_again);
+        }
+    }
+    void skip(Type type) { skip_list(type, 1); }
+    void skip_list(Type type, std::uint64_t count) {
+        require(count, size_of(type));
+        at_ += count * size_of(type);
+    }
+    Place place() const { return {file_, 0}; }
+    static std::size_t least_size(Type type) { return size_of(type); }
+    bool ended() {
+        // Some programs end the file with a line feed.
+        return content_.find_first_not_of(" \r\n\t", at_) == std::string_view::npos;
+    }
+
+private:
+    template <class T>
+    T take() {
+        require(1, sizeof(T));
+        const T value = load_number<T>(content_.data() + at_, order_);
+        at_ += sizeof(T);
+        return value;
+    }
+    void require(std::uint64_t count, std::size_t size) {
+        if (count <= (content_.size() - at_) / size) return;
+        fail("io.truncated", place(),
+             "the file ends at byte " + std::to_string(content_.size()) + " where " +
+                 std::to_string(count * size) + " bytes should follow byte " + std::to_string(at_),
+             copy_again);
+    }
+
+    std::string_view content_;
+    std::string_view file_;
+    std::size_t at_;
+    std::endian order_;
+};
+
+template <class Body>
+class PlyReader {
+public:
+    PlyReader(const Header& header, Body body, std::size_t size, Place end_of_header)
+        : header_(header), body_(std::move(body)), size_(size), header_place_(end_of_header) {}
+
+    surface::TriangleMesh read() {
+        check_header();
+        for (const Element& element : header_.elements) {
+            if (element.name == "vertex")
+                read_vertices(element);
+            else if (element.name == "face")
+                read_faces(element);
+            else
+                for (std::uint64_t i = 0; i < element.count; ++i) skip_all(element);
+        }
+        if (!body_.ended()) {
+            fail("io.count", body_.place(), "data after the last element",
+                 "the counts of the header are wrong: export the file again");
+        }
+        return std::move(mesh_);
+    }
+
+private:
+    /// A count that lies must not make us reserve memory or loop for ever.
+    void check_header() {
+        bool vertex = false;
+        for (const Element& element : header_.elements) {
+            std::size_t least = 0;
+            for (const Property& p : element.properties)
+                least += Body::least_size(p.count ? *p.count : p.type);
+            if (element.count > 0 && least == 0) {
+                fail("io.syntax", header_place_, "element " + in_quotes(element.name) + " has no properties",
+                     export_again);
+            }
+            if (least > 0 && element.count > size_ / least + 1) {
+                fail("io.truncated", header_place_,
+                     "the header names " + std::to_string(element.count) + " elements " +
+                         in_quotes(element.name) + ", more than a file of " + counted(size_, "byte") +
+                         " can hold",
+                     copy_again);
+            }
+            if (element.name == "vertex") {
+                vertex = true;
+                points_ = element.count;
+            }
+        }
+        if (!vertex) fail("io.syntax", header_place_, "the header names no element 'vertex'", export_again);
+        if (points_ > std::numeric_limits<std::uint32_t>::max()) {
+            fail("io.count", header_place_, "more than 4294967295 vertices", "split the file");
+        }
+    }
+
+    void skip_property(const Property& p) {
+        if (p.count)
+            body_.skip_list(p.type, list_size(p));
+        else
+            body_.skip(p.type);
+    }
+    void skip_all(const Element& element) {
+        for (const Property& p : element.properties) skip_property(p);
+    }
+
+    std::uint64_t list_size(const Property& p) {
+        const std::int64_t count = body_.integer(*p.count);
+        if (count < 0)
+            fail("io.count", body_.place(), "a list of " + std::to_string(count) + " values", export_again);
+        return static_cast<std::uint64_t>(count);
+    }
+
+    void read_vertices(const Element& element) {
+        std::vector<int> axes;
+        std::array<int, 3> seen{};
+        for (const Property& p : element.properties) {
+            const int axis = p.name == "x" ? 0 : p.name == "y" ? 1 : p.name == "z" ? 2 : -1;
+            if (axis >= 0 && p.count)
+                fail("io.syntax", header_place_, "coordinate " + in_quotes(p.name) + " is a list",
+                     export_again);
+            if (axis >= 0) ++seen[static_cast<std::size_t>(axis)];
+            axes.push_back(axis);
+        }
+        if (seen != std::array<int, 3>{1, 1, 1}) {
+            fail("io.syntax", header_place_, "element 'vertex' needs each of the properties x, y, z once",
+                 export_again);
+        }
+        mesh_.points.reserve(element.count);
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            Vec3 p;
+            for (std::size_t k = 0; k < axes.size(); ++k) {
+                if (axes[k] < 0)
+                    skip_property(element.properties[k]);
+                else
+                    p[axes[k]] = body_.real(element.properties[k].type);
+            }
+            mesh_.points.push_back(p);
+        }
+    }
+
+    void read_faces(const Element& element) {
+        const auto is_corners = [](const Property& p) {
+            return p.count && (p.name == "vertex_indices" || p.name == "vertex_index");
+        };
+        int lists = 0;
+        for (const Property& p : element.properties) {
+            if (!is_corners(p)) continue;
+            ++lists;
+            if (!is_integer(p.type))
+                fail("io.syntax", header_place_, "vertex indices are fractions", export_again);
+        }
+        if (lists != 1) {
+            fail("io.syntax", header_place_, "element 'face' needs one list vertex_indices", export_again);
+        }
+        mesh_.faces.reserve(element.count);
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            for (const Property& p : element.properties) {
+                if (is_corners(p))
+                    read_corners(p, i);
+                else
+                    skip_property(p);
+            }
+        }
+    }
+
+    void read_corners(const Property& p, std::uint64_t face) {
+        const std::uint64_t count = list_size(p);
+        if (count < 3) {
+            fail("io.syntax", body_.place(),
+                 "face " + std::to_string(face) + " with " + counted(count, "corner") +
+                     ", at least 3 are needed",
+                 export_again);
+        }
+        polygon_.clear();
+        for (std::uint64_t k = 0; k < count; ++k) {
+            const std::int64_t index = body_.integer(p.type);
+            if (index < 0 || static_cast<std::uint64_t>(index) >= points_) {
+                fail("io.index", body_.place(),
+                     "face " + std::to_string(face) + ": vertex index " + std::to_string(index) + " of " +
+                         std::to_string(points_),
+                     "PLY counts from 0; export the file again");
+            }
+            polygon_.push_back(static_cast<std::uint32_t>(index));
+        }
+        append_fan(mesh_, polygon_);
+    }
+
+    const Header& header_;
+    Body body_;
+    std::size_t size_;
+    Place header_place_;
+    std::uint64_t points_ = 0;
+    surface::TriangleMesh mesh_;
+    std::vector<std::uint32_t> polygon_;
+};
+
+}  // namespace
+
+surface::TriangleMesh decode_ply(std::string_view content, std::string_view file) {
+    const Header header = read_header(content, file);
+    const Place place{file, header.lines};
+    if (header.order) {
+        return PlyReader(header, BinaryBody(content, file, header.size, *header.order), content.size(), place)
+            .read();
+    }
+    return PlyReader(header, TextBody(content.substr(header.size), file, header.lines + 1), content.size(),
+                     place)
+        .read();
+}
+
+std::string encode_ply(const surface::TriangleMesh& mesh) {
+    std::string out =
+        "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.points.size()) +
+        "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+        std::to_string(mesh.faces.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+    out.reserve(out.size() + 24 * mesh.points.size() + 13 * mesh.faces.size());
+    for (const Vec3& p : mesh.points) {
+        for (int k = 0; k < 3; ++k) append_bytes(out, p[k]);
+    }
+    for (const auto& face : mesh.faces) {
+        append_bytes(out, std::uint8_t{3});
+        for (const std::uint32_t v : face) append_bytes(out, static_cast<std::int32_t>(v));
+    }
+    return out;
+}
+
+}  // namespace dsc::io

@@ -1,0 +1,59 @@
+#include <dsc/io/read.hpp>
+
+#include <dsc/base/error.hpp>
+#include <dsc/io/atomic_file.hpp>
+#include <dsc/io/formats.hpp>
+
+#include "io/codecs.hpp"
+#include "io/text.hpp"
+
+namespace dsc::io {
+namespace {
+
+[[noreturn]] void unknown_format(const std::string& file, const std::string& what,
+                                 const std::string& accepted) {
+    fail("io.format", {file, 0}, "the extension is not that of a " + what + " file",
+         "give it one of " + accepted + " or convert the file");
+}
+
+/// The content of a file that holds something.
+std::string require_content(const std::filesystem::path& file) {
+    std::string content = read_file(file);
+    if (content.find_first_not_of(" \t\r\n") == std::string::npos) {
+        fail("io.empty", {file.string(), 0}, "the file is empty", "copy or export it again");
+    }
+    return content;
+}
+
+}  // namespace
+
+surface::TriangleMesh read_surface(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    const Format* format = find_format(file);
+    if (format == nullptr || !format->surface) unknown_format(name, "surface", surface_extensions());
+    const std::string content = require_content(file);
+    surface::TriangleMesh mesh = format->extension == ".obj"   ? decode_obj(content, name)
+                                 : format->extension == ".ply" ? decode_ply(content, name)
+                                 : format->extension == ".off" ? decode_off(content, name)
+                                                               : decode_stl(content, name);
+    if (mesh.faces.empty()) {
+        fail("io.no_faces", {name, 0}, "no faces among " + counted(mesh.points.size(), "point"),
+             "a surface is needed here; a cloud must be reconstructed first");
+    }
+    return mesh;
+}
+
+mesh::TetMesh read_volume(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    const Format* format = find_format(file);
+    if (format == nullptr || !format->volume) unknown_format(name, "volume", volume_extensions());
+    const std::string content = require_content(file);
+    mesh::TetMesh mesh = format->extension == ".dsc" ? decode_dsc(content, name) : decode_vtu(content, name);
+    if (mesh.tets.empty()) {
+        fail("io.no_tets", {name, 0}, "no tets among " + counted(mesh.points.size(), "point"),
+             "a volume is needed here; export the file again");
+    }
+    return mesh;
+}
+
+}  // namespace dsc::io

@@ -1,0 +1,17 @@
+#pragma once
+// Normals for shading: smooth across gentle edges, sharp across creases.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace dsc::io {
+
+/// Three unit normals a face, one a corner: the area-weighted mean over the faces at the corner's point whose
+/// own normals are within 40 degrees of the face's.
+std::vector<std::array<Eigen::Vector3f, 3>> shading_normals(
+    const std::vector<Eigen::Vector3f>& points, const std::vector<std::array<std::uint32_t, 3>>& faces);
+
+}  // namespace dsc::io

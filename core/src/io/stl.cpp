@@ -1,0 +1,223 @@
+// STL, text and binary. A soup of float triangles: equal corners are joined when it is read.
+#include <dsc/geometry/quality.hpp>
+#include <dsc/surface/measure.hpp>
+
+#include <array>
+#include <cmath>
+#include <charconv>
+#include <optional>
+
+#include "io/bytes.hpp"
+#include "io/codecs.hpp"
+#include "io/text.hpp"
+
+namespace dsc::io {
+namespace {
+
+constexpr std::size_t header_size = 80;
+constexpr std::size_t data_start = header_size + 4;
+constexpr std::size_t facet_size = 50;
+constexpr std::string_view centre_mark = "dsc surface, add centre ";
+
+/// Corners as they come become a mesh with joined points in the order of first appearance.
+surface::TriangleMesh join(const std::vector<Vec3>& corners) {
+    const auto first = surface::first_equal(corners);
+    surface::TriangleMesh mesh;
+    std::vector<std::uint32_t> index(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (first[i] == i) {
+            index[i] = static_cast<std::uint32_t>(mesh.points.size());
+            mesh.points.push_back(corners[i]);
+        } else {
+            index[i] = index[first[i]];
+        }
+    }
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+        mesh.faces.push_back({index[i], index[i + 1], index[i + 2]});
+    return mesh;
+}
+
+/// What encode_stl() subtracted, from the header.
+Vec3 centre_of(std::string_view header) {
+    Vec3 centre = Vec3::Zero();
+    if (header.substr(0, centre_mark.size()) != centre_mark) return centre;
+    Fields fields(header.substr(centre_mark.size()));
+    for (int k = 0; k < 3; ++k) {
+        const std::string_view field = fields.next();
+        float value = 0.0F;
+        const auto result = std::from_chars(field.data(), field.data() + field.size(), value);
+        if (result.ec != std::errc{} || !std::isfinite(value)) return Vec3::Zero();
+        centre[k] = value;
+    }
+    return centre;
+}
+
+std::uint64_t facet_count(std::string_view content) {
+    return load_number<std::uint32_t>(content.data() + header_size, std::endian::little);
+}
+
+surface::TriangleMesh decode_binary(std::string_view content, std::string_view file) {
+    const std::uint64_t facets = facet_count(content);
+    std::vector<Vec3> corners;
+    corners.reserve(3 * facets);
+    for (std::uint64_t f = 0; f < facets; ++f) {
+        const std::size_t facet = data_start + facet_size * f;
+        for (std::size_t c = 0; c < 3; ++c) {
+            Vec3 p;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t at = facet + 12 + 12 * c + 4 * k;
+                p[static_cast<Eigen::Index>(k)] =
+                    load_number<float>(content.data() + at, std::endian::little);
+            }
+            if (!p.allFinite()) {
+                fail("io.not_finite", {file, 0},
+                     "facet " + std::to_string(f) + " at byte " + std::to_string(facet) +
+                         " has a coordinate that is NaN or infinite",
+                     "remove the facet or export the file again");
+            }
+            corners.push_back(p);
+        }
+    }
+    surface::TriangleMesh mesh = join(corners);
+    const Vec3 centre = centre_of(content.substr(0, header_size));
+    if (centre != Vec3::Zero()) {
+        for (Vec3& p : mesh.points) p += centre;
+    }
+    return mesh;
+}
+
+class TextStl {
+public:
+    TextStl(std::string_view content, std::string_view file) : lines_(content, file) {}
+
+    surface::TriangleMesh read() {
+        std::string_view line;
+        while (content_line(line)) {
+            Fields fields(line);
+            const std::string_view word = fields.next();
+            if (word == "facet")
+                facet();
+            else if (word == "endsolid")
+                open_ = false;
+            else if (word == "solid" && !open_)
+                open_ = true;
+            else
+                fail("io.syntax", lines_.place(), in_quotes(word) + " where 'facet' or 'endsolid' should be",
+                     export_again);
+        }
+        if (open_) fail("io.truncated", lines_.place(), "the file ends without 'endsolid'", copy_again);
+        return join(corners_);
+    }
+
+private:
+    bool content_line(std::string_view& line) {
+        while (lines_.next(line)) {
+            if (line.find_first_not_of(" \t\r\v\f") != std::string_view::npos) return true;
+        }
+        return false;
+    }
+
+    Fields expect(std::string_view word) {
+        std::string_view line;
+        if (!content_line(line)) {
+            fail("io.truncated", lines_.place(), "the file ends where '" + std::string(word) + "' should be",
+                 copy_again);
+        }
+        Fields fields(line);
+        const std::string_view found = fields.next();
+        if (found != word) {
+            fail("io.syntax", lines_.place(),
+                 in_quotes(found) + " where '" + std::string(word) + "' should be", export_again);
+        }
+        return fields;
+    }
+
+    void facet() {
+        expect("outer");
+        for (int c = 0; c < 3; ++c) {
+            Fields fields = expect("vertex");
+            Vec3 p;
+            for (int k = 0; k < 3; ++k) {
+                const std::string_view field = fields.next();
+                if (field.empty()) {
+                    fail(lines_.cut() ? "io.truncated" : "io.syntax", lines_.place(),
+                         "vertex with " + std::to_string(k) + " of 3 coordinates",
+                         lines_.cut() ? copy_again : export_again);
+                }
+                p[k] = parse_coordinate(field, lines_.place());
+            }
+            corners_.push_back(p);
+        }
+        expect("endloop");
+        expect("endfacet");
+    }
+
+    Lines lines_;
+    bool open_ = false;
+    std::vector<Vec3> corners_;
+};
+
+bool starts_with_solid(std::string_view content) {
+    const std::size_t begin = content.find_first_not_of(" \t\r\n");
+    return begin != std::string_view::npos && content.substr(begin, 5) == "solid";
+}
+
+/// The centre to subtract: none where floats do without, so that ordinary models stay where they are. A
+/// float, so that its text fits the header.
+Vec3 centre_to_subtract(const surface::TriangleMesh& mesh) {
+    const Box3 box = surface::used_box(mesh);
+    if (box.empty() || box.centre().norm() <= box.diagonal()) return Vec3::Zero();
+    return box.centre().cast<float>().cast<double>();
+}
+
+std::string header_of(const Vec3& centre) {
+    std::string header = centre == Vec3::Zero() ? std::string("dsc surface") : std::string(centre_mark);
+    if (centre != Vec3::Zero()) {
+        for (int k = 0; k < 3; ++k) {
+            char buffer[24];
+            const auto end = std::to_chars(buffer, buffer + sizeof buffer, static_cast<float>(centre[k])).ptr;
+            header.append(buffer, end).append(" ");
+        }
+    }
+    header.resize(header_size, ' ');
+    return header;
+}
+
+}  // namespace
+
+surface::TriangleMesh decode_stl(std::string_view content, std::string_view file) {
+    const bool fits =
+        content.size() >= data_start && content.size() == data_start + facet_size * facet_count(content);
+    if (fits) return decode_binary(content, file);
+    if (starts_with_solid(content)) return TextStl(content, file).read();
+    if (content.size() < data_start) {
+        fail("io.truncated", {file, 0},
+             "a binary STL of " + counted(content.size(), "byte") + " has no room for its " +
+                 std::to_string(data_start) + " bytes of header",
+             copy_again);
+    }
+    const std::uint64_t expected = data_start + facet_size * facet_count(content);
+    fail(expected > content.size() ? "io.truncated" : "io.count", {file, 0},
+         "the header names " + counted(facet_count(content), "facet") + ", " + std::to_string(expected) +
+             " bytes in all, but the file has " + std::to_string(content.size()),
+         copy_again);
+}
+
+std::string encode_stl(const surface::TriangleMesh& mesh) {
+    const Vec3 centre = centre_to_subtract(mesh);
+    std::string out = header_of(centre);
+    out.reserve(data_start + facet_size * mesh.faces.size());
+    append_bytes(out, static_cast<std::uint32_t>(mesh.faces.size()));
+    for (const auto& face : mesh.faces) {
+        std::array<Vec3, 3> p;
+        for (std::size_t c = 0; c < 3; ++c) p[c] = mesh.points[face[c]] - centre;
+        const Vec3 normal = geometry::triangle_normal(p[0], p[1], p[2]);
+        for (const Vec3& v : {normal, p[0], p[1], p[2]}) {
+            for (int k = 0; k < 3; ++k) append_bytes(out, static_cast<float>(v[k]));
+        }
+        append_bytes(out, std::uint16_t{0});
+    }
+    return out;
+}
+
+}  // namespace dsc::io

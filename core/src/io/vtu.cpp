@@ -1,0 +1,273 @@
+// VTK unstructured grids of tets through VTK's own XML reader and writer. The one place that includes VTK.
+#include <dsc/base/error.hpp>
+#include <dsc/geometry/quality.hpp>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkSmartPointer.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "io/codecs.hpp"
+#include "io/text.hpp"
+
+namespace dsc::io {
+namespace {
+
+/// Takes what VTK would print.
+class Capture : public vtkOutputWindow {
+public:
+    static Capture* New() { VTK_STANDARD_NEW_BODY(Capture); }
+    void DisplayText(const char* text) override {
+        if (text != nullptr) text_ += text;
+    }
+    const std::string& text() const { return text_; }
+
+private:
+    std::string text_;
+};
+
+class CaptureScope {
+public:
+    CaptureScope() : before_(vtkOutputWindow::GetInstance()) { vtkOutputWindow::SetInstance(capture_); }
+    ~CaptureScope() { vtkOutputWindow::SetInstance(before_); }
+    CaptureScope(const CaptureScope&) = delete;
+    CaptureScope& operator=(const CaptureScope&) = delete;
+
+    bool quiet() const { return capture_->text().empty(); }
+    /// The last line of VTK's message that says something, without its object and file names.
+    std::string cause() const {
+        std::string out;
+        Lines lines(capture_->text(), "");
+        for (std::string_view line; lines.next(line);) {
+            const std::size_t colon = line.find("): ");
+            if (colon != std::string_view::npos) out = line.substr(colon + 3);
+        }
+        return out.empty() ? std::string("it is not a readable VTU file") : out;
+    }
+
+private:
+    vtkSmartPointer<vtkOutputWindow> before_;
+    vtkNew<Capture> capture_;
+};
+
+template <class Array, class Value>
+vtkSmartPointer<Array> make_array(const char* name, const std::vector<Value>& values) {
+    auto array = vtkSmartPointer<Array>::New();
+    if (name != nullptr) array->SetName(name);
+    array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+    std::copy(values.begin(), values.end(), array->GetPointer(0));
+    return array;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> make_grid(const mesh::TetMesh& mesh) {
+    vtkNew<vtkDoubleArray> coordinates;
+    coordinates->SetNumberOfComponents(3);
+    coordinates->SetNumberOfTuples(static_cast<vtkIdType>(mesh.points.size()));
+    double* to = coordinates->GetPointer(0);
+    for (const Vec3& p : mesh.points) to = std::copy(p.data(), p.data() + 3, to);
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    points->SetData(coordinates);
+
+    vtkNew<vtkTypeInt64Array> offsets, corners;
+    offsets->SetNumberOfTuples(static_cast<vtkIdType>(mesh.tets.size() + 1));
+    corners->SetNumberOfTuples(static_cast<vtkIdType>(4 * mesh.tets.size()));
+    vtkTypeInt64* offset = offsets->GetPointer(0);
+    vtkTypeInt64* corner = corners->GetPointer(0);
+    for (std::size_t t = 0; t <= mesh.tets.size(); ++t) *offset++ = static_cast<vtkTypeInt64>(4 * t);
+    for (const auto& tet : mesh.tets) corner = std::copy(tet.begin(), tet.end(), corner);
+    vtkNew<vtkCellArray> cells;
+    cells->SetData(offsets, corners);
+
+    auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    grid->SetPoints(points);
+    grid->SetCells(VTK_TETRA, cells);
+    return grid;
+}
+
+std::vector<double> qualities(const mesh::TetMesh& mesh) {
+    std::vector<double> out;
+    out.reserve(mesh.tets.size());
+    for (const auto& [a, b, c, d] : mesh.tets) {
+        out.push_back(geometry::tet_quality(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]));
+    }
+    return out;
+}
+
+/// The number after `attribute="` in the XML before the binary part; 0 when there is none.
+std::uint64_t announced(std::string_view xml, std::string_view attribute) {
+    const std::size_t at = xml.find(attribute);
+    std::uint64_t value = 0;
+    if (at == std::string_view::npos) return value;
+    const std::string_view rest = xml.substr(at + attribute.size());
+    const auto result = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+    return result.ec == std::errc::result_out_of_range ? std::numeric_limits<std::uint64_t>::max() : value;
+}
+
+/// VTK allocates what the header announces. zlib packs at most 1032 to 1, and a point or a tet has at least
+/// 12 bytes.
+void check_announced(const std::string& content, std::string_view file) {
+    const std::string_view xml = std::string_view(content).substr(0, content.find("<AppendedData"));
+    for (const std::string_view attribute : {"NumberOfPoints=\"", "NumberOfCells=\""}) {
+        const std::uint64_t count = announced(xml, attribute);
+        if (count / 100 <= content.size()) continue;
+        fail("io.count", {file, 0},
+             std::string(attribute.substr(0, attribute.size() - 2)) + " is " + std::to_string(count) +
+                 ", more than a file of " + counted(content.size(), "byte") + " can hold",
+             copy_again);
+    }
+}
+
+std::vector<Vec3> read_points(vtkUnstructuredGrid& grid, std::string_view file) {
+    std::vector<Vec3> out;
+    const vtkIdType count = grid.GetNumberOfPoints();
+    out.reserve(static_cast<std::size_t>(count));
+    for (vtkIdType i = 0; i < count; ++i) {
+        Vec3 p;
+        grid.GetPoints()->GetPoint(i, p.data());
+        if (!p.allFinite()) {
+            fail("io.not_finite", {file, 0}, "point " + std::to_string(i) + " is NaN or infinite",
+                 "export the file again");
+        }
+        out.push_back(p);
+    }
+    return out;
+}
+
+/// VTK trusts offsets and indices of the file; we do not.
+void read_tets(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view file) {
+    const vtkIdType count = grid.GetNumberOfCells();
+    if (count == 0) return;
+    const vtkCellArray* cells = grid.GetCells();
+    vtkDataArray* offsets = const_cast<vtkCellArray*>(cells)->GetOffsetsArray();
+    vtkDataArray* corners = const_cast<vtkCellArray*>(cells)->GetConnectivityArray();
+    vtkUnsignedCharArray* types = grid.GetCellTypesArray();
+    if (types == nullptr || types->GetNumberOfValues() != count ||
+        offsets->GetNumberOfValues() != count + 1) {
+        fail("io.truncated", {file, 0}, "cell types or offsets are missing", copy_again);
+    }
+    const vtkIdType size = corners->GetNumberOfValues();
+    mesh.tets.reserve(static_cast<std::size_t>(count));
+    for (vtkIdType t = 0; t < count; ++t) {
+        if (types->GetValue(t) != VTK_TETRA) {
+            fail("io.cell_type", {file, 0},
+                 "cell " + std::to_string(t) + " has type " + std::to_string(types->GetValue(t)) +
+                     ", only tets (10) are read",
+                 "export the tets alone");
+        }
+        const auto begin = static_cast<vtkIdType>(offsets->GetTuple1(t)),
+                   end = static_cast<vtkIdType>(offsets->GetTuple1(t + 1));
+        if (begin < 0 || end - begin != 4 || end > size) {
+            fail("io.syntax", {file, 0},
+                 "cell " + std::to_string(t) + " has offsets that do not name 4 corners",
+                 "export the file again");
+        }
+        std::array<std::uint32_t, 4> tet{};
+        for (vtkIdType k = 0; k < 4; ++k) {
+            const double index = corners->GetTuple1(begin + k);
+            if (!(index >= 0.0) || index >= static_cast<double>(mesh.points.size())) {
+                fail("io.index", {file, 0},
+                     "cell " + std::to_string(t) + ": point index " +
+                         std::to_string(static_cast<long long>(index)) + " of " +
+                         std::to_string(mesh.points.size()),
+                     "export the file again");
+            }
+            tet[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(index);
+        }
+        mesh.tets.push_back(tet);
+    }
+}
+
+void read_labels(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view file) {
+    vtkDataArray* labels = grid.GetCellData()->GetArray("label");
+    if (labels == nullptr || labels->GetNumberOfComponents() != 1) {
+        fail("io.no_labels", {file, 0}, "there is no cell array 'label' of one number a tet",
+             "add one: 0 outside, 1 the object, further phases above");
+    }
+    if (labels->GetNumberOfTuples() != static_cast<vtkIdType>(mesh.tets.size())) {
+        fail("io.truncated", {file, 0},
+             "cell array 'label' has " + std::to_string(labels->GetNumberOfTuples()) + " values for " +
+                 counted(mesh.tets.size(), "tet"),
+             copy_again);
+    }
+    mesh.labels.reserve(mesh.tets.size());
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const double value = labels->GetTuple1(static_cast<vtkIdType>(t));
+        if (!(value >= 0.0) || value > std::numeric_limits<mesh::Label>::max() ||
+            value != std::floor(value)) {
+            fail("io.syntax", {file, 0},
+                 "cell " + std::to_string(t) + " has a label that is not an integer from 0 up",
+                 "labels are 0 (outside) and up");
+        }
+        mesh.labels.push_back(static_cast<mesh::Label>(value));
+    }
+}
+
+mesh::TetMesh decode_checked(const std::string& content, std::string_view file) {
+    CaptureScope capture;
+    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    reader->ReadFromInputStringOn();
+    reader->SetInputString(content);
+    reader->Update();
+    if (reader->GetErrorCode() != 0 || !capture.quiet())
+        fail("io.syntax", {file, 0}, "VTK refuses it: " + capture.cause(), copy_again);
+    vtkUnstructuredGrid* grid = reader->GetOutput();
+    mesh::TetMesh mesh;
+    mesh.points = read_points(*grid, file);
+    read_tets(*grid, mesh, file);
+    if (!mesh.tets.empty()) read_labels(*grid, mesh, file);
+    return mesh;
+}
+
+}  // namespace
+
+mesh::TetMesh decode_vtu(const std::string& content, std::string_view file) {
+    check_announced(content, file);
+    try {
+        return decode_checked(content, file);
+    } catch (const std::bad_alloc&) {
+        fail("io.count", {file, 0}, "it announces more than memory can hold", copy_again);
+    }
+}
+
+std::string encode_vtu(const mesh::TetMesh& mesh, const VolumeData& data, std::string_view file) {
+    const auto grid = make_grid(mesh);
+    grid->GetCellData()->AddArray(make_array<vtkIntArray>("label", mesh.labels));
+    grid->GetCellData()->AddArray(make_array<vtkDoubleArray>("quality", qualities(mesh)));
+    grid->GetCellData()->SetActiveScalars("label");
+    for (const DataArray& a : data.cells)
+        grid->GetCellData()->AddArray(make_array<vtkDoubleArray>(a.name.c_str(), a.values));
+    for (const DataArray& a : data.points) {
+        grid->GetPointData()->AddArray(make_array<vtkDoubleArray>(a.name.c_str(), a.values));
+    }
+    CaptureScope capture;
+    vtkNew<vtkXMLUnstructuredGridWriter> writer;
+    writer->SetInputData(grid);
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToZLib();
+    writer->SetHeaderTypeToUInt64();
+    writer->WriteToOutputStringOn();
+    if (writer->Write() == 0 || writer->GetErrorCode() != 0 || !capture.quiet()) {
+        fail("io.write", {file, 0}, "VTK cannot write it: " + capture.cause(), "write a .dsc instead");
+    }
+    return writer->GetOutputString();
+}
+
+}  // namespace dsc::io

@@ -1,0 +1,90 @@
+#include <dsc/io/write.hpp>
+
+#include <dsc/base/error.hpp>
+#include <dsc/geometry/predicates.hpp>
+#include <dsc/io/atomic_file.hpp>
+#include <dsc/io/formats.hpp>
+#include <dsc/surface/measure.hpp>
+
+#include <limits>
+
+#include "io/codecs.hpp"
+#include "io/text.hpp"
+
+namespace dsc::io {
+namespace {
+
+const Format& require_format(const std::filesystem::path& file, bool Format::*kind, const std::string& what,
+                             const std::string& accepted) {
+    const Format* format = find_format(file);
+    if (format == nullptr || !(format->*kind)) {
+        fail("io.format", {file.string(), 0}, "a " + what + " cannot be written with this extension",
+             "use one of " + accepted);
+    }
+    return *format;
+}
+
+void require_size(std::size_t count, std::size_t expected, const std::string& what) {
+    if (count == expected) return;
+    throw GeometryError("volume.size", "volume: " + what + " has " + counted(count, "value") + " for " +
+                                           std::to_string(expected) + "; give one for each");
+}
+
+void check_arrays(const mesh::TetMesh& mesh, const VolumeData& data) {
+    require_size(mesh.labels.size(), mesh.tets.size(), "the array of labels");
+    for (const DataArray& a : data.cells)
+        require_size(a.values.size(), mesh.tets.size(), "cell array " + in_quotes(a.name));
+    for (const DataArray& a : data.points) {
+        require_size(a.values.size(), mesh.points.size(), "point array " + in_quotes(a.name));
+    }
+}
+
+void check_points(const mesh::TetMesh& mesh) {
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        if (mesh.points[i].allFinite()) continue;
+        throw GeometryError("volume.not_finite",
+                            "volume: point " + std::to_string(i) + " is NaN or infinite");
+    }
+}
+
+/// The formats carry doubles whole, so the numbers in memory are the numbers that are written.
+void check_tets(const mesh::TetMesh& mesh, const std::string& file) {
+    std::size_t wrong = 0, first = 0;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const auto& [a, b, c, d] = mesh.tets[t];
+        if (std::max({a, b, c, d}) >= mesh.points.size()) {
+            throw GeometryError("volume.index", "volume: tet " + std::to_string(t) + " refers to point " +
+                                                    std::to_string(std::max({a, b, c, d})) + " of " +
+                                                    std::to_string(mesh.points.size()));
+        }
+        if (geometry::orient3d(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) > 0) continue;
+        if (wrong++ == 0) first = t;
+    }
+    if (wrong == 0) return;
+    throw GeometryError("volume.inverted",
+                        file + ": not written, " + counted(wrong, "tet") + " of " +
+                            std::to_string(mesh.tets.size()) + " not positive, the first is tet " +
+                            std::to_string(first) +
+                            "; orient the tets (adopt does) or use units in which they do not vanish");
+}
+
+}  // namespace
+
+void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh) {
+    const Format& format = require_format(file, &Format::surface, "surface", surface_extensions());
+    surface::require_sound(mesh);
+    write_file(file, format.extension == ".obj"   ? encode_obj(mesh)
+                     : format.extension == ".ply" ? encode_ply(mesh)
+                     : format.extension == ".off" ? encode_off(mesh)
+                                                  : encode_stl(mesh));
+}
+
+void write_volume(const std::filesystem::path& file, const mesh::TetMesh& mesh, const VolumeData& data) {
+    const Format& format = require_format(file, &Format::volume, "volume", volume_extensions());
+    check_arrays(mesh, data);
+    check_points(mesh);
+    check_tets(mesh, file.string());
+    write_file(file, format.extension == ".dsc" ? encode_dsc(mesh) : encode_vtu(mesh, data, file.string()));
+}
+
+}  // namespace dsc::io
