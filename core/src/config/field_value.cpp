@@ -48,8 +48,7 @@ public:
         if (!node.is_number()) {
             return wrong_type(node, path, "a number", node.is_string() ? number_hint(node.as_string()) : "");
         }
-        within(node.as_real(),
-               node.is_integer() ? std::to_string(node.as_integer()) : real_text(node.as_real()), node, path);
+        within(node.as_real(), number_text(node), node, path);
         return ConfigNode(node.as_real()).placed(node.position()).with_path(path);
     }
 
@@ -113,10 +112,7 @@ private:
     }
 
     bool within(double value, const std::string& text, const ConfigNode& node, const std::string& path) {
-        const auto bound_text = [&](double bound) {
-            const bool whole = field_.type == FieldType::integer || field_.type == FieldType::integer_list;
-            return whole ? std::to_string(static_cast<std::int64_t>(bound)) : real_text(bound);
-        };
+        const auto bound_text = [&](double bound) { return config::bound_text(field_, bound); };
         const std::optional<Bound>& low = field_.minimum;
         const std::optional<Bound>& high = field_.maximum;
         std::string fault;
@@ -191,6 +187,18 @@ bool is_plain_field(FieldType type) {
         default:
             return true;
     }
+}
+
+std::string number_text(const ConfigNode& node) {
+    if (node.is_integer()) return std::to_string(node.as_integer());
+    std::string text = real_text(node.as_real());
+    if (text.size() > 2 && text.compare(text.size() - 2, 2, ".0") == 0) text.resize(text.size() - 2);
+    return text;
+}
+
+std::string bound_text(const Field& field, double bound) {
+    const bool integer = field.type == FieldType::integer || field.type == FieldType::integer_list;
+    return number_text(integer ? ConfigNode(static_cast<std::int64_t>(bound)) : ConfigNode(bound));
 }
 
 std::string value_text(const ConfigNode& node) {

@@ -16,6 +16,10 @@ bool is_plain_field(FieldType type);
 ConfigNode resolve_value(const Field& field, const ConfigNode& node, const std::string& path,
                          const SourcePosition& fallback, Diagnostics& diagnostics);
 
+/// A number as people write it: "1", not "1.0".
+std::string number_text(const ConfigNode& node);
+std::string bound_text(const Field& field, double bound);
+
 /// "the string 'fast'", "2.5", "a list": a given value as it reads in a message.
 std::string value_text(const ConfigNode& node);
 

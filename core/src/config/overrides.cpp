@@ -81,7 +81,7 @@ private:
                 refuse("'" + path + "' is a list of " + std::to_string(node.size()) + ", it has no item '" +
                            part + "'",
                        node.size() == 0 ? "write " + path + "=[...]"
-                                        : "items are numbered 0 to " + std::to_string(node.size() - 1));
+                                        : "items are numbered from 0 to " + std::to_string(node.size() - 1));
             }
             return node.with_item(index, set(node.items()[index], depth + 1, inner));
         }

@@ -56,17 +56,7 @@ std::string short_text(const ConfigNode& node) {
         for (const ConfigNode& item : node.items()) items.push_back(short_text(item));
         return "[" + join(items) + "]";
     }
-    std::string text = to_yaml(node);
-    text.pop_back();
-    return text;
-}
-
-std::string number_text(const Field& field, double value) {
-    const bool integer = field.type == FieldType::integer || field.type == FieldType::integer_list;
-    if (integer) return std::to_string(static_cast<std::int64_t>(value));
-    std::string text = real_text(value);
-    if (text.size() > 2 && text.compare(text.size() - 2, 2, ".0") == 0) text.resize(text.size() - 2);
-    return text;
+    return node.is_number() ? number_text(node) : value_text(node);
 }
 
 /// The faults of one field, without its place.
@@ -143,7 +133,7 @@ bool Field::has_tag(std::string_view tag) const {
 }
 
 std::string Field::range_text() const {
-    const auto text = [&](const Bound& bound) { return number_text(*this, bound.value); };
+    const auto text = [&](const Bound& bound) { return bound_text(*this, bound.value); };
     if (minimum && maximum) {
         return (minimum->open ? "(" : "[") + text(*minimum) + ", " + text(*maximum) +
                (maximum->open ? ")" : "]");

@@ -60,17 +60,45 @@ public:
         if (begin >= text.size()) return at(begin, 1);
         const char first = text[begin];
         if (first == '|' || first == '>') return at(begin, 1);
-        const std::string_view line = text.substr(begin, text.find_first_of("\r\n", begin) - begin);
+        const std::size_t line_end = std::min(text.find_first_of("\r\n", begin), text.size());
         if (first != '"' && first != '\'') {
-            const std::size_t shared = std::min(value.size(), line.size());
-            return at(begin, character_count(line.substr(0, shared)));
+            const std::size_t end = std::min(begin + value.size(), line_end);
+            return at(begin, character_count(text.substr(begin, end - begin)));
         }
-        std::size_t end = 1;
-        while (end < line.size() && line[end] != first) end += first == '"' && line[end] == '\\' ? 2 : 1;
-        return at(begin, character_count(line.substr(0, end + 1)));
+        const std::size_t close = closing_quote(begin);
+        if (close >= text.size()) {
+            // The library accepts this where the file ends with a newline.
+            fail("config.yaml", at(begin, 1), "malformed YAML: the quote that starts here is not closed");
+        }
+        const std::size_t end = std::min(close + 1, line_end);
+        return at(begin, character_count(text.substr(begin, end - begin)));
+    }
+
+    /// The character of the text at a position that this object made.
+    char character(const SourcePosition& position) const {
+        const std::string_view line = source_->line(position.line);
+        const auto column = static_cast<std::size_t>(position.column - 1);
+        return column < line.size() ? line[column] : '\0';
     }
 
 private:
+    /// Where the quoted scalar that starts at `begin` ends, the size of the text if it does not.
+    std::size_t closing_quote(std::size_t begin) const {
+        const std::string_view text = source_->text;
+        const char quote = text[begin];
+        std::size_t at = begin + 1;
+        for (; at < text.size(); ++at) {
+            if (quote == '"' && text[at] == '\\') {
+                ++at;
+            } else if (text[at] == quote) {
+                const bool doubled = quote == '\'' && at + 1 < text.size() && text[at + 1] == quote;
+                if (!doubled) return at;
+                ++at;
+            }
+        }
+        return text.size();
+    }
+
     std::shared_ptr<const SourceText> source_;
     std::size_t begin_;
     std::vector<std::size_t> starts_;
@@ -79,20 +107,38 @@ private:
 /// Builds the tree from the parser's events.
 class TreeBuilder : public YAML::EventHandler {
 public:
-    explicit TreeBuilder(const ReadJob& job) : job_(job), places_(job.source, job.begin) {}
+    explicit TreeBuilder(const ReadJob& job)
+        : job_(job), places_(job.source, job.begin), root_(ConfigNode().placed({job.source, 0, 0, 0})) {}
 
     ConfigNode take() { return std::move(root_); }
     const Places& places() const { return places_; }
-    bool started() const { return started_; }
-    /// Where a second document starts, if there is one.
+    /// A document from here on is one too many.
     void expect_no_more() { only_document_read_ = true; }
+
+    /// What usually causes a fault of the syntax at this place.
+    std::string syntax_hint(const SourcePosition& position) const {
+        const std::string_view line = job_.source->line(position.line);
+        const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());
+        if (line.substr(0, first).find('\t') != std::string_view::npos) return "indent with blanks, not tabs";
+        const std::size_t variable = line.find("${");
+        const bool has_variable = variable != std::string_view::npos;
+        if (has_variable && line.substr(0, variable).find_first_of("\"'") == std::string_view::npos) {
+            return "put text with ${...} in quotes";
+        }
+        for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
+            const char bracket = places_.character(frame->position);
+            if (bracket != '[' && bracket != '{') continue;
+            const std::string line_text = " in line " + std::to_string(frame->position.line);
+            return std::string("is the '") + bracket + "'" + (job_.flow_only ? "" : line_text) + " closed?";
+        }
+        return {};
+    }
 
     void OnDocumentStart(const YAML::Mark& mark) override {
         if (only_document_read_) {
             fail("config.yaml", places_.at(mark), "malformed YAML: a second document starts here",
                  "a configuration is one document");
         }
-        started_ = true;
     }
     void OnDocumentEnd() override {}
 
@@ -155,6 +201,7 @@ public:
 private:
     struct Frame {
         bool is_map = false;
+        bool is_key = false;  ///< stands where a key must be, an error already noted
         SourcePosition position;
         YAML::anchor_t anchor = 0;
         std::size_t nodes = 1;  ///< in this subtree, aliases expanded
@@ -224,13 +271,14 @@ private:
               YAML::EmitterStyle::value style, bool is_map) {
         const SourcePosition position = places_.at(mark);
         refuse_tag(tag, position);
+        // These two are only noted: where the text is broken further on, that is the better message.
         if (expects_key()) {
-            fail("config.yaml", position, "malformed YAML: a list or map cannot be a key",
-                 "text with ${...} or other braces belongs in quotes");
-        }
-        if (job_.flow_only && style == YAML::EmitterStyle::Block) {
-            fail("config.yaml", position, "malformed YAML: expected a scalar, [list] or {map}",
-                 "put text with ': ' or '- ' in quotes");
+            job_.diagnostics->error("config.yaml", position, "malformed YAML: a list or map cannot be a key",
+                                    "text with braces or brackets belongs in quotes");
+        } else if (job_.flow_only && frames_.empty() && style == YAML::EmitterStyle::Block) {
+            job_.diagnostics->error("config.yaml", position,
+                                    "malformed YAML: expected a scalar, [list] or {map}",
+                                    "text with ': ' or '- ' belongs in quotes");
         }
         count(mark);
         if (frames_.size() >= job_.options->max_depth) too_deep(mark);
@@ -238,7 +286,18 @@ private:
         frame.is_map = is_map;
         frame.position = position;
         frame.anchor = anchor;
+        frame.is_key = expects_key();
         frames_.push_back(std::move(frame));
+    }
+
+    void close(ConfigNode node, const Frame& frame) {
+        if (frame.is_key) {
+            frames_.back().has_key = true;
+            frames_.back().drop_value = true;
+            frames_.back().key_position = frame.position;
+        } else {
+            finish(std::move(node), frame.anchor, frame.nodes, frame.depth);
+        }
     }
 
     void count(const YAML::Mark& mark, std::size_t nodes = 1) {
@@ -276,21 +335,8 @@ private:
     std::vector<Frame> frames_;
     std::unordered_map<YAML::anchor_t, Anchored> anchors_;  // looked up only, never walked
     ConfigNode root_;
-    bool started_ = false;
     bool only_document_read_ = false;
 };
-
-/// What usually causes a fault of the syntax at this place.
-std::string syntax_hint(std::string_view line) {
-    const std::size_t first = line.find_first_not_of(" \t");
-    if (line.substr(0, first).find('\t') != std::string_view::npos) return "indent with blanks, not tabs";
-    const std::size_t variable = line.find("${");
-    if (variable != std::string_view::npos &&
-        line.substr(0, variable).find_first_of("\"'") == std::string_view::npos) {
-        return "put text with ${...} in quotes";
-    }
-    return {};
-}
 
 void refuse_non_text(const ReadJob& job, const Places& places) {
     const std::string& text = job.source->text;
@@ -318,7 +364,7 @@ ConfigNode read_yaml(const ReadJob& job) {
     } catch (const YAML::Exception& error) {
         const SourcePosition position = builder.places().at(error.mark);
         fail("config.yaml", position, "malformed YAML: " + printable(error.msg),
-             syntax_hint(job.source->line(position.line)));
+             builder.syntax_hint(position));
     }
     return builder.take();
 }
