@@ -6,8 +6,8 @@
 
 namespace dsc::cloud {
 
-/// Path of share/data/NAME. Looked for in the folder named by the environment variable DSC_SHARE (if set, only there),
-/// then beside the running library or program (../share/dsc), then in the source tree of the build.
+/// Path of the file data/NAME in the project's shared folder. That folder is the one named by the environment variable
+/// DSC_SHARE if it is set; else ../share/dsc seen from the running library or program; else share/ of the source tree.
 /// Throws IoError "io.data_file" naming the places tried. [setup]
 std::filesystem::path data_file(std::string_view name);
 

@@ -23,6 +23,7 @@ struct DeformerOptions {
     double max_edit_distance = 0.5;  ///< by which one edit may move the interface
     double max_edit_volume = 1.0;    ///< by which one edit may change a phase
     bool audit = false;              ///< compare the queues with a full scan each round; throws GeometryError on a difference
+    std::uint64_t drop_wake_up = 0;  ///< for tests of the audit: the n-th wake-up is lost; 0: none is
 };
 
 /// The decisions that the kernel leaves to others.

@@ -1,0 +1,18 @@
+#pragma once
+// What several files of this module refuse in the same words.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <dsc/geometry/vec.hpp>
+
+namespace dsc::cloud {
+
+/// The name of a cloud for a message; "cloud" if it has none.
+std::string named(std::string_view name);
+
+/// Box of the points. Throws GeometryError "cloud.non_finite" for NaN, infinity and coordinates above 1e100.
+Box3 require_finite(std::span<const Vec3> points, std::string_view name);
+
+}  // namespace dsc::cloud

@@ -1,0 +1,162 @@
+#include <dsc/cloud/filter.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include <dsc/base/error.hpp>
+#include <dsc/cloud/search.hpp>
+
+#include "checks.hpp"
+#include "pcl_filters.hpp"
+#include "text.hpp"
+
+namespace dsc::cloud {
+
+namespace {
+
+/// Box of the cloud; refuses a cloud that no filter can work on.
+Box3 checked_box(const Cloud& cloud, const std::string& filter) {
+    if (cloud.points.empty())
+        throw GeometryError("cloud.empty", named(cloud.source) + ": filter " + filter + ": the cloud has no points");
+    return require_finite(cloud.points, cloud.source);
+}
+
+void require_option(bool valid, const Cloud& cloud, const std::string& filter, const std::string& cause) {
+    if (!valid) throw GeometryError("cloud.option", named(cloud.source) + ": filter " + filter + ": " + cause);
+}
+
+Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<bool>& keep) {
+    Filtered result;
+    const bool coloured = cloud.colours.size() == cloud.points.size();
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+        if (!keep[i]) continue;
+        result.cloud.points.push_back(cloud.points[i]);
+        if (coloured) result.cloud.colours.push_back(cloud.colours[i]);
+    }
+    result.cloud.source = cloud.source;
+    result.report = {filter, result.cloud.points.size(), cloud.points.size() - result.cloud.points.size()};
+    if (result.cloud.points.empty())
+        throw GeometryError("cloud.filtered_out", named(cloud.source) + ": filter " + filter + " removes all " +
+                                                      counted(cloud.points.size(), "point") +
+                                                      "; relax its options or leave it out");
+    return result;
+}
+
+Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<std::size_t>& kept) {
+    std::vector<bool> keep(cloud.points.size(), false);
+    for (const std::size_t i : kept) keep[i] = true;
+    return take(cloud, filter, keep);
+}
+
+/// The points moved to the origin and scaled to a diagonal of 1, for PCL's floats. All zero if all points are equal.
+std::vector<Vec3> recentred(const Cloud& cloud, const Box3& box) {
+    const double diagonal = box.diagonal();
+    std::vector<Vec3> points;
+    points.reserve(cloud.points.size());
+    for (const Vec3& p : cloud.points)
+        points.push_back(diagonal > 0.0 ? Vec3((p - box.centre()) / diagonal) : Vec3::Zero());
+    return points;
+}
+
+void mark_exact_duplicates(const std::vector<Vec3>& points, std::vector<bool>& keep) {
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto key = [&](std::size_t i) { return std::make_tuple(points[i].x(), points[i].y(), points[i].z()); };
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+        const auto a = key(i), b = key(j);
+        return a < b || (a == b && i < j);
+    });
+    for (std::size_t n = 1; n < order.size(); ++n)
+        if (points[order[n]] == points[order[n - 1]]) keep[order[n]] = false;
+}
+
+void mark_close(const std::vector<Vec3>& points, double distance, std::vector<bool>& keep) {
+    const NearestSearch search(points);
+    std::vector<Neighbour> close;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!keep[i]) continue;
+        search.neighbours_within(points[i], distance, close);
+        for (const Neighbour& n : close)
+            if (n.index > i) keep[n.index] = false;
+    }
+}
+
+}  // namespace
+
+Filtered remove_duplicates(const Cloud& cloud, const DuplicatesOptions& options) {
+    const std::string filter = "duplicates";
+    const Box3 box = checked_box(cloud, filter);
+    require_option(options.tolerance >= 0.0 && options.tolerance <= 1.0, cloud, filter,
+                   "tolerance is " + short_number(options.tolerance) + "; it must lie in [0, 1]");
+    std::vector<bool> keep(cloud.points.size(), true);
+    mark_exact_duplicates(cloud.points, keep);
+    if (options.tolerance > 0.0) mark_close(cloud.points, options.tolerance * box.diagonal(), keep);
+    return take(cloud, filter, keep);
+}
+
+// Not PCL's filter of this name: that one returns averages in float, without indices, and refuses fine grids.
+Filtered voxel_grid(const Cloud& cloud, const VoxelGridOptions& options) {
+    const std::string filter = "voxel_grid";
+    const Box3 box = checked_box(cloud, filter);
+    require_option(options.size >= 1e-9 && options.size <= 1.0, cloud, filter,
+                   "size is " + short_number(options.size) + "; it must lie in [1e-9, 1]");
+    const double edge = options.size * box.diagonal();
+    struct Entry {
+        std::array<std::int64_t, 3> cell;
+        std::size_t index;
+    };
+    std::vector<Entry> entries(cloud.points.size());
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const Vec3 from_low = cloud.points[i] - box.low;
+        for (std::size_t k = 0; k < 3; ++k)
+            entries[i].cell[k] =
+                edge > 0.0 ? static_cast<std::int64_t>(std::floor(from_low[static_cast<int>(k)] / edge)) : 0;
+        entries[i].index = i;
+    }
+    std::sort(entries.begin(), entries.end(),
+              [](const Entry& a, const Entry& b) { return std::tie(a.cell, a.index) < std::tie(b.cell, b.index); });
+
+    std::vector<bool> keep(cloud.points.size(), false);
+    for (std::size_t begin = 0; begin < entries.size();) {
+        std::size_t end = begin;
+        Vec3 sum = Vec3::Zero();  // relative to the box, so that far coordinates lose nothing
+        for (; end < entries.size() && entries[end].cell == entries[begin].cell; ++end)
+            sum += cloud.points[entries[end].index] - box.low;
+        const Vec3 centroid = sum / static_cast<double>(end - begin);
+        const auto distance = [&](const Entry& e) { return (cloud.points[e.index] - box.low - centroid).squaredNorm(); };
+        const auto first = entries.begin() + static_cast<std::ptrdiff_t>(begin);
+        const auto last = entries.begin() + static_cast<std::ptrdiff_t>(end);
+        keep[std::min_element(first, last, [&](const Entry& a, const Entry& b) { return distance(a) < distance(b); })->index] =
+            true;
+        begin = end;
+    }
+    return take(cloud, filter, keep);
+}
+
+Filtered remove_statistical_outliers(const Cloud& cloud, const StatisticalOutliersOptions& options) {
+    const std::string filter = "statistical_outliers";
+    const Box3 box = checked_box(cloud, filter);
+    require_option(options.neighbours >= 1 && options.neighbours <= 1000, cloud, filter,
+                   "neighbours is " + std::to_string(options.neighbours) + "; it must lie in [1, 1000]");
+    require_option(options.deviations >= 0.0 && std::isfinite(options.deviations), cloud, filter,
+                   "deviations is " + short_number(options.deviations) + "; it must be at least 0");
+    // PCL reads beyond its buffer when a cloud has no more points than neighbours are asked for.
+    const std::size_t neighbours = std::min(options.neighbours, cloud.points.size() - 1);
+    if (neighbours == 0) return take(cloud, filter, std::vector<bool>(cloud.points.size(), true));
+    return take(cloud, filter, statistical_inliers(recentred(cloud, box), neighbours, options.deviations));
+}
+
+Filtered remove_radius_outliers(const Cloud& cloud, const RadiusOutliersOptions& options) {
+    const std::string filter = "radius_outliers";
+    const Box3 box = checked_box(cloud, filter);
+    require_option(options.radius > 0.0 && options.radius <= 1.0, cloud, filter,
+                   "radius is " + short_number(options.radius) + "; it must be above 0 and at most 1");
+    require_option(options.neighbours >= 1 && options.neighbours <= 1000, cloud, filter,
+                   "neighbours is " + std::to_string(options.neighbours) + "; it must lie in [1, 1000]");
+    return take(cloud, filter, radius_inliers(recentred(cloud, box), options.radius, options.neighbours));
+}
+
+}  // namespace dsc::cloud

@@ -1,0 +1,23 @@
+#pragma once
+// What the checks of PCD and PLY headers share.
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace dsc::cloud {
+
+/// Takes the next line off `rest`; only LF ends it, because binary data follow a header. A CR before it is dropped.
+/// False at the end and for a line without LF.
+bool next_header_line(std::string_view& rest, std::string_view& line);
+
+[[noreturn]] void header_error(const std::string& file, std::size_t line, const std::string& cause);
+
+/// "the header promises N points, the file holds M".
+[[noreturn]] void truncated(const std::string& file, const std::string& promised, std::size_t held);
+
+/// A count of a header that may still be multiplied by sizes; PCL counts points in 31 bits.
+inline constexpr std::size_t most_points = std::numeric_limits<int>::max();
+
+}  // namespace dsc::cloud

@@ -1,0 +1,122 @@
+#include <dsc/cloud/normalize.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include <dsc/base/error.hpp>
+#include <dsc/geometry/predicates.hpp>
+
+#include "checks.hpp"
+#include "text.hpp"
+
+namespace dsc::cloud {
+
+namespace {
+
+/// Index of the point for which `measure` is largest, the first of equals.
+template <class Measure>
+std::size_t largest(std::span<const Vec3> points, const Measure& measure) {
+    std::size_t best = 0;
+    double value = -1.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double m = measure(points[i]);
+        if (m > value) {
+            value = m;
+            best = i;
+        }
+    }
+    return best;
+}
+
+std::string interval(const Box3& box) {
+    std::string text;
+    for (int k = 0; k < 3; ++k)
+        text += (k ? " x [" : "[") + short_number(box.low[k]) + ", " + short_number(box.high[k]) + "]";
+    return text;
+}
+
+constexpr std::string_view volume_remedy = "a surface needs at least 4 points that do not lie on one plane";
+
+}  // namespace
+
+std::string named(std::string_view name) { return name.empty() ? "cloud" : std::string(name); }
+
+Box3 require_finite(std::span<const Vec3> points, std::string_view name) {
+    Box3 box;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        // Beyond this, squares and volumes of coordinates leave the range of doubles.
+        if (!(points[i].cwiseAbs().maxCoeff() <= 1e100))
+            throw GeometryError("cloud.non_finite", named(name) + ": point " + std::to_string(i) +
+                                                        " has a coordinate that is not finite or above 1e100; remove it");
+        box.extend(points[i]);
+    }
+    return box;
+}
+
+void require_volume(std::span<const Vec3> points, std::string_view name) {
+    const std::string who = named(name);
+    if (points.size() < 4)
+        throw GeometryError("cloud.few", who + ": the cloud has " + counted(points.size(), "point") + "; " +
+                                             std::string(volume_remedy));
+    const Box3 box = require_finite(points, name);
+    const auto refuse = [&](const char* code, const char* what) {
+        const Vec3 size = box.size();
+        throw GeometryError(code, who + ": all " + std::to_string(points.size()) + " points " + what + " (extent " +
+                                      short_number(size.x()) + " x " + short_number(size.y()) + " x " +
+                                      short_number(size.z()) + "); " + std::string(volume_remedy));
+    };
+    // Below 1e-100 the squares of differences vanish. Flat means below the tolerance or below what rounding the
+    // coordinates far from the origin may have added.
+    const double diagonal = box.diagonal();
+    if (diagonal < 1e-100) refuse("cloud.equal", "are equal");
+    const double magnitude = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
+    const double flat = std::max(1e-9 * diagonal, 8.0 * std::numeric_limits<double>::epsilon() * magnitude);
+
+    const Vec3& a = points[0];
+    const Vec3& b = points[largest(points, [&](const Vec3& p) { return (p - a).squaredNorm(); })];
+    const Vec3 along = (b - a).normalized();
+    const auto off_line = [&](const Vec3& p) { return along.cross(p - a).norm(); };
+    const Vec3& c = points[largest(points, off_line)];
+    if ((b - a).norm() <= flat) refuse("cloud.equal", "are equal");
+    if (off_line(c) <= flat) refuse("cloud.collinear", "lie on one line");
+    const Vec3 normal = along.cross(c - a).normalized();
+    const auto off_plane = [&](const Vec3& p) { return std::abs(normal.dot(p - a)); };
+    const Vec3& d = points[largest(points, off_plane)];
+    if (off_plane(d) <= flat || geometry::orient3d(a, b, c, d) == 0) refuse("cloud.coplanar", "lie on one plane");
+}
+
+Normalized normalize(const Cloud& cloud, double scale_target) {
+    const double most = simulation_box().high.x();
+    if (!(scale_target > 0.0 && scale_target <= most))
+        throw GeometryError("cloud.scale", named(cloud.source) + ": the normalisation scale is " +
+                                               short_number(scale_target) + "; choose one above 0 and at most " +
+                                               short_number(most) + ", 0.9 by default");
+    require_volume(cloud.points, cloud.source);
+    const Box3 box = bounding_box(cloud.points);
+    Normalized result;
+    result.transform.centre = box.centre();
+    result.transform.scale = scale_target / (0.5 * box.size().maxCoeff());
+    result.points.reserve(cloud.points.size());
+    for (const Vec3& p : cloud.points) result.points.push_back(result.transform.apply(p));
+    return result;
+}
+
+Normalized keep_coordinates(const Cloud& cloud, const Box3& box) {
+    require_volume(cloud.points, cloud.source);
+    const auto inside = [&](const Vec3& p) { return box.contains(p); };
+    const auto first = std::find_if_not(cloud.points.begin(), cloud.points.end(), inside);
+    if (first != cloud.points.end()) {
+        const auto outside = cloud.points.size() - static_cast<std::size_t>(std::count_if(first, cloud.points.end(), inside)) -
+                             static_cast<std::size_t>(first - cloud.points.begin());
+        throw GeometryError("cloud.outside_box",
+                            named(cloud.source) + ": cloud outside the box: " + std::to_string(outside) + " of " +
+                                counted(cloud.points.size(), "point") + ", the first is point " +
+                                std::to_string(first - cloud.points.begin()) + "; the cloud spans " +
+                                interval(bounding_box(cloud.points)) + ", the box is " + interval(box) +
+                                "; normalise the cloud (normalize: {scale: 0.9}) or scale it into the box");
+    }
+    return {cloud.points, Transform{}};
+}
+
+}  // namespace dsc::cloud

@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <vector>
+
+#include <dsc/base/error.hpp>
+
+#include "formats.hpp"
+#include "header.hpp"
+#include "text.hpp"
+
+namespace dsc::cloud {
+
+bool next_header_line(std::string_view& rest, std::string_view& line) {
+    const std::size_t end = rest.find('\n');
+    if (end == std::string_view::npos) return false;
+    line = rest.substr(0, end);
+    rest.remove_prefix(end + 1);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    return true;
+}
+
+void header_error(const std::string& file, std::size_t line, const std::string& cause) {
+    throw IoError("io.syntax", file, std::to_string(line), cause, "save the cloud again");
+}
+
+void truncated(const std::string& file, const std::string& promised, std::size_t held) {
+    throw IoError("io.truncated", file, "", "the header promises " + promised + ", the file holds " + std::to_string(held),
+                  "the file is cut off, write it again");
+}
+
+namespace {
+
+struct Field {
+    std::string_view name;
+    std::size_t size = 4;
+    char type = 'F';
+    std::size_t count = 1;
+};
+
+struct Header {
+    std::vector<Field> fields;
+    std::size_t points = 0;
+    std::string_view data;  ///< "ascii", "binary", "binary_compressed"
+    std::string_view body;
+    std::size_t lines = 0;
+
+    std::size_t step() const {
+        std::size_t sum = 0;
+        for (const Field& field : fields) sum += field.size * field.count;
+        return sum;
+    }
+};
+
+class HeaderReader {
+public:
+    HeaderReader(const std::string& file, std::string_view bytes) : file_(file), rest_(bytes) {}
+
+    Header read() {
+        std::string_view line;
+        while (next_header_line(rest_, line)) {
+            ++line_;
+            std::string_view rest = line;
+            const std::string_view key = next_word(rest);
+            if (key.empty() || key.front() == '#') continue;
+            std::vector<std::string_view> values;
+            for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) values.push_back(word);
+            entry(key, values);
+            if (key == "DATA") {
+                finish();
+                return header_;
+            }
+        }
+        throw IoError("io.truncated", file_, "", "the PCD header has no line DATA",
+                      "the file is cut off or no PCD file, write it again");
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& cause) const { header_error(file_, line_, cause); }
+
+    std::size_t count(std::string_view word, std::size_t most) const {
+        std::size_t value = 0;
+        if (!parse_count(word, value) || value > most)
+            fail(in_quotes(word) + " is not a count between 0 and " + std::to_string(most));
+        return value;
+    }
+
+    /// PCL resizes its buffers as it meets these lines, so their order and number matter.
+    void entry(std::string_view key, const std::vector<std::string_view>& values) {
+        static constexpr std::array<std::string_view, 10> order{"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
+                                                                "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
+        const std::string_view name = key == "COLUMNS" ? "FIELDS" : key;
+        const auto place = std::find(order.begin(), order.end(), name);
+        if (place == order.end()) fail(in_quotes(key) + " is no entry of a PCD header");
+        const auto rank = place - order.begin() + 1;
+        if (rank <= rank_) fail(in_quotes(key) + " stands twice or in the wrong order");
+        rank_ = rank;
+
+        if (name == "FIELDS") {
+            for (const std::string_view value : values) header_.fields.push_back({value});
+            if (values.empty()) fail("FIELDS names no field");
+        } else if (name == "SIZE" || name == "TYPE" || name == "COUNT") {
+            if (values.size() != header_.fields.size())
+                fail(std::string(name) + " has " + counted(values.size(), "value") + ", FIELDS has " +
+                     std::to_string(header_.fields.size()));
+            for (std::size_t i = 0; i < values.size(); ++i) column(header_.fields[i], name, values[i]);
+            seen_ += name == "COUNT" ? 0 : 1;
+        } else if (name == "VIEWPOINT") {
+            if (values.size() != 7) fail("VIEWPOINT has " + counted(values.size(), "value") + ", it needs 7");
+        } else if (name != "VERSION") {
+            if (values.size() != 1) fail(std::string(name) + " has " + counted(values.size(), "value") + ", it needs 1");
+            if (name == "WIDTH") width_ = count(values[0], most_points);
+            if (name == "HEIGHT") height_ = count(values[0], most_points);
+            if (name == "POINTS") header_.points = count(values[0], most_points);
+            if (name == "DATA") header_.data = values[0];
+            has_points_ = has_points_ || name == "POINTS";
+            has_width_ = has_width_ || name == "WIDTH";
+            has_height_ = has_height_ || name == "HEIGHT";
+        }
+    }
+
+    void column(Field& field, std::string_view name, std::string_view value) const {
+        if (name == "SIZE") {
+            field.size = count(value, 8);
+            if (field.size != 1 && field.size != 2 && field.size != 4 && field.size != 8)
+                fail("field " + in_quotes(field.name) + " has size " + std::string(value) + "; known are 1, 2, 4 and 8");
+        } else if (name == "TYPE") {
+            field.type = value.front();
+            if (value.size() != 1 || std::string_view("FIU").find(field.type) == std::string_view::npos ||
+                (field.type == 'F' && field.size < 4))
+                fail("field " + in_quotes(field.name) + " has the unknown type " + in_quotes(value) + " of " +
+                     counted(field.size, "byte"));
+        } else {
+            field.count = count(value, 100000);
+            if (field.count == 0) fail("field " + in_quotes(field.name) + " has count 0");
+        }
+    }
+
+    void finish() {
+        if (seen_ != 2) fail("FIELDS, SIZE or TYPE is missing");
+        if (!has_points_ || has_width_ != has_height_) fail("WIDTH, HEIGHT or POINTS is missing");
+        if (has_width_ && width_ * height_ != header_.points)
+            fail("WIDTH " + std::to_string(width_) + " x HEIGHT " + std::to_string(height_) + " is not POINTS " +
+                 std::to_string(header_.points));
+        for (const std::string_view axis : {"x", "y", "z"}) {
+            const auto named = [&](const Field& field) { return field.name == axis; };
+            const auto found = std::find_if(header_.fields.begin(), header_.fields.end(), named);
+            if (std::count_if(header_.fields.begin(), header_.fields.end(), named) != 1 || found->count != 1)
+                fail("a point needs the fields x, y and z, each once; " + in_quotes(axis) + " is not");
+        }
+        header_.body = rest_;
+        header_.lines = line_;
+    }
+
+    const std::string& file_;
+    std::string_view rest_;
+    std::size_t line_ = 0;
+    std::ptrdiff_t rank_ = 0;
+    int seen_ = 0;
+    std::size_t width_ = 0, height_ = 0;
+    bool has_points_ = false, has_width_ = false, has_height_ = false;
+    Header header_;
+};
+
+void check_ascii(const std::string& file, const Header& header) {
+    std::size_t columns = 0;
+    for (const Field& field : header.fields) columns += field.count;
+    std::size_t points = 0, number = header.lines;
+    std::string_view rest = header.body;
+    while (points < header.points && !rest.empty()) {
+        const std::size_t end = rest.find('\n');
+        std::string_view line = rest.substr(0, end);
+        rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+        ++number;
+        if (line.empty()) continue;  // as PCL does
+        if (line.back() == '\r') line.remove_suffix(1);
+        std::size_t column = 0;
+        std::size_t field = 0, left = header.fields[0].count;
+        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++column) {
+            if (column >= columns) break;
+            double value = 0.0;
+            const std::string_view name = header.fields[field].name;
+            if ((name == "x" || name == "y" || name == "z") && parse_number(word, value) == Number::not_a_number)
+                throw IoError("io.syntax", file, std::to_string(number), in_quotes(word) + " is not a number",
+                              "write its true coordinate");
+            if (--left == 0 && ++field < header.fields.size()) left = header.fields[field].count;
+        }
+        if (column < columns)
+            throw IoError("io.truncated", file, std::to_string(number),
+                          "the point has " + counted(column, "value") + ", the header asks for " + std::to_string(columns),
+                          "the file may be cut off, write it again");
+        ++points;
+    }
+    if (points < header.points) truncated(file, counted(header.points, "point"), points);
+}
+
+void check_compressed(const std::string& file, const Header& header) {
+    for (const Field& field : header.fields)
+        if (field.name == "_")
+            header_error(file, header.lines, "a padding field '_' in compressed data cannot be read");
+    std::array<std::uint32_t, 2> sizes{};  // compressed, uncompressed
+    const std::size_t wanted = header.points * header.step();
+    if (header.body.size() < sizeof sizes) truncated(file, counted(header.points, "point"), 0);
+    std::memcpy(sizes.data(), header.body.data(), sizeof sizes);
+    if (header.body.size() - sizeof sizes < sizes[0])
+        throw IoError("io.truncated", file, "",
+                      "the compressed data have " + std::to_string(header.body.size() - sizeof sizes) + " of " +
+                          std::to_string(sizes[0]) + " bytes",
+                      "the file is cut off, write it again");
+    // Three bytes of LZF stand for 264 at most, so a small file cannot ask for much memory.
+    if (sizes[1] != wanted || wanted / 100 > sizes[0])
+        throw IoError("io.syntax", file, "",
+                      "the compressed data are said to have " + std::to_string(sizes[1]) + " bytes, the header's " +
+                          counted(header.points, "point") + " need " + std::to_string(wanted),
+                      "the file is damaged, write it again");
+}
+
+}  // namespace
+
+FileCheck check_pcd(const std::string& file, std::string_view bytes) {
+    const Header header = HeaderReader(file, bytes).read();
+    if (header.points == 0) no_points(file, "save the cloud again");
+    if (header.data == "ascii") {
+        check_ascii(file, header);
+    } else if (header.data == "binary") {
+        const std::size_t held = header.body.size() / header.step();
+        if (held < header.points) truncated(file, counted(header.points, "point"), held);
+    } else if (header.data == "binary_compressed") {
+        check_compressed(file, header);
+    } else {
+        header_error(file, header.lines,
+                     in_quotes(header.data) + " is no kind of PCD data; known are ascii, binary and binary_compressed");
+    }
+    return {header.points};
+}
+
+}  // namespace dsc::cloud

@@ -1,0 +1,127 @@
+// PCD and PLY files through PCL's PCLPointCloud2, which keeps fields of type double as they are.
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+
+#include <pcl/PCLPointCloud2.h>
+#include <pcl/console/print.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/io/ply_io.h>
+
+#include <dsc/base/error.hpp>
+
+#include "formats.hpp"
+#include "text.hpp"
+
+namespace dsc::cloud {
+
+namespace {
+
+const pcl::PCLPointField* find_field(const pcl::PCLPointCloud2& blob, std::string_view name) {
+    for (const pcl::PCLPointField& field : blob.fields)
+        if (field.name == name) return &field;
+    return nullptr;
+}
+
+template <class T>
+double value_of(const std::uint8_t* data) {
+    T value;
+    std::memcpy(&value, data, sizeof value);
+    return static_cast<double>(value);
+}
+
+using Getter = double (*)(const std::uint8_t*);
+
+Getter getter(std::uint8_t type) {
+    switch (type) {
+        case pcl::PCLPointField::FLOAT64: return value_of<double>;
+        case pcl::PCLPointField::FLOAT32: return value_of<float>;
+        case pcl::PCLPointField::INT8: return value_of<std::int8_t>;
+        case pcl::PCLPointField::UINT8: return value_of<std::uint8_t>;
+        case pcl::PCLPointField::INT16: return value_of<std::int16_t>;
+        case pcl::PCLPointField::UINT16: return value_of<std::uint16_t>;
+        case pcl::PCLPointField::INT32: return value_of<std::int32_t>;
+        case pcl::PCLPointField::UINT32: return value_of<std::uint32_t>;
+        default: return nullptr;
+    }
+}
+
+[[noreturn]] void refused(const std::string& file, std::string_view format) {
+    throw IoError("io.syntax", file, "", "PCL's " + std::string(format) + " reader does not accept the file",
+                  "save the cloud again, for instance as PLY with x, y and z alone");
+}
+
+Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const FileCheck& check, ReadReport& report) {
+    std::array<const std::uint8_t*, 3> data{};
+    std::array<Getter, 3> get{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const pcl::PCLPointField* const field = find_field(blob, std::string_view("xyz").substr(k, 1));
+        if (!field) refused(file, report.format);
+        get[k] = getter(field->datatype);
+        if (!get[k])
+            throw IoError("io.format", file, "", "field " + in_quotes(field->name) + " has a type that is not read",
+                          "save the coordinates as float or double");
+        data[k] = blob.data.data() + field->offset;
+    }
+    const std::size_t step = blob.point_step;
+    if (blob.data.size() != check.points * step) refused(file, report.format);
+    const pcl::PCLPointField* colour = find_field(blob, "rgb");
+    if (!colour) colour = find_field(blob, "rgba");
+    if (colour && (colour->count != 1 || (colour->datatype != pcl::PCLPointField::FLOAT32 &&
+                                          colour->datatype != pcl::PCLPointField::UINT32)))
+        colour = nullptr;
+
+    Cloud cloud;
+    cloud.points.reserve(check.points);
+    for (std::size_t i = 0; i < check.points; ++i) {
+        const std::size_t at = i * step;
+        const Vec3 p(get[0](data[0] + at), get[1](data[1] + at), get[2](data[2] + at));
+        if (!p.allFinite()) continue;
+        cloud.points.push_back(p);
+        if (!colour) continue;
+        std::uint32_t packed = 0;
+        std::memcpy(&packed, blob.data.data() + at + colour->offset, sizeof packed);
+        cloud.colours.push_back({static_cast<std::uint8_t>(packed >> 16U), static_cast<std::uint8_t>(packed >> 8U),
+                                 static_cast<std::uint8_t>(packed)});
+    }
+    report.dropped_non_finite = check.points - cloud.points.size();
+    if (cloud.points.empty())
+        throw IoError("io.non_finite", file, "",
+                      "all " + counted(check.points, "point") + " have NaN or infinite coordinates",
+                      "save a cloud with finite coordinates");
+    return cloud;
+}
+
+/// Runs a PCL reader in silence; what it throws or refuses becomes one error of ours.
+template <class Reader>
+Cloud read_with(Reader& reader, const std::filesystem::path& path, const FileCheck& check, ReadReport& report) {
+    const std::string file = path.string();
+    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+    pcl::PCLPointCloud2 blob;
+    int result = -1;
+    try {
+        Eigen::Vector4f origin;
+        Eigen::Quaternionf orientation;
+        int version = 0;
+        result = reader.read(file, blob, origin, orientation, version, 0);
+    } catch (const std::exception&) {
+        result = -1;
+    }
+    if (result < 0) refused(file, report.format);
+    return extract(file, blob, check, report);
+}
+
+}  // namespace
+
+Cloud read_pcd(const std::filesystem::path& path, const FileCheck& check, ReadReport& report) {
+    pcl::PCDReader reader;
+    return read_with(reader, path, check, report);
+}
+
+Cloud read_ply(const std::filesystem::path& path, const FileCheck& check, ReadReport& report) {
+    pcl::PLYReader reader;
+    return read_with(reader, path, check, report);
+}
+
+}  // namespace dsc::cloud

@@ -1,0 +1,282 @@
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include <dsc/base/error.hpp>
+
+#include "formats.hpp"
+#include "header.hpp"
+#include "text.hpp"
+
+namespace dsc::cloud {
+
+namespace {
+
+struct Property {
+    std::string_view name;
+    std::string_view type;        ///< canonical: int8, ... float64
+    std::string_view count_type;  ///< of a list, else empty
+};
+
+struct Element {
+    std::string_view name;
+    std::size_t count = 0;
+    std::vector<Property> properties;
+};
+
+enum class Format { ascii, little, big };
+
+struct Header {
+    Format format = Format::ascii;
+    std::vector<Element> elements;
+    std::string_view body;
+    std::size_t lines = 0;
+};
+
+struct Type {
+    std::string_view name, alias;
+    std::size_t size;
+};
+constexpr Type types[] = {{"int8", "char", 1},     {"uint8", "uchar", 1}, {"int16", "short", 2}, {"uint16", "ushort", 2},
+                          {"int32", "int", 4},     {"uint32", "uint", 4}, {"float32", "float", 4},
+                          {"float64", "double", 8}};
+
+std::size_t size_of(std::string_view name) {
+    for (const Type& type : types)
+        if (type.name == name) return type.size;
+    return 0;
+}
+
+class HeaderReader {
+public:
+    HeaderReader(const std::string& file, std::string_view bytes) : file_(file), rest_(bytes) {}
+
+    Header read() {
+        std::string_view line;
+        if (!next_header_line(rest_, line) || line != "ply")
+            throw IoError("io.syntax", file_, "1", "the first line is not 'ply'", "this is no PLY file, check its name");
+        line_ = 1;
+        bool format = false;
+        while (next_header_line(rest_, line)) {
+            ++line_;
+            std::string_view rest = line;
+            const std::string_view key = next_word(rest);
+            if (key == "comment") continue;
+            if (key == "end_header") {
+                if (!format) fail("the header has no line 'format'");
+                header_.body = rest_;
+                header_.lines = line_;
+                return header_;
+            }
+            if (key == "format") {
+                read_format(rest);
+                format = true;
+            } else if (key == "element") {
+                read_element(rest);
+            } else if (key == "property") {
+                read_property(rest);
+            } else if (key == "obj_info") {
+                const std::string_view what = next_word(rest);
+                if (what == "num_cols" || what == "num_rows") grid();
+            } else {
+                fail(in_quotes(key) + " is no entry of a PLY header");
+            }
+        }
+        throw IoError("io.truncated", file_, "", "the PLY header has no line 'end_header'",
+                      "the file is cut off, write it again");
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& cause) const { header_error(file_, line_, cause); }
+
+    /// Range images have fewer points than places; PCL fills the rest with NaN and takes the size from the comment.
+    [[noreturn]] void grid() const {
+        throw IoError("io.format", file_, std::to_string(line_), "PLY files with a range grid are not read",
+                      "save the points alone, for instance with MeshLab or CloudCompare");
+    }
+
+    void read_format(std::string_view rest) {
+        const std::string_view name = next_word(rest);
+        if (name == "ascii")
+            header_.format = Format::ascii;
+        else if (name == "binary_little_endian")
+            header_.format = Format::little;
+        else if (name == "binary_big_endian")
+            header_.format = Format::big;
+        else
+            fail(in_quotes(name) + " is no PLY format; known are ascii, binary_little_endian and binary_big_endian");
+    }
+
+    void read_element(std::string_view rest) {
+        Element element;
+        element.name = next_word(rest);
+        const std::string_view count = next_word(rest);
+        if (element.name == "range_grid") grid();
+        if (!parse_count(count, element.count) || element.count > most_points)
+            fail(in_quotes(count) + " is not a count between 0 and " + std::to_string(most_points));
+        for (const Element& other : header_.elements)
+            if (other.name == element.name) fail("element " + in_quotes(element.name) + " stands twice");
+        header_.elements.push_back(element);
+    }
+
+    std::string_view read_type(std::string_view word) const {
+        for (const Type& type : types)
+            if (word == type.name || word == type.alias) return type.name;
+        fail(in_quotes(word) + " is no PLY type");
+    }
+
+    void read_property(std::string_view rest) {
+        if (header_.elements.empty()) fail("a property stands before the first element");
+        Element& element = header_.elements.back();
+        Property property;
+        std::string_view word = next_word(rest);
+        if (word == "list") {
+            property.count_type = read_type(next_word(rest));
+            if (property.count_type.substr(0, 5) == "float") fail("the length of a list is not a whole number");
+            word = next_word(rest);
+        }
+        property.type = read_type(word);
+        property.name = next_word(rest);
+        if (property.name.empty()) fail("a property has no name");
+        for (const Property& other : element.properties)
+            if (other.name == property.name) fail("property " + in_quotes(property.name) + " stands twice");
+        element.properties.push_back(property);
+    }
+
+    const std::string& file_;
+    std::string_view rest_;
+    std::size_t line_ = 0;
+    Header header_;
+};
+
+/// What PCL's reader would take into the wrong place of a point without a word.
+void check_vertex(const std::string& file, const Element& vertex) {
+    const auto refuse = [&](const std::string& cause) {
+        throw IoError("io.format", file, "", cause, "save the points with x, y and z alone");
+    };
+    std::size_t axes = 0;
+    std::vector<std::size_t> bytes;  // places of red, green, blue; their order is checked by name
+    for (std::size_t i = 0; i < vertex.properties.size(); ++i) {
+        const Property& p = vertex.properties[i];
+        if (!p.count_type.empty()) refuse("the points have a list, " + in_quotes(p.name));
+        if (p.name == "x" || p.name == "y" || p.name == "z") ++axes;
+        if (p.type != "uint8") continue;
+        std::string_view colour = p.name;
+        if (colour.substr(0, 8) == "diffuse_") colour.remove_prefix(8);
+        constexpr std::string_view order[] = {"red", "green", "blue"};
+        const auto found = std::find(std::begin(order), std::end(order), colour);
+        if (found != std::end(order)) {
+            const auto place = static_cast<std::size_t>(found - std::begin(order));
+            if (bytes.size() != place || (place > 0 && bytes.back() + 1 != i))
+                refuse("the colours of the points are not red, green, blue in a row");
+            bytes.push_back(i);
+        }
+        if (p.name == "alpha" && bytes.size() != 3) refuse("the points have alpha without colours before it");
+    }
+    if (!bytes.empty() && bytes.size() != 3) refuse("the colours of the points are not red, green, blue in a row");
+    if (axes != 3) refuse("the points have not each of x, y and z");
+}
+
+[[noreturn]] void cut(const std::string& file, const Element& element, std::size_t held) {
+    truncated(file, element.name == "vertex" ? counted(element.count, "point")
+                                             : std::to_string(element.count) + " of " + in_quotes(element.name),
+              held);
+}
+
+std::uint64_t unsigned_at(std::string_view bytes, std::size_t size, Format format) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+        const std::size_t byte = format == Format::big ? i : size - 1 - i;
+        value = value << 8U | static_cast<unsigned char>(bytes[byte]);
+    }
+    return value;
+}
+
+void check_binary(const std::string& file, const Header& header) {
+    std::string_view rest = header.body;
+    for (const Element& element : header.elements) {
+        std::size_t fixed = 0;
+        bool lists = false;
+        for (const Property& p : element.properties) {
+            fixed += p.count_type.empty() ? size_of(p.type) : 0;
+            lists = lists || !p.count_type.empty();
+        }
+        if (!lists) {
+            const std::size_t held = rest.size() / fixed;
+            if (held < element.count) cut(file, element, held);
+            rest.remove_prefix(element.count * fixed);
+            continue;
+        }
+        for (std::size_t n = 0; n < element.count; ++n)
+            for (const Property& p : element.properties) {
+                std::uint64_t need = size_of(p.type);
+                if (!p.count_type.empty()) {
+                    const std::size_t size = size_of(p.count_type);
+                    if (rest.size() < size) cut(file, element, n);
+                    need *= unsigned_at(rest, size, header.format);
+                    rest.remove_prefix(size);
+                }
+                if (rest.size() < need) cut(file, element, n);
+                rest.remove_prefix(need);
+            }
+    }
+}
+
+void check_line(const std::string& file, std::size_t number, const Element& element, std::string_view line) {
+    const auto value = [&](std::string_view what) {
+        const std::string_view word = next_word(line);
+        double ignored = 0.0;
+        if (word.empty())
+            throw IoError("io.truncated", file, std::to_string(number),
+                          "the line ends before " + in_quotes(what) + " of element " + in_quotes(element.name),
+                          "the file may be cut off, write it again");
+        if (parse_number(word, ignored) == Number::not_a_number)
+            header_error(file, number, in_quotes(word) + " is not a number");
+        return word;
+    };
+    for (const Property& p : element.properties) {
+        std::size_t count = 1;
+        if (!p.count_type.empty()) {
+            const std::string_view word = value(p.name);
+            if (!parse_count(word, count)) header_error(file, number, in_quotes(word) + " is not the length of a list");
+        }
+        for (std::size_t i = 0; i < count; ++i) value(p.name);  // ends with the line at the latest
+    }
+    if (!trim(line).empty())
+        header_error(file, number, "the line has more values than element " + in_quotes(element.name) + " has properties");
+}
+
+void check_ascii(const std::string& file, const Header& header) {
+    std::string_view rest = header.body;
+    std::size_t number = header.lines;
+    for (const Element& element : header.elements)
+        for (std::size_t n = 0; n < element.count; ++n) {
+            if (rest.empty()) cut(file, element, n);
+            const std::size_t end = rest.find('\n');
+            std::string_view line = rest.substr(0, end);
+            rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+            if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+            check_line(file, ++number, element, line);
+        }
+}
+
+}  // namespace
+
+FileCheck check_ply(const std::string& file, std::string_view bytes) {
+    const Header header = HeaderReader(file, bytes).read();
+    const auto vertex = std::find_if(header.elements.begin(), header.elements.end(),
+                                     [](const Element& element) { return element.name == "vertex"; });
+    if (vertex == header.elements.end() || vertex->count == 0) no_points(file, "save the cloud again");
+    check_vertex(file, *vertex);
+    for (const Element& element : header.elements)
+        if (element.properties.empty() && element.count > 0)
+            throw IoError("io.syntax", file, "", "element " + in_quotes(element.name) + " has no properties",
+                          "save the cloud again");
+    if (header.format == Format::ascii)
+        check_ascii(file, header);
+    else
+        check_binary(file, header);
+    return {vertex->count};
+}
+
+}  // namespace dsc::cloud

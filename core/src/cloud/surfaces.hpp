@@ -1,0 +1,26 @@
+#pragma once
+// The built-in shapes, each behind the same small interface.
+
+#include <memory>
+#include <string_view>
+
+#include <dsc/base/random.hpp>
+#include <dsc/cloud/shapes.hpp>
+
+namespace dsc::cloud {
+
+class Shape {
+public:
+    virtual ~Shape() = default;
+    /// A point on the shape, uniform by area.
+    virtual Vec3 sample(RandomStream& random) const = 0;
+    virtual Box3 box() const = 0;
+    virtual ShapeMesh mesh() const = 0;
+};
+
+std::unique_ptr<Shape> make_sphere();
+std::unique_ptr<Shape> make_torus();
+std::unique_ptr<Shape> make_box_tunnel();
+std::unique_ptr<Shape> make_teapot();
+
+}  // namespace dsc::cloud

@@ -1,0 +1,56 @@
+#pragma once
+// Reading text: whole files, lines, columns, numbers; and putting pieces of a file into messages.
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace dsc::cloud {
+
+/// The bytes of a regular file. Throws IoError "io.missing", "io.directory", "io.unreadable", "io.empty".
+std::string read_file(const std::filesystem::path& path);
+
+/// Walks over the lines of a text that ends its lines with LF, CR LF or CR; the ends are not part of a line.
+class Lines {
+public:
+    explicit Lines(std::string_view text);
+    /// False at the end of the text.
+    bool next(std::string_view& line);
+    /// Of the last line, from 1.
+    std::size_t number() const { return number_; }
+    /// Whether the last line had an end, which a file that was cut off mostly lacks.
+    bool terminated() const { return terminated_; }
+
+private:
+    std::string_view rest_;
+    std::size_t number_ = 0;
+    bool terminated_ = true;
+};
+
+inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+
+std::string_view trim(std::string_view text);
+
+/// Takes the next run of non-blank characters off `rest`; empty at the end.
+std::string_view next_word(std::string_view& rest);
+
+enum class Number { ok, not_a_number, not_finite };
+
+/// Reads the whole of `word` as a number; locale-independent, a leading + is allowed, what is too small becomes 0.
+/// "nan", "inf" and what is too large are not_finite.
+Number parse_number(std::string_view word, double& value);
+
+/// Reads the whole of `word` as a decimal count.
+bool parse_count(std::string_view word, std::size_t& value);
+
+/// 'word' for a message: at most 40 characters, with ? for unprintable ones.
+std::string in_quotes(std::string_view word);
+
+/// A number with up to 6 significant digits for a message.
+std::string short_number(double value);
+
+/// "1 point", "2 points".
+std::string counted(std::size_t count, std::string_view noun);
+
+}  // namespace dsc::cloud

@@ -1,0 +1,183 @@
+// Edge collapse, with or without the interface.
+#include <cmath>
+
+#include <dsc/geometry/quality.hpp>
+
+#include "kernel/operations.hpp"
+
+namespace dsc::kernel {
+namespace {
+
+using mesh::CollapseMode;
+
+// The edge as a collapse sees it: `removed` goes, `kept` stays at (1 - weight) kept + weight removed.
+struct Plan {
+    VertexId kept = mesh::none, removed = mesh::none;
+    double weight = 0.0;
+    float least = -1.0F;
+};
+
+class Collapse {
+public:
+    Collapse(Workbench& bench, VertexId a, VertexId b, bool interface_edge)
+        : bench_(bench), c_(bench.complex), interface_edge_(interface_edge) {
+        c_.star(a, bench.star_a);
+        c_.star(b, bench.star_b);
+        a_ = a;
+        b_ = b;
+    }
+
+    // Whether v may go: never off the box, and an interface vertex only along the interface.
+    bool removable(VertexId v) const {
+        if (c_.on_box(v)) return false;
+        return !c_.on_interface(v) || (interface_edge_ && c_.phases(v) == 2);
+    }
+    // Whether v may change its position.
+    bool free_to_move(VertexId v) const { return removable(v); }
+
+    // Least quality of the tets that survive with both ends at `place`; early out at `bound`.
+    float least(const Vec3& place, bool a_moves, bool b_moves, float bound) const {
+        float least = 2.0F;
+        const auto scan = [&](const std::vector<TetId>& star, VertexId own, VertexId other) {
+            for (const TetId t : star) {
+                const auto& v = c_.tet(t).v;
+                if (mesh::has_vertex(c_.tet(t), other)) continue;
+                std::array<const Vec3*, 4> p{};
+                for (unsigned i = 0; i < 4; ++i) p[i] = v[i] == own ? &place : &c_.position(v[i]);
+                least = std::min(least, static_cast<float>(geometry::tet_quality(*p[0], *p[1], *p[2], *p[3])));
+                if (!(least > bound)) return false;
+            }
+            return true;
+        };
+        if (a_moves && !scan(bench_.star_a, a_, b_)) return -1.0F;
+        if (b_moves && !scan(bench_.star_b, b_, a_)) return -1.0F;
+        return least;
+    }
+
+    void build(const Plan& plan) {
+        mesh::Edit& edit = bench_.edit;
+        edit.clear();
+        edit.deleted = plan.removed;
+        const auto& star_removed = plan.removed == a_ ? bench_.star_a : bench_.star_b;
+        const auto& star_kept = plan.removed == a_ ? bench_.star_b : bench_.star_a;
+        edit.removed = star_removed;
+        for (const TetId t : star_removed) {
+            if (mesh::has_vertex(c_.tet(t), plan.kept)) continue;
+            mesh::NewTet tet{c_.tet(t).v, c_.label(t)};
+            std::replace(tet.v.begin(), tet.v.end(), plan.removed, plan.kept);
+            edit.added.push_back(tet);
+        }
+        if (plan.weight == 0.0) return;
+        edit.moved = plan.kept;
+        edit.moved_to = place(plan);
+        for (const TetId t : star_kept) {
+            if (mesh::has_vertex(c_.tet(t), plan.removed)) continue;
+            edit.removed.push_back(t);
+            edit.added.push_back({c_.tet(t).v, c_.label(t)});
+        }
+    }
+
+    Vec3 place(const Plan& plan) const {
+        if (plan.weight == 1.0) return c_.position(plan.removed);
+        return (1.0 - plan.weight) * c_.position(plan.kept) + plan.weight * c_.position(plan.removed);
+    }
+
+    // How far the interface moves: from each old vertex to the new faces, from the new place to the old ones.
+    double interface_distance(const Plan& plan) {
+        std::vector<std::array<VertexId, 3>>& old = old_faces_;
+        bench_.interface_fan(plan.removed, fan_);
+        old = fan_;
+        bench_.interface_fan(plan.kept, fan_);
+        old.insert(old.end(), fan_.begin(), fan_.end());
+        const Vec3 target = place(plan);
+        const auto near = [](const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+            return (p - geometry::closest_point_on_triangle(p, a, b, c)).norm();
+        };
+        double kept = INFINITY, removed = INFINITY, back = INFINITY;
+        for (const auto& face : old) {
+            back = std::min(back, near(target, c_.position(face[0]), c_.position(face[1]), c_.position(face[2])));
+            const bool dies = (face[1] == plan.kept || face[2] == plan.kept || face[1] == plan.removed || face[2] == plan.removed);
+            if (dies) continue;
+            kept = std::min(kept, near(c_.position(plan.kept), target, c_.position(face[1]), c_.position(face[2])));
+            removed = std::min(removed, near(c_.position(plan.removed), target, c_.position(face[1]), c_.position(face[2])));
+        }
+        return std::max({kept, removed, back});
+    }
+
+private:
+    Workbench& bench_;
+    mesh::Complex& c_;
+    bool interface_edge_;
+    VertexId a_ = mesh::none, b_ = mesh::none;
+    std::vector<std::array<VertexId, 3>> fan_, old_faces_;
+};
+
+bool is_interface_edge(const Workbench& bench) {
+    const auto& tets = bench.ring.tets;
+    const mesh::Label first = bench.complex.label(tets.front());
+    return std::any_of(tets.begin(), tets.end(), [&](TetId t) { return bench.complex.label(t) != first; });
+}
+
+}  // namespace
+
+Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode, float accept_above) {
+    mesh::Complex& c = bench.complex;
+    c.ring(t, a, b, bench.ring);
+    if (!bench.ring.closed) return Refusal::box;
+    const bool interface_edge = is_interface_edge(bench);
+    if (interface_edge && (c.on_box(a) || c.on_box(b))) return Refusal::box;
+    Collapse collapse(bench, a, b, interface_edge);
+    const bool a_goes = collapse.removable(a), b_goes = collapse.removable(b);
+    if (!a_goes && !b_goes) return c.on_box(a) || c.on_box(b) ? Refusal::box : Refusal::not_applicable;
+    // In safe mode the interface may only be edited where it is flat round the vertex that leaves its place.
+    const bool shape_matters = interface_edge && mode == CollapseMode::safe;
+    const bool a_moves = a_goes && (!shape_matters || bench.flat(a));
+    const bool b_moves = b_goes && (!shape_matters || bench.flat(b));
+    if (!a_moves && !b_moves) return Refusal::bound;
+
+    float old = 1.0F;
+    for (const TetId s : bench.star_a) old = std::min(old, c.quality(s));
+    for (const TetId s : bench.star_b) old = std::min(old, c.quality(s));
+    const float must_exceed = std::min(old, accept_above);
+    Plan best;
+    const auto offer = [&](VertexId kept, VertexId removed, double weight, const Vec3& place, bool moves_a, bool moves_b) {
+        const float least = collapse.least(place, moves_a, moves_b, std::max(must_exceed, best.least));
+        if (least > best.least) best = {kept, removed, weight, least};
+    };
+    if (a_moves) offer(b, a, 0.0, c.position(b), true, false);
+    if (b_moves) offer(a, b, 0.0, c.position(a), false, true);
+    const bool interior_pair = !c.on_interface(a) && !c.on_interface(b);
+    if (a_moves && b_moves && (interface_edge || interior_pair)) {
+        offer(a, b, 0.5, 0.5 * (c.position(a) + c.position(b)), true, true);
+    }
+    if (best.kept == mesh::none) return Refusal::quality;
+
+    double distance = 0.0, volume = 0.0;
+    collapse.build(best);
+    if (interface_edge) {
+        distance = collapse.interface_distance(best);
+        volume = bench.phase_change();
+        if (distance > bench.limits.edit_distance || volume > bench.limits.edit_volume) return Refusal::bound;
+    }
+    if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
+    if (!c.link(bench.edit)) return Refusal::irregular;
+    if (interface_edge) {
+        bench.vertices.clear();
+        for (const TetId s : bench.edit.removed) {
+            for (const VertexId v : c.tet(s).v) {
+                if (c.on_interface(v)) bench.vertices.push_back(v);
+            }
+        }
+        std::sort(bench.vertices.begin(), bench.vertices.end());
+        bench.vertices.erase(std::unique(bench.vertices.begin(), bench.vertices.end()), bench.vertices.end());
+        if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
+    }
+    bench.commit(distance, volume);
+    if (bench.listener != nullptr) {
+        bench.listener->on_collapse(best.kept, best.removed, best.weight);
+        if (interface_edge) bench.listener->on_interface_collapse(best.kept);
+    }
+    return Refusal::committed;
+}
+
+}  // namespace dsc::kernel

@@ -1,0 +1,189 @@
+// Split and collapse as one transaction: repairs of a nearly flat tet by its shape. The intermediate state, with its
+// flat tets, is never built; what is judged is the result.
+#include <cmath>
+
+#include <dsc/geometry/quality.hpp>
+
+#include "kernel/operations.hpp"
+
+namespace dsc::kernel {
+namespace {
+
+// Parameters of the closest points of the lines ab and cd; false when they are parallel.
+bool closest_parameters(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double& s, double& t) {
+    const Vec3 u = b - a, v = d - c, w = a - c;
+    const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
+    const double det = uu * vv - uv * uv;
+    if (!(det > 1e-12 * uu * vv)) return false;
+    s = (uv * v.dot(w) - vv * u.dot(w)) / det;
+    t = (uu * v.dot(w) - uv * u.dot(w)) / det;
+    return true;
+}
+
+constexpr double margin = 0.05;  // a split nearer to an end than this is the neighbouring class' business
+bool inside(double s) { return s > margin && s < 1.0 - margin; }
+
+// Splits the ring's tets round (a, b), except `skip` and those that hold `merged`, at the created vertex.
+void split_ring(Workbench& bench, const mesh::EdgeRing& ring, VertexId a, VertexId b, TetId skip, VertexId merged) {
+    const std::size_t n = ring.tets.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const TetId t = ring.tets[i];
+        if (t == skip) continue;
+        bench.edit.removed.push_back(t);
+        const VertexId p = ring.link[i], q = ring.link[(i + 1) % n];
+        if (p == merged || q == merged) continue;
+        bench.edit.added.push_back({{a, mesh::created_vertex, p, q}, bench.complex.label(t)});
+        bench.edit.added.push_back({{mesh::created_vertex, b, p, q}, bench.complex.label(t)});
+    }
+}
+
+// Judges and commits the edit in the bench; the created vertex was made on (a, b) at s.
+Refusal finish(Workbench& bench, float accept_above, VertexId a, VertexId b, double s) {
+    mesh::Complex& c = bench.complex;
+    const float old = bench.old_quality();
+    const float must_exceed = std::min(old, accept_above);
+    if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
+    if (!c.link(bench.edit)) return Refusal::irregular;
+    bool several = false;
+    for (const TetId t : bench.edit.removed) several = several || c.label(t) != c.label(bench.edit.removed.front());
+    double distance = 0.0, volume = 0.0;
+    if (several) {
+        volume = bench.phase_change();
+        const Vec3& place = bench.edit.created_at;
+        distance = (place - ((1.0 - s) * c.position(a) + s * c.position(b))).norm();
+        if (distance > bench.limits.edit_distance || volume > bench.limits.edit_volume) return Refusal::bound;
+        bench.vertices.clear();
+        for (const TetId t : bench.edit.removed) {
+            for (const VertexId v : c.tet(t).v) {
+                if (c.on_interface(v)) bench.vertices.push_back(v);
+            }
+        }
+        std::sort(bench.vertices.begin(), bench.vertices.end());
+        bench.vertices.erase(std::unique(bench.vertices.begin(), bench.vertices.end()), bench.vertices.end());
+        bench.vertices.push_back(mesh::created_vertex);
+        if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
+    }
+    const VertexId created = bench.commit(distance, volume);
+    if (bench.listener != nullptr) bench.listener->on_split(created, a, b, s);
+    return Refusal::committed;
+}
+
+// Two opposite edges that pass close to each other get a common vertex half-way between.
+Refusal merge_edges(Workbench& bench, TetId t, float accept_above) {
+    mesh::Complex& c = bench.complex;
+    const auto v = c.tet(t).v;
+    constexpr std::array<std::array<unsigned, 4>, 3> pairs = {{{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}}};
+    double best = INFINITY, best_s = 0.0;
+    std::array<VertexId, 4> chosen{};
+    Vec3 place = Vec3::Zero();
+    for (const auto& pair : pairs) {
+        const std::array<VertexId, 4> e = {v[pair[0]], v[pair[1]], v[pair[2]], v[pair[3]]};
+        double s = 0.0, u = 0.0;
+        if (!closest_parameters(c.position(e[0]), c.position(e[1]), c.position(e[2]), c.position(e[3]), s, u)) continue;
+        if (!inside(s) || !inside(u)) continue;
+        const Vec3 p = (1.0 - s) * c.position(e[0]) + s * c.position(e[1]);
+        const Vec3 q = (1.0 - u) * c.position(e[2]) + u * c.position(e[3]);
+        if ((p - q).norm() >= best) continue;
+        best = (p - q).norm();
+        best_s = s;
+        chosen = e;
+        place = 0.5 * (p + q);
+    }
+    if (!(best < INFINITY)) return Refusal::not_applicable;
+    c.ring(t, chosen[0], chosen[1], bench.ring);
+    c.ring(t, chosen[2], chosen[3], bench.ring2);
+    if (!bench.ring.closed || !bench.ring2.closed) return Refusal::box;
+    bench.edit.clear();
+    bench.edit.creates = true;
+    bench.edit.created_at = place;
+    bench.edit.removed.push_back(t);
+    split_ring(bench, bench.ring, chosen[0], chosen[1], t, mesh::none);
+    split_ring(bench, bench.ring2, chosen[2], chosen[3], t, mesh::none);
+    return finish(bench, accept_above, chosen[0], chosen[1], best_s);
+}
+
+// A free vertex v of the tet that lies close to an edge or a face moves into it: the edge or face is split at v's
+// projection and v collapses there. What v leaves must be of one label.
+Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, float accept_above) {
+    mesh::Complex& c = bench.complex;
+    const VertexId v = c.tet(t).v[apex];
+    if (c.on_box(v) || c.on_interface(v)) return Refusal::not_applicable;
+    std::array<VertexId, 3> f{};
+    for (unsigned k = 0; k < 3; ++k) f[k] = c.tet(t).v[mesh::face_vertices[apex][k]];
+    // Into the face if v projects well inside it, else into the nearest edge.
+    const Vec3 &p0 = c.position(f[0]), &p1 = c.position(f[1]), &p2 = c.position(f[2]), &p = c.position(v);
+    const Vec3 normal = (p1 - p0).cross(p2 - p0);
+    const double area2 = normal.squaredNorm();
+    if (!(area2 > 0.0)) return Refusal::not_applicable;
+    const double w0 = (p1 - p).cross(p2 - p).dot(normal) / area2;
+    const double w1 = (p2 - p).cross(p0 - p).dot(normal) / area2;
+    const double w2 = 1.0 - w0 - w1;
+    c.star(v, bench.star_a);
+    bench.edit.clear();
+    bench.edit.creates = true;
+    bench.edit.deleted = v;
+    bench.edit.removed = bench.star_a;
+    const auto reconnect = [&](auto&& skip) {
+        for (const TetId s : bench.star_a) {
+            if (skip(s)) continue;
+            mesh::NewTet tet{c.tet(s).v, c.label(s)};
+            std::replace(tet.v.begin(), tet.v.end(), v, mesh::created_vertex);
+            bench.edit.added.push_back(tet);
+        }
+    };
+    if (std::min({w0, w1, w2}) > margin) {
+        const std::uint32_t code = c.tet(t).n[apex];
+        if (code == mesh::none) return Refusal::box;
+        const TetId other = mesh::neighbour_tet(code);
+        bench.edit.created_at = w0 * p0 + w1 * p1 + w2 * p2;
+        reconnect([&](TetId s) { return s == t; });
+        bench.edit.removed.push_back(other);
+        for (unsigned k = 0; k < 3; ++k) {
+            mesh::NewTet tet{c.tet(other).v, c.label(other)};
+            tet.v[mesh::face_vertices[mesh::neighbour_face(code)][k]] = mesh::created_vertex;
+            bench.edit.added.push_back(tet);
+        }
+        return finish(bench, accept_above, f[0], f[1], 0.5);
+    }
+    double best = INFINITY, best_s = 0.0;
+    VertexId a = mesh::none, b = mesh::none;
+    for (unsigned k = 0; k < 3; ++k) {
+        const Vec3 &x = c.position(f[k]), &y = c.position(f[(k + 1) % 3]);
+        const double s = (p - x).dot(y - x) / std::max((y - x).squaredNorm(), 1e-300);
+        const double distance = (x + s * (y - x) - p).norm();
+        if (!inside(s) || distance >= best) continue;
+        best = distance;
+        best_s = s;
+        a = f[k];
+        b = f[(k + 1) % 3];
+    }
+    if (a == mesh::none) return Refusal::not_applicable;
+    c.ring(t, a, b, bench.ring);
+    if (!bench.ring.closed) return Refusal::box;
+    bench.edit.created_at = (1.0 - best_s) * c.position(a) + best_s * c.position(b);
+    reconnect([&](TetId s) { return mesh::has_vertex(c.tet(s), a) && mesh::has_vertex(c.tet(s), b); });
+    const std::size_t star = bench.edit.removed.size();
+    split_ring(bench, bench.ring, a, b, mesh::none, v);
+    // Ring tets that hold v are in its star already.
+    bench.edit.removed.erase(std::remove_if(bench.edit.removed.begin() + static_cast<std::ptrdiff_t>(star), bench.edit.removed.end(),
+                                            [&](TetId s) { return mesh::has_vertex(c.tet(s), v); }),
+                             bench.edit.removed.end());
+    return finish(bench, accept_above, a, b, best_s);
+}
+
+}  // namespace
+
+Refusal compound(Workbench& bench, TetId t, float accept_above) {
+    Refusal last = Refusal::not_applicable;
+    const auto keep = [&last](Refusal r) {
+        if (r != Refusal::not_applicable) last = r;
+        return r == Refusal::committed;
+    };
+    for (unsigned apex = 0; apex < 4; ++apex) {
+        if (keep(merge_vertex(bench, t, apex, accept_above))) return Refusal::committed;
+    }
+    keep(merge_edges(bench, t, accept_above));
+    return last;
+}
+
+}  // namespace dsc::kernel

@@ -1,0 +1,383 @@
+#include <dsc/kernel/deformer.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <dsc/base/error.hpp>
+#include <dsc/geometry/quality.hpp>
+#include <dsc/mesh/validate.hpp>
+
+#include "kernel/movement.hpp"
+#include "kernel/operations.hpp"
+#include "kernel/queues.hpp"
+#include "kernel/topology.hpp"
+#include "mesh/unpinch.hpp"
+
+namespace dsc::kernel {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr unsigned settle_rounds = 3;  // repair rounds after the last motion
+
+void count(const Event& event, mesh::EventCounts& counts) {
+    switch (event.kind) {
+        case Event::Kind::merge: ++counts.merge; break;
+        case Event::Kind::split: ++counts.split; break;
+        case Event::Kind::handle_opened: ++counts.handle_opened; break;
+        case Event::Kind::handle_closed: ++counts.handle_closed; break;
+        case Event::Kind::vanished: ++counts.vanished; break;
+        case Event::Kind::born: ++counts.born; break;
+        case Event::Kind::unpinched: ++counts.unpinched; break;
+    }
+}
+
+}  // namespace
+
+std::string_view name(Event::Kind kind) {
+    constexpr std::array<std::string_view, 7> names = {"merge",    "split", "handle_opened", "handle_closed",
+                                                       "vanished", "born",  "unpinched"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+OperationCounts& OperationCounts::operator+=(const OperationCounts& other) {
+    tried += other.tried;
+    committed += other.committed;
+    for (std::size_t i = 0; i < refused.size(); ++i) refused[i] += other.refused[i];
+    return *this;
+}
+
+struct Deformer::State final : EditListener {
+    mesh::Complex complex;
+    DeformerOptions options;
+    Workbench bench;
+    RepairQueues queues;
+    TopologyStage topology;
+    double length = 0.0;
+    std::uint64_t step = 0;
+
+    // Destinations of this step; an entry is valid where travelling_[v] == step + 1 and the birth fits.
+    struct Travel {
+        Vec3 destination;
+        std::uint64_t step = 0;
+        std::uint32_t birth = 0;
+        std::uint32_t blocked_at = 0;  // 0: not blocked
+        std::uint32_t listed = 0;      // pass in which it was handled, against double entries
+    };
+    std::vector<Travel> travel;
+    std::vector<VertexId> active;
+    std::vector<VertexId> blocked;
+    std::uint32_t pass = 0;
+
+    std::vector<TetId> step_changes;
+    std::vector<VertexId> near_collapses;
+    std::vector<mesh::Request> requests, last_requests;
+    std::vector<mesh::Outcome> outcomes;
+
+    State(mesh::Complex start, const DeformerOptions& wanted)
+        : complex(std::move(start)), options(wanted), bench(complex), queues(complex, wanted.audit, wanted.drop_wake_up), topology(bench) {
+        bench.listener = this;
+        length = mean_interface_edge();
+        apply_limits(0.995);
+    }
+
+    void apply_limits(double flatness) {
+        bench.limits = {length, options.quality_floor, options.max_edit_distance * length,
+                        options.max_edit_volume * geometry::regular_tet_volume(length), flatness};
+    }
+
+    double mean_interface_edge() const {
+        double sum = 0.0;
+        std::size_t edges = 0;
+        std::vector<VertexId> order(complex.interface_vertices().begin(), complex.interface_vertices().end());
+        std::sort(order.begin(), order.end(), [this](VertexId a, VertexId b) { return complex.birth(a) < complex.birth(b); });
+        std::vector<TetId> star;
+        std::vector<std::uint32_t> ends;
+        std::vector<std::pair<std::uint32_t, double>> lengths;
+        for (const VertexId v : order) {
+            complex.star(v, star);
+            lengths.clear();
+            for (const TetId t : star) {
+                for (unsigned f = 0; f < 4; ++f) {
+                    if (complex.tet(t).v[f] == v || !complex.interface_face(t, f)) continue;
+                    for (const auto k : mesh::face_vertices[f]) {
+                        const VertexId w = complex.tet(t).v[k];
+                        if (complex.birth(w) > complex.birth(v)) lengths.emplace_back(complex.birth(w), (complex.position(w) - complex.position(v)).norm());
+                    }
+                }
+            }
+            std::sort(lengths.begin(), lengths.end());
+            lengths.erase(std::unique(lengths.begin(), lengths.end()), lengths.end());
+            for (const auto& edge : lengths) sum += edge.second;
+            edges += lengths.size();
+        }
+        return edges > 0 ? sum / static_cast<double>(edges) : 0.0;
+    }
+
+    // ---- destinations that follow the edits ---------------------------------------------------------------------
+    bool travels(VertexId v) const { return v < travel.size() && travel[v].step == step && travel[v].birth == complex.birth(v); }
+    Vec3 destination_of(VertexId v) const { return travels(v) ? travel[v].destination : complex.position(v); }
+    void send(VertexId v, const Vec3& destination) {
+        travel.resize(std::max<std::size_t>(travel.size(), complex.vertex_slots()));
+        travel[v] = {destination, step, complex.birth(v), 0, 0};
+        active.push_back(v);
+    }
+
+    void on_split(VertexId vertex, VertexId a, VertexId b, double s) override {
+        if (!complex.movable(vertex) || (!travels(a) && !travels(b))) return;
+        send(vertex, (1.0 - s) * destination_of(a) + s * destination_of(b));
+    }
+    void on_collapse(VertexId kept, VertexId removed, double s) override {
+        // The removed id is dead but its entry is still there: births differ only once the slot is taken again.
+        const bool goes = removed < travel.size() && travel[removed].step == step;
+        const bool stays = travels(kept);
+        if ((!goes && !stays) || !complex.movable(kept) || s == 0.0) return;
+        const Vec3 from = stays ? travel[kept].destination : complex.position(kept);
+        const Vec3 to = goes ? travel[removed].destination : complex.position(kept);
+        send(kept, (1.0 - s) * from + s * to);
+    }
+    void on_interface_collapse(VertexId kept) override { near_collapses.push_back(kept); }
+
+    // ---- the parts of a step ------------------------------------------------------------------------------------
+    void begin(std::span<const VertexId> vertices, std::span<const Vec3> displacements, StepReport& report) {
+        ++step;
+        active.clear();
+        near_collapses.clear();
+        step_changes.clear();
+        last_requests.clear();
+        outcomes.clear();
+        bench.sums = {};
+        const Vec3 low = complex.box().low.array() + 2.0 * length;
+        const Vec3 high = complex.box().high.array() - 2.0 * length;
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const VertexId v = vertices[i];
+            if (!complex.movable(v) || displacements[i].isZero(0.0)) continue;
+            ++report.requested;
+            const Vec3 wanted = complex.position(v) + displacements[i];
+            const Vec3 inside = wanted.cwiseMax(low).cwiseMin(high);
+            if (inside != wanted) ++report.clamped;
+            send(v, inside);
+        }
+    }
+
+    // One attempt for every vertex under way; returns the summed distance left.
+    double move_all() {
+        ++pass;
+        blocked.clear();
+        double left = 0.0;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < active.size(); ++i) {
+            const VertexId v = active[i];
+            if (v >= complex.vertex_slots() || !complex.vertex_alive(v) || !travels(v) || !complex.movable(v)) continue;
+            Travel& way = travel[v];
+            if (way.listed == pass) continue;
+            way.listed = pass;
+            if (way.blocked_at == 0 || queues.awake(v, way.blocked_at)) {
+                const Motion motion = move_towards(bench, v, way.destination, options.free_path);
+                if (motion == Motion::arrived) {
+                    way.step = 0;
+                    continue;
+                }
+                way.blocked_at = motion == Motion::blocked ? complex.clock() : 0;
+            } else if (options.audit && complex.vertex_date(v) > way.blocked_at) {
+                throw GeometryError("kernel.audit", "audit: vertex " + std::to_string(v) +
+                                                        " sleeps though its star changed; the queues of the kernel lost a wake-up");
+            }
+            if (way.blocked_at != 0) blocked.push_back(v);
+            left += (way.destination - complex.position(v)).norm();
+            active[kept++] = v;
+        }
+        active.resize(kept);
+        return left;
+    }
+
+    // One repair round; returns the number of commits.
+    std::size_t repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report) {
+        const auto dirty = queues.next_round();
+        step_changes.insert(step_changes.end(), dirty.begin(), dirty.end());
+        requests.clear();
+        policy.propose(mesh::RepairRound{complex, dirty, blocked, last_requests, outcomes, length, policy.flatness, round, settled}, requests);
+        outcomes.clear();
+        std::size_t commits = 0;
+        for (std::size_t i = 0; i < requests.size(); ++i) {
+            const mesh::Request& request = requests[i];
+            const Refusal refusal = execute(bench, request);
+            outcomes.push_back({static_cast<std::uint32_t>(i), refusal});
+            auto& counts = report.operations[static_cast<std::size_t>(request.operation)];
+            ++counts.tried;
+            if (refusal == Refusal::committed) {
+                ++counts.committed;
+                ++commits;
+                continue;
+            }
+            ++counts.refused[static_cast<std::size_t>(refusal)];
+            if (refusal != Refusal::stale && request.tet != mesh::none) queues.fail(request.tet);
+        }
+        std::swap(last_requests, requests);
+        return commits;
+    }
+
+    StepReport advance(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy) {
+        StepReport report;
+        apply_limits(policy.flatness);
+        begin(vertices, displacements, report);
+        double best_left = INFINITY;
+        unsigned slow_rounds = 0, settled_rounds = 0;
+        for (unsigned round = 0; round < options.max_rounds; ++round) {
+            auto start = Clock::now();
+            const double left = move_all();
+            report.move_seconds += seconds_since(start);
+            ++report.rounds;
+            if (left < best_left * (1.0 - options.stall_ratio)) {
+                best_left = left;
+                slow_rounds = 0;
+            } else if (!active.empty() && ++slow_rounds >= options.stall_rounds) {
+                give_up(report);
+            }
+            const bool settled = active.empty();
+            if (!policy.propose) {
+                if (settled) break;
+                continue;
+            }
+            start = Clock::now();
+            const std::size_t commits = repair(policy, round, settled, report);
+            report.repair_seconds += seconds_since(start);
+            if (settled && (commits == 0 || ++settled_rounds >= settle_rounds) && active.empty()) break;
+        }
+        give_up(report);
+        const auto start = Clock::now();
+        const auto changes = complex.changes();
+        step_changes.insert(step_changes.end(), changes.begin(), changes.end());
+        topology.run(step, step_changes, policy.topology, policy.select, report.events);
+        if (policy.topology.thickness > 0.0) {
+            topology.remove_small_components(step, near_collapses, policy.topology.min_component, report.events);
+        }
+        report.repair_seconds += seconds_since(start);
+        for (const Event& event : report.events) count(event, report.event_counts);
+        report.edit_distance = bench.sums.distance;
+        report.edit_volume = bench.sums.volume;
+        report.relabelled_volume = bench.sums.relabelled;
+        report.arrived = report.requested > stranded ? report.requested - stranded : 0;
+        stranded = 0;
+        return report;
+    }
+
+    std::size_t stranded = 0;
+    void give_up(StepReport& report) {
+        for (const VertexId v : active) {
+            if (!complex.vertex_alive(v) || !travels(v)) continue;
+            report.dropped_motion += (travel[v].destination - complex.position(v)).norm();
+            travel[v].step = 0;
+            ++stranded;
+        }
+        active.clear();
+    }
+};
+
+Deformer::Deformer(mesh::Complex complex, const DeformerOptions& options)
+    : state_(std::make_unique<State>(std::move(complex), options)) {}
+Deformer::~Deformer() = default;
+Deformer::Deformer(Deformer&&) noexcept = default;
+Deformer& Deformer::operator=(Deformer&&) noexcept = default;
+
+const mesh::Complex& Deformer::complex() const { return state_->complex; }
+double Deformer::target_length() const { return state_->length; }
+std::uint64_t Deformer::step_count() const { return state_->step; }
+void Deformer::restore(double target_length, std::uint64_t step) {
+    state_->length = target_length;
+    state_->step = step;
+}
+
+StepReport Deformer::step(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy) {
+    return state_->advance(vertices, displacements, policy);
+}
+
+RefineReport Deformer::refine(std::span<const std::array<VertexId, 3>> faces, std::span<const std::array<VertexId, 2>> edges) {
+    State& s = *state_;
+    RefineReport report;
+    report.requested = faces.size() + edges.size();
+    const auto alive = [&](VertexId v) { return v < s.complex.vertex_slots() && s.complex.vertex_alive(v); };
+    std::vector<TetId> star;
+    for (const auto& face : faces) {
+        if (!alive(face[0]) || !alive(face[1]) || !alive(face[2])) continue;
+        // Only while the three vertices still bound one interface face.
+        s.complex.star(face[0], star);
+        TetId found = mesh::none;
+        for (const TetId t : star) {
+            const mesh::Tet& tet = s.complex.tet(t);
+            if (!mesh::has_vertex(tet, face[1]) || !mesh::has_vertex(tet, face[2])) continue;
+            for (unsigned f = 0; f < 4; ++f) {
+                const bool opposite = tet.v[f] != face[0] && tet.v[f] != face[1] && tet.v[f] != face[2];
+                if (opposite && s.complex.interface_face(t, f)) found = t;
+            }
+        }
+        if (found == mesh::none) continue;
+        VertexId a = face[0], b = face[1];
+        double longest = -1.0;
+        for (unsigned k = 0; k < 3; ++k) {
+            const double d = (s.complex.position(face[k]) - s.complex.position(face[(k + 1) % 3])).squaredNorm();
+            if (d <= longest) continue;
+            longest = d;
+            a = face[k];
+            b = face[(k + 1) % 3];
+        }
+        if (split_edge(s.bench, found, a, b, 0.5) == Refusal::committed) ++report.committed;
+    }
+    for (const auto& edge : edges) {
+        if (!alive(edge[0]) || !alive(edge[1])) continue;
+        const TetId t = s.complex.find_edge(edge[0], edge[1]);
+        if (t != mesh::none && split_edge(s.bench, t, edge[0], edge[1], 0.5) == Refusal::committed) ++report.committed;
+    }
+    report.length_changed = report.committed > 0;
+    if (report.length_changed) {
+        s.length = s.mean_interface_edge();
+        s.apply_limits(s.bench.limits.flatness);
+    }
+    return report;
+}
+
+std::size_t Deformer::relabel(std::span<const TetId> tets, std::span<const mesh::Label> labels, const RepairPolicy& policy,
+                              std::vector<Event>& events) {
+    State& s = *state_;
+    s.apply_limits(policy.flatness);
+    const mesh::InterfaceCounts before = mesh::count_interface(s.complex);
+    std::vector<VertexId> touched;
+    std::size_t changed = 0;
+    Event event;
+    event.step = s.step;
+    for (std::size_t i = 0; i < tets.size(); ++i) {
+        const TetId t = tets[i];
+        if (t >= s.complex.tet_slots() || !s.complex.tet_alive(t) || s.complex.label(t) == labels[i]) continue;
+        const auto v = s.complex.tet(t).v;
+        if (std::any_of(v.begin(), v.end(), [&](VertexId x) { return s.complex.on_box(x); })) continue;
+        event.label = s.complex.label(t);
+        event.place = 0.25 * (s.complex.position(v[0]) + s.complex.position(v[1]) + s.complex.position(v[2]) + s.complex.position(v[3]));
+        event.volume += s.complex.volume(t);
+        s.complex.relabel(std::span(&t, 1), labels[i]);
+        touched.insert(touched.end(), v.begin(), v.end());
+        ++changed;
+    }
+    if (changed == 0) return 0;
+    event.tets = changed;
+    std::sort(touched.begin(), touched.end(), [&](VertexId a, VertexId b) { return s.complex.birth(a) < s.complex.birth(b); });
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    const std::size_t unpinched = mesh::unpinch(s.complex, "relabelling", touched);
+    const mesh::InterfaceCounts after = mesh::count_interface(s.complex);
+    const auto emit = [&](Event::Kind kind, long times) {
+        for (long i = 0; i < times; ++i) {
+            event.kind = kind;
+            events.push_back(event);
+        }
+    };
+    const long shells = static_cast<long>(after.shells) - static_cast<long>(before.shells);
+    emit(Event::Kind::born, shells);
+    emit(Event::Kind::vanished, -shells);
+    emit(Event::Kind::handle_opened, after.genus() - before.genus());
+    emit(Event::Kind::handle_closed, before.genus() - after.genus());
+    emit(Event::Kind::unpinched, static_cast<long>(unpinched));
+    return changed;
+}
+
+}  // namespace dsc::kernel

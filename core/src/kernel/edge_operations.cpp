@@ -1,0 +1,157 @@
+// Operations that re-triangulate round an edge: edge removal, interface flip, edge split.
+#include <cmath>
+
+#include <dsc/geometry/quality.hpp>
+
+#include "kernel/operations.hpp"
+#include "kernel/triangulations.hpp"
+
+namespace dsc::kernel {
+namespace {
+
+// The best triangulation of a polygon of ring vertices: each triangle becomes a tet with b above and one with a below.
+struct Fan {
+    std::span<const VertexId> corners;  // counter-clockwise seen from b
+    mesh::Label label;
+    float least = 2.0F;                 // of the best triangulation; 2 for a polygon of two corners
+    std::uint64_t mask = 0;
+};
+
+// Finds the triangulation whose least quality is largest and above `must_exceed`; false if there is none.
+bool triangulate(const Workbench& bench, VertexId a, VertexId b, float must_exceed, Fan& fan) {
+    if (fan.corners.size() < 3) return true;
+    const Triangulations& table = triangulations(fan.corners.size());
+    std::array<float, 35> quality{};
+    std::uint64_t bad = 0;
+    for (std::size_t n = 0; n < table.triangle_count; ++n) {
+        const VertexId i = fan.corners[table.triangles[n].i];
+        const VertexId j = fan.corners[table.triangles[n].j];
+        const VertexId k = fan.corners[table.triangles[n].k];
+        auto q = static_cast<float>(bench.quality(i, j, k, b));
+        if (q > must_exceed) q = std::min(q, static_cast<float>(bench.quality(j, i, k, a)));
+        quality[n] = q;
+        if (!(q > must_exceed)) bad |= std::uint64_t{1} << n;
+    }
+    fan.least = must_exceed;
+    for (std::size_t m = 0; m < table.count; ++m) {
+        if ((table.masks[m] & bad) != 0) continue;
+        float least = 2.0F;
+        for (std::size_t n = 0; n < table.triangle_count; ++n) {
+            if ((table.masks[m] >> n & 1U) != 0) least = std::min(least, quality[n]);
+        }
+        if (least > fan.least) {
+            fan.least = least;
+            fan.mask = table.masks[m];
+        }
+    }
+    return fan.mask != 0;
+}
+
+void add_tets(Workbench& bench, VertexId a, VertexId b, const Fan& fan) {
+    if (fan.corners.size() < 3) return;
+    const Triangulations& table = triangulations(fan.corners.size());
+    for (std::size_t n = 0; n < table.triangle_count; ++n) {
+        if ((fan.mask >> n & 1U) == 0) continue;
+        const VertexId i = fan.corners[table.triangles[n].i];
+        const VertexId j = fan.corners[table.triangles[n].j];
+        const VertexId k = fan.corners[table.triangles[n].k];
+        bench.edit.added.push_back({{i, j, k, b}, fan.label});
+        bench.edit.added.push_back({{j, i, k, a}, fan.label});
+    }
+}
+
+}  // namespace
+
+Refusal remove_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above) {
+    mesh::Complex& c = bench.complex;
+    c.ring(t, a, b, bench.ring);
+    if (!bench.ring.closed) return Refusal::box;
+    if (bench.ring.tets.size() > max_polygon) return Refusal::not_applicable;
+    float old = 1.0F;
+    for (const TetId r : bench.ring.tets) {
+        if (c.label(r) != c.label(t)) return Refusal::not_applicable;
+        old = std::min(old, c.quality(r));
+    }
+    bench.edit.clear();
+    const float must_exceed = std::min(old, accept_above);
+    Fan fan{bench.ring.link, c.label(t)};
+    if (!triangulate(bench, a, b, must_exceed, fan)) return Refusal::quality;
+    bench.edit.removed = bench.ring.tets;
+    add_tets(bench, a, b, fan);
+    if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
+    if (!c.link(bench.edit)) return Refusal::irregular;
+    bench.commit(0.0, 0.0);
+    return Refusal::committed;
+}
+
+Refusal flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above) {
+    mesh::Complex& c = bench.complex;
+    c.ring(t, a, b, bench.ring);
+    if (!bench.ring.closed) return Refusal::box;
+    const std::size_t n = bench.ring.tets.size();
+    // Rotate the ring so that it starts at an interface face, then find the other one.
+    const auto label = [&](std::size_t i) { return c.label(bench.ring.tets[i % n]); };
+    std::size_t changes = 0;
+    std::size_t start = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (label(i) == label(i + n - 1)) continue;
+        ++changes;
+        start = i;
+    }
+    if (changes != 2) return Refusal::not_applicable;
+    std::rotate(bench.ring.tets.begin(), bench.ring.tets.begin() + static_cast<std::ptrdiff_t>(start), bench.ring.tets.end());
+    std::rotate(bench.ring.link.begin(), bench.ring.link.begin() + static_cast<std::ptrdiff_t>(start), bench.ring.link.end());
+    std::size_t turn = 1;
+    while (label(turn) == label(0)) ++turn;
+    // First fan: link[0..turn]; second: link[turn..n-1], link[0].
+    if (turn + 1 > max_polygon || n - turn + 1 > max_polygon || n < 3) return Refusal::not_applicable;
+    const VertexId p = bench.ring.link[0], q = bench.ring.link[turn];
+    const Vec3 &pa = c.position(a), &pb = c.position(b), &pp = c.position(p), &pq = c.position(q);
+    if (geometry::triangle_normal(pa, pb, pp).dot(geometry::triangle_normal(pb, pa, pq)) < bench.limits.flatness) {
+        return Refusal::bound;
+    }
+    const double distance = geometry::segment_distance(pa, pb, pp, pq);
+    const double volume = std::abs(geometry::tet_volume(pa, pb, pp, pq));
+    if (distance > bench.limits.edit_distance || volume > bench.limits.edit_volume) return Refusal::bound;
+    bench.edit.clear();
+    bench.edit.removed = bench.ring.tets;
+    const float old = bench.old_quality();
+    const float must_exceed = std::min(old, accept_above);
+    bench.vertices.assign(bench.ring.link.begin() + static_cast<std::ptrdiff_t>(turn), bench.ring.link.end());
+    bench.vertices.push_back(p);
+    Fan first{std::span(bench.ring.link).first(turn + 1), label(0)};
+    Fan second{bench.vertices, label(turn)};
+    if (!triangulate(bench, a, b, must_exceed, first) || !triangulate(bench, a, b, must_exceed, second)) return Refusal::quality;
+    add_tets(bench, a, b, first);
+    add_tets(bench, a, b, second);
+    if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
+    if (!c.link(bench.edit)) return Refusal::irregular;
+    const std::array<VertexId, 4> touched = {a, b, p, q};
+    if (const Refusal r = bench.check_topology(touched); r != Refusal::committed) return r;
+    bench.commit(distance, volume);
+    return Refusal::committed;
+}
+
+Refusal split_edge(Workbench& bench, TetId t, VertexId a, VertexId b, double s) {
+    mesh::Complex& c = bench.complex;
+    c.ring(t, a, b, bench.ring);
+    if (!bench.ring.closed) return Refusal::box;
+    bench.edit.clear();
+    bench.edit.removed = bench.ring.tets;
+    bench.edit.creates = true;
+    bench.edit.created_at = (1.0 - s) * c.position(a) + s * c.position(b);
+    const std::size_t n = bench.ring.tets.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const VertexId p = bench.ring.link[i], q = bench.ring.link[(i + 1) % n];
+        const mesh::Label label = c.label(bench.ring.tets[i]);
+        bench.edit.added.push_back({{a, mesh::created_vertex, p, q}, label});
+        bench.edit.added.push_back({{mesh::created_vertex, b, p, q}, label});
+    }
+    if (const Refusal r = bench.check_shape(0.0F, bench.old_quality()); r != Refusal::committed) return r;
+    if (!c.link(bench.edit)) return Refusal::irregular;
+    const VertexId v = bench.commit(0.0, 0.0);
+    if (bench.listener != nullptr) bench.listener->on_split(v, a, b, s);
+    return Refusal::committed;
+}
+
+}  // namespace dsc::kernel

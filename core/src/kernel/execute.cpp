@@ -1,0 +1,141 @@
+// From a request to an operation: choosing the simplex where the request names a tet only.
+#include <dsc/geometry/quality.hpp>
+
+#include "kernel/operations.hpp"
+
+namespace dsc::kernel {
+namespace {
+
+using mesh::Operation;
+using mesh::Request;
+
+struct Edge {
+    VertexId a, b;
+    double length2;
+};
+
+std::array<Edge, 6> edges_of(const mesh::Complex& c, TetId t) {
+    std::array<Edge, 6> edges{};
+    for (unsigned e = 0; e < 6; ++e) {
+        const VertexId a = c.tet(t).v[mesh::edge_vertices[e][0]], b = c.tet(t).v[mesh::edge_vertices[e][1]];
+        edges[e] = {a, b, (c.position(a) - c.position(b)).squaredNorm()};
+    }
+    return edges;
+}
+
+// Of several refusals the one that says most: topology and bounds before quality before "does not apply".
+Refusal stronger(Refusal x, Refusal y) {
+    const auto rank = [](Refusal r) {
+        switch (r) {
+            case Refusal::irregular: return 5;
+            case Refusal::bound: return 4;
+            case Refusal::quality: return 3;
+            case Refusal::no_gain: return 2;
+            case Refusal::box: return 1;
+            default: return 0;
+        }
+    };
+    return rank(x) >= rank(y) ? x : y;
+}
+
+template <class Attempt>
+Refusal first_success(const std::array<Edge, 6>& edges, Attempt&& attempt) {
+    Refusal result = Refusal::not_applicable;
+    for (const Edge& e : edges) {
+        const Refusal r = attempt(e);
+        if (r == Refusal::committed) return r;
+        result = stronger(result, r);
+    }
+    return result;
+}
+
+Refusal on_edges(Workbench& bench, const Request& request, TetId t) {
+    const mesh::Complex& c = bench.complex;
+    auto edges = edges_of(c, t);
+    switch (request.operation) {
+        case Operation::edge_removal:
+            return first_success(edges, [&](const Edge& e) { return remove_edge(bench, t, e.a, e.b, request.accept_above); });
+        case Operation::interface_flip:
+            return first_success(edges, [&](const Edge& e) {
+                if (!c.on_interface(e.a) || !c.on_interface(e.b)) return Refusal::not_applicable;
+                return flip_interface_edge(bench, t, e.a, e.b, request.accept_above);
+            });
+        case Operation::edge_collapse:
+            std::stable_sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return x.length2 < y.length2; });
+            return first_success(edges, [&](const Edge& e) { return collapse_edge(bench, t, e.a, e.b, request.mode, request.accept_above); });
+        default: {
+            const auto longest = std::max_element(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return x.length2 < y.length2; });
+            return split_edge(bench, t, longest->a, longest->b, static_cast<double>(request.parameter));
+        }
+    }
+}
+
+Refusal on_faces(Workbench& bench, const Request& request, TetId t) {
+    Refusal result = Refusal::not_applicable;
+    const mesh::Complex& c = bench.complex;
+    for (unsigned f = 0; f < 4; ++f) {
+        Refusal r = Refusal::not_applicable;
+        if (request.operation == Operation::face_removal) {
+            r = remove_faces(bench, t, f, request.accept_above);
+        } else {
+            // Split at the projection of the opposite vertex if it falls inside.
+            const auto& v = c.tet(t).v;
+            const Vec3 &a = c.position(v[mesh::face_vertices[f][0]]), &b = c.position(v[mesh::face_vertices[f][1]]),
+                       &d = c.position(v[mesh::face_vertices[f][2]]);
+            const Vec3 n = geometry::triangle_normal(a, b, d);
+            const Vec3 p = c.position(v[f]) - n.dot(c.position(v[f]) - a) * n;
+            const bool inside = n.dot((b - a).cross(p - a)) > 0.0 && n.dot((d - b).cross(p - b)) > 0.0 && n.dot((a - d).cross(p - d)) > 0.0;
+            if (inside) r = split_face(bench, t, f, p);
+        }
+        if (r == Refusal::committed) return r;
+        result = stronger(result, r);
+    }
+    return result;
+}
+
+// The tet of a request that names vertices only.
+TetId tet_of(const mesh::Complex& c, const Request& request) {
+    const VertexId a = request.vertices[0], b = request.vertices[1];
+    if (a == mesh::none || a >= c.vertex_slots() || !c.vertex_alive(a)) return mesh::none;
+    if (b == mesh::none) return c.seed(a);
+    if (b >= c.vertex_slots() || !c.vertex_alive(b)) return mesh::none;
+    return c.find_edge(a, b);
+}
+
+}  // namespace
+
+Refusal execute(Workbench& bench, const Request& request) {
+    const mesh::Complex& c = bench.complex;
+    TetId t = request.tet;
+    if (t != mesh::none) {
+        if (t >= c.tet_slots() || !c.tet_alive(t) || c.birth_date(t) != request.birth_date) return Refusal::stale;
+        if (!(c.quality(t) < request.only_below)) return Refusal::stale;
+    } else {
+        t = tet_of(c, request);
+        if (t == mesh::none) return Refusal::stale;
+    }
+    const VertexId a = request.vertices[0], b = request.vertices[1];
+    if (a != mesh::none && !mesh::has_vertex(c.tet(t), a)) return Refusal::stale;
+    if (b != mesh::none && !mesh::has_vertex(c.tet(t), b)) return Refusal::stale;
+    const bool edge = a != mesh::none && b != mesh::none;
+    switch (request.operation) {
+        case Operation::smooth_laplacian:
+            return a == mesh::none ? Refusal::not_applicable : smooth_laplacian(bench, a, request.accept_above);
+        case Operation::smooth_optimise: return a == mesh::none ? Refusal::not_applicable : smooth_optimise(bench, a);
+        case Operation::vertex_split: return edge ? split_vertex(bench, a, b) : Refusal::not_applicable;
+        case Operation::relabel: return relabel_tet(bench, t);
+        case Operation::compound: return compound(bench, t, request.accept_above);
+        case Operation::face_removal:
+        case Operation::face_split: return on_faces(bench, request, t);
+        case Operation::edge_removal: return edge ? remove_edge(bench, t, a, b, request.accept_above) : on_edges(bench, request, t);
+        case Operation::interface_flip:
+            return edge ? flip_interface_edge(bench, t, a, b, request.accept_above) : on_edges(bench, request, t);
+        case Operation::edge_split:
+            return edge ? split_edge(bench, t, a, b, static_cast<double>(request.parameter)) : on_edges(bench, request, t);
+        case Operation::edge_collapse:
+            return edge ? collapse_edge(bench, t, a, b, request.mode, request.accept_above) : on_edges(bench, request, t);
+    }
+    return Refusal::not_applicable;
+}
+
+}  // namespace dsc::kernel

@@ -1,0 +1,61 @@
+#include "kernel/movement.hpp"
+
+#include <cmath>
+
+#include <dsc/geometry/predicates.hpp>
+#include <dsc/geometry/quality.hpp>
+
+namespace dsc::kernel {
+namespace {
+
+constexpr double arrival = 1e-4;  // of L: closer is arrived, a shorter step is none
+
+// Fraction of the way to `d` at which the first link plane is met; infinity when none is.
+double first_inversion(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& p, const Vec3& d) {
+    double first = INFINITY;
+    for (const TetId t : star) {
+        const auto& x = c.tet(t).v;
+        const unsigned i = mesh::index_of(c.tet(t), v);
+        const auto& f = mesh::face_vertices[i];
+        const Vec3& a = c.position(x[f[0]]);
+        // Outward normal of the link face: v lies on its negative side.
+        const Vec3 n = (c.position(x[f[1]]) - a).cross(c.position(x[f[2]]) - a);
+        const double rate = n.dot(d - p);
+        if (rate <= 0.0) continue;
+        first = std::min(first, n.dot(a - p) / rate);
+    }
+    return first;
+}
+
+bool acceptable(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& place, float floor) {
+    for (const TetId t : star) {
+        const auto& x = c.tet(t).v;
+        std::array<const Vec3*, 4> p{};
+        for (unsigned i = 0; i < 4; ++i) p[i] = x[i] == v ? &place : &c.position(x[i]);
+        const auto q = static_cast<float>(geometry::tet_quality(*p[0], *p[1], *p[2], *p[3]));
+        if (!(q >= std::min(floor, c.quality(t))) || geometry::orient3d(*p[0], *p[1], *p[2], *p[3]) != 1) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+Motion move_towards(Workbench& bench, VertexId v, const Vec3& destination, double free_path) {
+    mesh::Complex& c = bench.complex;
+    const Vec3 p = c.position(v);
+    const double length = (destination - p).norm();
+    const double least_step = arrival * bench.limits.length;
+    if (length < least_step) return Motion::arrived;
+    c.star(v, bench.star_a);
+    double fraction = std::min(1.0, free_path * first_inversion(c, bench.star_a, v, p, destination));
+    for (int halving = 0; halving <= 8; ++halving, fraction *= 0.5) {
+        if (fraction * length < least_step) break;
+        const Vec3 place = fraction == 1.0 ? destination : Vec3(p + fraction * (destination - p));
+        if (!acceptable(c, bench.star_a, v, place, static_cast<float>(bench.limits.quality_floor))) continue;
+        c.move(v, place, bench.star_a);
+        return (destination - place).norm() < least_step ? Motion::arrived : Motion::moved;
+    }
+    return Motion::blocked;
+}
+
+}  // namespace dsc::kernel

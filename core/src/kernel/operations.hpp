@@ -1,0 +1,35 @@
+#pragma once
+// The local operations. Each is one transaction: it looks for its simplex, builds the edit, judges it and commits, or
+// says why not. `accept_above`: the result's least quality must be above min(old least, accept_above).
+
+#include "kernel/workbench.hpp"
+
+namespace dsc::kernel {
+
+/// Interior edge (a, b) of tet t: the ring's best triangulation, rings of 3 to 7 [Freitag1997].
+Refusal remove_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above);
+/// Interface edge (a, b): the other diagonal of its two interface faces; both labels' fans are re-triangulated.
+Refusal flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above);
+/// Face f of tet t and its sandwiched neighbours between the two apices [Shewchuk2002].
+Refusal remove_faces(Workbench& bench, TetId t, unsigned face, float accept_above);
+/// A vertex at (1 - s) a + s b.
+Refusal split_edge(Workbench& bench, TetId t, VertexId a, VertexId b, double s);
+/// A vertex at `point` inside face f of tet t.
+Refusal split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point);
+/// A second vertex for half of v's star, in the direction of w.
+Refusal split_vertex(Workbench& bench, VertexId v, VertexId w);
+/// Edge (a, b) of tet t.
+Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, mesh::CollapseMode mode, float accept_above);
+/// Interior vertex to the mean of its neighbours.
+Refusal smooth_laplacian(Workbench& bench, VertexId v, float accept_above);
+/// Interior vertex uphill on the least quality of its star.
+Refusal smooth_optimise(Workbench& bench, VertexId v);
+/// Tet t takes the label around it if the interface only shifts.
+Refusal relabel_tet(Workbench& bench, TetId t);
+/// Split and collapse as one: the repair that fits the tet's shape (two edges, an edge, a face).
+Refusal compound(Workbench& bench, TetId t, float accept_above);
+
+/// Carries out a request, choosing the simplex where it names none.
+Refusal execute(Workbench& bench, const mesh::Request& request);
+
+}  // namespace dsc::kernel

@@ -1,0 +1,84 @@
+#include "kernel/queues.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include <dsc/base/error.hpp>
+
+namespace dsc::kernel {
+
+bool RepairQueues::lost() {
+    if (drop_ == 0) return false;
+    return --drop_ == 0;
+}
+
+bool RepairQueues::out_of_date(TetId t, std::uint32_t date) const {
+    const auto& v = complex_.tet(t).v;
+    return std::any_of(v.begin(), v.end(), [&](VertexId x) { return complex_.vertex_date(x) > date; });
+}
+
+bool RepairQueues::awake(VertexId v, std::uint32_t blocked_at) {
+    const bool changed = complex_.vertex_date(v) > blocked_at;
+    return changed && !lost();
+}
+
+std::span<const TetId> RepairQueues::next_round() {
+    ++round_;
+    const std::uint32_t previous_clock = last_clock_;
+    last_clock_ = complex_.clock();
+    in_dirty_.resize(std::max(in_dirty_.size(), complex_.tet_slots()), 0);
+    in_failed_.resize(in_dirty_.size(), 0);
+    dirty_.clear();
+    complex_.take_changes(changes_);
+    const auto offer = [this](TetId t) {
+        if (!complex_.tet_alive(t) || in_dirty_[t] == round_ || lost()) return;
+        in_dirty_[t] = round_;
+        dirty_.push_back(t);
+    };
+    for (const TetId t : changes_) offer(t);
+    std::size_t kept = 0;
+    failed_.insert(failed_.end(), failed_now_.begin(), failed_now_.end());
+    failed_now_.clear();
+    for (const Failure& failure : failed_) {
+        if (!complex_.tet_alive(failure.tet) || complex_.birth_date(failure.tet) != failure.birth_date) continue;
+        if (in_dirty_[failure.tet] == round_) continue;
+        if (out_of_date(failure.tet, failure.date)) {
+            offer(failure.tet);
+        } else {
+            failed_[kept++] = failure;
+        }
+    }
+    failed_.resize(kept);
+    if (audit_) check(previous_clock);
+    return dirty_;
+}
+
+void RepairQueues::fail(TetId t) {
+    if (in_failed_[t] == round_) return;
+    in_failed_[t] = round_;
+    const Failure failure = {t, complex_.birth_date(t), complex_.clock()};
+    failed_now_.push_back(failure);
+    if (!audit_) return;
+    memory_.resize(std::max(memory_.size(), complex_.tet_slots()), Failure{mesh::none, 0, 0});
+    memory_[t] = failure;
+}
+
+// The full scan: whatever changed since the last round, or failed before its neighbourhood changed, must be on offer.
+void RepairQueues::check(std::uint32_t previous_clock) {
+    memory_.resize(std::max(memory_.size(), complex_.tet_slots()), Failure{mesh::none, 0, 0});
+    for (TetId t = 0; t < complex_.tet_slots(); ++t) {
+        if (!complex_.tet_alive(t) || in_dirty_[t] == round_) continue;
+        const bool changed = complex_.date(t) > previous_clock;
+        const Failure& failure = memory_[t];
+        const bool woken = failure.tet == t && failure.birth_date == complex_.birth_date(t) && out_of_date(t, failure.date);
+        if (!changed && !woken) {
+            continue;
+        }
+        throw GeometryError("kernel.audit", "audit: tet " + std::to_string(t) + (changed ? " changed" : " was to be tried again") +
+                                                " but is in no queue; the queues of the kernel lost a wake-up");
+    }
+    // A failure that was woken is offered now; it counts again only when it fails again.
+    for (const TetId t : dirty_) memory_[t].tet = mesh::none;
+}
+
+}  // namespace dsc::kernel

@@ -1,0 +1,56 @@
+#pragma once
+// Work follows change: which tets a repair round must look at, and the audit that proves nothing is missed.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <dsc/mesh/complex.hpp>
+
+namespace dsc::kernel {
+
+using mesh::TetId;
+using mesh::VertexId;
+
+/// Dirty tets and remembered failures. A failed tet is offered again only after a tet at one of its vertices changed.
+class RepairQueues {
+public:
+    /// `drop_wake_up`: for tests of the audit, the n-th wake-up from now is lost; 0: none is.
+    RepairQueues(mesh::Complex& complex, bool audit, std::uint64_t drop_wake_up)
+        : complex_(complex), audit_(audit), drop_(drop_wake_up) {}
+
+    /// Collects the round's dirty tets: those changed since the last call, then the failures that are out of date.
+    /// Throws GeometryError when the audit finds a tet that was missed. [step]
+    std::span<const TetId> next_round();
+    /// Remembers that a request on this tet was refused in the present round.
+    void fail(TetId t);
+    /// Vertices whose motion is blocked sleep until their star changes.
+    bool awake(VertexId v, std::uint32_t blocked_at);
+
+    std::size_t failures() const { return failed_.size(); }
+
+private:
+    struct Failure {
+        TetId tet;
+        std::uint32_t birth_date;
+        std::uint32_t date;
+    };
+    bool lost();
+    bool out_of_date(TetId t, std::uint32_t date) const;
+    void check(std::uint32_t previous_clock);
+
+    mesh::Complex& complex_;
+    bool audit_;
+    std::uint64_t drop_;
+    std::vector<TetId> changes_;
+    std::vector<TetId> dirty_;
+    std::vector<Failure> failed_;
+    std::vector<Failure> failed_now_;
+    std::vector<std::uint32_t> in_dirty_;  // per tet: round in which it was offered last
+    std::vector<std::uint32_t> in_failed_; // per tet: round in which it failed last
+    std::vector<Failure> memory_;          // audit only, per tet: its last failure, kept apart from the queues
+    std::uint32_t round_ = 0;
+    std::uint32_t last_clock_ = 0;
+};
+
+}  // namespace dsc::kernel

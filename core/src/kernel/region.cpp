@@ -1,0 +1,221 @@
+// Regions of the topology stage: growing one until it is regular, measuring its boundary.
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <dsc/geometry/quality.hpp>
+
+#include "kernel/topology.hpp"
+
+namespace dsc::kernel {
+namespace {
+
+constexpr std::size_t max_region = 24;
+constexpr double max_region_volume = 8.0;  // in regular tets of edge L
+constexpr int max_growth = 10;
+
+struct BoundaryFace {
+    std::array<VertexId, 3> v;
+    bool faces_to;  // looks at `to`, else at `from`
+    double area;
+};
+
+struct BoundaryEdge {
+    VertexId a, b;
+    std::uint32_t face;
+};
+
+std::uint32_t root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+bool contains(const std::vector<TetId>& list, TetId t) { return std::find(list.begin(), list.end(), t) != list.end(); }
+
+}  // namespace
+
+bool TopologyStage::touches_box(TetId t) const {
+    const auto& v = bench_.complex.tet(t).v;
+    return std::any_of(v.begin(), v.end(), [this](VertexId x) { return bench_.complex.on_box(x); });
+}
+
+double TopologyStage::thickness(const Region& region) {
+    if (region.patches_from == 2) return 2.0 * std::sqrt(0.5 * region.area_from / std::numbers::pi);
+    return region.area_to > 0.0 ? 2.0 * region.volume / region.area_to : INFINITY;
+}
+
+namespace {
+
+void collect_vertices(const mesh::Complex& c, const Region& region, std::vector<VertexId>& out) {
+    out.clear();
+    for (const TetId t : region.tets) out.insert(out.end(), c.tet(t).v.begin(), c.tet(t).v.end());
+    std::sort(out.begin(), out.end(), [&c](VertexId a, VertexId b) { return c.birth(a) < c.birth(b); });
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+}
+
+// The smallest group of `from` at the vertex, if there are two or more: tets to add.
+void smallest_group(mesh::LocalStar& star, mesh::Label from, std::vector<TetId>& out) {
+    out.clear();
+    const unsigned count = star.groups();
+    std::vector<std::size_t> size(count, 0);
+    std::vector<char> is_from(count, 0), has_outside(count, 0);
+    for (std::size_t i = 0; i < star.nodes().size(); ++i) {
+        ++size[star.group_of()[i]];
+        is_from[star.group_of()[i]] = star.label(i) == from ? 1 : 0;
+        if (star.nodes()[i] == mesh::none) has_outside[star.group_of()[i]] = 1;
+    }
+    unsigned best = count, groups = 0;
+    for (unsigned g = 0; g < count; ++g) {
+        if (is_from[g] == 0) continue;
+        ++groups;
+        if (has_outside[g] == 0 && (best == count || size[g] < size[best])) best = g;
+    }
+    if (groups < 2 || best == count) return;
+    for (std::size_t i = 0; i < star.nodes().size(); ++i) {
+        if (star.group_of()[i] == best) out.push_back(star.nodes()[i]);
+    }
+}
+
+// The shortest face-connected chain of `from` tets that joins two groups of `to` at the vertex.
+void shortest_chain(mesh::LocalStar& star, mesh::Label from, mesh::Label to, std::vector<TetId>& out) {
+    out.clear();
+    star.groups();
+    const std::size_t n = star.nodes().size();
+    std::vector<std::uint32_t> group(star.group_of().begin(), star.group_of().end());
+    std::size_t best = n + 1;
+    for (std::size_t start = 0; start < n; ++start) {
+        if (star.label(start) != to) continue;
+        // Breadth-first from one node of each group is not enough: chains may leave from any of its nodes.
+        std::vector<std::uint32_t> previous(n, mesh::none), distance(n, mesh::none), queue;
+        distance[start] = 0;
+        queue.push_back(static_cast<std::uint32_t>(start));
+        for (std::size_t i = 0; i < queue.size(); ++i) {
+            const std::uint32_t node = queue[i];
+            if (distance[node] + 1 > best) break;
+            for (const std::uint32_t next : star.neighbours(node)) {
+                if (next == mesh::none || distance[next] != mesh::none) continue;
+                if (star.label(next) == to && group[next] != group[start] && node != start) {
+                    if (distance[node] < best) {
+                        best = distance[node];
+                        out.clear();
+                        for (std::uint32_t back = node; back != start; back = previous[back]) out.push_back(star.nodes()[back]);
+                    }
+                } else if (star.label(next) == from && star.nodes()[next] != mesh::none) {
+                    distance[next] = distance[node] + 1;
+                    previous[next] = node;
+                    queue.push_back(next);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+bool TopologyStage::regular(const Region& region) {
+    collect_vertices(bench_.complex, region, region_vertices_);
+    mesh::LocalStar& star = bench_.local_star();
+    return std::all_of(region_vertices_.begin(), region_vertices_.end(), [&](VertexId v) {
+        star.build(v, region.tets, region.to);
+        return star.regular();
+    });
+}
+
+RegionFault TopologyStage::grow(Region& region) {
+    const mesh::Complex& c = bench_.complex;
+    const double volume_limit = max_region_volume * geometry::regular_tet_volume(bench_.limits.length);
+    mesh::LocalStar& star = bench_.local_star();
+    std::vector<TetId> group, chain;
+    for (int round = 0; round <= max_growth; ++round) {
+        double volume = 0.0;
+        for (const TetId t : region.tets) {
+            volume += c.volume(t);
+            if (touches_box(t)) return RegionFault::box;
+        }
+        if (region.tets.size() > max_region || volume > volume_limit) return RegionFault::too_large;
+        collect_vertices(c, region, region_vertices_);
+        const auto bad = std::find_if(region_vertices_.begin(), region_vertices_.end(), [&](VertexId v) {
+            star.build(v, region.tets, region.to);
+            return !star.regular();
+        });
+        if (bad == region_vertices_.end()) return RegionFault::none;
+        smallest_group(star, region.from, group);
+        shortest_chain(star, region.from, region.to, chain);
+        const auto& addition = chain.empty() || (!group.empty() && group.size() <= chain.size()) ? group : chain;
+        if (addition.empty()) return RegionFault::irregular;
+        for (const TetId t : addition) {
+            if (!contains(region.tets, t)) region.tets.push_back(t);
+        }
+    }
+    return RegionFault::irregular;
+}
+
+RegionFault TopologyStage::measure(Region& region) {
+    const mesh::Complex& c = bench_.complex;
+    std::vector<BoundaryFace> faces;
+    std::vector<BoundaryEdge> edges;
+    std::vector<VertexId> vertices;
+    region.volume = region.area_from = region.area_to = 0.0;
+    region.centroid.setZero();
+    for (const TetId t : region.tets) {
+        const mesh::Tet& tet = c.tet(t);
+        const double volume = c.volume(t);
+        region.volume += volume;
+        for (const VertexId v : tet.v) region.centroid += 0.25 * volume * c.position(v);
+        for (unsigned f = 0; f < 4; ++f) {
+            if (tet.n[f] == mesh::none) return RegionFault::box;
+            if (contains(region.tets, mesh::neighbour_tet(tet.n[f]))) continue;
+            const mesh::Label label = c.label_across(t, f);
+            if (label != region.from && label != region.to) return RegionFault::labels;
+            BoundaryFace face{{}, label == region.to, 0.0};
+            for (unsigned k = 0; k < 3; ++k) face.v[k] = tet.v[mesh::face_vertices[f][k]];
+            face.area = geometry::triangle_area(c.position(face.v[0]), c.position(face.v[1]), c.position(face.v[2]));
+            (face.faces_to ? region.area_to : region.area_from) += face.area;
+            for (unsigned k = 0; k < 3; ++k) {
+                const VertexId a = face.v[k], b = face.v[(k + 1) % 3];
+                edges.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(faces.size())});
+                vertices.push_back(a);
+            }
+            faces.push_back(face);
+        }
+    }
+    region.centroid /= region.volume;
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    std::sort(edges.begin(), edges.end(), [](const BoundaryEdge& x, const BoundaryEdge& y) {
+        return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.face < y.face;
+    });
+    std::vector<std::uint32_t> whole(faces.size()), patch(faces.size());
+    std::iota(whole.begin(), whole.end(), 0U);
+    std::iota(patch.begin(), patch.end(), 0U);
+    std::size_t edge_count = 0;
+    for (std::size_t i = 0; i < edges.size(); i += 2, ++edge_count) {
+        const bool pair = i + 1 < edges.size() && edges[i].a == edges[i + 1].a && edges[i].b == edges[i + 1].b;
+        const bool third = i + 2 < edges.size() && edges[i].a == edges[i + 2].a && edges[i].b == edges[i + 2].b;
+        if (!pair || third) return RegionFault::not_a_ball;
+        const std::uint32_t f = edges[i].face, g = edges[i + 1].face;
+        whole[root(whole, f)] = root(whole, g);
+        if (faces[f].faces_to == faces[g].faces_to) patch[root(patch, f)] = root(patch, g);
+    }
+    std::vector<std::uint32_t> from_roots, to_roots;
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+        if (root(whole, f) != root(whole, 0)) return RegionFault::not_a_ball;
+        if (root(patch, f) == f) (faces[f].faces_to ? to_roots : from_roots).push_back(f);
+    }
+    if (vertices.size() + faces.size() != edge_count + 2) return RegionFault::not_a_ball;
+    region.patches_from = static_cast<unsigned>(from_roots.size());
+    region.patches_to = static_cast<unsigned>(to_roots.size());
+    region.patch_a.clear();
+    region.patch_b.clear();
+    const auto& two = region.patches_from == 2 ? from_roots : to_roots;
+    if (two.size() == 2) {
+        for (std::uint32_t f = 0; f < faces.size(); ++f) {
+            const std::uint32_t r = root(patch, f);
+            if (r == two[0]) region.patch_a.insert(region.patch_a.end(), faces[f].v.begin(), faces[f].v.end());
+            if (r == two[1]) region.patch_b.insert(region.patch_b.end(), faces[f].v.begin(), faces[f].v.end());
+        }
+    }
+    return RegionFault::none;
+}
+
+}  // namespace dsc::kernel

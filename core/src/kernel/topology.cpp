@@ -1,0 +1,251 @@
+#include "kernel/topology.hpp"
+
+#include <cmath>
+
+#include <dsc/geometry/quality.hpp>
+
+namespace dsc::kernel {
+namespace {
+
+constexpr std::uint64_t rest_steps = 5;     // steps in which a vertex touched by an event takes part in no other
+constexpr double longest_edge = 1.0;        // of a candidate, in L
+constexpr double events_per_vertex = 0.02;  // a step
+constexpr std::size_t small_component = 64; // tets that a flood visits at most
+
+// The label at an interface vertex that is not `own`; `own` when there is not exactly one.
+mesh::Label other_label(const mesh::Complex& c, std::span<const TetId> star, mesh::Label own) {
+    mesh::Label other = own;
+    for (const TetId t : star) {
+        if (c.label(t) == own) continue;
+        if (other != own && other != c.label(t)) return own;
+        other = c.label(t);
+    }
+    return other;
+}
+
+}  // namespace
+
+bool TopologyStage::recent(VertexId v, std::uint64_t step) const {
+    if (v >= event_step_.size() || event_step_[v] == 0 || event_birth_[v] != bench_.complex.birth(v)) return false;
+    return event_step_[v] - 1 + rest_steps >= step;
+}
+
+void TopologyStage::mark_event(const Region& region, std::uint64_t step) {
+    const mesh::Complex& c = bench_.complex;
+    event_step_.resize(std::max(event_step_.size(), c.vertex_slots()), 0);
+    event_birth_.resize(event_step_.size(), 0);
+    for (const TetId t : region.tets) {
+        for (const VertexId v : c.tet(t).v) {
+            event_step_[v] = step + 1;
+            event_birth_[v] = c.birth(v);
+        }
+    }
+}
+
+void TopologyStage::collect_edges(std::uint64_t step, std::span<const TetId> changed) {
+    const mesh::Complex& c = bench_.complex;
+    const double limit2 = std::pow(longest_edge * bench_.limits.length, 2);
+    edges_.clear();
+    for (const TetId t : changed) {
+        if (!c.tet_alive(t)) continue;
+        const auto& v = c.tet(t).v;
+        std::array<bool, 4> usable{};
+        unsigned count = 0;
+        for (unsigned i = 0; i < 4; ++i) {
+            usable[i] = c.movable(v[i]) && !recent(v[i], step);
+            count += usable[i] ? 1 : 0;
+        }
+        if (count < 2) continue;
+        for (const auto& e : mesh::edge_vertices) {
+            if (!usable[e[0]] || !usable[e[1]]) continue;
+            // A face between the two other labels than t's would make this an interface edge; the ring tells.
+            VertexId a = v[e[0]], b = v[e[1]];
+            if ((c.position(a) - c.position(b)).squaredNorm() > limit2) continue;
+            if (c.birth(a) > c.birth(b)) std::swap(a, b);
+            edges_.push_back({c.birth(a), c.birth(b), a, b});
+        }
+    }
+    const auto less = [](const EdgeKey& x, const EdgeKey& y) { return x.low != y.low ? x.low < y.low : x.high < y.high; };
+    std::sort(edges_.begin(), edges_.end(), less);
+    edges_.erase(std::unique(edges_.begin(), edges_.end(), [](const EdgeKey& x, const EdgeKey& y) { return x.low == y.low && x.high == y.high; }),
+                 edges_.end());
+}
+
+RegionFault TopologyStage::region_of(VertexId a, VertexId b, Region& region) {
+    const mesh::Complex& c = bench_.complex;
+    const TetId t = c.find_edge(a, b);
+    if (t == mesh::none) return RegionFault::kind;
+    c.ring(t, a, b, bench_.ring);
+    if (!bench_.ring.closed) return RegionFault::box;
+    region.from = c.label(t);
+    for (const TetId r : bench_.ring.tets) {
+        if (c.label(r) != region.from) return RegionFault::kind;
+    }
+    c.star(a, star_);
+    region.to = other_label(c, star_, region.from);
+    c.star(b, star_);
+    if (region.to == region.from || other_label(c, star_, region.from) != region.to) return RegionFault::labels;
+    region.tets = bench_.ring.tets;
+    if (const RegionFault fault = grow(region); fault != RegionFault::none) return fault;
+    if (const RegionFault fault = measure(region); fault != RegionFault::none) return fault;
+    const bool event = (region.patches_from == 1 && region.patches_to == 2) || (region.patches_from == 2 && region.patches_to == 1);
+    return event ? RegionFault::none : RegionFault::kind;
+}
+
+bool TopologyStage::same_shell(std::span<const VertexId> from, std::span<const VertexId> to) {
+    const mesh::Complex& c = bench_.complex;
+    seen_.resize(std::max(seen_.size(), c.vertex_slots()), 0);
+    ++seen_epoch_;
+    queue_.clear();
+    for (const VertexId v : from) {
+        if (!c.on_interface(v) || seen_[v] == seen_epoch_) continue;
+        seen_[v] = seen_epoch_;
+        queue_.push_back(v);
+    }
+    for (std::size_t i = 0; i < queue_.size(); ++i) {
+        const VertexId v = queue_[i];
+        c.star(v, star_);
+        for (const TetId t : star_) {
+            const mesh::Tet& tet = c.tet(t);
+            for (unsigned f = 0; f < 4; ++f) {
+                if (tet.v[f] == v || !c.interface_face(t, f)) continue;
+                for (const auto k : mesh::face_vertices[f]) {
+                    if (seen_[tet.v[k]] == seen_epoch_) continue;
+                    seen_[tet.v[k]] = seen_epoch_;
+                    queue_.push_back(tet.v[k]);
+                }
+            }
+        }
+    }
+    return std::any_of(to.begin(), to.end(), [this](VertexId v) { return seen_[v] == seen_epoch_; });
+}
+
+Event TopologyStage::commit(const Region& region, std::uint64_t step) {
+    mesh::Complex& c = bench_.complex;
+    Event event;
+    event.step = step;
+    event.place = region.centroid;
+    event.label = region.from;
+    event.tets = region.tets.size();
+    event.volume = region.volume;
+    event.thickness = thickness(region) / bench_.limits.length;
+    const bool bridged = region.patches_to == 2 && same_shell(region.patch_a, region.patch_b);
+    c.relabel(region.tets, region.to);
+    bench_.sums.relabelled += region.volume;
+    if (region.patches_to == 2) {
+        event.kind = bridged ? Event::Kind::handle_opened : Event::Kind::merge;
+    } else if (region.patches_from == 2) {
+        event.kind = same_shell(region.patch_a, region.patch_b) ? Event::Kind::handle_closed : Event::Kind::split;
+    } else {
+        event.kind = region.patches_from == 0 ? Event::Kind::vanished : Event::Kind::born;
+        event.thickness = 0.0;
+    }
+    mark_event(region, step);
+    return event;
+}
+
+void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, const mesh::TopologyLimits& limits, const Select& select,
+                        std::vector<Event>& events) {
+    if (!(limits.thickness > 0.0)) return;
+    mesh::Complex& c = bench_.complex;
+    collect_edges(step, changed);
+    found_.clear();
+    const double regular_volume = geometry::regular_tet_volume(bench_.limits.length);
+    Region region;
+    for (const EdgeKey& edge : edges_) {
+        if (region_of(edge.a, edge.b, region) != RegionFault::none) continue;
+        mesh::TopologyCandidate candidate;
+        const bool cut = region.patches_from == 2;
+        candidate.kind = cut ? mesh::TopologyCandidate::Kind::cut
+                             : region.from > 0 ? mesh::TopologyCandidate::Kind::open : mesh::TopologyCandidate::Kind::merge;
+        if ((cut && !limits.cut) || (!cut && region.from > 0 && !limits.open) || (!cut && region.from <= 0 && !limits.merge)) continue;
+        candidate.label = region.from;
+        candidate.centroid = region.centroid;
+        candidate.thickness = thickness(region) / bench_.limits.length;
+        candidate.volume = region.volume / regular_volume;
+        if (candidate.thickness <= limits.thickness) found_.push_back({edge, candidate});
+    }
+    if (found_.empty()) return;
+    std::vector<mesh::TopologyCandidate> batch;
+    for (const Found& f : found_) batch.push_back(f.candidate);
+    std::vector<std::uint8_t> accept(batch.size(), select ? 0 : 1);
+    if (select) select(batch, accept);
+    std::vector<const Found*> order;
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+        if (accept[i] != 0) order.push_back(&found_[i]);
+    }
+    const auto key = [](const Found& f) { return std::llround(f.candidate.thickness * 1e6); };
+    std::sort(order.begin(), order.end(), [&](const Found* x, const Found* y) {
+        const auto kx = key(*x), ky = key(*y);
+        if (kx != ky) return kx < ky;
+        return x->edge.low != y->edge.low ? x->edge.low < y->edge.low : x->edge.high < y->edge.high;
+    });
+    const auto most = static_cast<std::size_t>(
+        std::max(1.0, events_per_vertex * static_cast<double>(c.interface_vertices().size())));
+    std::size_t committed = 0;
+    near_.clear();
+    for (const Found* f : order) {
+        if (committed == most) break;
+        const VertexId a = f->edge.a, b = f->edge.b;
+        if (!c.movable(a) || !c.movable(b) || recent(a, step) || recent(b, step)) continue;
+        if (region_of(a, b, region) != RegionFault::none) continue;
+        const bool cut = region.patches_from == 2;
+        if (cut != (f->candidate.kind == mesh::TopologyCandidate::Kind::cut)) continue;
+        if (thickness(region) / bench_.limits.length > limits.thickness) continue;
+        events.push_back(commit(region, step));
+        ++committed;
+        for (const TetId t : region.tets) near_.insert(near_.end(), c.tet(t).v.begin(), c.tet(t).v.end());
+    }
+    if (committed > 0) remove_small_components(step, std::vector<VertexId>(near_), limits.min_component, events);
+}
+
+// The component of the seed if it is small, closed in by one label and bounded by one surface.
+bool TopologyStage::flood_component(TetId seed, double volume_limit, Region& region) {
+    const mesh::Complex& c = bench_.complex;
+    region.tets.assign(1, seed);
+    region.from = region.to = c.label(seed);
+    double volume = 0.0;
+    for (std::size_t i = 0; i < region.tets.size(); ++i) {
+        const TetId t = region.tets[i];
+        volume += c.volume(t);
+        if (volume >= volume_limit || region.tets.size() > small_component || touches_box(t)) return false;
+        for (unsigned f = 0; f < 4; ++f) {
+            const TetId next = mesh::neighbour_tet(c.tet(t).n[f]);
+            if (c.label(next) != region.from) {
+                if (region.to != region.from && region.to != c.label(next)) return false;
+                region.to = c.label(next);
+            } else if (std::find(region.tets.begin(), region.tets.end(), next) == region.tets.end()) {
+                region.tets.push_back(next);
+            }
+        }
+    }
+    return region.to != region.from;
+}
+
+void TopologyStage::remove_small_components(std::uint64_t step, std::span<const VertexId> near, double min_component,
+                                            std::vector<Event>& events) {
+    if (!(min_component > 0.0)) return;
+    mesh::Complex& c = bench_.complex;
+    const double limit = min_component * geometry::regular_tet_volume(bench_.limits.length);
+    Region region;
+    std::vector<TetId> seeds;
+    for (const VertexId v : near) {
+        if (v >= c.vertex_slots() || !c.vertex_alive(v) || !c.on_interface(v)) continue;
+        // One seed a label: the star of a regular vertex has one group each.
+        c.star(v, star_);
+        seeds.clear();
+        for (const TetId t : star_) {
+            const bool known = std::any_of(seeds.begin(), seeds.end(), [&](TetId s) { return c.label(s) == c.label(t); });
+            if (!known) seeds.push_back(t);
+        }
+        for (const TetId seed : seeds) {
+            if (!flood_component(seed, limit, region)) continue;
+            // A ball vanishes as one event; anything with handles or cavities waits until it is one.
+            if (measure(region) != RegionFault::none || region.patches_from != 0 || region.patches_to != 1) continue;
+            events.push_back(commit(region, step));
+            break;
+        }
+    }
+}
+
+}  // namespace dsc::kernel

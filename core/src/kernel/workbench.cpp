@@ -1,0 +1,112 @@
+#include "kernel/workbench.hpp"
+
+#include <cmath>
+
+#include <dsc/base/error.hpp>
+#include <dsc/geometry/predicates.hpp>
+#include <dsc/geometry/quality.hpp>
+
+namespace dsc::kernel {
+
+double Workbench::quality(VertexId a, VertexId b, VertexId c, VertexId d) const {
+    return geometry::tet_quality(at(a), at(b), at(c), at(d));
+}
+
+float Workbench::old_quality() const {
+    float least = 1.0F;
+    for (const TetId t : edit.removed) least = std::min(least, complex.quality(t));
+    return least;
+}
+
+Refusal Workbench::check_shape(float must_exceed, float old) {
+    const float floor = std::min(static_cast<float>(limits.quality_floor), old);
+    edit.qualities.clear();
+    for (const mesh::NewTet& t : edit.added) {
+        const auto q = static_cast<float>(quality(t.v[0], t.v[1], t.v[2], t.v[3]));
+        if (!(q > must_exceed) || !(q >= floor)) return Refusal::quality;
+        edit.qualities.push_back(q);
+    }
+    // Exactness last: the filter decides nearly all of these, and candidates that fail are usually far from flat.
+    for (const mesh::NewTet& t : edit.added) {
+        if (geometry::orient3d(at(t.v[0]), at(t.v[1]), at(t.v[2]), at(t.v[3])) != 1) return Refusal::quality;
+    }
+    return Refusal::committed;
+}
+
+Refusal Workbench::check_topology(std::span<const VertexId> touched) {
+    int before = 0;
+    int after = 0;
+    for (const VertexId v : touched) {
+        if (v != mesh::created_vertex) {
+            star_.build(v);
+            before += star_.euler_share();
+        }
+        if (v == edit.deleted) continue;
+        star_.build(v, edit);
+        if (!star_.regular()) return Refusal::irregular;
+        after += star_.euler_share();
+    }
+    return before == after ? Refusal::committed : Refusal::irregular;
+}
+
+double Workbench::phase_change() const {
+    struct Sum {
+        mesh::Label label;
+        double volume;
+    };
+    std::array<Sum, 8> sums_of{};
+    std::size_t count = 0;
+    const auto add = [&](mesh::Label label, double volume) {
+        for (std::size_t i = 0; i < count; ++i) {
+            if (sums_of[i].label == label) {
+                sums_of[i].volume += volume;
+                return;
+            }
+        }
+        if (count < sums_of.size()) sums_of[count++] = {label, volume};
+    };
+    for (const TetId t : edit.removed) add(complex.label(t), -complex.volume(t));
+    for (const mesh::NewTet& t : edit.added) {
+        add(t.label, geometry::tet_volume(at(t.v[0]), at(t.v[1]), at(t.v[2]), at(t.v[3])));
+    }
+    double total = 0.0;
+    for (std::size_t i = 0; i < count; ++i) total += std::abs(sums_of[i].volume);
+    return 0.5 * total;
+}
+
+VertexId Workbench::commit(double distance, double volume) {
+    sums.distance += distance;
+    sums.volume += volume;
+    return complex.replace(edit);
+}
+
+void Workbench::interface_fan(VertexId v, std::vector<std::array<VertexId, 3>>& out) {
+    out.clear();
+    complex.star(v, star_scratch_);
+    for (const TetId t : star_scratch_) {
+        const mesh::Tet& tet = complex.tet(t);
+        for (unsigned f = 0; f < 4; ++f) {
+            if (tet.v[f] == v || complex.label(t) <= complex.label_across(t, f)) continue;
+            std::array<VertexId, 3> corners{};
+            for (unsigned k = 0; k < 3; ++k) corners[k] = tet.v[mesh::face_vertices[f][k]];
+            while (corners[0] != v) std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+            out.push_back(corners);
+        }
+    }
+}
+
+bool Workbench::flat(VertexId v) {
+    interface_fan(v, fan_);
+    normals_.clear();
+    for (const auto& face : fan_) {
+        normals_.push_back(geometry::triangle_normal(complex.position(face[0]), complex.position(face[1]), complex.position(face[2])));
+    }
+    for (std::size_t i = 0; i < normals_.size(); ++i) {
+        for (std::size_t j = i + 1; j < normals_.size(); ++j) {
+            if (normals_[i].dot(normals_[j]) < limits.flatness) return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace dsc::kernel

@@ -1,0 +1,98 @@
+#pragma once
+// Where an operation is built, judged and committed. Every operation fills `edit`, asks the checks below and commits;
+// until then the complex is untouched, so refusing costs nothing and leaves no trace.
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include <dsc/mesh/complex.hpp>
+#include <dsc/mesh/local_star.hpp>
+#include <dsc/mesh/repair.hpp>
+
+namespace dsc::kernel {
+
+using mesh::Refusal;
+using mesh::TetId;
+using mesh::VertexId;
+
+/// Absolute limits of one edit, in normalised units.
+struct Limits {
+    double length = 0.0;          ///< L
+    double quality_floor = 1e-3;
+    double edit_distance = 0.0;   ///< by which one edit may move the interface
+    double edit_volume = 0.0;     ///< by which one edit may change a phase
+    double flatness = 0.995;      ///< cosine
+};
+
+/// Told of vertices that come and go, so that destinations can follow.
+class EditListener {
+public:
+    EditListener() = default;
+    EditListener(const EditListener&) = delete;
+    EditListener& operator=(const EditListener&) = delete;
+    virtual ~EditListener() = default;
+    /// `vertex` was made at (1 - s) a + s b.
+    virtual void on_split(VertexId vertex, VertexId a, VertexId b, double s) = 0;
+    /// `removed` was merged into `kept`, which now lies at (1 - s) kept + s removed.
+    virtual void on_collapse(VertexId kept, VertexId removed, double s) = 0;
+    /// The interface changed within these vertices' stars by a collapse: a component may have become small.
+    virtual void on_interface_collapse(VertexId kept) = 0;
+};
+
+/// Sums over committed edits.
+struct EditSums {
+    double distance = 0.0;
+    double volume = 0.0;
+    double relabelled = 0.0;
+};
+
+class Workbench {
+public:
+    explicit Workbench(mesh::Complex& target) : complex(target), star_(target) {}
+
+    mesh::Complex& complex;
+    Limits limits;
+    mesh::Edit edit;
+    EditListener* listener = nullptr;
+    EditSums sums;
+
+    // Scratch of the operations; whoever needs one fills it.
+    mesh::EdgeRing ring, ring2;
+    std::vector<TetId> star_a, star_b;
+    std::vector<VertexId> vertices;
+
+    /// Position with the edit's changes.
+    const Vec3& at(VertexId v) const {
+        if (v == mesh::created_vertex) return edit.created_at;
+        return v == edit.moved ? edit.moved_to : complex.position(v);
+    }
+    double quality(VertexId a, VertexId b, VertexId c, VertexId d) const;
+
+    /// Least cached quality of the edit's removed tets; 1 without any.
+    float old_quality() const;
+    /// Qualities of the added tets go to edit.qualities. Refuses when one is not above `must_exceed`, below
+    /// min(floor, old), or not exactly positive.
+    Refusal check_shape(float must_exceed, float old);
+    /// After link(): every given vertex stays regular and the interface's Euler number there stays what it is.
+    Refusal check_topology(std::span<const VertexId> touched);
+    /// Volume that changes phase: half the sum over labels of |added - removed|.
+    double phase_change() const;
+    /// Links and commits. `distance` and `volume` are what the edit does to the interface.
+    VertexId commit(double distance, double volume);
+
+    /// True when the interface faces round v are flat to each other (signed normals).
+    bool flat(VertexId v);
+    /// Vertices of the star's interface faces as triangles with v first, counter-clockwise from the smaller label.
+    void interface_fan(VertexId v, std::vector<std::array<VertexId, 3>>& out);
+
+    mesh::LocalStar& local_star() { return star_; }
+
+private:
+    mesh::LocalStar star_;
+    std::vector<TetId> star_scratch_;
+    std::vector<std::array<VertexId, 3>> fan_;
+    std::vector<Vec3> normals_;
+};
+
+}  // namespace dsc::kernel
