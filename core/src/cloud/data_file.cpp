@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <dlfcn.h>
-
 #include <dsc/base/error.hpp>
 
 namespace dsc::cloud {
@@ -13,16 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Folder of the library that holds this code, or of the program where it is linked in; empty if unknown.
-fs::path own_folder() {
-    static const char anchor = 0;
-    Dl_info info{};
-    if (dladdr(&anchor, &info) == 0 || !info.dli_fname) return {};
-    std::error_code error;
-    const fs::path path = fs::canonical(info.dli_fname, error);
-    return error ? fs::path{} : path.parent_path();
-}
-
+/// Folder of the running program; empty if unknown.
 fs::path program_folder() {
     std::error_code error;
     const fs::path path = fs::read_symlink("/proc/self/exe", error);
@@ -37,11 +26,8 @@ fs::path data_file(std::string_view name) {
     if (chosen && *chosen) {
         places.emplace_back(chosen);
     } else {
-        for (const fs::path& folder : {own_folder(), program_folder()}) {
-            // A library may stand one level deeper: lib/x86_64-linux-gnu.
-            if (!folder.empty()) places.push_back(folder.parent_path() / "share/dsc");
-            if (!folder.empty()) places.push_back(folder.parent_path().parent_path() / "share/dsc");
-        }
+        const fs::path folder = program_folder();
+        if (!folder.empty()) places.push_back(folder.parent_path() / "share/dsc");
         places.emplace_back(DSC_SOURCE_SHARE);
     }
     std::string tried;

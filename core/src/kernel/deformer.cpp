@@ -6,13 +6,13 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/quality.hpp>
+#include <dsc/mesh/unpinch.hpp>
 #include <dsc/mesh/validate.hpp>
 
 #include "kernel/movement.hpp"
 #include "kernel/operations.hpp"
 #include "kernel/queues.hpp"
 #include "kernel/topology.hpp"
-#include "mesh/unpinch.hpp"
 
 namespace dsc::kernel {
 namespace {

@@ -7,8 +7,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
-
-#include "mesh/unpinch.hpp"
+#include <dsc/mesh/unpinch.hpp>
 
 namespace dsc::mesh {
 namespace {

@@ -1,4 +1,4 @@
-#include "mesh/unpinch.hpp"
+#include <dsc/mesh/unpinch.hpp>
 
 #include <algorithm>
 #include <string>
