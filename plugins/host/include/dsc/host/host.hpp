@@ -1,0 +1,76 @@
+#pragma once
+// Host: opens plugins, refuses those that do not fit, and owns the registry of their strategies.
+
+#include <dsc/host/search_path.hpp>
+#include <dsc/plugin/catalogue.hpp>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dsc::host {
+
+/// A library that was passed over.
+struct Fault {
+    std::filesystem::path file;
+    std::string code;
+    std::string message;
+};
+
+/// What load_all does with a library that is refused.
+enum class OnFault {
+    stop_if_required,  ///< throws for entries that the user named, logs a warning for the others
+    collect,           ///< never throws; see faults()
+};
+
+/// Two hosts in a process are independent of each other. Libraries are never unloaded. One thread at a time. [setup]
+class Host : public plugin::Catalogue {
+public:
+    Host();
+    ~Host() override;
+    Host(const Host&) = delete;
+    Host& operator=(const Host&) = delete;
+
+    /// Loads one library. A file that is loaded already is passed over. All or nothing: a refused library leaves no
+    /// strategy behind. Throws PluginError naming file, reason and remedy:
+    ///
+    /// | code | reason |
+    /// | --- | --- |
+    /// | plugin.open | the file does not exist or cannot be read |
+    /// | plugin.writable | others may write the file or its folder |
+    /// | plugin.not_elf | no shared library for this machine, or a damaged one |
+    /// | plugin.no_entry | a library without the entry of a dsc plugin |
+    /// | plugin.magic, plugin.size, plugin.abi | an entry of another layout or version |
+    /// | plugin.fingerprint | built in another way; both fingerprints are printed |
+    /// | plugin.load | the dynamic linker refused it |
+    /// | plugin.enroll | enroll threw, registered nothing or something malformed |
+    /// | plugin.duplicate | a strategy's id is taken; both files are named |
+    ///
+    /// Up to plugin.load nothing of the library has run: all that is read from the file itself.
+    void load(const std::filesystem::path& file);
+
+    /// Loads the entries in order. In folders every libdsc_*.so is loaded, by name; a name that an earlier entry had
+    /// is passed over, so that an own build may stand in front of an installed one.
+    void load_all(std::span<const SearchEntry> entries, OnFault on_fault = OnFault::stop_if_required);
+
+    /// Libraries that load_all passed over.
+    const std::vector<Fault>& faults() const noexcept { return faults_; }
+
+    std::optional<plugin::StrategyInfo> find(plugin::Kind kind, const std::string& id) const override;
+    std::vector<plugin::StrategyInfo> list() const override;
+    std::vector<plugin::PluginInfo> plugins() const override;
+
+private:
+    struct Loaded;
+    void load_folder(const SearchEntry& entry, OnFault on_fault);
+    template <class Load>
+    void attempt(const SearchEntry& entry, const std::filesystem::path& file, OnFault on_fault, Load&& load);
+
+    std::vector<std::unique_ptr<Loaded>> loaded_;
+    std::map<std::pair<plugin::Kind, std::string>, plugin::StrategyInfo> strategies_;
+    std::vector<Fault> faults_;
+};
+
+}  // namespace dsc::host

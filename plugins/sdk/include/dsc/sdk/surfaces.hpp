@@ -1,0 +1,23 @@
+#pragma once
+// Surfaces with a known truth, for the tests of strategies.
+
+#include <dsc/surface/surface_view.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
+#include <functional>
+
+namespace dsc::sdk {
+
+/// Icosahedron whose faces are split `level` times into four, its vertices on a sphere round the origin.
+surface::TriangleMesh icosphere(unsigned level, double radius);
+
+/// Square [-half, half]^2 in the plane z = 0, normals up, n x n cells of two triangles; its rim is open.
+surface::TriangleMesh square(unsigned n, double half);
+
+/// The view of any oriented triangle mesh, every vertex movable; births count from 0. `vertex_ids` and `face_tets`
+/// name no complex.
+surface::SurfaceView view_of(const surface::TriangleMesh& mesh);
+
+/// The mesh with every point moved by `move`.
+surface::TriangleMesh moved(surface::TriangleMesh mesh, const std::function<Vec3(const Vec3&)>& move);
+
+}  // namespace dsc::sdk

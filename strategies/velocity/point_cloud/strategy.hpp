@@ -1,0 +1,42 @@
+#pragma once
+// Velocity `point_cloud`: every interface vertex goes along its normal towards the nearest point of the cloud.
+
+#include <dsc/hooks/curvature_estimator.hpp>
+#include <dsc/hooks/velocity_field.hpp>
+#include <dsc/plugin/plugin.hpp>
+
+namespace dsc::strategies {
+
+/// Displacement (alpha N.(p - x) - beta * curvature) N: x the vertex, N its outward unit normal, p the point of the
+/// cloud nearest to x [Saul2015, eq. 1-4].
+class PointCloud final : public hooks::VelocityField {
+public:
+    struct Params {
+        double alpha = 0.2;
+        double beta = 0.0;
+        config::StrategyConfig curvature;
+    };
+    static void declare(config::ParamSchema<Params>& schema);
+
+    PointCloud(const Params& params, const plugin::Setup& setup);
+
+    /// Throws ConfigError "velocity.no_cloud" when the experiment has no cloud.
+    void prepare(const hooks::StepContext& context) override;
+    void evaluate(hooks::Range range, std::span<Vec3> out) const override;
+
+    bool can_sample() const override { return true; }
+    /// The attraction alone: a curvature belongs to vertices and has no value between them.
+    void sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals, std::span<Vec3> out) const override;
+
+private:
+    Vec3 attraction(const Vec3& point, const Vec3& unit_normal) const;
+    void subtract_curvature(hooks::Range range, std::span<Vec3> out) const;
+
+    double alpha_;
+    double beta_;
+    std::unique_ptr<hooks::CurvatureEstimator> curvature_;
+    const surface::SurfaceView* surface_ = nullptr;
+    const cloud::TargetCloud* cloud_ = nullptr;
+};
+
+}  // namespace dsc::strategies
