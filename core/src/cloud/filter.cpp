@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -126,11 +128,15 @@ Filtered voxel_grid(const Cloud& cloud, const VoxelGridOptions& options) {
         for (; end < entries.size() && entries[end].cell == entries[begin].cell; ++end)
             sum += cloud.points[entries[end].index] - box.low;
         const Vec3 centroid = sum / static_cast<double>(end - begin);
-        const auto distance = [&](const Entry& e) { return (cloud.points[e.index] - box.low - centroid).squaredNorm(); };
-        const auto first = entries.begin() + static_cast<std::ptrdiff_t>(begin);
-        const auto last = entries.begin() + static_cast<std::ptrdiff_t>(end);
-        keep[std::min_element(first, last, [&](const Entry& a, const Entry& b) { return distance(a) < distance(b); })->index] =
-            true;
+        std::size_t best = begin;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t n = begin; n < end; ++n) {
+            const double distance = (cloud.points[entries[n].index] - box.low - centroid).squaredNorm();
+            if (distance >= least * (1.0 - 1e-9)) continue;  // two points are always as far: the first, not rounding, decides
+            least = distance;
+            best = n;
+        }
+        keep[entries[best].index] = true;
         begin = end;
     }
     return take(cloud, filter, keep);

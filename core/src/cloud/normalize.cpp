@@ -1,6 +1,7 @@
 #include <dsc/cloud/normalize.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -46,7 +47,7 @@ Box3 require_finite(std::span<const Vec3> points, std::string_view name) {
     Box3 box;
     for (std::size_t i = 0; i < points.size(); ++i) {
         // Beyond this, squares and volumes of coordinates leave the range of doubles.
-        if (!(points[i].cwiseAbs().maxCoeff() <= 1e100))
+        if (!(points[i].array().abs() <= 1e100).all())
             throw GeometryError("cloud.non_finite", named(name) + ": point " + std::to_string(i) +
                                                         " has a coordinate that is not finite or above 1e100; remove it");
         box.extend(points[i]);
