@@ -22,7 +22,7 @@ namespace {
 /// Box of the cloud; refuses a cloud that no filter can work on.
 Box3 checked_box(const Cloud& cloud, const std::string& filter) {
     if (cloud.points.empty())
-        throw GeometryError("cloud.empty", named(cloud.source) + ": filter " + filter + ": the cloud has no points");
+        throw GeometryError("cloud.empty", named(cloud.source) + ": filter " + filter + ": the cloud has no points; read another file");
     return require_finite(cloud.points, cloud.source);
 }
 
