@@ -1,0 +1,153 @@
+#include "proposals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <dsc/geometry/quality.hpp>
+
+namespace dsc::improvement {
+namespace {
+
+using mesh::CollapseMode;
+using mesh::Operation;
+using mesh::Request;
+
+// Qualities and sizes are compared in steps of 1e-4, so that rounding does not decide the order.
+std::int64_t quantised(double value) { return std::llround(value * 1e4); }
+
+Request on_tet(const mesh::Complex& c, mesh::TetId t, Operation operation, double only_below, double accept_above) {
+    Request request;
+    request.operation = operation;
+    request.tet = t;
+    request.birth_date = c.birth_date(t);
+    request.only_below = static_cast<float>(only_below);
+    request.accept_above = static_cast<float>(accept_above);
+    return request;
+}
+
+bool edge_is_flat(const mesh::Complex& c, const mesh::EdgeRing& ring, mesh::VertexId a, mesh::VertexId b, double flatness) {
+    std::vector<Vec3> normals;
+    const std::size_t n = ring.tets.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const mesh::Label before = c.label(ring.tets[(i + n - 1) % n]), after = c.label(ring.tets[i]);
+        if (before == after) continue;
+        const Vec3 normal = geometry::triangle_normal(c.position(a), c.position(b), c.position(ring.link[i]));
+        normals.push_back(after > before ? normal : Vec3(-normal));
+    }
+    return normals.size() == 2 && normals[0].dot(normals[1]) >= flatness;
+}
+
+}  // namespace
+
+bool Proposals::first_visit(mesh::VertexId v) {
+    if (v >= visited_.size()) visited_.resize(std::max<std::size_t>(v + 1, 2 * visited_.size()), 0);
+    if (visited_[v] == visit_) return false;
+    visited_[v] = visit_;
+    return true;
+}
+
+void Proposals::note_edges(const mesh::RepairRound& round, mesh::TetId t) {
+    const mesh::Complex& c = round.complex;
+    const double shortest = limits_.min_edge_length * round.target_length;
+    const double longest = limits_.max_edge_length * round.target_length;
+    for (unsigned f = 0; f < 4; ++f) {
+        // Of the two tets at an interface face the one with the larger label looks after its edges.
+        if (c.label(t) <= c.label_across(t, f)) continue;
+        for (unsigned k = 0; k < 3; ++k) {
+            mesh::VertexId a = c.tet(t).v[mesh::face_vertices[f][k]], b = c.tet(t).v[mesh::face_vertices[f][(k + 1) % 3]];
+            const double length = (c.position(a) - c.position(b)).norm();
+            if (length >= shortest && length <= longest) continue;
+            if (c.birth(a) > c.birth(b)) std::swap(a, b);
+            (length < shortest ? short_ : long_).push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / round.target_length)});
+        }
+    }
+}
+
+void Proposals::sort_out(const mesh::RepairRound& round) {
+    const mesh::Complex& c = round.complex;
+    const double small = limits_.min_tet_volume * geometry::regular_tet_volume(round.target_length);
+    low_.clear();
+    small_.clear();
+    short_.clear();
+    long_.clear();
+    free_.clear();
+    free_tets_.clear();
+    ++visit_;
+    for (const mesh::TetId t : round.dirty) {
+        const double q = static_cast<double>(c.quality(t));
+        if (q < limits_.min_tet_quality) low_.push_back({quantised(q), t});
+        if (q < limits_.smooth_below) {
+            for (const mesh::VertexId v : c.tet(t).v) {
+                if (c.on_interface(v) || c.on_box(v) || !first_visit(v)) continue;
+                free_.push_back(v);
+                free_tets_.push_back(t);
+            }
+        }
+        const double volume = c.volume(t);
+        if (volume < small) small_.push_back({quantised(volume / small), t});
+        note_edges(round, t);
+    }
+    const auto by_key = [](const Entry& x, const Entry& y) { return x.key < y.key; };
+    std::stable_sort(low_.begin(), low_.end(), by_key);
+    std::stable_sort(small_.begin(), small_.end(), by_key);
+    const auto by_births = [](const EdgeEntry& x, const EdgeEntry& y) { return x.low != y.low ? x.low < y.low : x.high < y.high; };
+    for (auto* edges : {&short_, &long_}) {
+        std::stable_sort(edges->begin(), edges->end(), by_births);
+        edges->erase(std::unique(edges->begin(), edges->end(), [](const EdgeEntry& x, const EdgeEntry& y) { return x.low == y.low && x.high == y.high; }),
+                     edges->end());
+        const bool ascending = edges == &short_;
+        std::stable_sort(edges->begin(), edges->end(), [&](const EdgeEntry& x, const EdgeEntry& y) { return ascending ? x.key < y.key : x.key > y.key; });
+    }
+}
+
+void Proposals::write(const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+    const mesh::Complex& c = round.complex;
+    sort_out(round);
+    const double low = limits_.min_tet_quality, degenerate = limits_.degenerate_tet_quality;
+    // 1. Free vertices to the mean of their neighbours.
+    for (std::size_t i = 0; i < free_.size(); ++i) {
+        Request request = on_tet(c, free_tets_[i], Operation::smooth_laplacian, 2.0, 2.0);
+        request.vertices[0] = free_[i];
+        out.push_back(request);
+    }
+    // 2. Bad tets, worst first: edges, interface diagonals, faces, then their free vertices one by one.
+    for (const Entry& entry : low_) {
+        out.push_back(on_tet(c, entry.tet, Operation::edge_removal, low, 2.0));
+        out.push_back(on_tet(c, entry.tet, Operation::interface_flip, low, 2.0));
+        out.push_back(on_tet(c, entry.tet, Operation::face_removal, low, 2.0));
+        for (const mesh::VertexId v : c.tet(entry.tet).v) {
+            if (c.on_interface(v) || c.on_box(v)) continue;
+            Request request = on_tet(c, entry.tet, Operation::smooth_optimise, low, 2.0);
+            request.vertices[0] = v;
+            out.push_back(request);
+        }
+    }
+    // 3. What is still degenerate: collapse without harm, by shape, within the bounds, split what is long.
+    for (const Entry& entry : low_) {
+        if (static_cast<double>(c.quality(entry.tet)) >= degenerate) break;
+        out.push_back(on_tet(c, entry.tet, Operation::edge_collapse, degenerate, low));
+        out.push_back(on_tet(c, entry.tet, Operation::compound, degenerate, degenerate));
+        Request bounded = on_tet(c, entry.tet, Operation::edge_collapse, degenerate, degenerate);
+        bounded.mode = CollapseMode::bounded;
+        out.push_back(bounded);
+        out.push_back(on_tet(c, entry.tet, Operation::relabel, degenerate, degenerate));
+    }
+    // 4. Sizes: short interface edges, long ones that are not flat, small tets.
+    for (const EdgeEntry& edge : short_) {
+        Request request = on_tet(c, edge.tet, Operation::edge_collapse, 2.0, degenerate);
+        request.vertices = {edge.a, edge.b, mesh::none};
+        request.mode = CollapseMode::bounded;
+        out.push_back(request);
+    }
+    mesh::EdgeRing ring;
+    for (const EdgeEntry& edge : long_) {
+        c.ring(edge.tet, edge.a, edge.b, ring);
+        if (!ring.closed || edge_is_flat(c, ring, edge.a, edge.b, round.flatness)) continue;
+        Request request = on_tet(c, edge.tet, Operation::edge_split, 2.0, 2.0);
+        request.vertices = {edge.a, edge.b, mesh::none};
+        out.push_back(request);
+    }
+    for (const Entry& entry : small_) out.push_back(on_tet(c, entry.tet, Operation::edge_collapse, 2.0, low));
+}
+
+}  // namespace dsc::improvement

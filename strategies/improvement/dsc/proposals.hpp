@@ -1,0 +1,52 @@
+#pragma once
+// Which repairs a round tries: the quality-driven pipeline of the deformable simplicial complex [Misztal2012].
+
+#include <cstdint>
+#include <vector>
+
+#include <dsc/mesh/repair.hpp>
+
+namespace dsc::improvement {
+
+/// Thresholds of the pipeline. Lengths are in target lengths L, volumes in regular tets of edge L, qualities are
+/// volume-length measures.
+struct Thresholds {
+    double min_tet_quality = 0.2;
+    double degenerate_tet_quality = 0.03;
+    double smooth_below = 0.5;
+    double min_edge_length = 0.5;
+    double max_edge_length = 2.0;
+    double min_tet_volume = 0.2;
+};
+
+/// Writes the requests of a round. Keeps scratch memory only: the result depends on the round alone.
+class Proposals {
+public:
+    explicit Proposals(const Thresholds& thresholds) : limits_(thresholds) {}
+    void write(const mesh::RepairRound& round, std::vector<mesh::Request>& out);
+
+private:
+    struct Entry {
+        std::int64_t key;
+        mesh::TetId tet;
+    };
+    struct EdgeEntry {
+        std::uint32_t low, high;  // births
+        mesh::VertexId a, b;
+        mesh::TetId tet;
+        std::int64_t key;
+    };
+    void sort_out(const mesh::RepairRound& round);
+    void note_edges(const mesh::RepairRound& round, mesh::TetId t);
+    bool first_visit(mesh::VertexId v);
+
+    Thresholds limits_;
+    std::vector<Entry> low_, small_;
+    std::vector<EdgeEntry> short_, long_;
+    std::vector<mesh::VertexId> free_;
+    std::vector<mesh::TetId> free_tets_;
+    std::vector<std::uint32_t> visited_;
+    std::uint32_t visit_ = 0;
+};
+
+}  // namespace dsc::improvement
