@@ -180,8 +180,8 @@ public:
                 if (ids[0] != ids[1] && ids[1] != ids[2] && ids[2] != ids[0]) mesh.faces.push_back(ids);
             };
             for (std::size_t j = 0; j < cells; ++j)
-                for (std::size_t i = 0; i < cells; ++i) {  // u cross v points inwards in these patches
-                    const Vec3 a = corner(i, j), b = corner(i, j + 1), c = corner(i + 1, j + 1), d = corner(i + 1, j);
+                for (std::size_t i = 0; i < cells; ++i) {  // u cross v points outwards in these patches
+                    const Vec3 a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1), d = corner(i, j + 1);
                     face(a, b, c);
                     face(a, c, d);
                 }

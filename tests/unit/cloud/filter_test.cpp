@@ -82,7 +82,7 @@ TEST_CASE("duplicates: within a tolerance of an earlier kept point") {
 TEST_CASE("voxel grid: the point nearest to the centroid of each cell, the first of two as far") {
     const Cloud cloud = scan(600, 3);
     const Vec3 low = dsc::bounding_box(cloud.points).low;
-    const double edge = 0.05 * diagonal(cloud);
+    const double edge = 0.02 * diagonal(cloud);
     std::map<std::array<long, 3>, std::vector<std::size_t>> cells;
     for (std::size_t i = 0; i < 600; ++i) {
         const Vec3 c = ((cloud.points[i] - low) / edge).array().floor();
@@ -103,7 +103,7 @@ TEST_CASE("voxel grid: the point nearest to the centroid of each cell, the first
         ++pairs;
     }
     CHECK(pairs > 10);
-    check_kept(cloud, voxel_grid(cloud, {0.05}), keep, "voxel_grid");
+    check_kept(cloud, voxel_grid(cloud, {0.02}), keep, "voxel_grid");
     CHECK(voxel_grid(cloud, {1.0}).report.kept == 1);
     CHECK(voxel_grid(cloud, {1e-9}).report.kept == 600);  // more cells than PCL's own grid can count
 }
