@@ -1,0 +1,27 @@
+#pragma once
+// The commands of `dsc`. Each function adds one to the parser; its action, run after parsing, returns the exit code.
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace dsc::app {
+
+/// What all commands share.
+struct Context {
+    std::vector<std::string> command_line;  ///< as typed
+    std::function<int()> action;            ///< of the command that was given
+};
+
+void add_run(CLI::App& app, Context& context);
+void add_reconstruct(CLI::App& app, Context& context);
+void add_sample(CLI::App& app, Context& context);
+void add_info(CLI::App& app, Context& context);
+void add_evaluate(CLI::App& app, Context& context);
+void add_render(CLI::App& app, Context& context);
+void add_convert(CLI::App& app, Context& context);
+void add_plugin(CLI::App& app, Context& context);
+
+}  // namespace dsc::app

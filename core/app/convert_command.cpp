@@ -1,0 +1,67 @@
+// dsc convert
+#include <dsc/base/error.hpp>
+#include <dsc/cloud/write.hpp>
+#include <dsc/io/formats.hpp>
+#include <dsc/io/write.hpp>
+#include <dsc/surface/surface_view.hpp>
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "files.hpp"
+
+namespace dsc::app {
+namespace {
+
+struct ConvertArguments {
+    std::string input;
+    std::string output;
+};
+
+/// The points of a surface or a volume as a cloud.
+cloud::Cloud points_of(Content&& content) {
+    if (content.cloud) return std::move(*content.cloud);
+    cloud::Cloud cloud;
+    cloud.points = content.surface ? std::move(content.surface->points) : std::move(content.volume->points);
+    return cloud;
+}
+
+int execute(const ConvertArguments& arguments) {
+    require_output(arguments.output, arguments.input);
+    const io::Format* format = io::find_format(arguments.output);
+    const bool xyz = extension_of(arguments.output) == ".xyz";
+    if (format == nullptr && !xyz) {
+        throw UsageError("usage.format", arguments.output + " has no extension that is written; use " +
+                                             io::surface_extensions() + " for a surface, " + io::volume_extensions() +
+                                             " for a volume, .xyz, .obj, .ply for a cloud");
+    }
+    Content content = read_any(arguments.input);
+    if (xyz) {
+        cloud::write_cloud(arguments.output, points_of(std::move(content)));
+    } else if (format->volume) {
+        if (!content.volume) {
+            throw UsageError("convert.no_volume", arguments.input + " holds no tets, so no volume can be written; make one "
+                                                                    "with dsc reconstruct");
+        }
+        io::write_volume(arguments.output, *content.volume);
+    } else if (content.cloud) {
+        cloud::write_cloud(arguments.output, *content.cloud);
+    } else {
+        io::write_surface(arguments.output,
+                          content.surface ? *content.surface : surface::extract_interface(*content.volume));
+    }
+    std::cout << arguments.output << "\n";
+    return 0;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, Context& context) {
+    CLI::App* command = app.add_subcommand("convert", "Another format; of a volume also its surface or its points");
+    const auto arguments = std::make_shared<ConvertArguments>();
+    command->add_option("IN", arguments->input, "Surface, volume or cloud")->required();
+    command->add_option("OUT", arguments->output, "The extension decides")->required();
+    command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+}
+
+}  // namespace dsc::app

@@ -1,0 +1,30 @@
+#pragma once
+// A strategy and its parameters for people, programs and experiments.
+
+#include <dsc/config/schema.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace dsc::app {
+
+struct Described {
+    std::string kind;
+    std::string id;
+    std::string summary;
+    std::string plugin;
+    std::string version;  ///< empty for what is part of the core
+    std::string file;
+    const config::Schema* schema = nullptr;
+};
+
+/// A table with a row a strategy.
+std::string list_text(const std::vector<Described>& all);
+nlohmann::ordered_json summary_json(const Described& described);
+/// With all parameters: type, default, range, unit, doc.
+nlohmann::ordered_json full_json(const Described& described);
+std::string description_text(const Described& described);
+/// The parameters with their defaults as a commented block for an experiment.
+std::string yaml_text(const Described& described);
+
+}  // namespace dsc::app

@@ -1,0 +1,82 @@
+#include "files.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <dsc/base/error.hpp>
+#include <dsc/cloud/read.hpp>
+#include <dsc/io/formats.hpp>
+#include <dsc/io/read.hpp>
+#include <dsc/surface/surface_view.hpp>
+
+namespace dsc::app {
+
+namespace fs = std::filesystem;
+
+std::string extension_of(const fs::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+Content read_any(const fs::path& file) {
+    const auto read_cloud = [&] {
+        Content content;
+        cloud::ReadReport report;
+        content.cloud = cloud::read_cloud(file, &report);
+        content.dropped = report.dropped_non_finite;
+        return content;
+    };
+    const io::Format* format = io::find_format(file);
+    if (format == nullptr) return read_cloud();
+    Content content;
+    if (format->volume) {
+        content.volume = io::read_volume(file);
+        return content;
+    }
+    try {
+        content.surface = io::read_surface(file);
+        return content;
+    } catch (const IoError& error) {
+        const std::string extension = extension_of(file);
+        if (error.code() != "io.no_faces" || (extension != ".obj" && extension != ".ply")) throw;
+    }
+    return read_cloud();
+}
+
+surface::TriangleMesh read_any_surface(const fs::path& path) {
+    if (fs::is_directory(path)) {
+        for (const char* name : {"surface.obj", "surface.ply", "surface.off", "surface.stl"}) {
+            if (fs::exists(path / "result" / name)) return io::read_surface(path / "result" / name);
+        }
+        throw IoError("io.no_result", path.string(), "", "is a folder without result/surface.*",
+                      "name a file or the folder of a finished run");
+    }
+    Content content = read_any(path);
+    if (content.volume) return surface::extract_interface(*content.volume);
+    if (content.cloud) {
+        throw UsageError("file.no_surface", path.string() + " holds points without faces; a surface or a volume is needed here");
+    }
+    return std::move(*content.surface);
+}
+
+bool same_file(const fs::path& a, const fs::path& b) {
+    std::error_code error;
+    if (fs::exists(a, error) && fs::exists(b, error)) return fs::equivalent(a, b, error);
+    return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
+void require_output(const fs::path& out, const fs::path& input) {
+    if (same_file(out, input)) {
+        throw UsageError("file.same", out.string() + " is the input; name another file with -o");
+    }
+    const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder)) {
+        throw IoError("io.folder", out.string(), "", "its folder " + folder.string() + " does not exist", "make the folder first");
+    }
+    if (fs::is_directory(out)) {
+        throw UsageError("file.folder", out.string() + " is a folder; name a file with -o");
+    }
+}
+
+}  // namespace dsc::app

@@ -1,0 +1,37 @@
+#pragma once
+// Files as the commands see them: what a name on the command line holds.
+
+#include <dsc/cloud/cloud.hpp>
+#include <dsc/mesh/tet_mesh.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace dsc::app {
+
+/// What a file turned out to hold; exactly one is set.
+struct Content {
+    std::optional<surface::TriangleMesh> surface;
+    std::optional<mesh::TetMesh> volume;
+    std::optional<cloud::Cloud> cloud;
+    std::size_t dropped = 0;  ///< points of a cloud that were not finite
+};
+
+/// Reads a surface, a volume or a cloud. A surface format without faces is read as a cloud. Throws IoError.
+Content read_any(const std::filesystem::path& file);
+
+/// The surface in `path`: a surface file, the label interface of a volume, or the result of a run folder.
+/// Throws IoError "io.no_result" for a folder without one, UsageError "file.no_surface" for a cloud.
+surface::TriangleMesh read_any_surface(const std::filesystem::path& path);
+
+/// Extension in lower case, with its dot.
+std::string extension_of(const std::filesystem::path& file);
+
+/// Whether both names lead to the same file.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// Throws UsageError "file.same" when `out` is one of the inputs, IoError "io.folder" when its folder does not exist.
+void require_output(const std::filesystem::path& out, const std::filesystem::path& input);
+
+}  // namespace dsc::app

@@ -1,0 +1,143 @@
+// dsc info
+#include <dsc/base/error.hpp>
+#include <dsc/base/workers.hpp>
+#include <dsc/cloud/search.hpp>
+#include <dsc/io/read.hpp>
+#include <dsc/run/measure.hpp>
+#include <memory>
+#include <thread>
+
+#include "commands.hpp"
+#include "figures_output.hpp"
+#include "files.hpp"
+
+namespace dsc::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct InfoArguments {
+    std::string file;
+    bool json = false;
+    bool require_solid = false;
+};
+
+ordered_json surface_figures(const run::SurfaceMeasure& measure) {
+    const surface::SurfaceReport& r = measure.report;
+    return {{"vertices", r.vertices},
+            {"faces", r.faces},
+            {"edges", r.edges},
+            {"unused_points", r.unused_points},
+            {"duplicate_points", r.duplicate_points},
+            {"shells", r.shells},
+            {"components", r.components},
+            {"cavities", r.cavities},
+            {"genus", r.genus},
+            {"euler", r.euler},
+            {"boundary_edges", r.boundary_edges},
+            {"nonmanifold_edges", r.nonmanifold_edges},
+            {"nonmanifold_vertices", r.nonmanifold_vertices},
+            {"misoriented_edges", r.misoriented_edges},
+            {"duplicate_faces", r.duplicate_faces},
+            {"degenerate_faces", r.degenerate_faces},
+            {"self_intersections", measure.intersections.count},
+            {"volume", r.volume},
+            {"area", r.area},
+            {"edge", {{"min", r.edge_min}, {"mean", r.edge_mean}, {"max", r.edge_max}}},
+            {"box", box_figures(r.box)},
+            {"solid", measure.solid()}};
+}
+
+/// The written surface beside a volume, if there is one, against the volume's interface.
+ordered_json conformity(const std::filesystem::path& volume, const surface::TriangleMesh& interface) {
+    ordered_json all = ordered_json::object();
+    for (const char* name : {"surface.obj", "surface.ply", "surface.off"}) {
+        const std::filesystem::path file = volume.parent_path() / name;
+        if (volume.stem() == "volume" && std::filesystem::exists(file)) {
+            all[name] = run::identical(io::read_surface(file), interface);
+        }
+    }
+    return all;
+}
+
+ordered_json volume_figures(const std::filesystem::path& file, const run::VolumeMeasure& m) {
+    ordered_json labels = ordered_json::object();
+    for (const auto& [label, count] : m.label_tets) {
+        labels[std::to_string(label)] = {{"tets", count}, {"volume", m.label_volumes.at(label)}};
+    }
+    ordered_json figures = {{"points", m.points},
+                            {"unused_points", m.unused_points},
+                            {"tets", m.tets},
+                            {"invalid_tets", m.invalid_tets},
+                            {"inverted_tets", m.inverted_tets},
+                            {"adjacency",
+                             {{"valid", m.adjacency_valid()},
+                              {"overused_faces", m.overused_faces},
+                              {"folded_faces", m.folded_faces},
+                              {"boundary_faces", m.boundary_faces}}},
+                            {"quality", {{"min", m.min_quality}, {"mean", m.mean_quality}}},
+                            {"volume", m.volume},
+                            {"box", box_figures(m.box)},
+                            {"fills_box", m.fills_box()},
+                            {"labels", labels},
+                            {"interface", surface_figures(m.interface_measure)}};
+    if (ordered_json same = conformity(file, m.interface); !same.empty()) figures["interface_is_surface"] = same;
+    figures["solid"] = m.solid();
+    return figures;
+}
+
+ordered_json cloud_figures(const Content& content) {
+    const std::vector<Vec3>& points = content.cloud->points;
+    const cloud::NearestSearch search(points);
+    std::vector<cloud::Neighbour> neighbours;
+    double spacing = 0.0;
+    std::size_t repeated = 0;
+    for (const Vec3& p : points) {
+        search.k_nearest(p, 2, neighbours);
+        const double distance = neighbours.size() < 2 ? 0.0 : neighbours[1].distance;
+        spacing += distance;
+        if (neighbours.size() > 1 && distance == 0.0) ++repeated;
+    }
+    return {{"points", points.size()},
+            {"dropped_not_finite", content.dropped},
+            {"points_with_a_twin", repeated},
+            {"mean_spacing", spacing / static_cast<double>(points.size())},
+            {"box", box_figures(bounding_box(points))},
+            {"solid", false}};
+}
+
+int execute(const InfoArguments& arguments) {
+    Workers workers(std::max(1U, std::thread::hardware_concurrency()));
+    const Content content = read_any(arguments.file);
+    ordered_json figures = {{"file", arguments.file}};
+    if (content.surface) {
+        figures["kind"] = "surface";
+        figures.update(surface_figures(run::measure(*content.surface, &workers)));
+    } else if (content.volume) {
+        figures["kind"] = "volume";
+        figures.update(volume_figures(arguments.file, run::measure(*content.volume, &workers)));
+    } else {
+        figures["kind"] = "cloud";
+        figures.update(cloud_figures(content));
+    }
+    print_figures(figures, arguments.json);
+    if (arguments.require_solid && !figures["solid"].get<bool>()) {
+        throw GeometryError("info.not_solid", arguments.file +
+                                                  " is not a valid solid: closed, manifold, oriented outwards, without "
+                                                  "self-intersections; the figures on stdout tell what it lacks");
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Context& context) {
+    CLI::App* command = app.add_subcommand("info", "What a surface, a volume or a cloud holds");
+    const auto arguments = std::make_shared<InfoArguments>();
+    command->add_option("FILE", arguments->file, "Surface, volume or cloud")->required();
+    command->add_flag("--json", arguments->json, "JSON instead of text");
+    command->add_flag("--require-solid", arguments->require_solid, "Exit 5 unless it is a valid solid");
+    command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+}
+
+}  // namespace dsc::app

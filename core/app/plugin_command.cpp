@@ -1,0 +1,112 @@
+// dsc plugin list | describe ID | path
+#include <dsc/base/error.hpp>
+#include <dsc/config/spelling.hpp>
+#include <dsc/run/experiment.hpp>
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "describe.hpp"
+#include "plugins.hpp"
+
+namespace dsc::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct PluginArguments {
+    std::vector<std::string> plugins;
+    bool json = false;
+    std::string id;
+    std::string kind;
+    std::string format = "text";
+};
+
+/// All strategies and the core's cloud filters.
+std::vector<Described> all_strategies(const host::Host& host) {
+    std::vector<Described> all;
+    for (const plugin::StrategyInfo& info : host.list()) {
+        all.push_back({std::string(plugin::kind_name(info.strategy->kind)), info.strategy->id, info.strategy->summary,
+                       info.plugin->name, info.plugin->version, info.plugin->file.string(), info.strategy->schema.get()});
+    }
+    const run::ExperimentLookup lookup(host);
+    for (const std::string& id : lookup.ids("filter")) {
+        all.push_back({"filter", id, "filter of the point cloud", "core", "", "", lookup.find_schema("filter", id)});
+    }
+    return all;
+}
+
+int list(const PluginArguments& arguments) {
+    Plugins plugins(arguments.plugins);
+    const std::vector<Described> all = all_strategies(plugins.load());
+    if (arguments.json) {
+        ordered_json array = ordered_json::array();
+        for (const Described& d : all) array.push_back(summary_json(d));
+        std::cout << array.dump(2) << "\n";
+        return 0;
+    }
+    std::cout << list_text(all);
+    return 0;
+}
+
+int describe(const PluginArguments& arguments) {
+    Plugins plugins(arguments.plugins);
+    const std::vector<Described> all = all_strategies(plugins.load());
+    std::vector<Described> found;
+    std::vector<std::string> ids;
+    for (const Described& d : all) {
+        ids.push_back(d.id);
+        if (d.id == arguments.id && (arguments.kind.empty() || d.kind == arguments.kind)) found.push_back(d);
+    }
+    if (found.empty()) {
+        const auto near = config::closest(arguments.id, ids);
+        throw UsageError("usage.strategy", "no strategy is called '" + arguments.id + "'" +
+                                               (arguments.kind.empty() ? "" : " of kind " + arguments.kind) +
+                                               (near ? "; did you mean '" + *near + "'?" : "") +
+                                               "; dsc plugin list shows all");
+    }
+    if (arguments.format == "json") {
+        ordered_json array = ordered_json::array();
+        for (const Described& d : found) array.push_back(full_json(d));
+        std::cout << (array.size() == 1 ? array[0] : array).dump(2) << "\n";
+        return 0;
+    }
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (i > 0) std::cout << "\n";
+        std::cout << (arguments.format == "yaml" ? yaml_text(found[i]) : description_text(found[i]));
+    }
+    return 0;
+}
+
+int path(const PluginArguments& arguments) {
+    for (const host::SearchEntry& entry : Plugins(arguments.plugins).search_path()) {
+        std::cout << entry.path.string() << "  (" << entry.origin << ")\n";
+    }
+    return 0;
+}
+
+}  // namespace
+
+void add_plugin(CLI::App& app, Context& context) {
+    CLI::App* command = app.add_subcommand("plugin", "Strategies: which there are, and what they take");
+    command->require_subcommand(1);
+    const auto arguments = std::make_shared<PluginArguments>();
+    const auto add = [&](const char* name, const char* text, int (*action)(const PluginArguments&)) {
+        CLI::App* sub = command->add_subcommand(name, text);
+        sub->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
+            ->expected(1)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        sub->callback([arguments, action, &context] { context.action = [arguments, action] { return action(*arguments); }; });
+        return sub;
+    };
+    add("list", "All strategies", list)->add_flag("--json", arguments->json, "JSON instead of text");
+    CLI::App* describing = add("describe", "The parameters of a strategy", describe);
+    describing->add_option("ID", arguments->id, "Its id")->required();
+    describing->add_option("--kind", arguments->kind, "Its kind, where two kinds have the id");
+    describing->add_option("--format", arguments->format, "text, json or yaml (a block for an experiment)")
+        ->check(CLI::IsMember({"text", "json", "yaml"}))
+        ->capture_default_str();
+    add("path", "Where plugins are looked for, in order", path);
+}
+
+}  // namespace dsc::app

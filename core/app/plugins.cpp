@@ -1,0 +1,23 @@
+#include "plugins.hpp"
+
+namespace dsc::app {
+
+Plugins::Plugins(std::vector<std::string> command_line) : command_line_(std::move(command_line)) {}
+
+std::vector<host::SearchEntry> Plugins::search_path(const std::vector<std::string>& experiment) const {
+    host::SearchOptions options;
+    options.command_line.assign(command_line_.begin(), command_line_.end());
+    options.experiment.assign(experiment.begin(), experiment.end());
+    return host::search_path(options);
+}
+
+const host::Host& Plugins::load(const std::vector<std::string>& experiment) {
+    host_.load_all(search_path(experiment));
+    return host_;
+}
+
+run::PluginLoader Plugins::loader() {
+    return [this](const std::vector<std::string>& experiment) -> const config::StrategyLookup& { return load(experiment); };
+}
+
+}  // namespace dsc::app

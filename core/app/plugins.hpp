@@ -1,0 +1,30 @@
+#pragma once
+// Brings the plugin host and the run module together.
+
+#include <dsc/host/host.hpp>
+#include <dsc/run/experiment.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dsc::app {
+
+/// Owns the host of a command.
+class Plugins {
+public:
+    /// `command_line`: the arguments of --plugin.
+    explicit Plugins(std::vector<std::string> command_line);
+
+    /// Loads everything on the search path and what an experiment names. Throws PluginError.
+    const host::Host& load(const std::vector<std::string>& experiment = {});
+    /// load() in the form that run::load_experiment takes; this object must outlive it.
+    run::PluginLoader loader();
+    const host::Host& host() const { return host_; }
+    std::vector<host::SearchEntry> search_path(const std::vector<std::string>& experiment = {}) const;
+
+private:
+    std::vector<std::string> command_line_;
+    host::Host host_;
+};
+
+}  // namespace dsc::app

@@ -1,0 +1,151 @@
+// dsc reconstruct
+#include <algorithm>
+#include <dsc/base/error.hpp>
+#include <dsc/base/log.hpp>
+#include <dsc/cloud/read.hpp>
+#include <dsc/io/atomic_file.hpp>
+#include <dsc/io/formats.hpp>
+#include <dsc/run/reconstruct.hpp>
+#include <dsc/run/runner.hpp>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "commands.hpp"
+#include "files.hpp"
+#include "outcome.hpp"
+#include "plugins.hpp"
+#include "temporary_folder.hpp"
+#include "terminal.hpp"
+
+namespace dsc::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReconstructArguments {
+    std::string cloud;
+    std::vector<std::string> outputs;
+    std::string detail = "medium";
+    std::string keep_run;
+    unsigned threads = 0;
+    std::vector<std::string> plugins;
+    TerminalOptions terminal;
+};
+
+/// An output and the format that its name asks for.
+struct Target {
+    fs::path file;
+    std::string format;  ///< extension without its dot
+    bool volume = false;
+};
+
+std::vector<Target> targets(const ReconstructArguments& arguments) {
+    std::vector<std::string> names = arguments.outputs;
+    if (names.empty()) {
+        const std::string stem = fs::path(arguments.cloud).stem().string();
+        names = {stem + "_surface.ply", stem + "_volume.vtu"};
+    }
+    std::vector<Target> list;
+    for (const std::string& name : names) {
+        const io::Format* format = io::find_format(name);
+        if (format == nullptr) {
+            throw UsageError("usage.format", name + " has no extension that is written; use " + io::surface_extensions() +
+                                                 " for the surface, " + io::volume_extensions() + " for the volume");
+        }
+        require_output(name, arguments.cloud);
+        for (const Target& other : list) {
+            if (same_file(other.file, name)) throw UsageError("usage.output", name + " is named by -o twice");
+        }
+        list.push_back({name, std::string(format->extension.substr(1)), format->volume});
+    }
+    return list;
+}
+
+/// The formats that a run must write so that every target can be copied from it.
+config::ConfigNode wanted(const std::vector<Target>& list, bool volume, const std::vector<std::string>& always) {
+    std::vector<std::string> formats = always;
+    for (const Target& target : list) {
+        if (target.volume == volume) formats.push_back(target.format);
+    }
+    std::vector<config::ConfigNode> nodes;
+    for (std::size_t i = 0; i < formats.size(); ++i) {
+        if (std::find(formats.begin(), formats.begin() + static_cast<std::ptrdiff_t>(i), formats[i]) ==
+            formats.begin() + static_cast<std::ptrdiff_t>(i)) {
+            nodes.emplace_back(formats[i]);
+        }
+    }
+    return config::ConfigNode::list(std::move(nodes));
+}
+
+fs::path source_of(const Target& target, const run::RunOutcome& outcome) {
+    for (const fs::path& file : target.volume ? outcome.volumes : outcome.surfaces) {
+        if (extension_of(file) == "." + target.format) return file;
+    }
+    throw Error(ExitCode::internal, "reconstruct.format", "the run wrote no ." + target.format);
+}
+
+int execute(const ReconstructArguments& arguments, const std::vector<std::string>& command) {
+    start_log(arguments.terminal);
+    if (!fs::exists(arguments.cloud)) {
+        throw IoError("io.missing", arguments.cloud, "", "does not exist", "check the name of the cloud");
+    }
+    const std::vector<Target> list = targets(arguments);
+    const run::Detail detail = run::detail_from_name(arguments.detail).value();
+    config::ConfigNode root =
+        run::derive_experiment(fs::absolute(arguments.cloud).string(), cloud::read_cloud(arguments.cloud), detail);
+    const bool kept = !arguments.keep_run.empty();
+    root = root.with("output", config::ConfigNode::map(
+                                   {{"surface", wanted(list, false, kept ? std::vector<std::string>{"obj", "ply"}
+                                                                         : std::vector<std::string>{"obj"})},
+                                    {"volume", wanted(list, true, kept ? std::vector<std::string>{"vtu", "dsc"}
+                                                                       : std::vector<std::string>{"dsc"})}}));
+    Plugins plugins(arguments.plugins);
+    const run::LoadedExperiment loaded = run::resolve_experiment(root, plugins.loader());
+
+    std::optional<TemporaryFolder> temporary;
+    if (!kept) temporary.emplace();
+    run::RunOptions options;
+    options.folder = kept ? fs::path(arguments.keep_run) : temporary->path() / "run";
+    options.threads = arguments.threads != 0 ? arguments.threads : std::max(1U, std::thread::hardware_concurrency());
+    options.cancel = &cancel_on_signals();
+    options.command = command;
+    options.on_step = progress_reporter(arguments.terminal);
+    const run::RunOutcome outcome = run::run_experiment(loaded, plugins.host(), options);
+    report(outcome);
+    if (exit_code(outcome) != 0) return exit_code(outcome);
+    for (const Target& target : list) io::write_file(target.file, io::read_file(source_of(target, outcome)));
+    for (const Target& target : list) std::cout << target.file.string() << "\n";
+    return 0;
+}
+
+}  // namespace
+
+void add_reconstruct(CLI::App& app, Context& context) {
+    CLI::App* command = app.add_subcommand("reconstruct", "Point cloud to surface and volume");
+    const auto arguments = std::make_shared<ReconstructArguments>();
+    command->add_option("CLOUD", arguments->cloud, "Point cloud: .obj .ply .pcd .xyz .txt .asc .pts .csv")->required();
+    command
+        ->add_option("-o,--output", arguments->outputs,
+                     "Output, may repeat; the extension decides: .obj .ply .off .stl surface, .vtu .dsc volume. Default "
+                     "STEM_surface.ply and STEM_volume.vtu in the current folder")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("--detail", arguments->detail, "low, medium or high")
+        ->check(CLI::IsMember({"low", "medium", "high"}))
+        ->capture_default_str();
+    command->add_option("--keep-run", arguments->keep_run, "Keep the run folder here");
+    command->add_option("--threads", arguments->threads, "Threads; default all. The result does not depend on it")
+        ->check(CLI::Range(1U, 1024U));
+    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_progress(*command, arguments->terminal);
+    add_verbosity(*command, arguments->terminal);
+    command->callback([arguments, &context] {
+        context.action = [arguments, &context] { return execute(*arguments, context.command_line); };
+    });
+}
+
+}  // namespace dsc::app

@@ -1,0 +1,65 @@
+// dsc render
+#include <charconv>
+#include <dsc/base/error.hpp>
+#include <dsc/base/workers.hpp>
+#include <dsc/io/picture.hpp>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "commands.hpp"
+#include "files.hpp"
+
+namespace dsc::app {
+namespace {
+
+struct RenderArguments {
+    std::string input;
+    std::string output;
+    std::string view = "iso";
+    std::string size = "1024x768";
+    bool edges = false;
+};
+
+void parse_size(const std::string& text, io::RenderOptions& options) {
+    const char* const end = text.data() + text.size();
+    const auto [x, error] = std::from_chars(text.data(), end, options.width);
+    if (error == std::errc() && x != end && *x == 'x') {
+        const auto [rest, second] = std::from_chars(x + 1, end, options.height);
+        if (second == std::errc() && rest == end) return;
+    }
+    throw UsageError("usage.size", "--size " + text + " is not WIDTHxHEIGHT; write 1024x768");
+}
+
+int execute(const RenderArguments& arguments) {
+    if (extension_of(arguments.output) != ".png") {
+        throw UsageError("usage.format", arguments.output + ": pictures are written as .png; name such a file with -o");
+    }
+    require_output(arguments.output, arguments.input);
+    io::RenderOptions options;
+    parse_size(arguments.size, options);
+    options.view = io::view_from_name(arguments.view).value();
+    options.edges = arguments.edges;
+    Workers workers(std::max(1U, std::thread::hardware_concurrency()));
+    options.workers = &workers;
+    io::write_png(arguments.output, io::render(read_any_surface(arguments.input), options));
+    std::cout << arguments.output << "\n";
+    return 0;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Context& context) {
+    CLI::App* command = app.add_subcommand("render", "A shaded picture of a surface, a volume or a run");
+    const auto arguments = std::make_shared<RenderArguments>();
+    command->add_option("FILE", arguments->input, "Surface, volume or run folder")->required();
+    command->add_option("-o,--output", arguments->output, "Picture, .png")->required();
+    command->add_option("--view", arguments->view, "Where the viewer stands")
+        ->check(CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "iso"}))
+        ->capture_default_str();
+    command->add_option("--size", arguments->size, "Width and height in pixels")->capture_default_str();
+    command->add_flag("--edges", arguments->edges, "Draw the edges of the triangles");
+    command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+}
+
+}  // namespace dsc::app

@@ -1,0 +1,89 @@
+// dsc run
+#include <cmath>
+#include <dsc/base/error.hpp>
+#include <dsc/base/log.hpp>
+#include <dsc/run/runner.hpp>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "commands.hpp"
+#include "duration.hpp"
+#include "outcome.hpp"
+#include "plugins.hpp"
+#include "terminal.hpp"
+
+namespace dsc::app {
+namespace {
+
+struct RunArguments {
+    std::string config;
+    std::vector<std::string> overrides;
+    std::string folder;
+    unsigned threads = 0;
+    std::vector<std::string> plugins;
+    bool check = false;
+    bool print_config = false;
+    std::string time_budget;
+    TerminalOptions terminal;
+};
+
+int check(const run::LoadedExperiment& loaded, const host::Host& host, const RunArguments& arguments) {
+    run::make_strategies(loaded.experiment, host);
+    const std::filesystem::path folder =
+        arguments.folder.empty() ? run::default_folder(loaded, host) : std::filesystem::path(arguments.folder);
+    if (arguments.print_config) return 0;
+    std::cout << arguments.config << ": valid, " << run::planned_steps(loaded.experiment) << " steps, would write "
+              << folder.string() << "\n";
+    return 0;
+}
+
+int execute(const RunArguments& arguments, const std::vector<std::string>& command) {
+    start_log(arguments.terminal);
+    const std::optional<double> budget =
+        arguments.time_budget.empty() ? std::nullopt : std::optional(parse_duration(arguments.time_budget));
+    Plugins plugins(arguments.plugins);
+    const run::LoadedExperiment loaded =
+        run::load_experiment(arguments.config, arguments.overrides, plugins.loader());
+    if (!loaded.warnings.empty()) log(LogLevel::warning, loaded.warnings);
+    if (arguments.print_config) std::cout << run::resolved_text(loaded);
+    if (arguments.check) return check(loaded, plugins.host(), arguments);
+    if (arguments.print_config) return 0;
+
+    run::RunOptions options;
+    options.folder = arguments.folder;
+    options.threads = arguments.threads != 0 ? arguments.threads : std::max(1U, std::thread::hardware_concurrency());
+    options.time_budget = budget;
+    options.cancel = &cancel_on_signals();
+    options.command = command;
+    options.on_step = progress_reporter(arguments.terminal);
+    const run::RunOutcome outcome = run::run_experiment(loaded, plugins.host(), options);
+    report(outcome);
+    std::cout << outcome.folder.string() << "\n";
+    return exit_code(outcome);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Context& context) {
+    CLI::App* command = app.add_subcommand("run", "Carry out an experiment");
+    const auto arguments = std::make_shared<RunArguments>();
+    command->add_option("CONFIG", arguments->config, "Experiment, a YAML file")->required();
+    command->add_option("KEY=VALUE", arguments->overrides, "Values that override the file's, by dotted path");
+    command->add_option("-o,--output", arguments->folder, "Run folder; default runs/NAME/HASH");
+    command->add_option("--threads", arguments->threads, "Threads; default all. The result does not depend on it")
+        ->check(CLI::Range(1U, 1024U));
+    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_flag("--check", arguments->check, "Only say whether the experiment is right");
+    command->add_flag("--print-config", arguments->print_config, "Print the experiment with all defaults, run nothing");
+    command->add_option("--time-budget", arguments->time_budget, "Stop after this time: 90, 90s, 10m, 1.5h");
+    add_progress(*command, arguments->terminal);
+    add_verbosity(*command, arguments->terminal);
+    command->callback([arguments, &context] {
+        context.action = [arguments, &context] { return execute(*arguments, context.command_line); };
+    });
+}
+
+}  // namespace dsc::app

@@ -1,0 +1,25 @@
+#include "temporary_folder.hpp"
+
+#include <cstdlib>
+#include <dsc/base/error.hpp>
+#include <string>
+
+namespace dsc::app {
+
+TemporaryFolder::TemporaryFolder() {
+    std::error_code error;
+    const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+    std::string pattern = ((error ? std::filesystem::path(".") : parent) / "dsc-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) {
+        throw IoError("io.temporary", pattern, "", "a temporary folder cannot be made there",
+                      "set TMPDIR to a folder that can be written");
+    }
+    path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+}
+
+}  // namespace dsc::app
