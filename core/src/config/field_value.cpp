@@ -155,11 +155,13 @@ private:
 
     void check_size(const ConfigNode& node, const std::string& path) {
         const std::size_t size = node.size();
-        const std::size_t least = field_.min_size.value_or(0);
-        const std::size_t most = field_.max_size.value_or(std::numeric_limits<std::size_t>::max());
+        const bool vector = field_.type == FieldType::vec3;
+        const std::size_t least = vector ? 3 : field_.min_size.value_or(0);
+        const std::size_t most =
+            vector ? 3 : field_.max_size.value_or(std::numeric_limits<std::size_t>::max());
         if (size >= least && size <= most) return;
         std::string wanted = std::to_string(least);
-        if (field_.type == FieldType::vec3 || least == most) {
+        if (least == most) {
             wanted = "exactly " + wanted;
         } else if (size < least) {
             wanted = "at least " + wanted;

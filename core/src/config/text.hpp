@@ -14,6 +14,9 @@ std::size_t character_count(std::string_view text);
 /// Byte offset of the first byte that is no text: a control character other than tab and line ends, or broken UTF-8.
 std::optional<std::size_t> first_non_text(std::string_view text);
 
+/// True for well-formed UTF-8, control characters included.
+bool is_utf8(std::string_view text);
+
 /// The text with control characters as blanks and broken bytes as '?', safe for a terminal; one column each.
 std::string printable(std::string_view text);
 

@@ -58,7 +58,7 @@ std::string double_quoted(std::string_view text) {
 }
 
 std::string key_text(const std::string& key) {
-    if (first_non_text(key)) throw ConfigError("config.text", "a key of the configuration is not UTF-8 text");
+    if (!is_utf8(key)) throw ConfigError("config.text", "a key of the configuration is not UTF-8 text");
     return is_plain_string(key) ? key : double_quoted(key);
 }
 
@@ -66,6 +66,10 @@ std::string key_text(const std::string& key) {
 std::string string_text(const ConfigNode& node) {
     std::string escaped;
     const std::string& text = node.as_string();
+    if (!is_utf8(text)) {
+        throw ConfigError("config.text",
+                          quoted_text(node.path()) + " of the configuration is not UTF-8 text");
+    }
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (text.compare(i, 2, "${") == 0) escaped += '$';
         escaped += text[i];

@@ -86,7 +86,8 @@ private:
 template <class T>
 class ParamSchema {
 public:
-    explicit ParamSchema(T defaults = T{}) : bindings_(std::make_shared<Bindings>(std::move(defaults))) {}
+    ParamSchema() : bindings_(std::make_shared<Bindings>()) {}
+    explicit ParamSchema(const T& defaults) : bindings_(std::make_shared<Bindings>(defaults)) {}
     ParamSchema(const ParamSchema&) = delete;
     ParamSchema& operator=(const ParamSchema&) = delete;
 
@@ -261,7 +262,8 @@ private:
     };
     /// Shared with the cross checks, which may outlive this object inside a schema.
     struct Bindings {
-        explicit Bindings(T value) : defaults(std::move(value)) {}
+        Bindings() = default;
+        explicit Bindings(const T& value) : defaults(value) {}
         T read(const ConfigNode& node) const {
             T value = defaults;
             for (const Binding& binding : all) {
@@ -274,7 +276,7 @@ private:
             for (const Binding& binding : all) entries.emplace_back(binding.name, binding.write(value));
             return ConfigNode::map(std::move(entries));
         }
-        T defaults;
+        T defaults{};
         std::vector<Binding> all;
     };
 
@@ -343,8 +345,8 @@ private:
     using IndexOf = typename Index<V>::type;
 
     template <class U, class Declare>
-    static std::shared_ptr<const ParamSchema<U>> nested(U defaults, Declare declare) {
-        auto inner = std::make_shared<ParamSchema<U>>(std::move(defaults));
+    static std::shared_ptr<const ParamSchema<U>> nested(const U& defaults, Declare declare) {
+        auto inner = std::make_shared<ParamSchema<U>>(defaults);
         declare(*inner);
         return inner;
     }
