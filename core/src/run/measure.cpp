@@ -52,9 +52,10 @@ void count_faces(const mesh::TetMesh& mesh, const std::vector<char>& valid, Volu
         } else if (end - begin > 2) {
             ++measure.overused_faces;
         } else {
-            const auto& [a, b, c] = uses[begin].key;
+            const auto& key = uses[begin].key;
             const auto side = [&](std::size_t use) {
-                return geometry::orient3d(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[uses[use].apex]);
+                return geometry::orient3d(mesh.points[key[0]], mesh.points[key[1]], mesh.points[key[2]],
+                                          mesh.points[uses[use].apex]);
             };
             if (side(begin) * side(begin + 1) >= 0) ++measure.folded_faces;
         }
