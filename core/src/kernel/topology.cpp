@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::uint64_t rest_steps = 5;     // steps in which a vertex touched by an event takes part in no other
 constexpr double longest_edge = 1.0;        // of a candidate, in L
+constexpr double thickest_neck = 0.5;       // area of a neck's cross-section, in L^2
 constexpr double events_per_vertex = 0.02;  // a step
 constexpr std::size_t small_component = 64; // tets that a flood visits at most
 
@@ -42,50 +43,94 @@ void TopologyStage::mark_event(const Region& region, std::uint64_t step) {
     }
 }
 
-void TopologyStage::collect_edges(std::uint64_t step, std::span<const TetId> changed) {
+void TopologyStage::add_seed(std::array<VertexId, 3> v) {
+    const mesh::Complex& c = bench_.complex;
+    const auto birth = [&c](VertexId x) { return x == mesh::none ? mesh::none : c.birth(x); };
+    std::sort(v.begin(), v.end(), [&](VertexId x, VertexId y) { return birth(x) < birth(y); });
+    seeds_.push_back({{birth(v[0]), birth(v[1]), birth(v[2])}, v});
+}
+
+bool TopologyStage::interface_edge(TetId t, VertexId a, VertexId b) {
+    const mesh::Complex& c = bench_.complex;
+    c.ring(t, a, b, bench_.ring);
+    return std::any_of(bench_.ring.tets.begin(), bench_.ring.tets.end(), [&](TetId r) { return c.label(r) != c.label(t); });
+}
+
+bool TopologyStage::neck_face(TetId t, unsigned face) {
+    const mesh::Complex& c = bench_.complex;
+    const std::uint32_t code = c.tet(t).n[face];
+    if (code == mesh::none || mesh::neighbour_tet(code) < t || c.label(mesh::neighbour_tet(code)) != c.label(t)) return false;
+    const auto& f = mesh::face_vertices[face];
+    const auto& v = c.tet(t).v;
+    const double area = geometry::triangle_area(c.position(v[f[0]]), c.position(v[f[1]]), c.position(v[f[2]]));
+    if (area > thickest_neck * bench_.limits.length * bench_.limits.length) return false;
+    for (unsigned k = 0; k < 3; ++k) {
+        if (!interface_edge(t, v[f[k]], v[f[(k + 1) % 3]])) return false;
+    }
+    return true;
+}
+
+void TopologyStage::collect_seeds(std::uint64_t step, std::span<const TetId> changed) {
     const mesh::Complex& c = bench_.complex;
     const double limit2 = std::pow(longest_edge * bench_.limits.length, 2);
-    edges_.clear();
+    seeds_.clear();
     for (const TetId t : changed) {
         if (!c.tet_alive(t)) continue;
         const auto& v = c.tet(t).v;
-        std::array<bool, 4> usable{};
+        std::array<bool, 4> ready{};
         unsigned count = 0;
         for (unsigned i = 0; i < 4; ++i) {
-            usable[i] = c.movable(v[i]) && !recent(v[i], step);
-            count += usable[i] ? 1 : 0;
+            ready[i] = c.movable(v[i]) && !recent(v[i], step);
+            count += ready[i] ? 1 : 0;
         }
         if (count < 2) continue;
         for (const auto& e : mesh::edge_vertices) {
-            if (!usable[e[0]] || !usable[e[1]]) continue;
-            // A face between the two other labels than t's would make this an interface edge; the ring tells.
-            VertexId a = v[e[0]], b = v[e[1]];
-            if ((c.position(a) - c.position(b)).squaredNorm() > limit2) continue;
-            if (c.birth(a) > c.birth(b)) std::swap(a, b);
-            edges_.push_back({c.birth(a), c.birth(b), a, b});
+            if (!ready[e[0]] || !ready[e[1]]) continue;
+            if ((c.position(v[e[0]]) - c.position(v[e[1]])).squaredNorm() > limit2) continue;
+            if (!interface_edge(t, v[e[0]], v[e[1]])) add_seed({v[e[0]], v[e[1]], mesh::none});
+        }
+        for (unsigned f = 0; f < 4 && count > 2; ++f) {
+            const auto& k = mesh::face_vertices[f];
+            if (ready[k[0]] && ready[k[1]] && ready[k[2]] && neck_face(t, f)) add_seed({v[k[0]], v[k[1]], v[k[2]]});
         }
     }
-    const auto less = [](const EdgeKey& x, const EdgeKey& y) { return x.low != y.low ? x.low < y.low : x.high < y.high; };
-    std::sort(edges_.begin(), edges_.end(), less);
-    edges_.erase(std::unique(edges_.begin(), edges_.end(), [](const EdgeKey& x, const EdgeKey& y) { return x.low == y.low && x.high == y.high; }),
-                 edges_.end());
+    std::sort(seeds_.begin(), seeds_.end(), [](const Seed& x, const Seed& y) { return x.births < y.births; });
+    seeds_.erase(std::unique(seeds_.begin(), seeds_.end(), [](const Seed& x, const Seed& y) { return x.births == y.births; }), seeds_.end());
 }
 
-RegionFault TopologyStage::region_of(VertexId a, VertexId b, Region& region) {
+bool TopologyStage::usable(const Seed& seed, std::uint64_t step) const {
     const mesh::Complex& c = bench_.complex;
-    const TetId t = c.find_edge(a, b);
+    return std::all_of(seed.v.begin(), seed.v.end(), [&](VertexId v) { return v == mesh::none || (c.movable(v) && !recent(v, step)); });
+}
+
+RegionFault TopologyStage::start(const Seed& seed, Region& region) {
+    const mesh::Complex& c = bench_.complex;
+    const TetId t = c.find_edge(seed.v[0], seed.v[1]);
     if (t == mesh::none) return RegionFault::kind;
-    c.ring(t, a, b, bench_.ring);
+    c.ring(t, seed.v[0], seed.v[1], bench_.ring);
     if (!bench_.ring.closed) return RegionFault::box;
-    region.from = c.label(t);
+    region.tets.clear();
     for (const TetId r : bench_.ring.tets) {
+        if (seed.v[2] == mesh::none || mesh::has_vertex(c.tet(r), seed.v[2])) region.tets.push_back(r);
+    }
+    if (region.tets.empty()) return RegionFault::kind;
+    region.from = c.label(region.tets.front());
+    for (const TetId r : region.tets) {
         if (c.label(r) != region.from) return RegionFault::kind;
     }
-    c.star(a, star_);
-    region.to = other_label(c, star_, region.from);
-    c.star(b, star_);
-    if (region.to == region.from || other_label(c, star_, region.from) != region.to) return RegionFault::labels;
-    region.tets = bench_.ring.tets;
+    region.to = region.from;
+    for (const VertexId v : seed.v) {
+        if (v == mesh::none) continue;
+        c.star(v, star_);
+        const mesh::Label other = other_label(c, star_, region.from);
+        if (other == region.from || (region.to != region.from && region.to != other)) return RegionFault::labels;
+        region.to = other;
+    }
+    return RegionFault::none;
+}
+
+RegionFault TopologyStage::region_of(const Seed& seed, Region& region) {
+    if (const RegionFault fault = start(seed, region); fault != RegionFault::none) return fault;
     if (const RegionFault fault = grow(region); fault != RegionFault::none) return fault;
     if (const RegionFault fault = measure(region); fault != RegionFault::none) return fault;
     const bool event = (region.patches_from == 1 && region.patches_to == 2) || (region.patches_from == 2 && region.patches_to == 1);
@@ -148,12 +193,12 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
                         std::vector<Event>& events) {
     if (!(limits.thickness > 0.0)) return;
     mesh::Complex& c = bench_.complex;
-    collect_edges(step, changed);
+    collect_seeds(step, changed);
     found_.clear();
     const double regular_volume = geometry::regular_tet_volume(bench_.limits.length);
     Region region;
-    for (const EdgeKey& edge : edges_) {
-        if (region_of(edge.a, edge.b, region) != RegionFault::none) continue;
+    for (const Seed& seed : seeds_) {
+        if (region_of(seed, region) != RegionFault::none) continue;
         mesh::TopologyCandidate candidate;
         const bool cut = region.patches_from == 2;
         candidate.kind = cut ? mesh::TopologyCandidate::Kind::cut
@@ -163,7 +208,7 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
         candidate.centroid = region.centroid;
         candidate.thickness = thickness(region) / bench_.limits.length;
         candidate.volume = region.volume / regular_volume;
-        if (candidate.thickness <= limits.thickness) found_.push_back({edge, candidate});
+        if (candidate.thickness <= limits.thickness) found_.push_back({seed, candidate});
     }
     if (found_.empty()) return;
     std::vector<mesh::TopologyCandidate> batch;
@@ -178,7 +223,7 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
     std::sort(order.begin(), order.end(), [&](const Found* x, const Found* y) {
         const auto kx = key(*x), ky = key(*y);
         if (kx != ky) return kx < ky;
-        return x->edge.low != y->edge.low ? x->edge.low < y->edge.low : x->edge.high < y->edge.high;
+        return x->seed.births < y->seed.births;
     });
     const auto most = static_cast<std::size_t>(
         std::max(1.0, events_per_vertex * static_cast<double>(c.interface_vertices().size())));
@@ -186,9 +231,7 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
     near_.clear();
     for (const Found* f : order) {
         if (committed == most) break;
-        const VertexId a = f->edge.a, b = f->edge.b;
-        if (!c.movable(a) || !c.movable(b) || recent(a, step) || recent(b, step)) continue;
-        if (region_of(a, b, region) != RegionFault::none) continue;
+        if (!usable(f->seed, step) || region_of(f->seed, region) != RegionFault::none) continue;
         const bool cut = region.patches_from == 2;
         if (cut != (f->candidate.kind == mesh::TopologyCandidate::Kind::cut)) continue;
         if (thickness(region) / bench_.limits.length > limits.thickness) continue;

@@ -52,16 +52,23 @@ public:
     static double thickness(const Region& region);
 
 private:
-    struct EdgeKey {
-        std::uint32_t low, high;  // births
-        VertexId a, b;
+    // Where a region may start: an edge inside a phase, its ends on the interface; or a face inside a phase whose three
+    // edges all lie on the interface, the cross-section of a neck that is too thin to have an edge inside.
+    struct Seed {
+        std::array<std::uint32_t, 3> births;  // ascending; the last is none for an edge
+        std::array<VertexId, 3> v;
     };
     struct Found {
-        EdgeKey edge;
+        Seed seed;
         mesh::TopologyCandidate candidate;
     };
-    void collect_edges(std::uint64_t step, std::span<const TetId> changed);
-    RegionFault region_of(VertexId a, VertexId b, Region& region);
+    void collect_seeds(std::uint64_t step, std::span<const TetId> changed);
+    void add_seed(std::array<VertexId, 3> v);
+    bool interface_edge(TetId t, VertexId a, VertexId b);
+    bool neck_face(TetId t, unsigned face);
+    RegionFault start(const Seed& seed, Region& region);
+    RegionFault region_of(const Seed& seed, Region& region);
+    bool usable(const Seed& seed, std::uint64_t step) const;
     bool same_shell(std::span<const VertexId> from, std::span<const VertexId> to);
     bool touches_box(TetId t) const;
     void mark_event(const Region& region, std::uint64_t step);
@@ -69,7 +76,7 @@ private:
     bool flood_component(TetId seed, double volume_limit, Region& region);
 
     Workbench& bench_;
-    std::vector<EdgeKey> edges_;
+    std::vector<Seed> seeds_;
     std::vector<Found> found_;
     std::vector<std::uint64_t> event_step_;  // per vertex: 1 + step of the last event that touched it
     std::vector<std::uint32_t> event_birth_;
