@@ -78,6 +78,10 @@ private:
                  "files include one another more than " + std::to_string(options_.max_include_depth) +
                      " deep");
         }
+        if (++files_ > options_.max_files) {
+            fail("config.include", target.position(),
+                 "more than " + std::to_string(options_.max_files) + " files are included");
+        }
         std::string cause;
         auto source = read_text(shown, options_, cause);
         if (!source) {
@@ -140,6 +144,7 @@ public:
 private:
     const YamlOptions& options_;
     std::size_t nodes_left_;
+    std::size_t files_ = 0;
     Diagnostics diagnostics_;
     std::vector<fs::path> open_files_;
 };

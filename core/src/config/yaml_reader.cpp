@@ -41,10 +41,7 @@ public:
 
     SourcePosition at(std::size_t offset, std::size_t length) const {
         const auto next = std::upper_bound(starts_.begin(), starts_.end(), offset);
-        const std::size_t start = *(next - 1);
-        const std::string_view before = std::string_view(source_->text).substr(start, offset - start);
-        return {source_, static_cast<int>(next - starts_.begin()),
-                static_cast<int>(character_count(before)) + 1,
+        return {source_, static_cast<int>(next - starts_.begin()), column(*(next - 1), offset),
                 static_cast<int>(std::max<std::size_t>(length, 1))};
     }
     SourcePosition at(const YAML::Mark& mark) const { return at(offset(mark), 1); }
@@ -60,7 +57,8 @@ public:
         if (begin >= text.size()) return at(begin, 1);
         const char first = text[begin];
         if (first == '|' || first == '>') return at(begin, 1);
-        const std::size_t line_end = std::min(text.find_first_of("\r\n", begin), text.size());
+        const auto next_line = std::upper_bound(starts_.begin(), starts_.end(), begin);
+        const std::size_t line_end = next_line == starts_.end() ? text.size() : *next_line - 1;
         if (first != '"' && first != '\'') {
             const std::size_t end = std::min(begin + value.size(), line_end);
             return at(begin, character_count(text.substr(begin, end - begin)));
@@ -82,6 +80,16 @@ public:
     }
 
 private:
+    /// Places come in order, so on a long line only what lies between two of them is counted.
+    int column(std::size_t line_start, std::size_t offset) const {
+        const bool goes_on = last_.line_start == line_start && last_.offset <= offset;
+        const std::size_t from = goes_on ? last_.offset : line_start;
+        const int before = goes_on ? last_.column : 1;
+        const std::string_view between = std::string_view(source_->text).substr(from, offset - from);
+        last_ = {line_start, offset, before + static_cast<int>(character_count(between))};
+        return last_.column;
+    }
+
     /// Where the quoted scalar that starts at `begin` ends, the size of the text if it does not.
     std::size_t closing_quote(std::size_t begin) const {
         const std::string_view text = source_->text;
@@ -102,6 +110,13 @@ private:
     std::shared_ptr<const SourceText> source_;
     std::size_t begin_;
     std::vector<std::size_t> starts_;
+
+    struct Counted {
+        std::size_t line_start = 0;
+        std::size_t offset = 0;
+        int column = 1;
+    };
+    mutable Counted last_;
 };
 
 /// Builds the tree from the parser's events.

@@ -25,6 +25,7 @@ struct YamlOptions {
     std::size_t max_nodes = 100000;                ///< of all files, aliases expanded
     std::size_t max_depth = 64;                    ///< of nested lists and maps
     std::size_t max_include_depth = 16;
+    std::size_t max_files = 100;  ///< included, the same one twice counts twice
 };
 
 /// Reads a file and what it includes.
