@@ -35,10 +35,12 @@ fs::path data_file(std::string_view name) {
         const fs::path path = place / "data" / name;
         std::error_code error;
         if (fs::is_regular_file(path, error)) return path;
-        if (tried.find(path.string()) == std::string::npos) tried += (tried.empty() ? "" : ", ") + path.string();
+        if (tried.find(path.string()) == std::string::npos)
+            tried += (tried.empty() ? "" : ", ") + path.string();
     }
-    throw IoError("io.data_file", name, "", "this data file of the project is not at " + tried,
-                  "set the environment variable DSC_SHARE to the folder that holds data/" + std::string(name));
+    throw IoError(
+        "io.data_file", name, "", "this data file of the project is not at " + tried,
+        "set the environment variable DSC_SHARE to the folder that holds data/" + std::string(name));
 }
 
 }  // namespace dsc::cloud

@@ -22,12 +22,14 @@ namespace {
 /// Box of the cloud; refuses a cloud that no filter can work on.
 Box3 checked_box(const Cloud& cloud, const std::string& filter) {
     if (cloud.points.empty())
-        throw GeometryError("cloud.empty", named(cloud.source) + ": filter " + filter + ": the cloud has no points; read another file");
+        throw GeometryError("cloud.empty", named(cloud.source) + ": filter " + filter +
+                                               ": the cloud has no points; read another file");
     return require_finite(cloud.points, cloud.source);
 }
 
 void require_option(bool valid, const Cloud& cloud, const std::string& filter, const std::string& cause) {
-    if (!valid) throw GeometryError("cloud.option", named(cloud.source) + ": filter " + filter + ": " + cause);
+    if (!valid)
+        throw GeometryError("cloud.option", named(cloud.source) + ": filter " + filter + ": " + cause);
 }
 
 Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<bool>& keep) {
@@ -41,7 +43,8 @@ Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<b
     result.cloud.source = cloud.source;
     result.report = {filter, result.cloud.points.size(), cloud.points.size() - result.cloud.points.size()};
     if (result.cloud.points.empty())
-        throw GeometryError("cloud.filtered_out", named(cloud.source) + ": filter " + filter + " removes all " +
+        throw GeometryError("cloud.filtered_out", named(cloud.source) + ": filter " + filter +
+                                                      " removes all " +
                                                       counted(cloud.points.size(), "point") +
                                                       "; relax its options or leave it out");
     return result;
@@ -53,7 +56,8 @@ Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<s
     return take(cloud, filter, keep);
 }
 
-/// The points moved to the origin and scaled to a diagonal of 1, for PCL's floats. All zero if all points are equal.
+/// The points moved to the origin and scaled to a diagonal of 1, for PCL's floats. All zero if all points are
+/// equal.
 std::vector<Vec3> recentred(const Cloud& cloud, const Box3& box) {
     const double diagonal = box.diagonal();
     std::vector<Vec3> points;
@@ -66,7 +70,9 @@ std::vector<Vec3> recentred(const Cloud& cloud, const Box3& box) {
 void mark_exact_duplicates(const std::vector<Vec3>& points, std::vector<bool>& keep) {
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto key = [&](std::size_t i) { return std::make_tuple(points[i].x(), points[i].y(), points[i].z()); };
+    const auto key = [&](std::size_t i) {
+        return std::make_tuple(points[i].x(), points[i].y(), points[i].z());
+    };
     std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
         const auto a = key(i), b = key(j);
         return a < b || (a == b && i < j);
@@ -118,8 +124,9 @@ Filtered voxel_grid(const Cloud& cloud, const VoxelGridOptions& options) {
                 edge > 0.0 ? static_cast<std::int64_t>(std::floor(from_low[static_cast<int>(k)] / edge)) : 0;
         entries[i].index = i;
     }
-    std::sort(entries.begin(), entries.end(),
-              [](const Entry& a, const Entry& b) { return std::tie(a.cell, a.index) < std::tie(b.cell, b.index); });
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+        return std::tie(a.cell, a.index) < std::tie(b.cell, b.index);
+    });
 
     std::vector<bool> keep(cloud.points.size(), false);
     for (std::size_t begin = 0; begin < entries.size();) {
@@ -132,7 +139,8 @@ Filtered voxel_grid(const Cloud& cloud, const VoxelGridOptions& options) {
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t n = begin; n < end; ++n) {
             const double distance = (cloud.points[entries[n].index] - box.low - centroid).squaredNorm();
-            if (distance >= least * (1.0 - 1e-9)) continue;  // two points are always as far: the first, not rounding, decides
+            if (distance >= least * (1.0 - 1e-9))
+                continue;  // two points are always as far: the first, not rounding, decides
             least = distance;
             best = n;
         }

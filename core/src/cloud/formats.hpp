@@ -18,8 +18,8 @@ struct FileCheck {
 Cloud read_obj(const std::string& file, std::string_view text);
 Cloud read_xyz(const std::string& file, std::string_view text);
 
-/// Prove that a file holds all that its header promises, so that PCL may be trusted with it: PCL allocates what a header
-/// asks for and its readers do not all notice a missing end.
+/// Prove that a file holds all that its header promises, so that PCL may be trusted with it: PCL allocates
+/// what a header asks for and its readers do not all notice a missing end.
 FileCheck check_pcd(const std::string& file, std::string_view bytes);
 FileCheck check_ply(const std::string& file, std::string_view bytes);
 

@@ -8,8 +8,8 @@
 
 namespace dsc::cloud {
 
-/// Takes the next line off `rest`; only LF ends it, because binary data follow a header. A CR before it is dropped.
-/// False at the end and for a line without LF.
+/// Takes the next line off `rest`; only LF ends it, because binary data follow a header. A CR before it is
+/// dropped. False at the end and for a line without LF.
 bool next_header_line(std::string_view& rest, std::string_view& line);
 
 [[noreturn]] void header_error(const std::string& file, std::size_t line, const std::string& cause);

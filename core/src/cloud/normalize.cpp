@@ -48,8 +48,9 @@ Box3 require_finite(std::span<const Vec3> points, std::string_view name) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         // Beyond this, squares and volumes of coordinates leave the range of doubles.
         if (!(points[i].array().abs() <= 1e100).all())
-            throw GeometryError("cloud.non_finite", named(name) + ": point " + std::to_string(i) +
-                                                        " has a coordinate that is not finite or above 1e100; remove it");
+            throw GeometryError("cloud.non_finite",
+                                named(name) + ": point " + std::to_string(i) +
+                                    " has a coordinate that is not finite or above 1e100; remove it");
         box.extend(points[i]);
     }
     return box;
@@ -63,12 +64,12 @@ void require_volume(std::span<const Vec3> points, std::string_view name) {
     const Box3 box = require_finite(points, name);
     const auto refuse = [&](const char* code, const char* what) {
         const Vec3 size = box.size();
-        throw GeometryError(code, who + ": all " + std::to_string(points.size()) + " points " + what + " (extent " +
-                                      short_number(size.x()) + " x " + short_number(size.y()) + " x " +
-                                      short_number(size.z()) + "); " + std::string(volume_remedy));
+        throw GeometryError(code, who + ": all " + std::to_string(points.size()) + " points " + what +
+                                      " (extent " + short_number(size.x()) + " x " + short_number(size.y()) +
+                                      " x " + short_number(size.z()) + "); " + std::string(volume_remedy));
     };
-    // Below 1e-100 the squares of differences vanish. Flat means below the tolerance or below what rounding the
-    // coordinates far from the origin may have added.
+    // Below 1e-100 the squares of differences vanish. Flat means below the tolerance or below what rounding
+    // the coordinates far from the origin may have added.
     const double diagonal = box.diagonal();
     if (diagonal < 1e-100) refuse("cloud.equal", "are equal");
     const double magnitude = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
@@ -84,15 +85,17 @@ void require_volume(std::span<const Vec3> points, std::string_view name) {
     const Vec3 normal = along.cross(c - a).normalized();
     const auto off_plane = [&](const Vec3& p) { return std::abs(normal.dot(p - a)); };
     const Vec3& d = points[largest(points, off_plane)];
-    if (off_plane(d) <= flat || geometry::orient3d(a, b, c, d) == 0) refuse("cloud.coplanar", "lie on one plane");
+    if (off_plane(d) <= flat || geometry::orient3d(a, b, c, d) == 0)
+        refuse("cloud.coplanar", "lie on one plane");
 }
 
 Normalized normalize(const Cloud& cloud, double scale_target) {
     const double most = simulation_box().high.x();
     if (!(scale_target > 0.0 && scale_target <= most))
         throw GeometryError("cloud.scale", named(cloud.source) + ": the normalisation scale is " +
-                                               short_number(scale_target) + "; choose one above 0 and at most " +
-                                               short_number(most) + ", 0.9 by default");
+                                               short_number(scale_target) +
+                                               "; choose one above 0 and at most " + short_number(most) +
+                                               ", 0.9 by default");
     require_volume(cloud.points, cloud.source);
     const Box3 box = bounding_box(cloud.points);
     Normalized result;
@@ -108,11 +111,12 @@ Normalized keep_coordinates(const Cloud& cloud, const Box3& box) {
     const auto inside = [&](const Vec3& p) { return box.contains(p); };
     const auto first = std::find_if_not(cloud.points.begin(), cloud.points.end(), inside);
     if (first != cloud.points.end()) {
-        const auto outside = cloud.points.size() - static_cast<std::size_t>(std::count_if(first, cloud.points.end(), inside)) -
+        const auto outside = cloud.points.size() -
+                             static_cast<std::size_t>(std::count_if(first, cloud.points.end(), inside)) -
                              static_cast<std::size_t>(first - cloud.points.begin());
         throw GeometryError("cloud.outside_box",
-                            named(cloud.source) + ": cloud outside the box: " + std::to_string(outside) + " of " +
-                                counted(cloud.points.size(), "point") + ", the first is point " +
+                            named(cloud.source) + ": cloud outside the box: " + std::to_string(outside) +
+                                " of " + counted(cloud.points.size(), "point") + ", the first is point " +
                                 std::to_string(first - cloud.points.begin()) + "; the cloud spans " +
                                 interval(bounding_box(cloud.points)) + ", the box is " + interval(box) +
                                 "; normalise the cloud (normalize: {scale: 0.9}) or scale it into the box");

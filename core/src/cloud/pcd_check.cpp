@@ -27,7 +27,8 @@ void header_error(const std::string& file, std::size_t line, const std::string& 
 }
 
 void truncated(const std::string& file, const std::string& promised, std::size_t held) {
-    throw IoError("io.truncated", file, "", "the header promises " + promised + ", the file holds " + std::to_string(held),
+    throw IoError("io.truncated", file, "",
+                  "the header promises " + promised + ", the file holds " + std::to_string(held),
                   "the file is cut off, write it again");
 }
 
@@ -66,7 +67,8 @@ public:
             const std::string_view key = next_word(rest);
             if (key.empty() || key.front() == '#') continue;
             std::vector<std::string_view> values;
-            for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) values.push_back(word);
+            for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest))
+                values.push_back(word);
             entry(key, values);
             if (key == "DATA") {
                 finish();
@@ -89,8 +91,8 @@ private:
 
     /// PCL resizes its buffers as it meets these lines, so their order and number matter.
     void entry(std::string_view key, const std::vector<std::string_view>& values) {
-        static constexpr std::array<std::string_view, 10> order{"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
-                                                                "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
+        static constexpr std::array<std::string_view, 10> order{
+            "VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
         const std::string_view name = key == "COLUMNS" ? "FIELDS" : key;
         const auto place = std::find(order.begin(), order.end(), name);
         if (place == order.end()) fail(in_quotes(key) + " is no entry of a PCD header");
@@ -110,7 +112,8 @@ private:
         } else if (name == "VIEWPOINT") {
             if (values.size() != 7) fail("VIEWPOINT has " + counted(values.size(), "value") + ", it needs 7");
         } else if (name != "VERSION") {
-            if (values.size() != 1) fail(std::string(name) + " has " + counted(values.size(), "value") + ", it needs 1");
+            if (values.size() != 1)
+                fail(std::string(name) + " has " + counted(values.size(), "value") + ", it needs 1");
             if (name == "WIDTH") width_ = count(values[0], most_points);
             if (name == "HEIGHT") height_ = count(values[0], most_points);
             if (name == "POINTS") header_.points = count(values[0], most_points);
@@ -125,7 +128,8 @@ private:
         if (name == "SIZE") {
             field.size = count(value, 8);
             if (field.size != 1 && field.size != 2 && field.size != 4 && field.size != 8)
-                fail("field " + in_quotes(field.name) + " has size " + std::string(value) + "; known are 1, 2, 4 and 8");
+                fail("field " + in_quotes(field.name) + " has size " + std::string(value) +
+                     "; known are 1, 2, 4 and 8");
         } else if (name == "TYPE") {
             field.type = value.front();
             if (value.size() != 1 || std::string_view("FIU").find(field.type) == std::string_view::npos ||
@@ -142,8 +146,8 @@ private:
         if (seen_ != 2) fail("FIELDS, SIZE or TYPE is missing");
         if (!has_points_ || has_width_ != has_height_) fail("WIDTH, HEIGHT or POINTS is missing");
         if (has_width_ && width_ * height_ != header_.points)
-            fail("WIDTH " + std::to_string(width_) + " x HEIGHT " + std::to_string(height_) + " is not POINTS " +
-                 std::to_string(header_.points));
+            fail("WIDTH " + std::to_string(width_) + " x HEIGHT " + std::to_string(height_) +
+                 " is not POINTS " + std::to_string(header_.points));
         for (const std::string_view axis : {"x", "y", "z"}) {
             const auto named = [&](const Field& field) { return field.name == axis; };
             const auto found = std::find_if(header_.fields.begin(), header_.fields.end(), named);
@@ -182,14 +186,16 @@ void check_ascii(const std::string& file, const Header& header) {
             if (column >= columns) break;
             double value = 0.0;
             const std::string_view name = header.fields[field].name;
-            if ((name == "x" || name == "y" || name == "z") && parse_number(word, value) == Number::not_a_number)
+            if ((name == "x" || name == "y" || name == "z") &&
+                parse_number(word, value) == Number::not_a_number)
                 throw IoError("io.syntax", file, std::to_string(number), in_quotes(word) + " is not a number",
                               "write its true coordinate");
             if (--left == 0 && ++field < header.fields.size()) left = header.fields[field].count;
         }
         if (column < columns)
             throw IoError("io.truncated", file, std::to_string(number),
-                          "the point has " + counted(column, "value") + ", the header asks for " + std::to_string(columns),
+                          "the point has " + counted(column, "value") + ", the header asks for " +
+                              std::to_string(columns),
                           "the file may be cut off, write it again");
         ++points;
     }
@@ -206,14 +212,15 @@ void check_compressed(const std::string& file, const Header& header) {
     std::memcpy(sizes.data(), header.body.data(), sizeof sizes);
     if (header.body.size() - sizeof sizes < sizes[0])
         throw IoError("io.truncated", file, "",
-                      "the compressed data have " + std::to_string(header.body.size() - sizeof sizes) + " of " +
-                          std::to_string(sizes[0]) + " bytes",
+                      "the compressed data have " + std::to_string(header.body.size() - sizeof sizes) +
+                          " of " + std::to_string(sizes[0]) + " bytes",
                       "the file is cut off, write it again");
     // Three bytes of LZF stand for 264 at most, so a small file cannot ask for much memory.
     if (sizes[1] != wanted || wanted / 100 > sizes[0])
         throw IoError("io.syntax", file, "",
-                      "the compressed data are said to have " + std::to_string(sizes[1]) + " bytes, the header's " +
-                          counted(header.points, "point") + " need " + std::to_string(wanted),
+                      "the compressed data are said to have " + std::to_string(sizes[1]) +
+                          " bytes, the header's " + counted(header.points, "point") + " need " +
+                          std::to_string(wanted),
                       "the file is damaged, write it again");
 }
 
@@ -231,7 +238,8 @@ FileCheck check_pcd(const std::string& file, std::string_view bytes) {
         check_compressed(file, header);
     } else {
         header_error(file, header.lines,
-                     in_quotes(header.data) + " is no kind of PCD data; known are ascii, binary and binary_compressed");
+                     in_quotes(header.data) +
+                         " is no kind of PCD data; known are ascii, binary and binary_compressed");
     }
     return {header.points};
 }

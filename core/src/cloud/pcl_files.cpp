@@ -35,15 +35,24 @@ using Getter = double (*)(const std::uint8_t*);
 
 Getter getter(std::uint8_t type) {
     switch (type) {
-        case pcl::PCLPointField::FLOAT64: return value_of<double>;
-        case pcl::PCLPointField::FLOAT32: return value_of<float>;
-        case pcl::PCLPointField::INT8: return value_of<std::int8_t>;
-        case pcl::PCLPointField::UINT8: return value_of<std::uint8_t>;
-        case pcl::PCLPointField::INT16: return value_of<std::int16_t>;
-        case pcl::PCLPointField::UINT16: return value_of<std::uint16_t>;
-        case pcl::PCLPointField::INT32: return value_of<std::int32_t>;
-        case pcl::PCLPointField::UINT32: return value_of<std::uint32_t>;
-        default: return nullptr;
+        case pcl::PCLPointField::FLOAT64:
+            return value_of<double>;
+        case pcl::PCLPointField::FLOAT32:
+            return value_of<float>;
+        case pcl::PCLPointField::INT8:
+            return value_of<std::int8_t>;
+        case pcl::PCLPointField::UINT8:
+            return value_of<std::uint8_t>;
+        case pcl::PCLPointField::INT16:
+            return value_of<std::int16_t>;
+        case pcl::PCLPointField::UINT16:
+            return value_of<std::uint16_t>;
+        case pcl::PCLPointField::INT32:
+            return value_of<std::int32_t>;
+        case pcl::PCLPointField::UINT32:
+            return value_of<std::uint32_t>;
+        default:
+            return nullptr;
     }
 }
 
@@ -52,7 +61,8 @@ Getter getter(std::uint8_t type) {
                   "save the cloud again, for instance as PLY with x, y and z alone");
 }
 
-Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const FileCheck& check, ReadReport& report) {
+Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const FileCheck& check,
+              ReadReport& report) {
     std::array<const std::uint8_t*, 3> data{};
     std::array<Getter, 3> get{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -60,7 +70,8 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
         if (!field) refused(file, report.format);
         get[k] = getter(field->datatype);
         if (!get[k])
-            throw IoError("io.format", file, "", "field " + in_quotes(field->name) + " has a type that is not read",
+            throw IoError("io.format", file, "",
+                          "field " + in_quotes(field->name) + " has a type that is not read",
                           "save the coordinates as float or double");
         data[k] = blob.data.data() + field->offset;
     }
@@ -82,8 +93,8 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
         if (!colour) continue;
         std::uint32_t packed = 0;
         std::memcpy(&packed, blob.data.data() + at + colour->offset, sizeof packed);
-        cloud.colours.push_back({static_cast<std::uint8_t>(packed >> 16U), static_cast<std::uint8_t>(packed >> 8U),
-                                 static_cast<std::uint8_t>(packed)});
+        cloud.colours.push_back({static_cast<std::uint8_t>(packed >> 16U),
+                                 static_cast<std::uint8_t>(packed >> 8U), static_cast<std::uint8_t>(packed)});
     }
     report.dropped_non_finite = check.points - cloud.points.size();
     if (cloud.points.empty())
@@ -95,7 +106,8 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
 
 /// Runs a PCL reader in silence; what it throws or refuses becomes one error of ours.
 template <class Reader>
-Cloud read_with(Reader& reader, const std::filesystem::path& path, const FileCheck& check, ReadReport& report) {
+Cloud read_with(Reader& reader, const std::filesystem::path& path, const FileCheck& check,
+                ReadReport& report) {
     const std::string file = path.string();
     pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
     pcl::PCLPointCloud2 blob;

@@ -31,7 +31,8 @@ std::vector<std::size_t> ascending(const pcl::Indices& indices) {
 
 }  // namespace
 
-std::vector<std::size_t> statistical_inliers(const std::vector<Vec3>& points, std::size_t neighbours, double deviations) {
+std::vector<std::size_t> statistical_inliers(const std::vector<Vec3>& points, std::size_t neighbours,
+                                             double deviations) {
     pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
     pcl::StatisticalOutlierRemoval<pcl::PointXYZ> filter;
     filter.setInputCloud(to_float(points));
@@ -42,7 +43,8 @@ std::vector<std::size_t> statistical_inliers(const std::vector<Vec3>& points, st
     return ascending(kept);
 }
 
-std::vector<std::size_t> radius_inliers(const std::vector<Vec3>& points, double radius, std::size_t neighbours) {
+std::vector<std::size_t> radius_inliers(const std::vector<Vec3>& points, double radius,
+                                        std::size_t neighbours) {
     pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
     pcl::RadiusOutlierRemoval<pcl::PointXYZ> filter;
     filter.setInputCloud(to_float(points));

@@ -8,10 +8,13 @@
 
 namespace dsc::cloud {
 
-/// Indices of the points that stay, ascending. `points` have a box of diagonal 1 round the origin; 0 < neighbours < size.
-std::vector<std::size_t> statistical_inliers(const std::vector<Vec3>& points, std::size_t neighbours, double deviations);
+/// Indices of the points that stay, ascending. `points` have a box of diagonal 1 round the origin; 0 <
+/// neighbours < size.
+std::vector<std::size_t> statistical_inliers(const std::vector<Vec3>& points, std::size_t neighbours,
+                                             double deviations);
 
 /// As above; `radius` in the units of `points`.
-std::vector<std::size_t> radius_inliers(const std::vector<Vec3>& points, double radius, std::size_t neighbours);
+std::vector<std::size_t> radius_inliers(const std::vector<Vec3>& points, double radius,
+                                        std::size_t neighbours);
 
 }  // namespace dsc::cloud

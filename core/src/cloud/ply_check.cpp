@@ -37,9 +37,9 @@ struct Type {
     std::string_view name, alias;
     std::size_t size;
 };
-constexpr Type types[] = {{"int8", "char", 1},     {"uint8", "uchar", 1}, {"int16", "short", 2}, {"uint16", "ushort", 2},
-                          {"int32", "int", 4},     {"uint32", "uint", 4}, {"float32", "float", 4},
-                          {"float64", "double", 8}};
+constexpr Type types[] = {{"int8", "char", 1},     {"uint8", "uchar", 1},   {"int16", "short", 2},
+                          {"uint16", "ushort", 2}, {"int32", "int", 4},     {"uint32", "uint", 4},
+                          {"float32", "float", 4}, {"float64", "double", 8}};
 
 std::size_t size_of(std::string_view name) {
     for (const Type& type : types)
@@ -54,7 +54,8 @@ public:
     Header read() {
         std::string_view line;
         if (!next_header_line(rest_, line) || line != "ply")
-            throw IoError("io.syntax", file_, "1", "the first line is not 'ply'", "this is no PLY file, check its name");
+            throw IoError("io.syntax", file_, "1", "the first line is not 'ply'",
+                          "this is no PLY file, check its name");
         line_ = 1;
         bool format = false;
         while (next_header_line(rest_, line)) {
@@ -89,7 +90,8 @@ public:
 private:
     [[noreturn]] void fail(const std::string& cause) const { header_error(file_, line_, cause); }
 
-    /// Range images have fewer points than places; PCL fills the rest with NaN and takes the size from the comment.
+    /// Range images have fewer points than places; PCL fills the rest with NaN and takes the size from the
+    /// comment.
     [[noreturn]] void grid() const {
         throw IoError("io.format", file_, std::to_string(line_), "PLY files with a range grid are not read",
                       "save the points alone, for instance with MeshLab or CloudCompare");
@@ -104,7 +106,8 @@ private:
         else if (name == "binary_big_endian")
             header_.format = Format::big;
         else
-            fail(in_quotes(name) + " is no PLY format; known are ascii, binary_little_endian and binary_big_endian");
+            fail(in_quotes(name) +
+                 " is no PLY format; known are ascii, binary_little_endian and binary_big_endian");
     }
 
     void read_element(std::string_view rest) {
@@ -132,7 +135,8 @@ private:
         std::string_view word = next_word(rest);
         if (word == "list") {
             property.count_type = read_type(next_word(rest));
-            if (property.count_type.substr(0, 5) == "float") fail("the length of a list is not a whole number");
+            if (property.count_type.substr(0, 5) == "float")
+                fail("the length of a list is not a whole number");
             word = next_word(rest);
         }
         property.type = read_type(word);
@@ -173,13 +177,15 @@ void check_vertex(const std::string& file, const Element& vertex) {
         }
         if (p.name == "alpha" && bytes.size() != 3) refuse("the points have alpha without colours before it");
     }
-    if (!bytes.empty() && bytes.size() != 3) refuse("the colours of the points are not red, green, blue in a row");
+    if (!bytes.empty() && bytes.size() != 3)
+        refuse("the colours of the points are not red, green, blue in a row");
     if (axes != 3) refuse("the points have not each of x, y and z");
 }
 
 [[noreturn]] void cut(const std::string& file, const Element& element, std::size_t held) {
-    truncated(file, element.name == "vertex" ? counted(element.count, "point")
-                                             : std::to_string(element.count) + " of " + in_quotes(element.name),
+    truncated(file,
+              element.name == "vertex" ? counted(element.count, "point")
+                                       : std::to_string(element.count) + " of " + in_quotes(element.name),
               held);
 }
 
@@ -227,9 +233,10 @@ void check_line(const std::string& file, std::size_t number, const Element& elem
         const std::string_view word = next_word(line);
         double ignored = 0.0;
         if (word.empty())
-            throw IoError("io.truncated", file, std::to_string(number),
-                          "the line ends before " + in_quotes(what) + " of element " + in_quotes(element.name),
-                          "the file may be cut off, write it again");
+            throw IoError(
+                "io.truncated", file, std::to_string(number),
+                "the line ends before " + in_quotes(what) + " of element " + in_quotes(element.name),
+                "the file may be cut off, write it again");
         if (parse_number(word, ignored) == Number::not_a_number)
             header_error(file, number, in_quotes(word) + " is not a number");
         return word;
@@ -238,12 +245,14 @@ void check_line(const std::string& file, std::size_t number, const Element& elem
         std::size_t count = 1;
         if (!p.count_type.empty()) {
             const std::string_view word = value(p.name);
-            if (!parse_count(word, count)) header_error(file, number, in_quotes(word) + " is not the length of a list");
+            if (!parse_count(word, count))
+                header_error(file, number, in_quotes(word) + " is not the length of a list");
         }
         for (std::size_t i = 0; i < count; ++i) value(p.name);  // ends with the line at the latest
     }
     if (!trim(line).empty())
-        header_error(file, number, "the line has more values than element " + in_quotes(element.name) + " has properties");
+        header_error(file, number,
+                     "the line has more values than element " + in_quotes(element.name) + " has properties");
 }
 
 void check_ascii(const std::string& file, const Header& header) {

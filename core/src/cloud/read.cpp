@@ -32,7 +32,8 @@ std::string lower_extension(const std::filesystem::path& path) {
                       "convert it first: pdal translate " + path.filename().string() + " " + stem +
                           ".ply, or save it as PLY with CloudCompare");
     throw IoError("io.format", file, "",
-                  extension.empty() ? "the file's name has no extension" : in_quotes(extension) + " is no known cloud format",
+                  extension.empty() ? "the file's name has no extension"
+                                    : in_quotes(extension) + " is no known cloud format",
                   "accepted are " + std::string(accepted));
 }
 
@@ -43,8 +44,8 @@ Cloud read_cloud(const std::filesystem::path& path, ReadReport* report) {
     const bool pcd = extension == ".pcd";
     const bool ply = extension == ".ply";
     const bool obj = extension == ".obj";
-    const bool xyz = extension == ".xyz" || extension == ".txt" || extension == ".asc" || extension == ".pts" ||
-                     extension == ".csv";
+    const bool xyz = extension == ".xyz" || extension == ".txt" || extension == ".asc" ||
+                     extension == ".pts" || extension == ".csv";
     if (!pcd && !ply && !obj && !xyz) refuse(path, extension);
 
     const std::string file = path.string();

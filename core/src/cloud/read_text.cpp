@@ -24,11 +24,14 @@ struct Place {
 double coordinate(const Place& at, std::string_view word) {
     double value = 0.0;
     switch (parse_number(word, value)) {
-        case Number::ok: return value;
+        case Number::ok:
+            return value;
         case Number::not_finite:
-            throw IoError("io.non_finite", at.file, std::to_string(at.line), in_quotes(word) + " is not a finite number",
+            throw IoError("io.non_finite", at.file, std::to_string(at.line),
+                          in_quotes(word) + " is not a finite number",
                           "remove the point or write its true coordinates");
-        case Number::not_a_number: break;
+        case Number::not_a_number:
+            break;
     }
     const bool comma = word.find(',') != std::string_view::npos;
     syntax(at, in_quotes(word) + " is not a number",
@@ -48,8 +51,8 @@ std::vector<std::array<std::uint8_t, 3>> to_bytes(const std::vector<Vec3>& colou
     return bytes;
 }
 
-/// How the columns of a line are divided. A line with a semicolon keeps its commas, one with a comma its blanks, so that
-/// decimal commas are refused and not read as two columns.
+/// How the columns of a line are divided. A line with a semicolon keeps its commas, one with a comma its
+/// blanks, so that decimal commas are refused and not read as two columns.
 char separator_of(std::string_view line) {
     if (line.find(';') != std::string_view::npos) return ';';
     if (line.find(',') != std::string_view::npos) return ',';
@@ -87,9 +90,10 @@ struct Announced {
 void check_announced(const std::string& file, const Announced& block, std::size_t points) {
     const std::size_t got = points - block.first;
     if (!block.any || got == block.count) return;
-    throw IoError(got < block.count ? "io.truncated" : "io.syntax", file, std::to_string(block.line),
-                  "the count line promises " + counted(block.count, "point") + ", the file has " + std::to_string(got),
-                  got < block.count ? "the file is cut off, write it again" : "correct the count");
+    throw IoError(
+        got < block.count ? "io.truncated" : "io.syntax", file, std::to_string(block.line),
+        "the count line promises " + counted(block.count, "point") + ", the file has " + std::to_string(got),
+        got < block.count ? "the file is cut off, write it again" : "correct the count");
 }
 
 }  // namespace
@@ -109,7 +113,8 @@ Cloud read_obj(const std::string& file, std::string_view text) {
         const Place at{file, lines.number()};
         std::array<double, 6> values{};
         std::size_t count = 0;
-        for (std::string_view word = next_word(rest); !word.empty() && word.front() != '#'; word = next_word(rest)) {
+        for (std::string_view word = next_word(rest); !word.empty() && word.front() != '#';
+             word = next_word(rest)) {
             const double value = coordinate(at, word);
             if (count < values.size()) values[count] = value;
             ++count;
@@ -117,7 +122,8 @@ Cloud read_obj(const std::string& file, std::string_view text) {
         const bool cut = !lines.terminated() && count < previous;
         if (count < 3 || count == 5 || cut)
             syntax(at,
-                   "the vertex has " + counted(count, "number") + (cut && count >= 3 ? ", the one before has more" : ""),
+                   "the vertex has " + counted(count, "number") +
+                       (cut && count >= 3 ? ", the one before has more" : ""),
                    "a 'v' line is 'v x y z' or 'v x y z r g b'; the file may be cut off, write it again");
         cloud.points.emplace_back(values[0], values[1], values[2]);
         if (count == 6) colours.emplace_back(values[3], values[4], values[5]);
@@ -142,7 +148,8 @@ Cloud read_xyz(const std::string& file, std::string_view text) {
         const std::size_t columns = count_columns(line, separator);
 
         std::size_t count = 0;
-        const bool block_full = cloud.points.empty() || (block.any && cloud.points.size() - block.first == block.count);
+        const bool block_full =
+            cloud.points.empty() || (block.any && cloud.points.size() - block.first == block.count);
         if (columns == 1 && block_full && parse_count(line, count)) {
             check_announced(file, block, cloud.points.size());
             block = {true, at.line, count, cloud.points.size()};
@@ -158,13 +165,16 @@ Cloud read_xyz(const std::string& file, std::string_view text) {
         }
         const bool cut = !lines.terminated() && columns < previous;
         if (columns < 3 || cut)
-            syntax(at,
-                   "the line has " + counted(columns, "column") + (cut && columns >= 3 ? ", the one before has more" : ""),
-                   "a point needs x, y and z, divided by blanks, commas or semicolons; the file may be cut off");
+            syntax(
+                at,
+                "the line has " + counted(columns, "column") +
+                    (cut && columns >= 3 ? ", the one before has more" : ""),
+                "a point needs x, y and z, divided by blanks, commas or semicolons; the file may be cut off");
         Vec3 point;
         for (int k = 0; k < 3; ++k) {
             const std::string_view word = words[static_cast<std::size_t>(k)];
-            if (word.empty()) syntax(at, "column " + std::to_string(k + 1) + " is empty", "a point needs x, y and z");
+            if (word.empty())
+                syntax(at, "column " + std::to_string(k + 1) + " is empty", "a point needs x, y and z");
             point[k] = coordinate(at, word);
         }
         cloud.points.push_back(point);

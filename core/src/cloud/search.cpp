@@ -1,5 +1,5 @@
-// NearestSearch on FLANN, the kd-tree behind PCL's search. It is a template and works on doubles, so nothing is rounded;
-// our result sets give it the order by distance and index that its own do not keep.
+// NearestSearch on FLANN, the kd-tree behind PCL's search. It is a template and works on doubles, so nothing
+// is rounded; our result sets give it the order by distance and index that its own do not keep.
 #include <dsc/cloud/search.hpp>
 
 #include <algorithm>
@@ -8,7 +8,6 @@
 #include <string>
 
 #include <flann/general.h>
-
 #include <flann/algorithms/dist.h>
 #include <flann/algorithms/kdtree_single_index.h>
 
@@ -21,8 +20,9 @@ namespace {
 using Metric = flann::L2_Simple<double>;
 using Index = flann::KDTreeSingleIndex<Metric>;
 
-/// The tree drops what is not nearer than this. A little more than the squared distance itself: points just as far must
-/// still be seen for their index, and the tree's running sums of squares may be off by a few roundings.
+/// The tree drops what is not nearer than this. A little more than the squared distance itself: points just
+/// as far must still be seen for their index, and the tree's running sums of squares may be off by a few
+/// roundings.
 double widened(double squared) { return squared * (1.0 + 1e-9) + std::numeric_limits<double>::min(); }
 
 bool before(const Neighbour& a, const Neighbour& b) {
@@ -72,7 +72,8 @@ private:
 /// Keeps all within a radius; with `one`, stops at the first.
 class Within final : public flann::ResultSet<double> {
 public:
-    Within(double radius, std::vector<Neighbour>* out) : radius_(radius), out_(out), worst_(widened(radius * radius)) {}
+    Within(double radius, std::vector<Neighbour>* out)
+        : radius_(radius), out_(out), worst_(widened(radius * radius)) {}
     bool full() const override { return true; }
     void addPoint(double squared, std::size_t index) override {
         if (!(std::sqrt(squared) <= radius_)) return;
@@ -101,7 +102,8 @@ void take_roots(std::vector<Neighbour>& out) {
 struct NearestSearch::Tree {
     explicit Tree(std::span<const Vec3> source)
         : points(source.begin(), source.end()),
-          index(flann::Matrix<double>(points.data()->data(), points.size(), 3), flann::KDTreeSingleIndexParams(8, true)) {
+          index(flann::Matrix<double>(points.data()->data(), points.size(), 3),
+                flann::KDTreeSingleIndexParams(8, true)) {
         index.buildIndex();
     }
     void walk(const Vec3& p, flann::ResultSet<double>& result) const {
@@ -114,10 +116,12 @@ struct NearestSearch::Tree {
 };
 
 NearestSearch::NearestSearch(std::span<const Vec3> points) {
-    if (points.empty()) throw GeometryError("cloud.empty", "nearest-point search: no points; a search needs at least one");
+    if (points.empty())
+        throw GeometryError("cloud.empty", "nearest-point search: no points; a search needs at least one");
     if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw GeometryError("cloud.large", "nearest-point search: " + std::to_string(points.size()) +
-                                               " points; at most 2147483647 are possible, thin the cloud first");
+        throw GeometryError("cloud.large",
+                            "nearest-point search: " + std::to_string(points.size()) +
+                                " points; at most 2147483647 are possible, thin the cloud first");
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!points[i].allFinite())
             throw GeometryError("cloud.non_finite", "nearest-point search: point " + std::to_string(i) +

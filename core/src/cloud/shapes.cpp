@@ -24,7 +24,8 @@ constexpr std::array<NamedShape, 4> shapes{{
     {"torus", make_torus},
     {"box_tunnel", make_box_tunnel},
 }};
-constexpr std::array<std::string_view, 4> names{shapes[0].name, shapes[1].name, shapes[2].name, shapes[3].name};
+constexpr std::array<std::string_view, 4> names{shapes[0].name, shapes[1].name, shapes[2].name,
+                                                shapes[3].name};
 
 std::unique_ptr<Shape> make_shape(std::string_view name) {
     for (const NamedShape& shape : shapes)
@@ -36,8 +37,8 @@ std::unique_ptr<Shape> make_shape(std::string_view name) {
 
 void require_fraction(bool valid, std::string_view what, double value, std::string_view range) {
     if (!valid)
-        throw UsageError("shape.option",
-                         std::string(what) + " is " + short_number(value) + "; it must lie in " + std::string(range));
+        throw UsageError("shape.option", std::string(what) + " is " + short_number(value) +
+                                             "; it must lie in " + std::string(range));
 }
 
 }  // namespace
@@ -53,7 +54,8 @@ Cloud sample_shape(std::string_view name, std::size_t n, std::uint64_t seed, dou
     const Vec3 centre = box.centre();
     const Vec3 half = 0.5 * 1.2 * box.size();
     const double sigma = noise * box.diagonal();
-    const std::size_t on_shape = n - static_cast<std::size_t>(std::llround(outliers * static_cast<double>(n)));
+    const std::size_t on_shape =
+        n - static_cast<std::size_t>(std::llround(outliers * static_cast<double>(n)));
 
     Cloud cloud;
     cloud.source = name;

@@ -26,7 +26,7 @@ void add_quad(ShapeMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c
 class Sphere final : public Shape {
 public:
     Vec3 sample(RandomStream& random) const override {
-        // Equal heights cut equal areas off a sphere [Archimedes].
+        // Equal heights cut equal areas off a sphere.
         const double z = random.uniform(-1.0, 1.0);
         const double angle = random.uniform(0.0, 2.0 * pi);
         const double r = std::sqrt(1.0 - z * z);
@@ -91,7 +91,8 @@ public:
         constexpr std::uint32_t rings = 384, sides = 160;
         ShapeMesh mesh;
         for (std::uint32_t i = 0; i < rings; ++i)
-            for (std::uint32_t j = 0; j < sides; ++j) add(mesh, at(2.0 * pi * i / rings, 2.0 * pi * j / sides));
+            for (std::uint32_t j = 0; j < sides; ++j)
+                add(mesh, at(2.0 * pi * i / rings, 2.0 * pi * j / sides));
         const auto id = [](std::uint32_t i, std::uint32_t j) { return (i % rings) * sides + j % sides; };
         for (std::uint32_t i = 0; i < rings; ++i)
             for (std::uint32_t j = 0; j < sides; ++j)
@@ -140,16 +141,19 @@ public:
             const Eigen::Vector2d ray(std::cos(angle), std::sin(angle));
             Eigen::Vector2d outer = ray * (half_width / ray.cwiseAbs().maxCoeff());
             for (int k = 0; k < 2; ++k)  // exactly on the walls
-                if (std::abs(std::abs(outer[k]) - half_width) < 1e-12) outer[k] = std::copysign(half_width, outer[k]);
-            for (const double z : {-half_height, half_height}) add(mesh, {radius * ray.x(), radius * ray.y(), z});
+                if (std::abs(std::abs(outer[k]) - half_width) < 1e-12)
+                    outer[k] = std::copysign(half_width, outer[k]);
+            for (const double z : {-half_height, half_height})
+                add(mesh, {radius * ray.x(), radius * ray.y(), z});
             for (const double z : {-half_height, half_height}) add(mesh, {outer.x(), outer.y(), z});
         }
         for (std::uint32_t i = 0; i < sides; ++i) {
-            const std::uint32_t a = 4 * i, b = 4 * ((i + 1) % sides);  // inner low, inner high, outer low, outer high
-            add_quad(mesh, a + 2, b + 2, b + 3, a + 3);                // outer wall
-            add_quad(mesh, b, a, a + 1, b + 1);                        // tunnel, seen from its axis
-            add_quad(mesh, a + 1, a + 3, b + 3, b + 1);                // top
-            add_quad(mesh, b, b + 2, a + 2, a);                        // bottom
+            const std::uint32_t a = 4 * i,
+                                b = 4 * ((i + 1) % sides);  // inner low, inner high, outer low, outer high
+            add_quad(mesh, a + 2, b + 2, b + 3, a + 3);     // outer wall
+            add_quad(mesh, b, a, a + 1, b + 1);             // tunnel, seen from its axis
+            add_quad(mesh, a + 1, a + 3, b + 3, b + 1);     // top
+            add_quad(mesh, b, b + 2, a + 2, a);             // bottom
         }
         return mesh;
     }

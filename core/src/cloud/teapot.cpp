@@ -39,10 +39,12 @@ std::vector<Patch> load_patches() {
         const bool any = lines.next(line);
         std::string_view rest = line;
         bool good = any;
-        for (std::size_t k = 0; good && k < count; ++k) good = parse_number(next_word(rest), values[k]) == Number::ok;
+        for (std::size_t k = 0; good && k < count; ++k)
+            good = parse_number(next_word(rest), values[k]) == Number::ok;
         if (!good)
             throw IoError("io.syntax", path.string(), std::to_string(lines.number()),
-                          "the line has not " + counted(count, "number"), "restore the file from the source tree");
+                          "the line has not " + counted(count, "number"),
+                          "restore the file from the source tree");
     };
     double count = 0.0;
     numbers(1, &count);
@@ -61,13 +63,13 @@ std::vector<Patch> load_patches() {
 /// The patches that a scan sees only where they leave the body: handle and spout.
 bool enters_body(std::size_t patch) { return patch >= 12 && patch < 20; }
 
-/// Body and bottom, which are rotated profiles: every cross-section is the same quarter arc, scaled by the radius at
-/// its height. The arc is the cubic Bezier curve with a tangent of 0.56, not quite a circle.
+/// Body and bottom, which are rotated profiles: every cross-section is the same quarter arc, scaled by the
+/// radius at its height. The arc is the cubic Bezier curve with a tangent of 0.56, not quite a circle.
 class Body {
 public:
     /// `patches`: their first columns are the profile.
-    explicit Body(const std::vector<Patch>& patches) : upper_(column(patches[4])), lower_(column(patches[8])),
-                                                       bottom_(column(patches[28])) {}
+    explicit Body(const std::vector<Patch>& patches)
+        : upper_(column(patches[4])), lower_(column(patches[8])), bottom_(column(patches[28])) {}
 
     bool contains(const Vec3& p) const {
         const double r = std::hypot(p.x(), p.y());
@@ -143,11 +145,12 @@ public:
 
     Vec3 sample(RandomStream& random) const override {
         for (;;) {
-            // A cell of the patches by its area, then a place in it: the cells are small enough for their area to be
-            // even, and the point lies on the patch itself, not on a chord.
+            // A cell of the patches by its area, then a place in it: the cells are small enough for their
+            // area to be even, and the point lies on the patch itself, not on a chord.
             const double pick = random.uniform(0.0, area_below_.back());
             const auto found = std::upper_bound(area_below_.begin(), area_below_.end(), pick);
-            const auto triangle = static_cast<std::size_t>(std::min(found, area_below_.end() - 1) - area_below_.begin());
+            const auto triangle =
+                static_cast<std::size_t>(std::min(found, area_below_.end() - 1) - area_below_.begin());
             const std::size_t patch = triangle / (2 * cells * cells);
             const std::size_t cell = triangle / 2 % (cells * cells);
             double u = random.uniform(), v = random.uniform();
@@ -166,7 +169,8 @@ public:
         const auto vertex = [&](const Vec3& p) {
             std::array<long long, 3> key;
             for (std::size_t k = 0; k < 3; ++k) key[k] = std::llround(p[static_cast<int>(k)] * 1e9);
-            const auto [place, added] = known.try_emplace(key, static_cast<std::uint32_t>(mesh.points.size()));
+            const auto [place, added] =
+                known.try_emplace(key, static_cast<std::uint32_t>(mesh.points.size()));
             if (added) mesh.points.push_back(p);
             return place->second;
         };
@@ -181,7 +185,8 @@ public:
             };
             for (std::size_t j = 0; j < cells; ++j)
                 for (std::size_t i = 0; i < cells; ++i) {  // u cross v points outwards in these patches
-                    const Vec3 a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1), d = corner(i, j + 1);
+                    const Vec3 a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
+                               d = corner(i, j + 1);
                     face(a, b, c);
                     face(a, c, d);
                 }

@@ -14,7 +14,8 @@ namespace fs = std::filesystem;
 
 namespace {
 [[noreturn]] void unreadable(const fs::path& path, int error) {
-    throw IoError("io.unreadable", path.string(), "", "cannot be read: " + std::generic_category().message(error),
+    throw IoError("io.unreadable", path.string(), "",
+                  "cannot be read: " + std::generic_category().message(error),
                   "check its permissions and the disk");
 }
 }  // namespace
@@ -28,7 +29,8 @@ std::string read_file(const fs::path& path) {
     if (status.type() == fs::file_type::directory)
         throw IoError("io.directory", path.string(), "", "is a folder", "name a file in it");
     if (status.type() != fs::file_type::regular)
-        throw IoError("io.unreadable", path.string(), "", "is not a regular file", "copy the data into a file first");
+        throw IoError("io.unreadable", path.string(), "", "is not a regular file",
+                      "copy the data into a file first");
 
     struct Close {
         void operator()(std::FILE* file) const { std::fclose(file); }
@@ -41,7 +43,8 @@ std::string read_file(const fs::path& path) {
     char block[1 << 16];
     while (const std::size_t got = std::fread(block, 1, sizeof block, file.get())) text.append(block, got);
     if (std::ferror(file.get())) unreadable(path, errno);
-    if (text.empty()) throw IoError("io.empty", path.string(), "", "the file is empty", "write the cloud again");
+    if (text.empty())
+        throw IoError("io.empty", path.string(), "", "the file is empty", "write the cloud again");
     return text;
 }
 

@@ -37,8 +37,8 @@ std::string_view next_word(std::string_view& rest);
 
 enum class Number { ok, not_a_number, not_finite };
 
-/// Reads the whole of `word` as a number; locale-independent, a leading + is allowed, what is too small becomes 0.
-/// "nan", "inf" and what is too large are not_finite.
+/// Reads the whole of `word` as a number; locale-independent, a leading + is allowed, what is too small
+/// becomes 0. "nan", "inf" and what is too large are not_finite.
 Number parse_number(std::string_view word, double& value);
 
 /// Reads the whole of `word` as a decimal count.

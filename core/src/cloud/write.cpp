@@ -65,8 +65,8 @@ std::string xyz_text(const Cloud& cloud, bool coloured) {
 
 std::string ply_bytes(const Cloud& cloud, bool coloured) {
     const bool little = std::endian::native == std::endian::little;
-    std::string bytes = "ply\nformat binary_" + std::string(little ? "little" : "big") + "_endian 1.0\nelement vertex " +
-                        std::to_string(cloud.points.size()) +
+    std::string bytes = "ply\nformat binary_" + std::string(little ? "little" : "big") +
+                        "_endian 1.0\nelement vertex " + std::to_string(cloud.points.size()) +
                         "\nproperty double x\nproperty double y\nproperty double z\n";
     if (coloured) bytes += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     bytes += "end_header\n";
@@ -81,7 +81,8 @@ std::string ply_bytes(const Cloud& cloud, bool coloured) {
 }
 
 [[noreturn]] void failed(const fs::path& path, int error) {
-    throw IoError("io.write", path.string(), "", "cannot be written: " + std::generic_category().message(error),
+    throw IoError("io.write", path.string(), "",
+                  "cannot be written: " + std::generic_category().message(error),
                   "check the folder, its permissions and the free space");
 }
 

@@ -36,11 +36,17 @@ constexpr std::string_view xyz = "property double x\nproperty double y\nproperty
 std::string ply(std::string_view format, std::string_view points, std::string_view more = "",
                 std::string_view properties = xyz) {
     std::string text = "ply\nformat ";
-    text.append(format).append(" 1.0\nelement vertex ").append(points).append("\n").append(properties).append(more);
+    text.append(format)
+        .append(" 1.0\nelement vertex ")
+        .append(points)
+        .append("\n")
+        .append(properties)
+        .append(more);
     return text.append("end_header\n");
 }
 
-const std::string obj_remedy = "a 'v' line is 'v x y z' or 'v x y z r g b'; the file may be cut off, write it again";
+const std::string obj_remedy =
+    "a 'v' line is 'v x y z' or 'v x y z r g b'; the file may be cut off, write it again";
 const std::string xyz_remedy =
     "a point needs x, y and z, divided by blanks, commas or semicolons; the file may be cut off";
 const std::string finite_remedy = "is not a finite number; remove the point or write its true coordinates";
@@ -53,18 +59,22 @@ const std::string alone = "; save the points with x, y and z alone";
 TEST_CASE("what is no readable file is refused") {
     const test::Folder folder;
     for (const std::string extension : {"xyz", "obj", "ply", "pcd"}) {
-        const std::string missing = "missing." + extension, empty = "empty." + extension, sub = "folder." + extension;
+        const std::string missing = "missing." + extension, empty = "empty." + extension,
+                          sub = "folder." + extension;
         CHECK(read_error(folder, missing) == "io.missing 6: " + missing + ": no such file; check the path");
-        CHECK(read_error(folder, empty, "") == "io.empty 6: " + empty + ": the file is empty; write the cloud again");
+        CHECK(read_error(folder, empty, "") ==
+              "io.empty 6: " + empty + ": the file is empty; write the cloud again");
         std::filesystem::create_directory(folder.path(sub));
         CHECK(read_error(folder, sub) == "io.directory 6: " + sub + ": is a folder; name a file in it");
     }
     folder.write("file", "x");
-    CHECK(read_error(folder, "file/inside.xyz") == "io.missing 6: file/inside.xyz: no such file; check the path");
+    CHECK(read_error(folder, "file/inside.xyz") ==
+          "io.missing 6: file/inside.xyz: no such file; check the path");
     // Even root cannot read the start of this one.
     std::filesystem::create_symlink("/proc/self/mem", folder.path("memory.xyz"));
     CHECK(read_error(folder, "memory.xyz") ==
-          "io.unreadable 6: memory.xyz: cannot be read: Input/output error; check its permissions and the disk");
+          "io.unreadable 6: memory.xyz: cannot be read: Input/output error; check its permissions and the "
+          "disk");
     std::filesystem::create_symlink("/dev/zero", folder.path("zero.ply"));
     CHECK(read_error(folder, "zero.ply") ==
           "io.unreadable 6: zero.ply: is not a regular file; copy the data into a file first");
@@ -73,7 +83,8 @@ TEST_CASE("what is no readable file is refused") {
     } else {
         std::filesystem::permissions(folder.write("locked.obj", "v 1 2 3\n"), std::filesystem::perms::none);
         CHECK(read_error(folder, "locked.obj") ==
-              "io.unreadable 6: locked.obj: cannot be read: Permission denied; check its permissions and the disk");
+              "io.unreadable 6: locked.obj: cannot be read: Permission denied; check its permissions and the "
+              "disk");
     }
 }
 
@@ -81,21 +92,26 @@ TEST_CASE("formats that are not read are refused with a way out") {
     const test::Folder folder;
     const std::string accepted = "accepted are .pcd .ply .obj .xyz .txt .asc .pts .csv";
     CHECK(read_error(folder, "scan.las", "LASF") ==
-          "io.format 6: scan.las: las files are not read here; convert it first: pdal translate scan.las scan.ply");
+          "io.format 6: scan.las: las files are not read here; convert it first: pdal translate scan.las "
+          "scan.ply");
     CHECK(read_error(folder, "scan.LAZ", "LASF") ==
-          "io.format 6: scan.LAZ: laz files are not read here; convert it first: pdal translate scan.LAZ scan.ply");
+          "io.format 6: scan.LAZ: laz files are not read here; convert it first: pdal translate scan.LAZ "
+          "scan.ply");
     CHECK(read_error(folder, "scan.e57", "ASTM-E57") ==
-          "io.format 6: scan.e57: e57 files are not read here; convert it first: pdal translate scan.e57 scan.ply, or "
+          "io.format 6: scan.e57: e57 files are not read here; convert it first: pdal translate scan.e57 "
+          "scan.ply, or "
           "save it as PLY with CloudCompare");
     CHECK(read_error(folder, "scan.stl", "solid") ==
           "io.format 6: scan.stl: '.stl' is no known cloud format; " + accepted);
-    CHECK(read_error(folder, "scan", "1 2 3") == "io.format 6: scan: the file's name has no extension; " + accepted);
+    CHECK(read_error(folder, "scan", "1 2 3") ==
+          "io.format 6: scan: the file's name has no extension; " + accepted);
 }
 
 TEST_CASE("bad OBJ files") {
     const test::Folder folder;
-    CHECK(read_error(folder, "a.obj", "# nothing\nf 1 2 3\nvn 0 0 1\n") ==
-          "io.no_points 6: a.obj: the file has no points; a cloud in OBJ has a line 'v x y z' for each point");
+    CHECK(
+        read_error(folder, "a.obj", "# nothing\nf 1 2 3\nvn 0 0 1\n") ==
+        "io.no_points 6: a.obj: the file has no points; a cloud in OBJ has a line 'v x y z' for each point");
     CHECK(read_error(folder, "a.obj", "v 1 2 3\nv 4 5") ==
           "io.syntax 6: a.obj:2: the vertex has 2 numbers; " + obj_remedy);
     CHECK(read_error(folder, "a.obj", "v 1 2 3\nv\nv 1 2 3\n") ==
@@ -111,7 +127,8 @@ TEST_CASE("bad OBJ files") {
     CHECK(read_error(folder, "a.obj", "v 1 2 3\r\n\r\nv 1 nan 3\r\n") ==
           "io.non_finite 6: a.obj:3: 'nan' " + finite_remedy);
     CHECK(read_error(folder, "a.obj", "v 1 2 -inf\n") == "io.non_finite 6: a.obj:1: '-inf' " + finite_remedy);
-    CHECK(read_error(folder, "a.obj", "v 1 2 1e999\n") == "io.non_finite 6: a.obj:1: '1e999' " + finite_remedy);
+    CHECK(read_error(folder, "a.obj", "v 1 2 1e999\n") ==
+          "io.non_finite 6: a.obj:1: '1e999' " + finite_remedy);
     CHECK(read_error(folder, "a.obj", std::string("v 1 2 \0\x01zz\n", 11)) ==
           "io.syntax 6: a.obj:1: '??zz' is not a number; a point needs three numbers");
 }
@@ -134,12 +151,15 @@ TEST_CASE("bad XYZ files") {
           "io.syntax 6: a.csv:2: '5 6' is not a number; a point needs three numbers");
     CHECK(read_error(folder, "a.xyz", "1 2 3\nx y z\n") ==
           "io.syntax 6: a.xyz:2: 'x' is not a number; a point needs three numbers");
-    CHECK(read_error(folder, "a.xyz", "1 2 3\n4 5 NaN\n") == "io.non_finite 6: a.xyz:2: 'NaN' " + finite_remedy);
-    CHECK(read_error(folder, "a.xyz", "inf 2 3\n4 5 6\n") == "io.non_finite 6: a.xyz:1: 'inf' " + finite_remedy);
+    CHECK(read_error(folder, "a.xyz", "1 2 3\n4 5 NaN\n") ==
+          "io.non_finite 6: a.xyz:2: 'NaN' " + finite_remedy);
+    CHECK(read_error(folder, "a.xyz", "inf 2 3\n4 5 6\n") ==
+          "io.non_finite 6: a.xyz:1: 'inf' " + finite_remedy);
     CHECK(read_error(folder, "a.pts", "3\n1 2 3\n4 5 6\n") ==
           "io.truncated 6: a.pts:1: the count line promises 3 points, the file has 2" + cut);
     CHECK(read_error(folder, "a.pts", "18446744073709551615\n1 2 3\n") ==
-          "io.truncated 6: a.pts:1: the count line promises 18446744073709551615 points, the file has 1" + cut);
+          "io.truncated 6: a.pts:1: the count line promises 18446744073709551615 points, the file has 1" +
+              cut);
     CHECK(read_error(folder, "a.pts", "1\n1 2 3\n4 5 6\n") ==
           "io.syntax 6: a.pts:1: the count line promises 1 point, the file has 2; correct the count");
 }
@@ -151,7 +171,8 @@ TEST_CASE("bad PCD headers") {
     REQUIRE(error(pcd("3", "ascii")) == "no error");
     CHECK(error("hello\n") == "io.syntax 6: a.pcd:1: 'hello' is no entry of a PCD header" + again);
     CHECK(read_error(folder, "a.pcd", "VERSION 0.7\nFIELDS x y z\n") ==
-          "io.truncated 6: a.pcd: the PCD header has no line DATA; the file is cut off or no PCD file, write it again");
+          "io.truncated 6: a.pcd: the PCD header has no line DATA; the file is cut off or no PCD file, write "
+          "it again");
     CHECK(error(pcd("0", "ascii")) == "io.no_points 6: a.pcd: the file has no points" + again);
     CHECK(error(pcd("-3", "ascii")) ==
           "io.syntax 6: a.pcd:6: '-3' is not a count between 0 and 2147483647" + again);
@@ -170,7 +191,8 @@ TEST_CASE("bad PCD headers") {
     CHECK(error(pcd("3", "ascii", "x y z i", "8 8 8 4", "F F F F", "1 1 1 0")) ==
           "io.syntax 6: a.pcd:5: field 'i' has count 0" + again);
     CHECK(error(pcd("3", "zipped")) ==
-          "io.syntax 6: a.pcd:10: 'zipped' is no kind of PCD data; known are ascii, binary and binary_compressed" +
+          "io.syntax 6: a.pcd:10: 'zipped' is no kind of PCD data; known are ascii, binary and "
+          "binary_compressed" +
               again);
     CHECK(error("FIELDS x y z\nTYPE F F F\nSIZE 8 8 8\n") ==
           "io.syntax 6: a.pcd:3: 'SIZE' stands twice or in the wrong order" + again);
@@ -188,7 +210,8 @@ TEST_CASE("bad PCD data") {
     CHECK(error(pcd("5", "ascii") + "1 2 3\n4 5 6\n7 8 9\n") ==
           "io.truncated 6: a.pcd: the header promises 5 points, the file holds 3" + cut);
     CHECK(error(pcd("3", "ascii") + "1 2 3\n4 5 6\n7 8") ==
-          "io.truncated 6: a.pcd:13: the point has 2 values, the header asks for 3; the file may be cut off, write it "
+          "io.truncated 6: a.pcd:13: the point has 2 values, the header asks for 3; the file may be cut off, "
+          "write it "
           "again");
     CHECK(error(pcd("3", "ascii") + "1 2 3\n4 five 6\n7 8 9\n") ==
           "io.syntax 6: a.pcd:12: 'five' is not a number; write its true coordinate");
@@ -205,27 +228,34 @@ TEST_CASE("bad PCD data") {
     };
     CHECK(error(pcd("2", "binary_compressed") + "abc") ==
           "io.truncated 6: a.pcd: the header promises 2 points, the file holds 0" + cut);
-    CHECK(error(compressed(40, 48, 39)) == "io.truncated 6: a.pcd: the compressed data have 39 of 40 bytes" + cut);
+    CHECK(error(compressed(40, 48, 39)) ==
+          "io.truncated 6: a.pcd: the compressed data have 39 of 40 bytes" + cut);
     CHECK(error(compressed(40, 4000000000, 40)) ==
-          "io.syntax 6: a.pcd: the compressed data are said to have 4000000000 bytes, the header's 2 points need 48; "
+          "io.syntax 6: a.pcd: the compressed data are said to have 4000000000 bytes, the header's 2 points "
+          "need 48; "
           "the file is damaged, write it again");
     CHECK(error(compressed(40, 48, 40)) ==
-          "io.syntax 6: a.pcd: PCL's PCD reader does not accept the file; save the cloud again, for instance as PLY "
+          "io.syntax 6: a.pcd: PCL's PCD reader does not accept the file; save the cloud again, for instance "
+          "as PLY "
           "with x, y and z alone");
-    CHECK(error(pcd("1", "binary_compressed", "x y z _", "4 4 4 1", "F F F U", "1 1 1 4") + std::string(40, 'a')) ==
+    CHECK(error(pcd("1", "binary_compressed", "x y z _", "4 4 4 1", "F F F U", "1 1 1 4") +
+                std::string(40, 'a')) ==
           "io.syntax 6: a.pcd:10: a padding field '_' in compressed data cannot be read" + again);
 }
 
 TEST_CASE("bad PLY headers") {
     const test::Folder folder;
-    const auto error = [&](const std::string& text) { return read_error(folder, "a.ply", text + "1 2 3\n4 5 6\n"); };
+    const auto error = [&](const std::string& text) {
+        return read_error(folder, "a.ply", text + "1 2 3\n4 5 6\n");
+    };
     REQUIRE(error(ply("ascii", "2")) == "no error");
     CHECK(error("PK\x03\x04\n") ==
           "io.syntax 6: a.ply:1: the first line is not 'ply'; this is no PLY file, check its name");
     CHECK(read_error(folder, "a.ply", "ply\nformat ascii 1.0\nelement vertex 2\n") ==
           "io.truncated 6: a.ply: the PLY header has no line 'end_header'" + cut);
     CHECK(error(ply("ascii", "0")) == "io.no_points 6: a.ply: the file has no points" + again);
-    CHECK(error("ply\nformat ascii 1.0\nend_header\n") == "io.no_points 6: a.ply: the file has no points" + again);
+    CHECK(error("ply\nformat ascii 1.0\nend_header\n") ==
+          "io.no_points 6: a.ply: the file has no points" + again);
     CHECK(error("ply\nend_header\n") == "io.syntax 6: a.ply:2: the header has no line 'format'" + again);
     CHECK(error("ply\nformat ascii 1.0\nproperty double x\n") ==
           "io.syntax 6: a.ply:3: a property stands before the first element" + again);
@@ -245,7 +275,8 @@ TEST_CASE("bad PLY headers") {
           "io.syntax 6: a.ply:7: property 'x' stands twice" + again);
     CHECK(error(ply("ascii", "2", "", "property double x\nproperty real y\n")) ==
           "io.syntax 6: a.ply:5: 'real' is no PLY type" + again);
-    CHECK(error(ply("ascii", "2", "wrong\n")) == "io.syntax 6: a.ply:7: 'wrong' is no entry of a PLY header" + again);
+    CHECK(error(ply("ascii", "2", "wrong\n")) ==
+          "io.syntax 6: a.ply:7: 'wrong' is no entry of a PLY header" + again);
     CHECK(error(ply("ascii", "2", "", "property double x\nproperty double y\n")) ==
           "io.format 6: a.ply: the points have not each of x, y and z" + alone);
 }
@@ -254,20 +285,24 @@ TEST_CASE("bad PLY data") {
     const test::Folder folder;
     const std::string two = "1 2 3\n4 5 6\n";
     const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
-    const std::string face_cut = "io.truncated 6: a.ply: the header promises 1 of 'face', the file holds 0" + cut;
+    const std::string face_cut =
+        "io.truncated 6: a.ply: the header promises 1 of 'face', the file holds 0" + cut;
     const auto error = [&](const std::string& text) { return read_error(folder, "a.ply", text); };
     REQUIRE(error(ply("ascii", "2", face) + two + "3 0 1 1\n") == "no error");
     CHECK(error(ply("ascii", "4") + two) ==
           "io.truncated 6: a.ply: the header promises 4 points, the file holds 2" + cut);
     CHECK(error(ply("ascii", "2") + "1 2 3\n4 5") ==
-          "io.truncated 6: a.ply:9: the line ends before 'z' of element 'vertex'; the file may be cut off, write it "
+          "io.truncated 6: a.ply:9: the line ends before 'z' of element 'vertex'; the file may be cut off, "
+          "write it "
           "again");
-    CHECK(error(ply("ascii", "2") + "1 2 3\n4 5 six\n") == "io.syntax 6: a.ply:9: 'six' is not a number" + again);
+    CHECK(error(ply("ascii", "2") + "1 2 3\n4 5 six\n") ==
+          "io.syntax 6: a.ply:9: 'six' is not a number" + again);
     CHECK(error(ply("ascii", "2") + "1 2 3\n4 5 6 7\n") ==
           "io.syntax 6: a.ply:9: the line has more values than element 'vertex' has properties" + again);
     CHECK(error(ply("ascii", "2", face) + two) == face_cut);
     CHECK(error(ply("ascii", "2", face) + two + "3 0 1\n") ==
-          "io.truncated 6: a.ply:12: the line ends before 'vertex_indices' of element 'face'; the file may be cut off, "
+          "io.truncated 6: a.ply:12: the line ends before 'vertex_indices' of element 'face'; the file may "
+          "be cut off, "
           "write it again");
     CHECK(error(ply("ascii", "2", face) + two + "-1 0 1\n") ==
           "io.syntax 6: a.ply:12: '-1' is not the length of a list" + again);
@@ -276,7 +311,8 @@ TEST_CASE("bad PLY data") {
               "io.truncated 6: a.ply: the header promises 3 points, the file holds 2" + cut);
         CHECK(error(ply(format, "2147483647") + std::string(48, 'a')) ==
               "io.truncated 6: a.ply: the header promises 2147483647 points, the file holds 2" + cut);
-        CHECK(error(ply(format, "2", face) + std::string(48, 'a') + "\x03" + std::string(11, 'b')) == face_cut);
+        CHECK(error(ply(format, "2", face) + std::string(48, 'a') + "\x03" + std::string(11, 'b')) ==
+              face_cut);
         CHECK(error(ply(format, "2", face) + std::string(48, 'a')) == face_cut);
     }
 }
@@ -295,10 +331,11 @@ TEST_CASE("PLY layouts that PCL puts into the wrong place are refused") {
     CHECK(error("property list uchar int v\n", "0 1 2 3\n") ==
           "io.format 6: a.ply: the points have a list, 'v'" + alone);
     const std::string grid =
-        "PLY files with a range grid are not read; save the points alone, for instance with MeshLab or CloudCompare";
+        "PLY files with a range grid are not read; save the points alone, for instance with MeshLab or "
+        "CloudCompare";
     CHECK(read_error(folder, "a.ply", ply("ascii", "1", "obj_info num_cols 512\n") + "1 2 3\n") ==
           "io.format 6: a.ply:7: " + grid);
     CHECK(read_error(folder, "a.ply",
-                     ply("ascii", "1", "element range_grid 4\nproperty list uchar int vertex_indices\n") + "1 2 3\n") ==
-          "io.format 6: a.ply:7: " + grid);
+                     ply("ascii", "1", "element range_grid 4\nproperty list uchar int vertex_indices\n") +
+                         "1 2 3\n") == "io.format 6: a.ply:7: " + grid);
 }

@@ -77,7 +77,8 @@ std::string pcd_compressed(const std::vector<Vec3>& points) {
     return bytes + packed;
 }
 
-std::string ply_header(std::string_view format, std::size_t points, std::string_view type, std::string_view more = "") {
+std::string ply_header(std::string_view format, std::size_t points, std::string_view type,
+                       std::string_view more = "") {
     std::string text = "ply\nformat " + std::string(format) + " 1.0\ncomment made by hand\nelement vertex " +
                        std::to_string(points) + "\n";
     for (const char* axis : {" x\n", " y\n", " z\n"}) text += "property " + std::string(type) + axis;
@@ -91,15 +92,19 @@ struct Sample {
 };
 const Sample samples[] = {
     {"ascii.pcd", [](const Points& points) { return pcd_header(points.size(), "ascii") + lines(points); }},
-    {"binary.pcd", [](const Points& points) { return pcd_header(points.size(), "binary") + doubles(points, false); }},
+    {"binary.pcd",
+     [](const Points& points) { return pcd_header(points.size(), "binary") + doubles(points, false); }},
     {"compressed.pcd", pcd_compressed},
-    {"ascii.ply", [](const Points& points) { return ply_header("ascii", points.size(), "double") + lines(points); }},
+    {"ascii.ply",
+     [](const Points& points) { return ply_header("ascii", points.size(), "double") + lines(points); }},
     {"little.ply",
      [](const Points& points) {
          return ply_header("binary_little_endian", points.size(), "double") + doubles(points, false);
      }},
     {"big.ply",
-     [](const Points& points) { return ply_header("binary_big_endian", points.size(), "double") + doubles(points, true); }},
+     [](const Points& points) {
+         return ply_header("binary_big_endian", points.size(), "double") + doubles(points, true);
+     }},
 };
 
 }  // namespace
@@ -107,7 +112,8 @@ const Sample samples[] = {
 TEST_CASE("PCD and PLY keep doubles far from the origin") {
     const test::Folder folder;
     Points many;
-    for (int i = 0; i < 1000; ++i) many.push_back(far[static_cast<std::size_t>(i) % 3] + Vec3::Constant(i * 1e-3 / 7.0));
+    for (int i = 0; i < 1000; ++i)
+        many.push_back(far[static_cast<std::size_t>(i) % 3] + Vec3::Constant(i * 1e-3 / 7.0));
     for (const Sample& sample : samples) {
         CAPTURE(sample.name);
         ReadReport report;
@@ -134,7 +140,8 @@ TEST_CASE("PCD and PLY: points with NaN or infinity are dropped and counted") {
         CHECK(read_cloud(folder.write(sample.name, sample.make(points)), &report).points == far);
         CHECK(report.points == 6);
         CHECK(report.dropped_non_finite == 3);
-        const auto path = folder.write(sample.name, sample.make({{missing, missing, missing}, {0, infinity, 0}}));
+        const auto path =
+            folder.write(sample.name, sample.make({{missing, missing, missing}, {0, infinity, 0}}));
         CHECK(folder.strip(test::error_of([&] { read_cloud(path); })) ==
               "io.non_finite 6: " + sample.name +
                   ": all 2 points have NaN or infinite coordinates; save a cloud with finite coordinates");
@@ -182,8 +189,10 @@ TEST_CASE("PCD: floats, integers, further fields, colours, line ends") {
     const auto cloud = [&](std::string_view text) { return read_cloud(folder.write("a.pcd", text)); };
     const std::string tail = "WIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n";
     const Points expected{{1, 2, 3}, {-4, 5.5, 6}};
-    CHECK(cloud("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n" + tail + "1 2 3\n-4 5.5 6\n").points == expected);
-    CHECK(cloud("FIELDS x y z\r\nSIZE 4 4 4\r\nTYPE F F F\r\nWIDTH 2\r\nHEIGHT 1\r\nPOINTS 2\r\nDATA ascii\r\n1 2 3\r\n"
+    CHECK(cloud("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n" + tail + "1 2 3\n-4 5.5 6\n").points ==
+          expected);
+    CHECK(cloud("FIELDS x y z\r\nSIZE 4 4 4\r\nTYPE F F F\r\nWIDTH 2\r\nHEIGHT 1\r\nPOINTS 2\r\nDATA "
+                "ascii\r\n1 2 3\r\n"
                 "-4 5.5 6\r\n")
               .points == expected);
     CHECK(cloud("FIELDS i x h z y\nSIZE 1 8 4 4 2\nTYPE U F F F I\nCOUNT 1 1 3 1 1\n" + tail +
@@ -197,7 +206,8 @@ TEST_CASE("PCD: floats, integers, further fields, colours, line ends") {
     CHECK(coloured.colours[1] == std::array<std::uint8_t, 3>{0, 0, 255});
 
     std::string organised =
-        "FIELDS x y z _\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 4\nWIDTH 2\nHEIGHT 2\nVIEWPOINT 1 2 3 1 0 0 0\nPOINTS 4\n"
+        "FIELDS x y z _\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 4\nWIDTH 2\nHEIGHT 2\nVIEWPOINT 1 2 3 1 0 0 "
+        "0\nPOINTS 4\n"
         "DATA binary\n";
     for (int i = 0; i < 4; ++i) {
         for (const float c : {1.5F, 2.0F, static_cast<float>(i)}) put(organised, c);
@@ -212,24 +222,26 @@ TEST_CASE("PLY: floats, integers, further properties and elements, colours, line
     const Points expected{{1, 2, 3}, {-4, 5, 6}};
     for (const char* type : {"float", "float32", "double", "float64", "int", "short", "char", "int16"})
         CHECK_MESSAGE(cloud(ply_header("ascii", 2, type) + "1 2 3\n-4 5 6\n").points == expected, type);
-    CHECK(cloud("ply\r\nformat ascii 1.0\r\nelement vertex 2\r\nproperty double x\r\nproperty double y\r\nproperty double "
+    CHECK(cloud("ply\r\nformat ascii 1.0\r\nelement vertex 2\r\nproperty double x\r\nproperty double "
+                "y\r\nproperty double "
                 "z\r\nend_header\r\n1 2 3\r\n-4 5 6\r\n")
               .points == expected);
-    const Cloud coloured =
-        cloud(ply_header("ascii", 2, "double",
-                         "property float nx\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar "
-                         "alpha\nproperty double quality\n") +
-              "1 2 3 0 255 128 0 255 0.5\n-4 5 6 0 0 0 255 255 0.5\n");
+    const Cloud coloured = cloud(ply_header("ascii", 2, "double",
+                                            "property float nx\nproperty uchar red\nproperty uchar "
+                                            "green\nproperty uchar blue\nproperty uchar "
+                                            "alpha\nproperty double quality\n") +
+                                 "1 2 3 0 255 128 0 255 0.5\n-4 5 6 0 0 0 255 255 0.5\n");
     CHECK(coloured.points == expected);
     REQUIRE(coloured.colours.size() == 2);
     CHECK(coloured.colours[0] == std::array<std::uint8_t, 3>{255, 128, 0});
     CHECK(coloured.colours[1] == std::array<std::uint8_t, 3>{0, 0, 255});
 
     for (const bool big : {false, true}) {
-        std::string bytes = "ply\nformat " + std::string(big ? "binary_big_endian" : "binary_little_endian") +
-                            " 1.0\nelement camera 1\nproperty float view_px\nproperty float view_py\nelement vertex 2\n"
-                            "property uchar flag\nproperty float z\nproperty double y\nproperty float x\n"
-                            "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+        std::string bytes =
+            "ply\nformat " + std::string(big ? "binary_big_endian" : "binary_little_endian") +
+            " 1.0\nelement camera 1\nproperty float view_px\nproperty float view_py\nelement vertex 2\n"
+            "property uchar flag\nproperty float z\nproperty double y\nproperty float x\n"
+            "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
         put(bytes, 1.0F, big);
         put(bytes, 2.0F, big);
         for (const Vec3& p : expected) {
@@ -261,7 +273,8 @@ TEST_CASE("PCL says nothing") {
                 outcomes.push_back(test::error_of([&] { read_cloud(path); }));
             }
     std::string broken = pcd_compressed(far);
-    std::fill(broken.end() - 60, broken.end(), '\xff');  // LZF references to before the start: only PCL can tell
+    std::fill(broken.end() - 60, broken.end(),
+              '\xff');  // LZF references to before the start: only PCL can tell
     const auto path = folder.write("broken.pcd", broken);
     const std::string refusal = folder.strip(test::error_of([&] { read_cloud(path); }));
     std::fflush(nullptr);

@@ -46,13 +46,16 @@ TEST_CASE("DSC_SHARE decides where data files are") {
         return folder.strip(test::error_of([] { dsc::cloud::shape_mesh("teapot"); }));
     };
     CHECK(teapot_error() ==
-          "io.data_file 6: teapot.bpt: this data file of the project is not at s/data/teapot.bpt; set the environment "
+          "io.data_file 6: teapot.bpt: this data file of the project is not at s/data/teapot.bpt; set the "
+          "environment "
           "variable DSC_SHARE to the folder that holds data/teapot.bpt");
     std::filesystem::create_directories(folder.path("s/data"));
     folder.write("s/data/teapot.bpt", "31\n");
-    CHECK(teapot_error() ==
-          "io.syntax 6: s/data/teapot.bpt:1: the teapot has 32 patches; restore the file from the source tree");
+    CHECK(
+        teapot_error() ==
+        "io.syntax 6: s/data/teapot.bpt:1: the teapot has 32 patches; restore the file from the source tree");
     folder.write("s/data/teapot.bpt", "32\n3 3\n1 2\n");
     CHECK(teapot_error() ==
-          "io.syntax 6: s/data/teapot.bpt:3: the line has not 3 numbers; restore the file from the source tree");
+          "io.syntax 6: s/data/teapot.bpt:3: the line has not 3 numbers; restore the file from the source "
+          "tree");
 }

@@ -29,7 +29,8 @@ public:
 
     std::filesystem::path path(std::string_view name) const { return path_ / name; }
     std::filesystem::path write(std::string_view name, std::string_view bytes) const {
-        std::ofstream(path(name), std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        std::ofstream(path(name), std::ios::binary)
+            .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         return path(name);
     }
     /// `text` with the folder's path cut out, so that a message can be compared whole.

@@ -75,7 +75,8 @@ TEST_CASE("duplicates: within a tolerance of an earlier kept point") {
     std::vector<bool> keep(500, true);
     for (std::size_t i = 0; i < 500; ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (keep[j] && (cloud.points[i] - cloud.points[j]).norm() <= tolerance * diagonal(cloud)) keep[i] = false;
+            if (keep[j] && (cloud.points[i] - cloud.points[j]).norm() <= tolerance * diagonal(cloud))
+                keep[i] = false;
     check_kept(cloud, remove_duplicates(cloud, {tolerance}), keep, "duplicates");
 }
 
@@ -92,7 +93,8 @@ TEST_CASE("voxel grid: the point nearest to the centroid of each cell, the first
     std::size_t pairs = 0;
     for (const auto& [cell, members] : cells) {
         Vec3 centroid = Vec3::Zero();
-        for (const std::size_t i : members) centroid += (cloud.points[i] - low) / static_cast<double>(members.size());
+        for (const std::size_t i : members)
+            centroid += (cloud.points[i] - low) / static_cast<double>(members.size());
         const auto distance = [&](std::size_t i) { return (cloud.points[i] - low - centroid).norm(); };
         std::size_t best = members.front();
         for (const std::size_t i : members)
@@ -126,7 +128,8 @@ TEST_CASE("statistical outliers against brute force") {
             const double limit = sum / 500 + deviations * std::sqrt((squares - sum * sum / 500) / 499);
             std::vector<bool> keep(500);
             for (std::size_t i = 0; i < 500; ++i) keep[i] = mean[i] <= limit;
-            check_kept(cloud, remove_statistical_outliers(cloud, {k, deviations}), keep, "statistical_outliers");
+            check_kept(cloud, remove_statistical_outliers(cloud, {k, deviations}), keep,
+                       "statistical_outliers");
         }
 }
 
@@ -139,7 +142,8 @@ TEST_CASE("radius outliers against brute force") {
             for (std::size_t i = 0; i < 500; ++i) {
                 std::size_t others = 0;
                 for (std::size_t j = 0; j < 500; ++j)
-                    if (j != i && (cloud.points[i] - cloud.points[j]).norm() <= radius * diagonal(cloud)) ++others;
+                    if (j != i && (cloud.points[i] - cloud.points[j]).norm() <= radius * diagonal(cloud))
+                        ++others;
                 keep[i] = others >= wanted;
             }
             if (std::find(keep.begin(), keep.end(), true) == keep.end()) continue;
@@ -174,19 +178,31 @@ TEST_CASE("filters refuse what they cannot work on") {
     CHECK(refusal([&] { remove_duplicates(none); }) ==
           "cloud.empty 5: empty.ply: filter duplicates: the cloud has no points; read another file");
     CHECK(refusal([&] { voxel_grid(bad); }) ==
-          "cloud.non_finite 5: scan.xyz: point 4 has a coordinate that is not finite or above 1e100; remove it");
+          "cloud.non_finite 5: scan.xyz: point 4 has a coordinate that is not finite or above 1e100; remove "
+          "it");
     CHECK(refusal([&] { remove_duplicates(cloud, {-0.1}); }) ==
           "cloud.option 5: scan.xyz: filter duplicates: tolerance is -0.1; it must lie in [0, 1]");
     CHECK(refusal([&] { voxel_grid(cloud, {0.0}); }) ==
           "cloud.option 5: scan.xyz: filter voxel_grid: size is 0; it must lie in [1e-9, 1]");
-    CHECK(refusal([&] { remove_statistical_outliers(cloud, {0, 1.0}); }) ==
+    CHECK(refusal([&] {
+              remove_statistical_outliers(cloud, {0, 1.0});
+          }) ==
           "cloud.option 5: scan.xyz: filter statistical_outliers: neighbours is 0; it must lie in [1, 1000]");
-    CHECK(refusal([&] { remove_statistical_outliers(cloud, {4, -1.0}); }) ==
+    CHECK(refusal([&] {
+              remove_statistical_outliers(cloud, {4, -1.0});
+          }) ==
           "cloud.option 5: scan.xyz: filter statistical_outliers: deviations is -1; it must be at least 0");
-    CHECK(refusal([&] { remove_radius_outliers(cloud, {0.0, 1}); }) ==
+    CHECK(refusal([&] {
+              remove_radius_outliers(cloud, {0.0, 1});
+          }) ==
           "cloud.option 5: scan.xyz: filter radius_outliers: radius is 0; it must be above 0 and at most 1");
-    CHECK(refusal([&] { remove_radius_outliers(cloud, {0.1, 0}); }) ==
+    CHECK(refusal([&] {
+              remove_radius_outliers(cloud, {0.1, 0});
+          }) ==
           "cloud.option 5: scan.xyz: filter radius_outliers: neighbours is 0; it must lie in [1, 1000]");
-    CHECK(refusal([&] { remove_radius_outliers(cloud, {1e-9, 5}); }) ==
-          "cloud.filtered_out 5: scan.xyz: filter radius_outliers removes all 20 points; relax its options or leave it out");
+    CHECK(refusal([&] {
+              remove_radius_outliers(cloud, {1e-9, 5});
+          }) ==
+          "cloud.filtered_out 5: scan.xyz: filter radius_outliers removes all 20 points; relax its options "
+          "or leave it out");
 }

@@ -17,7 +17,9 @@ namespace {
 std::string refusal(std::vector<Vec3> points) {
     const Cloud cloud{std::move(points), {}, "scan.xyz"};
     const std::string first = test::error_of([&] { normalize(cloud); });
-    CHECK(test::error_of([&] { keep_coordinates(cloud, {Vec3::Constant(-1e30), Vec3::Constant(1e30)}); }) == first);
+    CHECK(test::error_of([&] {
+              keep_coordinates(cloud, {Vec3::Constant(-1e30), Vec3::Constant(1e30)});
+          }) == first);
     return first;
 }
 
@@ -59,12 +61,17 @@ TEST_CASE("coordinates may stay as they are inside the box") {
     cloud.points[9] = Vec3(0, -1.75, 0);
     cloud.points[8] = Vec3(1, 1, 1);
     cloud.points[3] = Vec3(0, 0, 0);
-    CHECK(test::error_of([&] { keep_coordinates(cloud); }).find(
-              "cloud.outside_box 5: scan.ply: cloud outside the box: 2 of 50 points, the first is point 7; the cloud spans "
-              "[0, 2] x [-1.75, 1] x [0, ") == 0);
-    CHECK(test::error_of([&] { keep_coordinates({{{2, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}, "s"}); }) ==
-          "cloud.outside_box 5: s: cloud outside the box: 1 of 4 points, the first is point 0; the cloud spans [0, 2] x [0, "
-          "1] x [0, 1], the box is [-1.5, 1.5] x [-1.5, 1.5] x [-1.5, 1.5]; normalise the cloud (normalize: {scale: 0.9}) "
+    CHECK(test::error_of([&] { keep_coordinates(cloud); })
+              .find("cloud.outside_box 5: scan.ply: cloud outside the box: 2 of 50 points, the first is "
+                    "point 7; the cloud spans "
+                    "[0, 2] x [-1.75, 1] x [0, ") == 0);
+    CHECK(test::error_of([&] {
+              keep_coordinates({{{2, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}, "s"});
+          }) ==
+          "cloud.outside_box 5: s: cloud outside the box: 1 of 4 points, the first is point 0; the cloud "
+          "spans [0, 2] x [0, "
+          "1] x [0, 1], the box is [-1.5, 1.5] x [-1.5, 1.5] x [-1.5, 1.5]; normalise the cloud (normalize: "
+          "{scale: 0.9}) "
           "or scale it into the box");
 }
 
@@ -72,22 +79,27 @@ TEST_CASE("clouds that bound no volume are refused") {
     const std::string remedy = "; a surface needs at least 4 points that do not lie on one plane";
     CHECK(refusal({}) == "cloud.few 5: scan.xyz: the cloud has 0 points" + remedy);
     CHECK(refusal({{1, 2, 3}}) == "cloud.few 5: scan.xyz: the cloud has 1 point" + remedy);
-    CHECK(refusal({{1, 2, 3}, {0, 0, 0}, {1, 0, 0}}) == "cloud.few 5: scan.xyz: the cloud has 3 points" + remedy);
+    CHECK(refusal({{1, 2, 3}, {0, 0, 0}, {1, 0, 0}}) ==
+          "cloud.few 5: scan.xyz: the cloud has 3 points" + remedy);
     CHECK(refusal(std::vector<Vec3>(5, Vec3(1, 2, 3))) ==
           "cloud.equal 5: scan.xyz: all 5 points are equal (extent 0 x 0 x 0)" + remedy);
     std::vector<Vec3> line;
     for (int i = 0; i < 10; ++i) line.push_back(Vec3(0.1, 0.2, 0.3) * i);
-    CHECK(refusal(line) == "cloud.collinear 5: scan.xyz: all 10 points lie on one line (extent 0.9 x 1.8 x 2.7)" + remedy);
+    CHECK(refusal(line) ==
+          "cloud.collinear 5: scan.xyz: all 10 points lie on one line (extent 0.9 x 1.8 x 2.7)" + remedy);
     std::vector<Vec3> plane = random_points(100, 3);
     for (Vec3& p : plane) p.z() = 2.0;
     plane.push_back({0, 0, 2});
     plane.push_back({1, 1, 2});
-    CHECK(refusal(plane) == "cloud.coplanar 5: scan.xyz: all 102 points lie on one plane (extent 1 x 1 x 0)" + remedy);
+    CHECK(refusal(plane) ==
+          "cloud.coplanar 5: scan.xyz: all 102 points lie on one plane (extent 1 x 1 x 0)" + remedy);
     CHECK(test::error_of([&] { normalize(Cloud{plane}); }).find("cloud.coplanar 5: cloud: all") == 0);
     const double missing = std::numeric_limits<double>::quiet_NaN();
     CHECK(refusal({{0, 0, 0}, {1, 0, 0}, {0, missing, 0}, {0, 0, 1}}) ==
-          "cloud.non_finite 5: scan.xyz: point 2 has a coordinate that is not finite or above 1e100; remove it");
-    CHECK(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1e200}}).find("cloud.non_finite 5: scan.xyz: point 3") == 0);
+          "cloud.non_finite 5: scan.xyz: point 2 has a coordinate that is not finite or above 1e100; remove "
+          "it");
+    CHECK(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1e200}})
+              .find("cloud.non_finite 5: scan.xyz: point 3") == 0);
 }
 
 TEST_CASE("flat is what rounding alone may have thickened, wherever it lies and however it is turned") {
@@ -116,7 +128,8 @@ TEST_CASE("flat is what rounding alone may have thickened, wherever it lies and 
 TEST_CASE("the scale target is checked") {
     const Cloud cloud{random_points(10, 7), {}, "scan.xyz"};
     CHECK(test::error_of([&] { normalize(cloud, 2.0); }) ==
-          "cloud.scale 5: scan.xyz: the normalisation scale is 2; choose one above 0 and at most 1.5, 0.9 by default");
+          "cloud.scale 5: scan.xyz: the normalisation scale is 2; choose one above 0 and at most 1.5, 0.9 by "
+          "default");
     CHECK(test::error_of([&] { normalize(cloud, 0.0); }).find("cloud.scale 5: ") == 0);
     CHECK(test::error_of([&] { normalize(cloud, std::nan("")); }).find("cloud.scale 5: ") == 0);
 }

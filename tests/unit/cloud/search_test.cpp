@@ -23,7 +23,8 @@ double squared(const Vec3& a, const Vec3& b) {
 /// All points by squared distance, then index.
 std::vector<Neighbour> brute_force(const std::vector<Vec3>& points, const Vec3& p) {
     std::vector<Neighbour> all;
-    for (std::size_t i = 0; i < points.size(); ++i) all.push_back({static_cast<std::uint32_t>(i), squared(points[i], p)});
+    for (std::size_t i = 0; i < points.size(); ++i)
+        all.push_back({static_cast<std::uint32_t>(i), squared(points[i], p)});
     std::sort(all.begin(), all.end(), [](const Neighbour& a, const Neighbour& b) {
         return a.distance < b.distance || (a.distance == b.distance && a.index < b.index);
     });
@@ -52,7 +53,8 @@ void compare(const std::vector<Vec3>& points, const std::vector<Vec3>& queries) 
             search.k_nearest(q, k, found);
             REQUIRE(same(found, first(all, k)));
         }
-        for (const double radius : {all[0].distance, all[all.size() / 2].distance, all.back().distance * 2.0}) {
+        for (const double radius :
+             {all[0].distance, all[all.size() / 2].distance, all.back().distance * 2.0}) {
             search.neighbours_within(q, radius, found);
             std::size_t count = 0;
             while (count < all.size() && all[count].distance <= radius) ++count;
@@ -93,7 +95,8 @@ TEST_CASE("the search agrees with brute force") {
         std::vector<Vec3> points;
         for (std::uint64_t c = 0; c < 10; ++c)
             for (const Vec3& p : random_points(50, 10 + c))
-                points.push_back(Vec3::Constant(static_cast<double>(c)) + p * std::pow(10.0, -static_cast<double>(c)));
+                points.push_back(Vec3::Constant(static_cast<double>(c)) +
+                                 p * std::pow(10.0, -static_cast<double>(c)));
         compare(points, random_points(40, 30, 0.0, 10.0));
         compare(points, {points[499], points[460], points[301]});
     }
@@ -110,7 +113,8 @@ TEST_CASE("the search agrees with brute force") {
             for (int y = 0; y < 8; ++y)
                 for (int z = 0; z < 8; ++z) points.emplace_back(7 - x, y, 7 - z);
         std::vector<Vec3> queries;
-        for (int i = 0; i < 60; ++i) queries.emplace_back(i % 15 * 0.5, i * 7 % 15 * 0.5, i * 11 % 17 * 0.5 - 0.5);
+        for (int i = 0; i < 60; ++i)
+            queries.emplace_back(i % 15 * 0.5, i * 7 % 15 * 0.5, i * 11 % 17 * 0.5 - 0.5);
         compare(points, queries);
     }
     SUBCASE("far from the origin, a micrometre apart") {

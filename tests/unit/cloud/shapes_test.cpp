@@ -75,9 +75,10 @@ TEST_CASE("the meshes of sphere, torus and box_tunnel are closed and true") {
         long euler;
     };
     const double lids = 2.0 * (4.0 - pi * 0.25);
-    for (const Truth& truth : {Truth{"sphere", 4.0 * pi, 4.0 * pi / 3.0, 2},
-                               Truth{"torus", 4.0 * pi * pi * 0.4, 2.0 * pi * pi * 0.16, 0},
-                               Truth{"box_tunnel", 4.0 * 2.4 + lids + pi * 1.2, 1.2 * (4.0 - pi * 0.25), 0}}) {
+    for (const Truth& truth :
+         {Truth{"sphere", 4.0 * pi, 4.0 * pi / 3.0, 2},
+          Truth{"torus", 4.0 * pi * pi * 0.4, 2.0 * pi * pi * 0.16, 0},
+          Truth{"box_tunnel", 4.0 * 2.4 + lids + pi * 1.2, 1.2 * (4.0 - pi * 0.25), 0}}) {
         CAPTURE(truth.name);
         const ShapeMesh mesh = shape_mesh(truth.name);
         const Census found = census(mesh);
@@ -94,7 +95,8 @@ TEST_CASE("samples lie on the shape, uniform by area") {
     constexpr std::size_t n = 40000;  // four standard deviations of a share of one half are 0.01
     const Cloud sphere = sample_shape("sphere", n, 1);
     CHECK(share_of(sphere, [](const Vec3& p) { return p.z() > 0.5; }) == doctest::Approx(0.25).epsilon(0.04));
-    CHECK(share_of(sphere, [](const Vec3& p) { return p.x() + p.y() > 0.0; }) == doctest::Approx(0.5).epsilon(0.02));
+    CHECK(share_of(sphere, [](const Vec3& p) { return p.x() + p.y() > 0.0; }) ==
+          doctest::Approx(0.5).epsilon(0.02));
     const Cloud torus = sample_shape("torus", n, 1);
     CHECK(share_of(torus, [](const Vec3& p) { return std::hypot(p.x(), p.y()) > 1.0; }) ==
           doctest::Approx(0.5 + 0.4 / pi).epsilon(0.02));
@@ -102,8 +104,10 @@ TEST_CASE("samples lie on the shape, uniform by area") {
     const double lids = 2.0 * (4.0 - pi * 0.25), all = 9.6 + lids + pi * 1.2;
     CHECK(share_of(tunnel, [](const Vec3& p) { return std::hypot(p.x(), p.y()) < 0.5 + 1e-9; }) ==
           doctest::Approx(pi * 1.2 / all).epsilon(0.05));
-    CHECK(share_of(tunnel, [](const Vec3& p) { return p.z() == 0.6; }) == doctest::Approx(0.5 * lids / all).epsilon(0.06));
-    CHECK(share_of(tunnel, [](const Vec3& p) { return p.x() == -1.0; }) == doctest::Approx(2.4 / all).epsilon(0.06));
+    CHECK(share_of(tunnel, [](const Vec3& p) { return p.z() == 0.6; }) ==
+          doctest::Approx(0.5 * lids / all).epsilon(0.06));
+    CHECK(share_of(tunnel, [](const Vec3& p) { return p.x() == -1.0; }) ==
+          doctest::Approx(2.4 / all).epsilon(0.06));
     for (const char* name : {"sphere", "torus", "box_tunnel"})
         for (const Vec3& p : sample_shape(name, 5000, 2).points) REQUIRE(off_surface(name, p) < 1e-12);
 }
@@ -111,9 +115,10 @@ TEST_CASE("samples lie on the shape, uniform by area") {
 TEST_CASE("the teapot is seen from outside") {
     const ShapeMesh mesh = shape_mesh("teapot");
     const Census found = census(mesh);
-    CHECK(found.wrong == 0);      // patches joined, all with the same side out
-    CHECK(found.volume > 10.0);   // and that side is the outer one
-    CHECK(found.boundary > 100);  // open at the rim, the lid, the spout's tip and where spout and handle enter the body
+    CHECK(found.wrong == 0);     // patches joined, all with the same side out
+    CHECK(found.volume > 10.0);  // and that side is the outer one
+    CHECK(found.boundary >
+          100);  // open at the rim, the lid, the spout's tip and where spout and handle enter the body
     const dsc::Box3 box = dsc::bounding_box(mesh.points);
     CHECK(box.low.x() == doctest::Approx(-3.0).epsilon(1e-3));
     CHECK(box.high.x() == doctest::Approx(3.434).epsilon(1e-3));
@@ -155,7 +160,8 @@ TEST_CASE("noise and outliers are what was asked for") {
         REQUIRE(wild.points[i].cwiseAbs().maxCoeff() <= 1.2);
         outside += wild.points[i].cwiseAbs().maxCoeff() > 1.0;
     }
-    CHECK(static_cast<double>(outside) / 2000.0 == doctest::Approx(1.0 - 1.0 / (1.2 * 1.2 * 1.2)).epsilon(0.1));
+    CHECK(static_cast<double>(outside) / 2000.0 ==
+          doctest::Approx(1.0 - 1.0 / (1.2 * 1.2 * 1.2)).epsilon(0.1));
 }
 
 TEST_CASE("samples depend on the arguments only") {

@@ -9,8 +9,10 @@ using dsc::cloud::read_cloud;
 
 namespace {
 // Millimetres and less beside five million metres: floats would round these to half metres.
-const std::vector<Vec3> far{{5000000.001, -5000000.002, 5123456.789}, {5000000.0010000005, 4999999.9990000002, 0.1}};
-const std::string far_lines[] = {"5000000.001 -5000000.002 5123456.789", "5000000.0010000005 4999999.9990000002 0.1"};
+const std::vector<Vec3> far{{5000000.001, -5000000.002, 5123456.789},
+                            {5000000.0010000005, 4999999.9990000002, 0.1}};
+const std::string far_lines[] = {"5000000.001 -5000000.002 5123456.789",
+                                 "5000000.0010000005 4999999.9990000002 0.1"};
 
 std::vector<Vec3> read(const test::Folder& folder, std::string_view name, std::string_view text) {
     return read_cloud(folder.write(name, text)).points;
@@ -28,8 +30,8 @@ TEST_CASE("OBJ: what is no vertex is skipped, colours are kept where all have th
     const test::Folder folder;
     const std::vector<Vec3> expected{{1, 2, 3}, {-4, 5e-3, 6}};
     CHECK(read(folder, "a.obj",
-               "\xEF\xBB\xBF# made by hand\no thing\nv 1 2 3\nvt 0 0\nvn 0 0 1\n\n\tv  -4\t+5e-3 6 # end\nf 1 2 1\n") ==
-          expected);
+               "\xEF\xBB\xBF# made by hand\no thing\nv 1 2 3\nvt 0 0\nvn 0 0 1\n\n\tv  -4\t+5e-3 6 # end\nf "
+               "1 2 1\n") == expected);
     CHECK(read(folder, "a.OBJ", "v 1 2 3 1\rv -4 0.005 6 1") == expected);
     CHECK(read(folder, "a.obj", "v 1 2 3\r\nv -4 0.005 6\r\n") == expected);
 

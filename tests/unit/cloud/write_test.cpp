@@ -12,7 +12,8 @@ TEST_CASE("what is written reads back bit for bit") {
     dsc::RandomStream random({7, 0, 0, 0});
     Cloud cloud;
     for (int i = 0; i < 500; ++i) {
-        const double x = random.uniform(5e6, 5e6 + 1), y = random.normal() * 1e-7, z = -random.uniform() * 1e300;
+        const double x = random.uniform(5e6, 5e6 + 1), y = random.normal() * 1e-7,
+                     z = -random.uniform() * 1e300;
         cloud.points.emplace_back(x, y, z);
         std::array<std::uint8_t, 3> colour;
         for (std::uint8_t& c : colour) c = static_cast<std::uint8_t>(random.index(256));
@@ -40,14 +41,17 @@ TEST_CASE("a failed write names its cause and leaves nothing behind") {
     const auto error = [&](std::string_view name) {
         return folder.strip(test::error_of([&] { dsc::cloud::write_cloud(folder.path(name), cloud); }));
     };
-    CHECK(error("a.stl") == "io.format 6: a.stl: clouds are not written as '.stl'; accepted are .xyz .obj .ply");
+    CHECK(error("a.stl") ==
+          "io.format 6: a.stl: clouds are not written as '.stl'; accepted are .xyz .obj .ply");
     CHECK(error("a") == "io.format 6: a: the file's name has no extension; accepted are .xyz .obj .ply");
     CHECK(error("none/a.xyz") ==
-          "io.write 6: none/a.xyz: cannot be written: No such file or directory; check the folder, its permissions and "
+          "io.write 6: none/a.xyz: cannot be written: No such file or directory; check the folder, its "
+          "permissions and "
           "the free space");
     std::filesystem::create_directory(folder.path("taken.xyz"));
     CHECK(error("taken.xyz") ==
-          "io.write 6: taken.xyz: cannot be written: Is a directory; check the folder, its permissions and the free "
+          "io.write 6: taken.xyz: cannot be written: Is a directory; check the folder, its permissions and "
+          "the free "
           "space");
     std::size_t files = 0;
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path("."))) ++files;

@@ -14,7 +14,7 @@ namespace dsc::cloud {
 struct Cloud {
     std::vector<Vec3> points;
     std::vector<std::array<std::uint8_t, 3>> colours{};  ///< empty, or one RGB a point
-    std::string source{};  ///< the file or shape that the points come from, named in error messages; may be empty
+    std::string source{};  ///< the file or shape that they come from, named in error messages; may be empty
 };
 
 }  // namespace dsc::cloud

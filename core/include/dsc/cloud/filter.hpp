@@ -1,6 +1,6 @@
 #pragma once
-// Filters that thin a cloud or remove its outliers. All lengths are fractions of the diagonal of the cloud's box.
-// Every filter keeps the order of the input and returns points of the input, bit for bit.
+// Filters that thin a cloud or remove its outliers. All lengths are fractions of the diagonal of the cloud's
+// box. Every filter keeps the order of the input and returns points of the input, bit for bit.
 
 #include <cstddef>
 #include <string>
@@ -21,7 +21,7 @@ struct Filtered {
 };
 
 struct DuplicatesOptions {
-    double tolerance = 0.0;  ///< a point this close to an earlier kept one is removed; 0: only exactly equal points
+    double tolerance = 0.0;  ///< a point this close to an earlier kept one is removed; 0: only equal points
 };
 
 struct VoxelGridOptions {
@@ -30,7 +30,7 @@ struct VoxelGridOptions {
 
 struct StatisticalOutliersOptions {
     std::size_t neighbours = 16;  ///< of which the mean distance is taken
-    double deviations = 2.0;      ///< how many standard deviations above the mean of all points a point may lie
+    double deviations = 2.0;  ///< how many standard deviations above the mean of all points a point may lie
 };
 
 struct RadiusOutliersOptions {
@@ -50,7 +50,7 @@ Filtered remove_statistical_outliers(const Cloud& cloud, const StatisticalOutlie
 /// Removes points with few neighbours within a radius. [setup]
 Filtered remove_radius_outliers(const Cloud& cloud, const RadiusOutliersOptions& options = {});
 
-// Each filter throws GeometryError: "cloud.empty" for a cloud without points, "cloud.non_finite" for NaN or infinity,
-// "cloud.option" for an option out of range, "cloud.filtered_out" if no point would be left.
+// Each filter throws GeometryError: "cloud.empty" for a cloud without points, "cloud.non_finite" for NaN or
+// infinity, "cloud.option" for an option out of range, "cloud.filtered_out" if no point would be left.
 
 }  // namespace dsc::cloud

@@ -28,17 +28,19 @@ struct Normalized {
     Transform transform;
 };
 
-/// Refuses points that bound no volume: fewer than 4, all equal, all on a line, all on a plane; "all on" is decided by
-/// exact predicates, and clouds thinner than 1e-9 of their diagonal count as flat. `name` opens the message.
-/// Throws GeometryError "cloud.few", "cloud.equal", "cloud.collinear", "cloud.coplanar", "cloud.non_finite". [setup]
+/// Refuses points that bound no volume: fewer than 4, all equal, all on a line, all on a plane; "all on" is
+/// decided by exact predicates, and clouds count as flat that are thinner than 1e-9 of their diagonal or than
+/// the rounding of their coordinates. `name` opens the message. Throws GeometryError "cloud.few",
+/// "cloud.equal", "cloud.collinear", "cloud.coplanar", "cloud.non_finite". [setup]
 void require_volume(std::span<const Vec3> points, std::string_view name);
 
-/// The thesis' normalisation: the centre of the cloud's box goes to the origin, its largest half-extent becomes
-/// `scale_target`. Throws as require_volume, and GeometryError "cloud.scale" unless 0 < scale_target <= 1.5. [setup]
+/// The thesis' normalisation: the centre of the cloud's box goes to the origin, its largest half-extent
+/// becomes `scale_target`. Throws as require_volume, and GeometryError "cloud.scale" unless it is above 0 and
+/// at most 1.5. [setup]
 Normalized normalize(const Cloud& cloud, double scale_target = 0.9);
 
-/// Leaves the coordinates as they are, with the identity as transform. Throws as require_volume, and GeometryError
-/// "cloud.outside_box" unless `box` holds every point. [setup]
+/// Leaves the coordinates as they are, with the identity as transform. Throws as require_volume, and
+/// GeometryError "cloud.outside_box" unless `box` holds every point. [setup]
 Normalized keep_coordinates(const Cloud& cloud, const Box3& box = simulation_box());
 
 }  // namespace dsc::cloud

@@ -20,7 +20,7 @@ public:
     std::span<const Vec3> points() const noexcept { return search_->points(); }
     std::size_t size() const noexcept { return points().size(); }
     const Vec3& operator[](std::size_t index) const { return points()[index]; }
-    /// [parallel]
+    /// Nearest points. [parallel]
     const NearestSearch& search() const noexcept { return *search_; }
     /// From the input's units to normalised ones. [parallel]
     const Transform& transform() const noexcept { return transform_; }
