@@ -29,6 +29,7 @@ public:
 
     std::filesystem::path path(std::string_view name) const { return path_ / name; }
     std::filesystem::path write(std::string_view name, std::string_view bytes) const {
+        std::filesystem::remove(path(name));  // ext4 waits for the disk when a file is cut to nothing and rewritten
         std::ofstream(path(name), std::ios::binary)
             .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         return path(name);
