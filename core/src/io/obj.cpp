@@ -90,8 +90,8 @@ private:
             fail("io.index", lines_.place(), "vertex index 0", "OBJ counts from 1; export the file again");
         if (index < -count) {
             fail("io.index", lines_.place(),
-                 "vertex index " + std::to_string(index) + " with only " +
-                     counted(mesh_.points.size(), "vertex before it"),
+                 "vertex index " + std::to_string(index) + " reaches back beyond the first of " +
+                     std::to_string(count),
                  export_again);
         }
         if (index > std::numeric_limits<std::uint32_t>::max())

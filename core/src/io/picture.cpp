@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -26,7 +27,7 @@ constexpr std::array<std::pair<std::string_view, View>, 7> view_names = {{{"fron
                                                                           {"iso", View::iso}}};
 constexpr int largest_size = 16384;
 constexpr float margin = 0.05F;          // of the frame, on each side
-constexpr unsigned occlusion_rays = 16;  // a sample; four samples a pixel
+constexpr unsigned occlusion_rays = 16;  // a pixel
 
 /// Rows: right, up, towards the viewer, in the mesh's coordinates.
 Eigen::Matrix3d view_axes(View view, UpAxis up) {
@@ -87,13 +88,13 @@ std::vector<Vec3f> project(const surface::TriangleMesh& mesh, const RenderOption
 
 using Colour = Eigen::Array3f;  // linear light
 
-const Colour front_colour(0.36F, 0.50F, 0.62F);
-const Colour back_colour(0.62F, 0.30F, 0.20F);
-const Colour line_colour(0.015F, 0.02F, 0.03F);
-const Colour sky_light(0.52F, 0.56F, 0.62F);
-const Colour ground_light(0.26F, 0.23F, 0.21F);
-const Colour key_light(0.92F, 0.88F, 0.82F);
-const Colour head_light(0.16F, 0.17F, 0.18F);
+const Colour front_colour(0.24F, 0.41F, 0.58F);
+const Colour back_colour(0.62F, 0.26F, 0.16F);
+const Colour line_colour(0.012F, 0.016F, 0.025F);
+const Colour sky_light(0.50F, 0.54F, 0.60F);
+const Colour ground_light(0.24F, 0.21F, 0.19F);
+const Colour key_light(1.02F, 0.97F, 0.90F);
+const Colour head_light(0.14F, 0.15F, 0.16F);
 
 /// A quiet gradient, lighter above.
 Colour background(float height) {
@@ -106,9 +107,9 @@ Colour shade(const Vec3f& normal, const Colour& material, float open) {
     const Vec3f half = (key + Vec3f(0, 0, 1)).normalized();
     const float lit = std::max(0.0F, (normal.dot(key) + 0.12F) / 1.12F);
     const Colour ambient = ground_light + (0.5F + 0.5F * normal.y()) * (sky_light - ground_light);
-    // Crevices see less of the key light too; half of the effect stands in for its soft shadow.
-    const Colour light =
-        open * ambient + (0.45F + 0.55F * open) * lit * key_light + std::max(0.0F, normal.z()) * head_light;
+    // Crevices see less of the key light too; part of the effect stands in for its soft shadow.
+    const Colour light = open * ambient + (0.3F + 0.7F * open) * lit * key_light +
+                         (0.4F + 0.6F * open) * std::max(0.0F, normal.z()) * head_light;
     const float gloss = 0.10F * std::pow(std::max(0.0F, normal.dot(half)), 36.0F) * open;
     return material * light + gloss;
 }
@@ -125,6 +126,17 @@ float radical_inverse(unsigned i) {
     return value;
 }
 
+/// What a ray through one pixel met.
+struct Surfel {
+    Vec3f point = Vec3f::Zero();
+    Vec3f normal = Vec3f::Zero();  ///< for shading, towards the viewer's side
+    Vec3f flat = Vec3f::Zero();    ///< of the face, towards the viewer
+    std::uint32_t face = 0;
+    bool front = true;
+    bool hit = false;
+    float open = 1.0F;
+};
+
 class Painter {
 public:
     Painter(const surface::TriangleMesh& mesh, const RenderOptions& options)
@@ -137,10 +149,24 @@ public:
         for (const auto& face : faces_) {
             for (const std::uint32_t v : face) box.extend(points_[v]);
         }
-        reach_ = 0.25F * box.diagonal().norm();
-        lift_ = 2e-5F * box.diagonal().norm();
+        diagonal_ = box.diagonal().norm();
+        if (options.ambient_occlusion) {
+            centres_.resize(static_cast<std::size_t>(options.width) *
+                            static_cast<std::size_t>(options.height));
+        }
     }
 
+    /// First pass: occlusion at the middle of every pixel, each with other directions than its neighbours.
+    void measure_row(int y) {
+        if (centres_.empty()) return;
+        for (int x = 0; x < options_.width; ++x) {
+            Surfel& centre = centres_[index(x, y)];
+            centre = look(frame_x(static_cast<float>(x) + 0.5F), frame_y(static_cast<float>(y) + 0.5F));
+            if (centre.hit) centre.open = openness(centre, tile_of(x, y));
+        }
+    }
+
+    /// Second pass.
     void paint_row(int y, Image& image) const {
         // A turned grid of 2 x 2 samples: near-vertical and near-horizontal lines get four steps instead of
         // two.
@@ -149,70 +175,98 @@ public:
         auto out = image.pixels.begin() + 3 * static_cast<std::ptrdiff_t>(y) * image.width;
         for (int x = 0; x < image.width; ++x) {
             Colour sum = Colour::Zero();
-            for (unsigned s = 0; s < offsets.size(); ++s) {
-                const float px =
-                    static_cast<float>(x) + offsets[s][0] - 0.5F * static_cast<float>(image.width);
-                const float py =
-                    0.5F * static_cast<float>(image.height) - static_cast<float>(y) - offsets[s][1];
+            for (const auto& offset : offsets) {
                 // Clamped before the mean, so that an edge before the light background stays smooth.
-                sum += sample(px, py, pattern(x, y, s)).min(1.0F);
+                sum += sample(x, y, offset[0], offset[1]).min(1.0F);
             }
             for (int k = 0; k < 3; ++k) *out++ = to_srgb(0.25F * sum[k]);
         }
     }
 
 private:
-    /// Turns the rays of neighbouring samples against each other; 4 x 4 pixels of 4 samples share 64 angles
-    /// evenly.
-    static float pattern(int x, int y, unsigned s) {
-        constexpr std::array<unsigned, 16> order = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
-        const unsigned tile = order[static_cast<unsigned>(y % 4) * 4 + static_cast<unsigned>(x % 4)];
-        return (static_cast<float>(tile) * 4.0F + static_cast<float>(s)) / 64.0F;
+    float frame_x(float x) const { return x - 0.5F * static_cast<float>(options_.width); }
+    float frame_y(float y) const { return 0.5F * static_cast<float>(options_.height) - y; }
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(options_.width) +
+               static_cast<std::size_t>(x);
     }
 
-    Colour sample(float x, float y, float turn) const {
+    /// 4 x 4 neighbouring pixels have 16 different numbers, spread so that near ones differ much.
+    static unsigned tile_of(int x, int y) {
+        constexpr std::array<unsigned, 16> order = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+        return order[static_cast<unsigned>(y % 4) * 4 + static_cast<unsigned>(x % 4)];
+    }
+
+    Surfel look(float x, float y) const {
+        Surfel out;
         RayHit hit;
-        if (!scene_.first_hit(Vec3f(x, y, 1.0F), Vec3f(0, 0, -1), hit)) {
-            return background(0.5F + y / static_cast<float>(options_.height));
-        }
-        const auto& face = faces_[hit.face];
-        const Vec3f &a = points_[face[0]], &b = points_[face[1]], &c = points_[face[2]];
-        Vec3f flat = (b - a).cross(c - a).normalized();
+        out.hit = scene_.first_hit(Vec3f(x, y, 1.0F), Vec3f(0, 0, -1), hit);
+        if (!out.hit) return out;
+        const auto& [a, b, c] = faces_[hit.face];
         const auto& corner = normals_[hit.face];
-        Vec3f normal =
+        out.face = hit.face;
+        out.point = Vec3f(x, y, 1.0F - hit.distance);
+        out.flat = (points_[b] - points_[a]).cross(points_[c] - points_[a]).normalized();
+        out.normal =
             ((1.0F - hit.u - hit.v) * corner[0] + hit.u * corner[1] + hit.v * corner[2]).normalized();
-        const bool front = flat.z() >= 0.0F;
-        if (!front) {
-            flat = -flat;
-            normal = -normal;
+        out.front = out.flat.z() >= 0.0F;
+        if (!out.front) {
+            out.flat = -out.flat;
+            out.normal = -out.normal;
         }
-        const Vec3f point(x, y, 1.0F - hit.distance);
-        const float open =
-            options_.ambient_occlusion ? openness(point + lift_ * flat, normal, flat, turn) : 1.0F;
-        const Colour colour = shade(normal, front ? front_colour : back_colour, open);
+        return out;
+    }
+
+    Colour sample(int px, int py, float dx, float dy) const {
+        const float x = frame_x(static_cast<float>(px) + dx), y = frame_y(static_cast<float>(py) + dy);
+        Surfel seen = look(x, y);
+        if (!seen.hit) return background(0.5F + y / static_cast<float>(options_.height));
+        if (!centres_.empty()) seen.open = gathered(seen, px, py);
+        const Colour colour = shade(seen.normal, seen.front ? front_colour : back_colour, seen.open);
         if (!options_.edges) return colour;
-        const float line = line_strength(x, y, a, b, c);
-        return colour + line * (line_colour - colour);
+        const auto& [a, b, c] = faces_[seen.face];
+        return colour + line_strength(x, y, points_[a], points_[b], points_[c]) * (line_colour - colour);
+    }
+
+    /// Mean occlusion of the 16 pixels around that lie on the same piece of surface: together they hold all
+    /// directions.
+    float gathered(const Surfel& seen, int px, int py) const {
+        float sum = 0.0F, weights = 0.0F;
+        for (int y = std::max(0, py - 2); y < std::min(options_.height, py + 2); ++y) {
+            for (int x = std::max(0, px - 2); x < std::min(options_.width, px + 2); ++x) {
+                const Surfel& centre = centres_[index(x, y)];
+                if (!centre.hit) continue;
+                const float cosine = std::max(0.0F, centre.normal.dot(seen.normal));
+                const float alike = cosine * cosine * cosine * cosine;
+                const float off_plane = std::abs((centre.point - seen.point).dot(seen.flat));
+                const float weight = alike * alike / (1.0F + off_plane * off_plane);
+                sum += weight * centre.open;
+                weights += weight;
+            }
+        }
+        return weights > 0.05F ? sum / weights : openness(seen, tile_of(px, py));
     }
 
     /// Share of the hemisphere that is free nearby, cosine-weighted.
-    float openness(const Vec3f& from, const Vec3f& normal, const Vec3f& flat, float turn) const {
+    float openness(const Surfel& at, unsigned tile) const {
+        const Vec3f& normal = at.normal;
         const Vec3f side =
             (std::abs(normal.x()) < 0.8F ? Vec3f(1, 0, 0) : Vec3f(0, 1, 0)).cross(normal).normalized();
         const Vec3f other = normal.cross(side);
+        const Vec3f from = at.point + 2e-5F * diagonal_ * at.flat;
+        const float reach = 0.3F * diagonal_;
         unsigned cast = 0, free = 0;
         for (unsigned i = 0; i < occlusion_rays; ++i) {
-            const float share =
-                (static_cast<float>(i) + radical_inverse(static_cast<unsigned>(turn * 64.0F))) /
-                static_cast<float>(occlusion_rays);
-            const float angle = 2.0F * std::numbers::pi_v<float> * (radical_inverse(i) + turn);
+            const unsigned number = i * 16 + tile;  // of 16 times as many directions, spread over the tile
+            const float share = (static_cast<float>(number) + 0.5F) / static_cast<float>(16 * occlusion_rays);
+            const float angle = 2.0F * std::numbers::pi_v<float> * radical_inverse(number);
             const float radius = std::sqrt(share);
             const Vec3f direction = radius * std::cos(angle) * side + radius * std::sin(angle) * other +
-                                    std::sqrt(std::max(0.0F, 1.0F - share)) * normal;
+                                    std::sqrt(1.0F - share) * normal;
             // Rays below the flat face are an artefact of the smooth normal.
-            if (direction.dot(flat) <= 0.01F) continue;
+            if (direction.dot(at.flat) <= 0.01F) continue;
             ++cast;
-            if (!scene_.blocked(from, direction, reach_)) ++free;
+            if (!scene_.blocked(from, direction, reach)) ++free;
         }
         return cast == 0 ? 1.0F : static_cast<float>(free) / static_cast<float>(cast);
     }
@@ -242,8 +296,8 @@ private:
     std::vector<Vec3f> points_;
     std::vector<std::array<Vec3f, 3>> normals_;
     RayScene scene_;
-    float reach_ = 0.0F;
-    float lift_ = 0.0F;
+    float diagonal_ = 0.0F;
+    std::vector<Surfel> centres_;  ///< one a pixel; empty without occlusion
 };
 
 }  // namespace
@@ -266,15 +320,19 @@ Image render(const surface::TriangleMesh& mesh, const RenderOptions& options) {
     if (mesh.faces.empty()) {
         throw GeometryError("surface.empty", "picture: the mesh has no faces; a picture needs at least one");
     }
-    const Painter painter(mesh, options);
+    Painter painter(mesh, options);
     Image image{options.width, options.height, {}};
     image.pixels.resize(3 * static_cast<std::size_t>(options.width) *
                         static_cast<std::size_t>(options.height));
     Workers alone;
-    (options.workers != nullptr ? *options.workers : alone)
-        .for_blocks(static_cast<std::size_t>(options.height), 8, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t y = begin; y < end; ++y) painter.paint_row(static_cast<int>(y), image);
-        });
+    const auto for_rows = [&](const std::function<void(int)>& paint) {
+        (options.workers != nullptr ? *options.workers : alone)
+            .for_blocks(static_cast<std::size_t>(options.height), 8, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t y = begin; y < end; ++y) paint(static_cast<int>(y));
+            });
+    };
+    for_rows([&](int y) { painter.measure_row(y); });
+    for_rows([&](int y) { painter.paint_row(y, image); });
     return image;
 }
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
+#include <utility>
 
 namespace dsc::surface {
 namespace {
@@ -90,16 +90,16 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
 }
 
 std::vector<std::uint32_t> first_equal(std::span<const Vec3> points) {
-    std::vector<std::uint32_t> order(points.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-        const auto a = key_of(points[i]), b = key_of(points[j]);
-        return a != b ? a < b : i < j;
-    });
+    // The coordinates are sorted along with the indices: looking them up would miss the cache at every
+    // comparison.
+    std::vector<std::pair<std::array<double, 3>, std::uint32_t>> order;
+    order.reserve(points.size());
+    for (const Vec3& p : points) order.emplace_back(key_of(p), static_cast<std::uint32_t>(order.size()));
+    std::sort(order.begin(), order.end());
     std::vector<std::uint32_t> first(points.size());
     for (std::size_t k = 0; k < order.size(); ++k) {
-        const bool same = k > 0 && key_of(points[order[k]]) == key_of(points[order[k - 1]]);
-        first[order[k]] = same ? first[order[k - 1]] : order[k];
+        const bool same = k > 0 && order[k].first == order[k - 1].first;
+        first[order[k].second] = same ? first[order[k - 1].second] : order[k].second;
     }
     return first;
 }

@@ -1,0 +1,140 @@
+// Every way in which a volume file can be wrong ends in one message that is checked here word for word.
+#include <dsc/io/read.hpp>
+#include <dsc/io/write.hpp>
+
+#include <doctest/doctest.h>
+
+#include "files.hpp"
+
+using namespace dsc;
+using namespace dsc::io;
+
+namespace {
+
+void check_bad(const std::string& name, const std::string& content, const std::string& code,
+               const std::string& message) {
+    const test::Folder folder;
+    const auto found = test::refusal(folder.with(name, content), [](const auto& f) { read_volume(f); });
+    CAPTURE(content);
+    CHECK(found.code == code);
+    CHECK(found.message == message);
+}
+
+struct VtuParts {
+    std::string counts = "NumberOfPoints=\"4\" NumberOfCells=\"1\"";
+    std::string labels = "<DataArray type=\"Int32\" Name=\"label\" format=\"ascii\">1</DataArray>";
+    std::string points = "0 0 0 1 0 0 0 1 0 0 0 1";
+    std::string corners = "0 1 2 3";
+    std::string offsets = "4";
+    std::string type = "10";
+    std::string text() const {
+        return "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+               "byte_order=\"LittleEndian\"><UnstructuredGrid><Piece " +
+               counts + "><CellData>" + labels +
+               "</CellData><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">" +
+               points +
+               "</DataArray></Points><Cells><DataArray type=\"Int64\" Name=\"connectivity\" "
+               "format=\"ascii\">" +
+               corners + "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">" +
+               offsets + "</DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">" + type +
+               "</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
+    }
+};
+
+}  // namespace
+
+TEST_CASE("bad dsc") {
+    const std::string v4 = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+    check_bad("a.dsc", v4, "io.no_tets",
+              "FILE: no tets among 4 points; a volume is needed here; export the file again");
+    check_bad(
+        "a.dsc", v4 + "t 0 1 2", "io.truncated",
+        "FILE:5: the file ends where an integer should be; the file is incomplete: copy or export it again");
+    check_bad(
+        "a.dsc", v4 + "t 0 1 2 3\n", "io.truncated",
+        "FILE:5: the file ends where an integer should be; the file is incomplete: copy or export it again");
+    check_bad(
+        "a.dsc", "v 0 0", "io.truncated",
+        "FILE:1: the file ends where a number should be; the file is incomplete: copy or export it again");
+    check_bad("a.dsc", v4 + "t 0 1 2 4 1\n", "io.index",
+              "FILE:5: vertex index 4 of 4; indices count from 0; export the file again");
+    check_bad("a.dsc", v4 + "t 0 1 2 -1 1\n", "io.index",
+              "FILE:5: vertex index -1 is out of range; indices count from 0; export the file again");
+    check_bad(
+        "a.dsc", v4 + "t 0 1 2 99999999999 1\n", "io.index",
+        "FILE:5: vertex index 99999999999 is out of range; indices count from 0; export the file again");
+    check_bad("a.dsc", v4 + "t 0 1 2 3 -1\n", "io.syntax",
+              "FILE:5: label -1 is out of range; labels are 0 (outside) and up");
+    check_bad("a.dsc", v4 + "t 0 1 2 3 1.5\n", "io.syntax",
+              "FILE:5: '1.5' is not an integer; correct the line or export the file again");
+    check_bad("a.dsc", "v 0 0 0\nv 1 nan 0\n", "io.not_finite",
+              "FILE:2: coordinate 'nan' is NaN or infinite; remove the point and its faces or export the "
+              "file again");
+    check_bad("a.dsc", "v 0 0 0\n# tets\n", "io.syntax",
+              "FILE:2: '#' is neither 'v' nor 't'; correct the line or export the file again");
+    check_bad("a.dsc", "\n\n", "io.empty", "FILE: the file is empty; copy or export it again");
+    check_bad(
+        "a.msh", "x", "io.format",
+        "FILE: the extension is not that of a volume file; give it one of .vtu, .dsc or convert the file");
+}
+
+TEST_CASE("bad vtu") {
+    CHECK(VtuParts{}.text().size() > 100);
+    {
+        const test::Folder folder;
+        CHECK(read_volume(folder.with("a.vtu", VtuParts{}.text())).tets.size() == 1);
+    }
+    VtuParts p;
+    p.labels.clear();
+    check_bad("a.vtu", p.text(), "io.no_labels",
+              "FILE: there is no cell array 'label' of one number a tet; add one: 0 outside, 1 the object, "
+              "further phases above");
+    p = {};
+    p.labels = "<DataArray type=\"Float64\" Name=\"label\" format=\"ascii\">0.5</DataArray>";
+    check_bad("a.vtu", p.text(), "io.syntax",
+              "FILE: cell 0 has a label that is not an integer from 0 up; labels are 0 (outside) and up");
+    p = {};
+    p.corners = "0 1 2 4";
+    check_bad("a.vtu", p.text(), "io.index", "FILE: cell 0: point index 4 of 4; export the file again");
+    p.corners = "0 1 2 -7";
+    check_bad("a.vtu", p.text(), "io.index", "FILE: cell 0: point index -7 of 4; export the file again");
+    p = {};
+    p.type = "12";
+    check_bad("a.vtu", p.text(), "io.cell_type",
+              "FILE: cell 0 has type 12, only tets (10) are read; export the tets alone");
+    p = {};
+    p.offsets = "3";
+    check_bad("a.vtu", p.text(), "io.syntax",
+              "FILE: cell 0 has offsets that do not name 4 corners; export the file again");
+    p = {};
+    p.counts = "NumberOfPoints=\"90000000000\" NumberOfCells=\"1\"";
+    check_bad("a.vtu", p.text(), "io.count",
+              "FILE: NumberOfPoints is '90000000000', more than a file of " + std::to_string(p.text().size()) +
+                  " bytes can hold; the file is incomplete: copy or export it again");
+    p.counts = "NumberOfPoints=\"4\" NumberOfCells=\"0\"";
+    p.labels = p.corners = p.offsets = p.type = "";
+    check_bad("a.vtu", p.text(), "io.no_tets",
+              "FILE: no tets among 4 points; a volume is needed here; export the file again");
+}
+
+TEST_CASE("a vtu that was cut anywhere is refused in one message and nothing is printed") {
+    const test::Folder folder;
+    write_volume(folder / "good.vtu", test::cube_of_tets());
+    const std::string good = test::content_of(folder / "good.vtu");
+    for (std::size_t size = 1; size + 40 < good.size(); size += 37) {
+        const auto found = test::refusal(folder.with("cut.vtu", good.substr(0, size)),
+                                         [](const auto& f) { read_volume(f); });
+        CAPTURE(size);
+        CAPTURE(found.message);
+        CHECK(found.code.substr(0, 3) == "io.");
+        CHECK(found.message.substr(0, 5) == "FILE:");
+        CHECK(found.message.find('\n') == std::string::npos);
+        CHECK(found.message.find("; ") != std::string::npos);
+    }
+}
+
+TEST_CASE("not a vtu at all") {
+    check_bad("a.vtu", "v 0 0 0\n", "io.syntax",
+              "FILE: VTK refuses it: Error parsing XML in stream at line 1, column 0, byte index 0: syntax error; the file is incomplete: copy or export "
+              "it again");
+}
