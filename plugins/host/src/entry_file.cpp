@@ -39,6 +39,10 @@ public:
         return count;
     }
 
+    bool holds(std::uint64_t offset, std::uint64_t size) const {
+        return offset <= data_.size() && size <= data_.size() - offset;
+    }
+
     // Whether a zero-ended text stands at the offset.
     bool text_equals(std::uint64_t offset, std::string_view text) const {
         if (offset > data_.size() || data_.size() - offset < text.size() + 1) return false;
@@ -83,6 +87,14 @@ Elf64_Ehdr require_library(const Bytes& bytes, const std::filesystem::path& file
     if (header->e_ident[EI_CLASS] != ELFCLASS64 || header->e_ident[EI_DATA] != ELFDATA2LSB || header->e_type != ET_DYN) {
         refuse(file, "plugin.not_elf", "is not a shared library for this machine", "build it on this machine");
     }
+    // The dynamic linker maps the segments without asking whether the file is long enough, and dies of it.
+    bool whole = header->e_shentsize == sizeof(Elf64_Shdr) && header->e_phentsize == sizeof(Elf64_Phdr) &&
+                 bytes.holds(header->e_shoff, std::uint64_t{header->e_shnum} * sizeof(Elf64_Shdr));
+    for (std::uint64_t i = 0; whole && i < header->e_phnum; ++i) {
+        const auto segment = bytes.read<Elf64_Phdr>(header->e_phoff + i * sizeof(Elf64_Phdr));
+        whole = segment && (segment->p_type != PT_LOAD || bytes.holds(segment->p_offset, segment->p_filesz));
+    }
+    if (!whole) damaged(file);
     return *header;
 }
 

@@ -1,0 +1,358 @@
+// What strategies throw or return wrongly, kind by kind.
+#include <doctest/doctest.h>
+
+#include <dsc/base/error.hpp>
+#include <dsc/plugin/guarded.hpp>
+#include <functional>
+#include <limits>
+#include <sstream>
+
+#include "fake_catalogue.hpp"
+
+namespace {
+
+using dsc::Vec3;
+namespace hooks = dsc::hooks;
+namespace mesh = dsc::mesh;
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+// Each test says what its strategy does.
+template <class... Arguments>
+struct Behaviour {
+    static inline std::function<void(Arguments...)> act;
+};
+
+template <class Hook>
+struct Base : Hook {
+    struct Params {};
+    static void declare(dsc::config::ParamSchema<Params>&) {}
+};
+
+struct Velocity final : Base<hooks::VelocityField> {
+    using Act = Behaviour<hooks::Range, std::span<Vec3>>;
+    Velocity(const Params&, const dsc::plugin::Setup&) {}
+    void prepare(const hooks::StepContext&) override {}
+    void evaluate(hooks::Range range, std::span<Vec3> out) const override { Act::act(range, out); }
+    void save(std::ostream&) const override { throw std::runtime_error("disk full"); }
+};
+
+struct Sampled final : Base<hooks::VelocityField> {
+    using Act = Behaviour<std::span<const Vec3>, std::span<Vec3>>;
+    Sampled(const Params&, const dsc::plugin::Setup&) {}
+    void prepare(const hooks::StepContext&) override {}
+    void evaluate(hooks::Range, std::span<Vec3>) const override {}
+    bool can_sample() const override { return true; }
+    void sample(std::span<const Vec3> points, std::span<const Vec3>, std::span<Vec3> out) const override {
+        Act::act(points, out);
+    }
+};
+
+struct Curvature final : Base<hooks::CurvatureEstimator> {
+    using Act = Behaviour<std::span<double>, std::span<Vec3>>;
+    Curvature(const Params&, const dsc::plugin::Setup&) {}
+    void prepare(const hooks::StepContext&) override {}
+    void evaluate(hooks::Range, std::span<double> scalar, std::span<Vec3> vector) const override {
+        Act::act(scalar, vector);
+    }
+};
+
+struct Refinement final : Base<hooks::RefinementPolicy> {
+    using Act = Behaviour<hooks::RefinementRequests&>;
+    Refinement(const Params&, const dsc::plugin::Setup&) {}
+    void refine(const hooks::RefinementContext&, hooks::RefinementRequests& out) override { Act::act(out); }
+};
+
+struct InitialMesh final : Base<hooks::InitialMesh> {
+    using Act = Behaviour<mesh::TetMesh&>;
+    InitialMesh(const Params&, const dsc::plugin::Setup&) {}
+    mesh::TetMesh build(const hooks::InitialMeshContext&) override {
+        mesh::TetMesh one{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}, {{0, 1, 2, 3}}, {1}};
+        Act::act(one);
+        return one;
+    }
+};
+
+struct Improvement final : Base<hooks::Improvement> {
+    using Act = Behaviour<std::vector<mesh::Request>&>;
+    using Select = Behaviour<std::span<std::uint8_t>>;
+    static inline double cosine = 0.99;
+    static inline mesh::TopologyLimits limits;
+    Improvement(const Params&, const dsc::plugin::Setup&) {}
+    void propose(const hooks::StepContext&, const mesh::RepairRound&, std::vector<mesh::Request>& out) override {
+        Act::act(out);
+    }
+    double flatness() const override { return cosine; }
+    mesh::TopologyLimits topology_limits() const override { return limits; }
+    void select(const hooks::StepContext&, std::span<const mesh::TopologyCandidate>,
+                std::span<std::uint8_t> accept) override {
+        Select::act(accept);
+    }
+};
+
+struct Observer final : Base<hooks::Observer> {
+    using Act = Behaviour<hooks::Figures&>;
+    Observer(const Params&, const dsc::plugin::Setup&) {}
+    void begin(const hooks::StepContext&) override {}
+    hooks::Figures step(const hooks::StepContext&, const hooks::StepFigures&) override { return figures(); }
+    hooks::Figures end(const hooks::StepContext&) override { return figures(); }
+    static hooks::Figures figures() {
+        hooks::Figures result;
+        Act::act(result);
+        return result;
+    }
+};
+
+// A velocity that calls the curvature `faulty` and lets its fault pass.
+struct Nesting final : Base<hooks::VelocityField> {
+    Nesting(const Params&, const dsc::plugin::Setup& setup)
+        : inner(setup.create<hooks::CurvatureEstimator>("curvature", {"faulty", {}})) {}
+    void prepare(const hooks::StepContext& context) override { inner->prepare(context); }
+    void evaluate(hooks::Range range, std::span<Vec3> out) const override {
+        std::vector<double> scalar(out.size());
+        inner->evaluate(range, scalar, out);
+    }
+    std::unique_ptr<hooks::CurvatureEstimator> inner;
+};
+
+struct Bench {
+    Bench() {
+        catalogue.add<Velocity>("faulty", "a velocity");
+        catalogue.add<Sampled>("sampled", "a velocity");
+        catalogue.add<Nesting>("nesting", "a velocity");
+        catalogue.add<Curvature>("faulty", "a curvature");
+        catalogue.add<Refinement>("faulty", "a refinement");
+        catalogue.add<InitialMesh>("faulty", "an initial mesh");
+        catalogue.add<Improvement>("faulty", "an improvement");
+        catalogue.add<Observer>("faulty", "an observer");
+        view.vertex_ids = {0, 1, 2, 3};
+        view.births = {10, 11, 12, 13};
+        view.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+        view.faces = {{0, 1, 2}, {0, 1, 3}};
+    }
+    template <class Hook>
+    std::unique_ptr<Hook> make(const char* id = "faulty") const {
+        return catalogue.create<Hook>({id, {}}, "here");
+    }
+    hooks::StepContext context() const { return {.step = 5, .surface = view, .box = {}, .to_normalised = {}}; }
+
+    FakeCatalogue catalogue;
+    dsc::surface::SurfaceView view;
+};
+
+struct Caught {
+    std::string code;
+    std::string text;
+};
+template <class Body>
+Caught caught(Body&& body) {
+    try {
+        body();
+    } catch (const dsc::StrategyError& error) {
+        return {error.code(), error.what()};
+    }
+    return {};
+}
+
+std::string who(const std::string& kind, const std::string& id = "faulty", const std::string& path = "here") {
+    return kind + " '" + id + "' (plugin fake 0.1.0, libdsc_fake.so, at '" + path + "' in the experiment): ";
+}
+const std::string report = "; report this to the plugin's authors";
+
+}  // namespace
+
+TEST_CASE("velocity: not a number, infinity, an entry left out") {
+    const Bench bench;
+    const auto velocity = bench.make<hooks::VelocityField>();
+    velocity->prepare(bench.context());
+    std::vector<Vec3> out(3);
+    const auto evaluate = [&] { velocity->evaluate({1, 4}, out); };
+    const std::string every = "; every entry of the output must be written with a finite number; report this to the plugin's authors";
+
+    Velocity::Act::act = [](hooks::Range, std::span<Vec3> o) {
+        for (Vec3& d : o) d = Vec3(1, 2, 3);
+        o[2].y() = -std::numeric_limits<double>::infinity();
+    };
+    CHECK(caught(evaluate).text == who("velocity") +
+                                       "evaluate at step 5 gave the displacement (1.0, -inf, 3.0) to vertex 3 (birth id 13, "
+                                       "at (0.0, 0.0, 1.0))" + every);
+    CHECK(caught(evaluate).code == "strategy.not_finite");
+    Velocity::Act::act = [](hooks::Range, std::span<Vec3> o) { o[0] = o[2] = Vec3::Zero(); };
+    CHECK(caught(evaluate).text.find("gave the displacement (nan, nan, nan) to vertex 2 (birth id 12") != std::string::npos);
+    Velocity::Act::act = [](hooks::Range, std::span<Vec3> o) { std::fill(o.begin(), o.end(), Vec3::Zero()); };
+    CHECK(caught(evaluate).text.empty());
+}
+
+TEST_CASE("whatever is thrown is attributed, but not cancellation and configuration") {
+    const Bench bench;
+    const auto velocity = bench.make<hooks::VelocityField>();
+    velocity->prepare(bench.context());
+    std::vector<Vec3> out(1);
+    const auto evaluate = [&] { velocity->evaluate({0, 1}, out); };
+    const std::string check = "; check its parameters or report this to the plugin's authors";
+
+    Velocity::Act::act = [](hooks::Range, std::span<Vec3>) { throw std::out_of_range("index 9"); };
+    CHECK(caught(evaluate).text == who("velocity") + "evaluate at step 5 threw: index 9" + check);
+    CHECK(caught(evaluate).code == "strategy.threw");
+    Velocity::Act::act = [](hooks::Range, std::span<Vec3>) { throw 7; };
+    CHECK(caught(evaluate).text == who("velocity") + "evaluate at step 5 threw something that is not a std::exception" + check);
+    Velocity::Act::act = [](hooks::Range, std::span<Vec3>) { throw dsc::GeometryError("geometry.flat", "all is flat"); };
+    CHECK(caught(evaluate).text == who("velocity") + "evaluate at step 5 threw geometry.flat: all is flat" + check);
+    Velocity::Act::act = [](hooks::Range, std::span<Vec3>) { throw dsc::CancelledError("stop"); };
+    CHECK_THROWS_WITH_AS(evaluate(), "stop", dsc::CancelledError);
+    Velocity::Act::act = [](hooks::Range, std::span<Vec3>) { throw dsc::ConfigError("x", "no cloud"); };
+    CHECK_THROWS_WITH_AS(evaluate(), "no cloud", dsc::ConfigError);
+
+    std::ostringstream state;
+    CHECK(caught([&] { velocity->save(state); }).text == who("velocity") + "save threw: disk full" + check);
+    const std::vector<Vec3> points(1);
+    CHECK_FALSE(velocity->can_sample());
+    CHECK(caught([&] { velocity->sample(points, points, out); }).text.find("strategy.no_sampling") != std::string::npos);
+}
+
+TEST_CASE("velocity: samples are judged too") {
+    const Bench bench;
+    const auto velocity = bench.make<hooks::VelocityField>("sampled");
+    velocity->prepare(bench.context());
+    const std::vector<Vec3> points = {Vec3(0, 0, 0), Vec3(0.5, 0, 0)};
+    std::vector<Vec3> out(2);
+    Sampled::Act::act = [](std::span<const Vec3>, std::span<Vec3> o) { o[0] = Vec3::Zero(); };
+    const Caught fault = caught([&] { velocity->sample(points, points, out); });
+    CHECK(fault.code == "strategy.not_finite");
+    CHECK(fault.text.find("sample at step 5 gave the displacement (nan, nan, nan) to point 1 at (0.5, 0.0, 0.0)") !=
+          std::string::npos);
+}
+
+TEST_CASE("curvature: scalar and vector must both be finite") {
+    const Bench bench;
+    const auto curvature = bench.make<hooks::CurvatureEstimator>();
+    curvature->prepare(bench.context());
+    std::vector<double> scalar(2);
+    std::vector<Vec3> vector(2);
+    Curvature::Act::act = [](std::span<double> s, std::span<Vec3> v) {
+        s[0] = s[1] = 1;
+        v[0] = Vec3::Zero();
+        v[1] = Vec3(0, no_number, 0);
+    };
+    const Caught fault = caught([&] { curvature->evaluate({2, 4}, scalar, vector); });
+    CHECK(fault.text.find(who("curvature") +
+                          "evaluate at step 5 gave the curvature 1.0 and the vector (0.0, nan, 0.0) to vertex 3 (birth id 13") == 0);
+}
+
+TEST_CASE("the fault of a nested strategy stays its own") {
+    const Bench bench;
+    const auto velocity = bench.make<hooks::VelocityField>("nesting");
+    velocity->prepare(bench.context());
+    std::vector<Vec3> out(1);
+    Curvature::Act::act = [](std::span<double>, std::span<Vec3>) { throw std::runtime_error("oops"); };
+    CHECK(caught([&] { velocity->evaluate({0, 1}, out); }).text ==
+          who("curvature", "faulty", "here.curvature") +
+              "evaluate at step 5 threw: oops; check its parameters or report this to the plugin's authors");
+}
+
+TEST_CASE("refinement: faces, edges, sizes and labels that do not exist") {
+    const Bench bench;
+    const auto policy = bench.make<hooks::RefinementPolicy>();
+    const hooks::StepContext step = bench.context();
+    const auto refine = [&](const std::function<void(hooks::RefinementRequests&)>& act) {
+        Refinement::Act::act = act;
+        hooks::RefinementRequests out;
+        return caught([&] { policy->refine({step}, out); });
+    };
+    CHECK(refine([](auto& r) { r.split_faces = {0, 1, 2}; }).text ==
+          who("refinement") + "refine at step 5 asked in split_faces 2 for 2, which does not exist" + report);
+    CHECK(refine([](auto& r) { r.split_edges = {{0, 4}}; }).text ==
+          who("refinement") + "refine at step 5 asked in split_edges 0 for 4, which does not exist" + report);
+    CHECK(refine([](auto& r) { r.sizing = {1, 1}; }).text ==
+          who("refinement") + "refine at step 5 gave a sizing field of 2 entries for 4 vertices" + report);
+    CHECK(refine([](auto& r) { r.sizing = {1, 1, 0, 1}; }).code == "strategy.not_finite");
+    CHECK(refine([](auto& r) { r.sizing = {1, 1, no_number, 1}; }).code == "strategy.not_finite");
+    CHECK(refine([](auto& r) { r.relabel = {{0, 0x80000000U}}; }).code == "strategy.range");
+    CHECK(refine([](auto& r) { r = {{1}, {{0, 3}}, {1, 1, 1, 1}, {{0, 2}}}; }).text.empty());
+}
+
+TEST_CASE("initial mesh: arrays that do not fit together") {
+    const Bench bench;
+    const auto generator = bench.make<hooks::InitialMesh>();
+    const auto build = [&](const std::function<void(mesh::TetMesh&)>& act) {
+        InitialMesh::Act::act = act;
+        return caught([&] { generator->build({}); });
+    };
+    CHECK(build([](mesh::TetMesh&) {}).text.empty());
+    CHECK(build([](mesh::TetMesh& m) { m.tets.clear(); }).text == who("initial_mesh") + "build gave a mesh without tets" + report);
+    CHECK(build([](mesh::TetMesh& m) { m.labels.push_back(0); }).text ==
+          who("initial_mesh") + "build gave 2 labels for 1 tets" + report);
+    CHECK(build([](mesh::TetMesh& m) { m.points[2].x() = no_number; }).text ==
+          who("initial_mesh") + "build gave point 2 a coordinate that is not finite" + report);
+    CHECK(build([](mesh::TetMesh& m) { m.tets[0][3] = 4; }).text == who("initial_mesh") + "build gave tet 0 the point 4 of 4" + report);
+    CHECK(build([](mesh::TetMesh& m) { m.labels[0] = -1; }).text ==
+          who("initial_mesh") + "build gave tet 0 the label -1 below 0" + report);
+
+    // What is wrong with the user's file is not the generator's fault.
+    InitialMesh::Act::act = [](mesh::TetMesh&) { throw dsc::IoError("io.open", "a.dsc: cannot be read"); };
+    CHECK_THROWS_WITH_AS(generator->build({}), "a.dsc: cannot be read", dsc::IoError);
+}
+
+TEST_CASE("improvement: requests, limits and answers out of range") {
+    const Bench bench;
+    const auto improvement = bench.make<hooks::Improvement>();
+    const mesh::Complex complex;
+    const mesh::RepairRound round{complex, {}, {}, {}, {}, 0.1, 0.99, 0, false};
+    const auto propose = [&](const mesh::Request& request) {
+        Improvement::Act::act = [&](std::vector<mesh::Request>& out) { out.push_back(request); };
+        std::vector<mesh::Request> out;
+        return caught([&] { improvement->propose(bench.context(), round, out); });
+    };
+    CHECK(propose({}).text.empty());
+    mesh::Request request;
+    request.tet = 3;
+    CHECK(propose(request).text ==
+          who("improvement") + "propose at step 5 named tet 3, which does not exist, in request 0" + report);
+    request = {};
+    request.vertices[1] = 8;
+    CHECK(propose(request).text ==
+          who("improvement") + "propose at step 5 named vertex 8, which does not exist, in request 0" + report);
+    request = {};
+    request.operation = static_cast<mesh::Operation>(200);
+    CHECK(propose(request).code == "strategy.range");
+    request = {};
+    request.accept_above = std::numeric_limits<float>::quiet_NaN();
+    CHECK(propose(request).code == "strategy.not_finite");
+    Improvement::Act::act = [](std::vector<mesh::Request>& out) { out.clear(); };
+    std::vector<mesh::Request> earlier(2);
+    CHECK(caught([&] { improvement->propose(bench.context(), round, earlier); }).code == "strategy.size");
+
+    const std::vector<mesh::TopologyCandidate> candidates(2);
+    std::vector<std::uint8_t> accept(2);
+    Improvement::Select::act = [](std::span<std::uint8_t> a) { a[0] = 1; };
+    CHECK(caught([&] { improvement->select(bench.context(), candidates, accept); }).text ==
+          who("improvement") + "select at step 5 gave candidate 1 the answer 255 where 0 or 1 is due" + report);
+    Improvement::Select::act = [](std::span<std::uint8_t> a) { a[0] = 1, a[1] = 0; };
+    CHECK(caught([&] { improvement->select(bench.context(), candidates, accept); }).text.empty());
+
+    Improvement::cosine = 1.5;
+    CHECK(caught([&] { improvement->flatness(); }).code == "strategy.range");
+    Improvement::cosine = 0.99;
+    CHECK(improvement->flatness() == 0.99);
+    Improvement::limits.thickness = no_number;
+    CHECK(caught([&] { improvement->topology_limits(); }).code == "strategy.range");
+    Improvement::limits = {};
+    CHECK(improvement->topology_limits().thickness == 0.6);
+}
+
+TEST_CASE("observer: figures of changing, bad or repeated names and without a value") {
+    const Bench bench;
+    const auto step = [&](hooks::Observer& observer, const hooks::Figures& figures) {
+        Observer::Act::act = [&](hooks::Figures& out) { out = figures; };
+        return caught([&] { observer.step(bench.context(), {}); });
+    };
+    const auto observer = bench.make<hooks::Observer>();
+    CHECK(step(*observer, {{"error_max", 1.0}}).text.empty());
+    CHECK(step(*observer, {{"error_max", 2.0}}).text.empty());
+    CHECK(step(*observer, {{"error_mean", 2.0}}).code == "strategy.size");
+    CHECK(step(*bench.make<hooks::Observer>(), {{"Error max", 1.0}}).text ==
+          who("observer") + "step at step 5 gave a figure the name 'Error max'; names are snake_case and differ; report this to "
+                            "the plugin's authors");
+    CHECK(step(*bench.make<hooks::Observer>(), {{"a", 1.0}, {"a", 2.0}}).code == "strategy.range");
+    CHECK(step(*bench.make<hooks::Observer>(), {{"a", no_number}}).code == "strategy.not_finite");
+}
