@@ -1,0 +1,79 @@
+#include "strategy.hpp"
+
+namespace dsc::strategies {
+
+void DscImprovement::Topology::declare(config::ParamSchema<Topology>& schema) {
+    schema.boolean("open", &Topology::open).doc("Thin sheets of a label above 0 may be pierced.");
+    schema.boolean("merge", &Topology::merge).doc("Thin gaps of label 0 may be bridged.");
+    schema.boolean("cut", &Topology::cut).doc("Thin necks may be cut.");
+    schema.real("thickness", &Topology::thickness)
+        .range(0, 2)
+        .unit("mean edges")
+        .doc("Sheets, gaps and necks up to this thickness may change topology; 0 switches all changes off.");
+    schema.real("support", &Topology::support)
+        .range(0, 10)
+        .unit("mean edges")
+        .doc("A change is vetoed where a cloud point lies this close to its centre.");
+    schema.real("min_component", &Topology::min_component)
+        .range(0, 1000)
+        .unit("1")
+        .doc("Components below this many regular tets of the mean edge vanish.");
+}
+
+void DscImprovement::declare(config::ParamSchema<Params>& schema) {
+    schema.real("min_tet_quality", &Params::min_tet_quality)
+        .range(0, 1)
+        .unit("1")
+        .doc("Tets below this volume-length quality are repaired.");
+    schema.real("degenerate_tet_quality", &Params::degenerate_tet_quality)
+        .range(0, 1)
+        .unit("1")
+        .doc("Tets below this quality are removed, at the price of the interface's shape within the kernel's bounds.");
+    schema.real("smooth_below", &Params::smooth_below)
+        .range(0, 1)
+        .unit("1")
+        .doc("Free vertices of tets below this quality are smoothed.");
+    schema.real("min_edge_length", &Params::min_edge_length)
+        .range(0, 1)
+        .unit("mean edges")
+        .doc("Interface edges shorter than this are collapsed.");
+    schema.real("max_edge_length", &Params::max_edge_length)
+        .range(1, 100)
+        .unit("mean edges")
+        .doc("Interface edges longer than this are split where the interface is not flat.");
+    schema.real("min_tet_volume", &Params::min_tet_volume)
+        .range(0, 1)
+        .unit("1")
+        .doc("Tets below this part of a regular tet with the mean edge are thinned out.");
+    schema.real("flatness", &Params::flatness)
+        .range(0, 1)
+        .unit("1")
+        .advanced()
+        .doc("Cosine between the normals of interface faces above which they count as flat.");
+    schema.object("topology", &Params::topology, Topology::declare).doc("When the interface may change its topology.");
+}
+
+DscImprovement::DscImprovement(const Params& params, const plugin::Setup&)
+    : params_(params),
+      proposals_({params.min_tet_quality, params.degenerate_tet_quality, params.smooth_below, params.min_edge_length,
+                  params.max_edge_length, params.min_tet_volume}) {}
+
+void DscImprovement::propose(const hooks::StepContext&, const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+    proposals_.write(round, out);
+}
+
+mesh::TopologyLimits DscImprovement::topology_limits() const {
+    const Topology& t = params_.topology;
+    return {t.thickness, t.min_component, t.open, t.merge, t.cut};
+}
+
+void DscImprovement::select(const hooks::StepContext& context, std::span<const mesh::TopologyCandidate> candidates,
+                            std::span<std::uint8_t> accept) {
+    const double support = params_.topology.support * context.target_length;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const bool supported = context.cloud != nullptr && context.cloud->search().within(candidates[i].centroid, support);
+        accept[i] = supported ? 0 : 1;
+    }
+}
+
+}  // namespace dsc::strategies
