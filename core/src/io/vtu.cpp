@@ -207,7 +207,7 @@ mesh::TetMesh decode_checked(const std::string& content, std::string_view file) 
     CaptureScope capture;
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     reader->ReadFromInputStringOn();
-    reader->SetInputString(content);
+    reader->SetInputString(with_point_data(content));
     reader->Update();
     if (reader->GetErrorCode() != 0 || !capture.quiet())
         fail("io.syntax", {file, 0}, "VTK refuses it: " + capture.cause(), copy_again);
@@ -225,8 +225,10 @@ mesh::TetMesh decode_vtu(const std::string& content, std::string_view file) {
     check_vtu(content, file);
     try {
         return decode_checked(content, file);
-    } catch (const std::bad_alloc&) {
-        fail("io.count", {file, 0}, "it announces more than memory can hold", copy_again);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        fail("io.count", {file, 0}, std::string("VTK cannot read it: ") + error.what(), copy_again);
     }
 }
 

@@ -90,11 +90,18 @@ public:
     }
 
     void check() const {
+        check_version();
         check_counts();
-        if (!compressed_) return;
         for (const std::string_view opening : {"<DataArray", "<Array"}) {
             for_tags(xml_, opening, [&](std::string_view tag, std::size_t end) {
                 const std::string_view format = attribute(tag, "format");
+                if (format != "ascii" && format != "binary" && format != "appended") {
+                    fail("io.syntax", place_,
+                         "array " + in_quotes(attribute(tag, "Name")) + " has format " + in_quotes(format) +
+                             ", known are ascii, binary, appended",
+                         copy_again);
+                }
+                if (!compressed_) return;
                 if (format == "binary") {
                     check_blocks(xml_.substr(skip_space(xml_, end)), false, attribute(tag, "Name"));
                 } else if (format == "appended") {
@@ -107,6 +114,22 @@ public:
     }
 
 private:
+    /// VTK takes other versions for other layouts of the same bytes.
+    void check_version() const {
+        bool found = false, known = false;
+        std::string_view version;
+        for_tags(xml_, "<VTKFile", [&](std::string_view tag, std::size_t) {
+            found = true;
+            version = attribute(tag, "version");
+            known = version.size() == 3 && version[0] >= '0' && version[0] <= '2' && version[1] == '.' &&
+                    version[2] >= '0' && version[2] <= '9';
+        });
+        if (known) return;
+        if (!found) fail("io.syntax", place_, "there is no element VTKFile", "check that it is a VTU file");
+        fail("io.syntax", place_, "VTK file version " + in_quotes(version) + ", known are 0.1 to 2.9",
+             "check that it is a VTU file or export it again");
+    }
+
     /// VTK allocates what is announced. zlib packs at most 1032 to 1, and a point or a tet has at least 12
     /// bytes.
     void check_counts() const {
@@ -150,9 +173,9 @@ private:
         const std::string head = words(3);
         if (head.size() < 3 * word) refuse(name);
         const std::uint64_t blocks = word_at(head, 0), size = word_at(head, 1), partial = word_at(head, 2);
-        if (blocks == 0) return;
+        if (blocks == 0 && partial == 0) return;
         // A block is packed at most 1032 to 1; small arrays still name the usual size of a block.
-        if (blocks > data.size() || size == 0 || size > 2000 * content_.size() + (1U << 26U) ||
+        if (blocks == 0 || blocks > data.size() || size == 0 || size > 2000 * content_.size() + (1U << 26U) ||
             partial > size)
             refuse(name);
         const std::string all = words(3 + blocks);
@@ -184,5 +207,18 @@ private:
 }  // namespace
 
 void check_vtu(std::string_view content, std::string_view file) { Checker(content, file).check(); }
+
+std::string with_point_data(std::string_view content) {
+    const std::string_view xml = content.substr(0, content.find("<AppendedData"));
+    std::string out;
+    std::size_t copied = 0;
+    for_tags(xml, "<Piece", [&](std::string_view tag, std::size_t end) {
+        const std::string_view piece = xml.substr(end, xml.find("</Piece", end) - end);
+        if (tag.back() == '/' || piece.find("<PointData") != std::string_view::npos) return;
+        out.append(content.substr(copied, end - copied)).append("<PointData/>");
+        copied = end;
+    });
+    return out.append(content.substr(copied));
+}
 
 }  // namespace dsc::io

@@ -109,7 +109,8 @@ TEST_CASE("bad obj") {
         {"a.obj", v3 + "f 1 2 4\nf 1 2 3\n", "io.index",
          "FILE:4: vertex index 4 of 3; correct the line or export the file again"},
         {"a.obj", v3 + "f 1 2 -4\n", "io.index",
-         "FILE:4: vertex index -4 reaches back beyond the first of 3; correct the line or export the file again"},
+         "FILE:4: vertex index -4 reaches back beyond the first of 3; correct the line or export the file "
+         "again"},
         {"a.obj", v3 + "f 1 2 4294967299\n", "io.index",
          "FILE:4: vertex index 4294967299 of 3; correct the line or export the file again"},
         {"a.obj", v3 + "f 1 2 99999999999999999999\n", "io.syntax",

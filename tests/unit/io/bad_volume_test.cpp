@@ -78,6 +78,63 @@ TEST_CASE("bad dsc") {
         "FILE: the extension is not that of a volume file; give it one of .vtu, .dsc or convert the file");
 }
 
+/// One tet with inline base64 arrays that zlib has packed, as older programs write it; without PointData.
+const std::string packed_vtu =
+    "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\" "
+    "compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid><Piece NumberOfPoints=\"4\" "
+    "NumberOfCells=\"1\">\n"
+    "<CellData><DataArray type=\"Int32\" Name=\"label\" NumberOfComponents=\"1\" format=\"binary\">\n"
+    "AQAAAACAAAAEAAAADAAAAA==eJxjZWBgAAAAGAAG\n</DataArray>\n</CellData><Points><DataArray type=\"Float64\" "
+    "Name=\"Points\" NumberOfComponents=\"3\" format=\"binary\">\n"
+    "AQAAAACAAABgAAAAEgAAAA==eJxjYMAHPtjjlSZCHgB4XQOO\n</DataArray>\n</Points><Cells><DataArray "
+    "type=\"Int64\" "
+    "Name=\"connectivity\" NumberOfComponents=\"1\" format=\"binary\">\n"
+    "AQAAAACAAAAgAAAAEwAAAA==eJxjYIAARijNBKWZoTQAAHAABw==\n</DataArray>\n<DataArray type=\"Int64\" "
+    "Name=\"offsets\" NumberOfComponents=\"1\" format=\"binary\">\nAQAAAACAAAAIAAAACwAAAA==eJxjYYAAAAAoAAU=\n"
+    "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" NumberOfComponents=\"1\" format=\"binary\">\n"
+    "AQAAAACAAAABAAAACQAAAA==eJzjAgAACwAL\n</DataArray>\n</Cells></Piece></UnstructuredGrid></VTKFile>\n";
+
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+}
+
+TEST_CASE("a packed vtu whose headers lie is refused before VTK trusts them") {
+    {
+        const test::Folder folder;
+        const mesh::TetMesh m = read_volume(folder.with("a.vtu", packed_vtu));
+        CHECK(m.points == std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+        CHECK(m.tets == std::vector<std::array<std::uint32_t, 4>>{{0, 1, 2, 3}});
+        CHECK(m.labels == std::vector<mesh::Label>{5});
+    }
+    const auto header_of = [](const std::string& name) {
+        return "FILE: the compressed array '" + name +
+               "' has a header that does not fit the file; the file is incomplete: copy or export it again";
+    };
+    // No block but a partial one; block size 0; 2^32-1 blocks; cut header.
+    check_bad("a.vtu", changed(packed_vtu, "AQAAAACAAAAEAAAADAAAAA==", "AAAAAACAAAAEAAAADAAAAA=="),
+              "io.syntax", header_of("label"));
+    check_bad("a.vtu", changed(packed_vtu, "AQAAAACAAAAIAAAACwAAAA==", "AQAAAAAAAAAIAAAACwAAAA=="),
+              "io.syntax", header_of("offsets"));
+    check_bad("a.vtu", changed(packed_vtu, "AQAAAACAAAABAAAACQAAAA==", "/////wCAAAABAAAACQAAAA=="),
+              "io.syntax", header_of("types"));
+    check_bad("a.vtu", changed(packed_vtu, "AQAAAACAAABgAAAAEgAAAA==eJxjYMAHPtjjlSZCHgB4XQOO", "AQAAAACA"),
+              "io.syntax", header_of("Points"));
+    check_bad(
+        "a.vtu", changed(packed_vtu, "\"0.1\"", "\"180\""), "io.syntax",
+        "FILE: VTK file version '180', known are 0.1 to 2.9; check that it is a VTU file or export it again");
+    check_bad("a.vtu", changed(packed_vtu, "\"binary\"", "\"binbry\""), "io.syntax",
+              "FILE: array 'label' has format 'binbry', known are ascii, binary, appended; the file is "
+              "incomplete: copy or "
+              "export it again");
+    check_bad(
+        "a.vtu", changed(packed_vtu, "NumberOfComponents=\"3\"", "NumberOfComponents=\"0\""), "io.count",
+        "FILE: NumberOfComponents of array 'Points' is '0'; the file is incomplete: copy or export it again");
+    // The label array is cut: VTK notices, and would fall over its own message.
+    check_bad("a.vtu", changed(packed_vtu, "eJxjZWBgAAAAGAAG", "eJxjZWBwAAAAGAAG"), "io.syntax",
+              "FILE: VTK refuses it: Zlib error while uncompressing data.; the file is incomplete: copy or "
+              "export it again");
+}
+
 TEST_CASE("bad vtu") {
     CHECK(VtuParts{}.text().size() > 100);
     {
@@ -109,7 +166,8 @@ TEST_CASE("bad vtu") {
     p = {};
     p.counts = "NumberOfPoints=\"90000000000\" NumberOfCells=\"1\"";
     check_bad("a.vtu", p.text(), "io.count",
-              "FILE: NumberOfPoints is '90000000000', more than a file of " + std::to_string(p.text().size()) +
+              "FILE: NumberOfPoints is '90000000000', more than a file of " +
+                  std::to_string(p.text().size()) +
                   " bytes can hold; the file is incomplete: copy or export it again");
     p.counts = "NumberOfPoints=\"4\" NumberOfCells=\"0\"";
     p.labels = p.corners = p.offsets = p.type = "";
@@ -135,6 +193,9 @@ TEST_CASE("a vtu that was cut anywhere is refused in one message and nothing is 
 
 TEST_CASE("not a vtu at all") {
     check_bad("a.vtu", "v 0 0 0\n", "io.syntax",
-              "FILE: VTK refuses it: Error parsing XML in stream at line 1, column 0, byte index 0: syntax error; the file is incomplete: copy or export "
-              "it again");
+              "FILE: there is no element VTKFile; check that it is a VTU file");
+    check_bad("a.vtu", "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n<Unstr", "io.syntax",
+              "FILE: VTK refuses it: Error parsing XML in stream at line 2, column 0, byte index 48: "
+              "unclosed token; the "
+              "file is incomplete: copy or export it again");
 }
