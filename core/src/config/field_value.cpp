@@ -61,7 +61,8 @@ public:
         return node;
     }
 
-    /// Relative to the folder of the file that names it, or to the working folder for the command line and for code.
+    /// Relative to the folder of the file that names it, or to the working folder for the command line and
+    /// for code.
     ConfigNode file(const ConfigNode& node, const std::string& path) {
         namespace fs = std::filesystem;
         if (!node.is_string()) return wrong_type(node, path, "the name of a file", "");

@@ -11,8 +11,8 @@ namespace dsc::config {
 /// True for the types that resolve_value() knows.
 bool is_plain_field(FieldType type);
 
-/// Checks a given value and brings it into the field's type. `path` names it in messages, `fallback` is the place
-/// for a value that has none.
+/// Checks a given value and brings it into the field's type. `path` names it in messages, `fallback` is the
+/// place for a value that has none.
 ConfigNode resolve_value(const Field& field, const ConfigNode& node, const std::string& path,
                          const SourcePosition& fallback, Diagnostics& diagnostics);
 

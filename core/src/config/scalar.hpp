@@ -17,8 +17,8 @@ PlainScalar read_plain(std::string_view text);
 /// True where the text stands for a null in YAML: "", "~", "null", "Null", "NULL".
 bool is_null_text(std::string_view text);
 
-/// How to write what was probably meant, for a field that wants a number and got this string: "0123", ".5", "1,5".
-/// Empty where it looks like no number at all.
+/// How to write what was probably meant, for a field that wants a number and got this string: "0123", ".5",
+/// "1,5". Empty where it looks like no number at all.
 std::string number_hint(std::string_view text);
 
 /// The same for a boolean: "yes", "True".

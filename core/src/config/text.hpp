@@ -11,7 +11,8 @@ namespace dsc::config {
 /// Characters in valid or broken UTF-8: bytes that start one.
 std::size_t character_count(std::string_view text);
 
-/// Byte offset of the first byte that is no text: a control character other than tab and line ends, or broken UTF-8.
+/// Byte offset of the first byte that is no text: a control character other than tab and line ends, or broken
+/// UTF-8.
 std::optional<std::size_t> first_non_text(std::string_view text);
 
 /// True for well-formed UTF-8, control characters included.

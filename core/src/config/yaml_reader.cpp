@@ -15,6 +15,7 @@
 #include "config/node_factory.hpp"
 #include "config/scalar.hpp"
 #include "config/text.hpp"
+#include "config/variables.hpp"
 
 namespace dsc::config {
 namespace {
@@ -382,53 +383,6 @@ ConfigNode read_yaml(const ReadJob& job) {
              builder.syntax_hint(position));
     }
     return builder.take();
-}
-
-std::string expand_variables(std::string_view text, const SourcePosition& position,
-                             const Environment& environment, Diagnostics& diagnostics) {
-    std::string out;
-    for (std::size_t at = 0; at < text.size();) {
-        if (text.substr(at, 3) == "$${") {
-            out += "${";
-            at += 3;
-            continue;
-        }
-        if (text.substr(at, 2) != "${") {
-            out += text[at++];
-            continue;
-        }
-        const std::size_t end = text.find('}', at);
-        const std::string name(text.substr(at + 2, end == std::string_view::npos ? end : end - at - 2));
-        const bool is_name =
-            !name.empty() && (name[0] < '0' || name[0] > '9') &&
-            std::all_of(name.begin(), name.end(), [](char c) {
-                return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-            });
-        if (end == std::string_view::npos || !is_name) {
-            diagnostics.error("config.variable", position, "'${' does not start the name of a variable",
-                              "write ${NAME}, or $${ for the characters themselves");
-            return std::string(text);
-        }
-        const std::optional<std::string> value = environment(name);
-        if (!value) {
-            std::vector<std::string> notes;
-            if (name == "DSC_DATA") {
-                notes = {"DSC_DATA is the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj",
-                         "they are public models: the Stanford bunny (graphics.stanford.edu/data/3Dscanrep), "
-                         "the teapot and the cow (the common OBJ test models)"};
-            }
-            diagnostics.error("config.variable", position,
-                              "the environment variable '" + name + "' is not set",
-                              "set it: export " + name + "=...", std::move(notes));
-        } else if (first_non_text(*value)) {
-            diagnostics.error("config.variable", position,
-                              "the environment variable '" + name + "' holds bytes that are no text");
-        } else {
-            out += *value;
-        }
-        at = end + 1;
-    }
-    return out;
 }
 
 }  // namespace dsc::config

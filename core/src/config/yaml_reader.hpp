@@ -22,8 +22,4 @@ struct ReadJob {
 /// Throws ConfigError where the text is no YAML or exceeds a limit. The result needs NodeFactory::rooted.
 ConfigNode read_yaml(const ReadJob& job);
 
-/// `text` with its ${NAME} replaced; faults go to `diagnostics` at `position`.
-std::string expand_variables(std::string_view text, const SourcePosition& position,
-                             const Environment& environment, Diagnostics& diagnostics);
-
 }  // namespace dsc::config

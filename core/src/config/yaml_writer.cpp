@@ -115,7 +115,8 @@ std::string inline_text(const ConfigNode& node) {
     return out + "]";
 }
 
-/// Appends the node with `indent` blanks; `lead` tells whether the first line is already indented ("- " before it).
+/// Appends the node with `indent` blanks; `lead` tells whether the first line is already indented ("- "
+/// before it).
 void write(const ConfigNode& node, std::size_t indent, bool lead, std::string& out) {
     if (is_inline(node)) {
         out += std::string(lead ? 0 : indent, ' ') + inline_text(node) + "\n";

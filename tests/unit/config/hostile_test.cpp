@@ -1,4 +1,5 @@
-// Text that nobody wrote in good faith: every one ends with a ConfigError or a tree, soon and with little memory.
+// Text that nobody wrote in good faith: every one ends with a ConfigError or a tree, soon and with little
+// memory.
 #include <doctest/doctest.h>
 
 #include <dsc/base/random.hpp>

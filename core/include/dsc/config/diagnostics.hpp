@@ -45,8 +45,8 @@ public:
     const std::vector<Diagnostic>& all() const noexcept { return all_; }
     /// All of one severity, text by text, sorted by place within each file; beyond 100 only their number.
     std::string text(Severity severity) const;
-    /// Throws ConfigError with all errors and a last line "N errors; nothing was run". Its code is that of the only
-    /// error, or "config.invalid" for several. Does nothing without errors.
+    /// Throws ConfigError with all errors and a last line "N errors; nothing was run". Its code is that of
+    /// the only error, or "config.invalid" for several. Does nothing without errors.
     void throw_if_errors() const;
 
 private:
@@ -54,7 +54,8 @@ private:
     std::size_t errors_ = 0;
 };
 
-/// Throws ConfigError with the one diagnostic, in the same form. For a fault after which nothing else can be judged.
+/// Throws ConfigError with the one diagnostic, in the same form. For a fault after which nothing else can be
+/// judged.
 [[noreturn]] void fail(std::string code, SourcePosition position, std::string message, std::string hint = {},
                        std::vector<std::string> notes = {});
 

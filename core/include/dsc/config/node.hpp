@@ -21,8 +21,8 @@ std::string_view type_name(NodeType type);
 struct ConfigEntry;
 struct NodeFactory;
 
-/// A value of a configuration: null, a scalar, a list, or a map that keeps the order of its keys. Copies share the
-/// tree, nothing can change it. Nodes made by code convert from the plain types:
+/// A value of a configuration: null, a scalar, a list, or a map that keeps the order of its keys. Copies
+/// share the tree, nothing can change it. Nodes made by code convert from the plain types:
 /// `ConfigNode::map({{"type", "grid"}, {"cells", 30}, {"axis", ConfigNode::list({0.0, 0.0, 1.0})}})`. [setup]
 class ConfigNode {
 public:
@@ -89,7 +89,8 @@ public:
     ConfigNode with(const std::string& key, ConfigNode value, SourcePosition key_position) const;
     /// A copy of a map without `key`.
     ConfigNode without(std::string_view key) const;
-    /// A copy of a list with the item at `index` replaced; throws ConfigError "config.missing" beyond the end.
+    /// A copy of a list with the item at `index` replaced; throws ConfigError "config.missing" beyond the
+    /// end.
     ConfigNode with_item(std::size_t index, ConfigNode value) const;
 
     /// Equal values in equal order; an integer differs from a real number. Places do not count.

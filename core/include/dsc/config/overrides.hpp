@@ -8,10 +8,10 @@
 
 namespace dsc::config {
 
-/// Applies `a.b=value` one after the other and returns the changed tree. Numbers in the path index lists, which must
-/// have the item. The value is a YAML scalar or flow list or map and replaces what was there. A key that is not there
-/// is added (a schema judges it later). All malformed overrides are reported in one ConfigError
-/// "config.override". [setup]
+/// Applies `a.b=value` one after the other and returns the changed tree. Numbers in the path index lists,
+/// which must have the item. The value is a YAML scalar or flow list or map and replaces what was there. A
+/// key that is not there is added (a schema judges it later). All malformed overrides are reported in one
+/// ConfigError "config.override". [setup]
 ConfigNode apply_overrides(const ConfigNode& root, std::span<const std::string> overrides,
                            const YamlOptions& options = {});
 

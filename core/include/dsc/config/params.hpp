@@ -1,9 +1,11 @@
 #pragma once
-// ParamSchema<T>: declares the parameters of a strategy once, bound to the members of a plain struct. Validation,
-// documentation, the editor's schema and the struct a strategy works with all come from this one declaration.
+// ParamSchema<T>: declares the parameters of a strategy once, bound to the members of a plain struct.
+// Validation, documentation, the editor's schema and the struct a strategy works with all come from this one
+// declaration.
 
 #include <array>
 #include <cstdint>
+#include <dsc/config/field_builder.hpp>
 #include <dsc/config/node.hpp>
 #include <dsc/config/schema.hpp>
 #include <functional>
@@ -31,58 +33,19 @@ StrategyConfig strategy_from(const ConfigNode& node);
 /// Throws PluginError "plugin.schema" with all of schema.problems(), if any.
 void require_sound(const Schema& schema);
 
-/// Completes the field that was just declared; every call returns the builder. doc() is mandatory.
-class FieldBuilder {
-public:
-    FieldBuilder(Schema& schema, std::size_t index) : schema_(&schema), index_(index) {}
-
-    /// Both ends belong to the range, until open_low() or open_high() exclude one.
-    FieldBuilder& range(double low, double high) { return at_least(low).at_most(high); }
-    FieldBuilder& at_least(double low) { return field().minimum = Bound{low, false}, *this; }
-    FieldBuilder& at_most(double high) { return field().maximum = Bound{high, false}, *this; }
-    FieldBuilder& greater(double low) { return field().minimum = Bound{low, true}, *this; }
-    FieldBuilder& less(double high) { return field().maximum = Bound{high, true}, *this; }
-    FieldBuilder& open_low() { return field().minimum.value().open = true, *this; }
-    FieldBuilder& open_high() { return field().maximum.value().open = true, *this; }
-    /// Least and greatest number of items of a list.
-    FieldBuilder& size(std::size_t least, std::size_t greatest = std::numeric_limits<std::size_t>::max());
-    /// "1" for a pure number, "length" for normalised units, "mean edges", "steps", "radians", "seconds", ...
-    FieldBuilder& unit(std::string text) { return field().unit = std::move(text), *this; }
-    /// What the parameter does, for the person who writes the experiment.
-    FieldBuilder& doc(std::string text) { return field().doc = std::move(text), *this; }
-    /// Must be given; the struct's value is no default then.
-    FieldBuilder& required();
-    /// May stay unset (`null`). Implied by a std::optional member.
-    FieldBuilder& optional();
-    /// Accepted extensions of a file, with the dot and in lower case.
-    FieldBuilder& extensions(std::vector<std::string> list) {
-        return field().extensions = std::move(list), *this;
-    }
-    /// Accepted items of a list of strings.
-    FieldBuilder& choices(std::vector<std::string> list) { return field().choices = std::move(list), *this; }
-    FieldBuilder& tag(std::string name) { return field().tags.push_back(std::move(name)), *this; }
-    /// Not for the first page of the documentation.
-    FieldBuilder& advanced() { return tag("advanced"); }
-
-private:
-    Field& field() { return schema_->field(index_); }
-    Schema* schema_;
-    std::size_t index_;
-};
-
 /// Binds the members of `T` to named parameters.
 ///
 /// ```
 /// struct Params { double alpha = 0.2; std::optional<double> radius; config::StrategyConfig curvature; };
 /// static void declare(config::ParamSchema<Params>& s) {
-///     s.real("alpha", &Params::alpha).range(0, 1).open_low().unit("1").doc("Part of the way to go in a step.");
-///     s.real("radius", &Params::radius).greater(0).unit("length").doc("Search radius; unset: nearest point.");
-///     s.strategy("curvature", &Params::curvature, "curvature").optional().doc("Estimator; none: no smoothing.");
+///     s.real("alpha", &Params::alpha).range(0, 1).open_low().unit("1").doc("Part of the way in a step.");
+///     s.real("radius", &Params::radius).greater(0).unit("length").doc("Radius; unset: nearest point.");
+///     s.strategy("curvature", &Params::curvature, "curvature").optional().doc("None: no smoothing.");
 ///     s.check([](const Params& p) { return p.alpha < 1 || p.radius; }, "alpha 1 needs a radius");
 /// }
 /// ```
-/// Defaults are the members of `defaults`, a value-initialised T unless given. A member of type std::optional may stay
-/// unset. The parameters of a strategy must not be called "type". [setup]
+/// Defaults are the members of `defaults`, a value-initialised T unless given. A member of type std::optional
+/// may stay unset. The parameters of a strategy must not be called "type". [setup]
 template <class T>
 class ParamSchema {
 public:
@@ -249,7 +212,8 @@ public:
         return schema_;
     }
 
-    /// The struct of a resolved map; what the map lacks keeps its default. Keys that are no parameters are passed over.
+    /// The struct of a resolved map; what the map lacks keeps its default. Keys that are no parameters are
+    /// passed over.
     T read(const ConfigNode& resolved) const { return bindings_->read(resolved); }
     /// The map of a struct, all members written out.
     ConfigNode write(const T& value) const { return bindings_->write(value); }
@@ -446,8 +410,8 @@ private:
     friend class ParamSchema;
 };
 
-/// Validates `given` against the struct's declaration and reads it; throws ConfigError with all faults. For tests and
-/// for programs that use a strategy without an experiment. [setup]
+/// Validates `given` against the struct's declaration and reads it; throws ConfigError with all faults. For
+/// tests and for programs that use a strategy without an experiment. [setup]
 template <class T>
 T read_params(const ConfigNode& given, const StrategyLookup& lookup = NoStrategies(),
               const std::string& owner = "the parameters") {

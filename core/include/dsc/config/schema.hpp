@@ -1,6 +1,6 @@
 #pragma once
-// Schema: what a map of the configuration may hold. Type-erased, so that hosts, editors and documentation can read it;
-// authors of strategies declare theirs through ParamSchema (params.hpp).
+// Schema: what a map of the configuration may hold. Type-erased, so that hosts, editors and documentation can
+// read it; authors of strategies declare theirs through ParamSchema (params.hpp).
 
 #include <cstdint>
 #include <dsc/config/diagnostics.hpp>
@@ -100,8 +100,9 @@ public:
     const Field* find(std::string_view name) const noexcept;
     std::vector<std::string> names() const;
 
-    /// Faults of the declaration itself: a field without doc, a name twice, a default outside its range, a bound on a
-    /// string. Empty for a sound schema. A strategy's parameters must not be called "type" besides.
+    /// Faults of the declaration itself: a field without doc, a name twice, a default outside its range, a
+    /// bound on a string. Empty for a sound schema. A strategy's parameters must not be called "type"
+    /// besides.
     std::vector<std::string> problems(bool of_strategy = false) const;
 
 private:
@@ -127,12 +128,12 @@ public:
     std::vector<std::string> ids(const std::string&) const override { return {}; }
 };
 
-/// Checks `node` (a map, or null for an empty one) against the schema and returns the resolved map: all fields in the
-/// order of the schema with their defaults written out (null for an unset optional one), nested objects and
-/// strategies likewise, numbers in the field's type, relative file names made absolute. Faults are added to
-/// `diagnostics`, all of them: unknown keys, wrong types, values out of range, unknown strategies, missing keys, failed
-/// cross checks. After an error the result is good for nothing but further checks. `owner` names the map in
-/// messages. Throws StrategyError if a cross check throws. [setup]
+/// Checks `node` (a map, or null for an empty one) against the schema and returns the resolved map: all
+/// fields in the order of the schema with their defaults written out (null for an unset optional one), nested
+/// objects and strategies likewise, numbers in the field's type, relative file names made absolute. Faults
+/// are added to `diagnostics`, all of them: unknown keys, wrong types, values out of range, unknown
+/// strategies, missing keys, failed cross checks. After an error the result is good for nothing but further
+/// checks. `owner` names the map in messages. Throws StrategyError if a cross check throws. [setup]
 ConfigNode validate(const ConfigNode& node, const Schema& schema, const StrategyLookup& lookup,
                     Diagnostics& diagnostics, const std::string& owner = "the experiment");
 

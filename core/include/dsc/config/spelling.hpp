@@ -9,12 +9,12 @@
 
 namespace dsc::config {
 
-/// Damerau-Levenshtein distance (optimal string alignment): insertions, deletions, substitutions and swaps of two
-/// neighbouring characters.
+/// Damerau-Levenshtein distance (optimal string alignment): insertions, deletions, substitutions and swaps of
+/// two neighbouring characters.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to `word` with a distance of at most max(2, length / 3), never all of the word; the first
-/// of several. Empty where none is near.
+/// The candidate nearest to `word` with a distance of at most max(2, length / 3), never all of the word; the
+/// first of several. Empty where none is near.
 std::optional<std::string> closest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "a, b, c".

@@ -31,30 +31,32 @@ struct YamlOptions {
 /// Reads a file and what it includes.
 ///
 /// What differs from plain YAML: numbers and booleans are written as in JSON (`0123`, `0x10`, `.5`, `yes` are
-/// strings; `.inf`, `.nan` are errors); a duplicate key, a merge key `<<`, a tag and a second document are errors;
-/// `${NAME}` in a string is replaced by the environment's variable, `$${` stands for a literal `${`. A top-level
-/// `include:` names a file or a list of files relative to the including one: maps merge deeply, lists are replaced,
-/// later wins, the including file is last. Where two merged maps name different strategies (`type`), the later map
-/// replaces the earlier whole, because its parameters belong to another strategy.
+/// strings; `.inf`, `.nan` are errors); a duplicate key, a merge key `<<`, a tag and a second document are
+/// errors; `${NAME}` in a string is replaced by the environment's variable, `$${` stands for a literal `${`.
+/// A top-level `include:` names a file or a list of files relative to the including one: maps merge deeply,
+/// lists are replaced, later wins, the including file is last. Where two merged maps name different
+/// strategies (`type`), the later map replaces the earlier whole, because its parameters belong to another
+/// strategy.
 ///
-/// Throws IoError "io.open" for an unreadable file; ConfigError with position, line and caret for everything else.
-/// [setup]
+/// Throws IoError "io.open" for an unreadable file; ConfigError with position, line and caret for everything
+/// else. [setup]
 ConfigNode load_yaml(const std::filesystem::path& file, const YamlOptions& options = {});
 
-/// The same for a text; `name` stands for the file in messages, and includes are relative to its folder. [setup]
+/// The same for a text; `name` stands for the file in messages, and includes are relative to its folder.
+/// [setup]
 ConfigNode parse_yaml(std::string_view text, const std::string& name, const YamlOptions& options = {});
 
-/// One value as on the right of `key=`: a scalar or a flow list or map on one line. Positions name `source`. Used by
-/// overrides. Throws ConfigError. [setup]
+/// One value as on the right of `key=`: a scalar or a flow list or map on one line. Positions name `source`.
+/// Used by overrides. Throws ConfigError. [setup]
 ConfigNode parse_value(const std::shared_ptr<const SourceText>& source, std::size_t begin,
                        const YamlOptions& options = {});
 
 /// `later` over `earlier` by the rules of include. [setup]
 ConfigNode merge(const ConfigNode& earlier, const ConfigNode& later);
 
-/// Writes a tree as YAML that reads back as an equal tree: block style, two blanks, strings quoted where they must be,
-/// real numbers in the shortest form that reads back to the same double. Ends with a newline. Throws ConfigError
-/// "config.range" for a number that is not finite. [setup]
+/// Writes a tree as YAML that reads back as an equal tree: block style, two blanks, strings quoted where they
+/// must be, real numbers in the shortest form that reads back to the same double. Ends with a newline. Throws
+/// ConfigError "config.range" for a number that is not finite. [setup]
 std::string to_yaml(const ConfigNode& node);
 
 /// Shortest text that reads back as the same double and never as an integer: "0.1", "1.0", "0.0003".

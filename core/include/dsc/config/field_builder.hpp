@@ -1,0 +1,53 @@
+#pragma once
+// FieldBuilder: the words that complete the declaration of one parameter. Handed out by ParamSchema
+// (params.hpp).
+
+#include <cstddef>
+#include <dsc/config/schema.hpp>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dsc::config {
+
+/// Completes the field that was just declared; every call returns the builder. doc() is mandatory.
+class FieldBuilder {
+public:
+    FieldBuilder(Schema& schema, std::size_t index) : schema_(&schema), index_(index) {}
+
+    /// Both ends belong to the range, until open_low() or open_high() exclude one.
+    FieldBuilder& range(double low, double high) { return at_least(low).at_most(high); }
+    FieldBuilder& at_least(double low) { return field().minimum = Bound{low, false}, *this; }
+    FieldBuilder& at_most(double high) { return field().maximum = Bound{high, false}, *this; }
+    FieldBuilder& greater(double low) { return field().minimum = Bound{low, true}, *this; }
+    FieldBuilder& less(double high) { return field().maximum = Bound{high, true}, *this; }
+    FieldBuilder& open_low() { return field().minimum.value().open = true, *this; }
+    FieldBuilder& open_high() { return field().maximum.value().open = true, *this; }
+    /// Least and greatest number of items of a list.
+    FieldBuilder& size(std::size_t least, std::size_t greatest = std::numeric_limits<std::size_t>::max());
+    /// "1" for a pure number, "length" for normalised units, "mean edges", "steps", "radians", "seconds", ...
+    FieldBuilder& unit(std::string text) { return field().unit = std::move(text), *this; }
+    /// What the parameter does, for the person who writes the experiment.
+    FieldBuilder& doc(std::string text) { return field().doc = std::move(text), *this; }
+    /// Must be given; the struct's value is no default then.
+    FieldBuilder& required();
+    /// May stay unset (`null`). Implied by a std::optional member.
+    FieldBuilder& optional();
+    /// Accepted extensions of a file, with the dot and in lower case.
+    FieldBuilder& extensions(std::vector<std::string> list) {
+        return field().extensions = std::move(list), *this;
+    }
+    /// Accepted items of a list of strings.
+    FieldBuilder& choices(std::vector<std::string> list) { return field().choices = std::move(list), *this; }
+    FieldBuilder& tag(std::string name) { return field().tags.push_back(std::move(name)), *this; }
+    /// Not for the first page of the documentation.
+    FieldBuilder& advanced() { return tag("advanced"); }
+
+private:
+    Field& field() { return schema_->field(index_); }
+    Schema* schema_;
+    std::size_t index_;
+};
+
+}  // namespace dsc::config

@@ -1,0 +1,16 @@
+#pragma once
+// Environment variables in the strings of a configuration.
+
+#include <dsc/config/diagnostics.hpp>
+#include <dsc/config/source.hpp>
+#include <dsc/config/yaml.hpp>
+#include <string>
+#include <string_view>
+
+namespace dsc::config {
+
+/// `text` with its ${NAME} replaced; faults go to `diagnostics` at `position`.
+std::string expand_variables(std::string_view text, const SourcePosition& position,
+                             const Environment& environment, Diagnostics& diagnostics);
+
+}  // namespace dsc::config
