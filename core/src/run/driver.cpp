@@ -13,7 +13,7 @@ namespace {
 
 /// Vertices a block of evaluate() has. Fixed, so that the split never depends on the number of threads.
 constexpr std::size_t block = 256;
-/// A run stalls when for this many steps less than this part of the asked motion came about.
+/// A series stalls when for this many steps less than this part of the asked motion came about.
 constexpr unsigned stall_steps = 5;
 constexpr double stall_ratio = 0.01;
 /// Mean speed, in mean edges, below which nothing is asked for and nothing can stall.
@@ -119,12 +119,17 @@ private:
             return;
         }
         unsigned quiet = 0;
+        stuck_ = 0;
         result_.totals.status = Status::max_steps;
         for (std::uint32_t step = 1; step <= *item.steps && !over_; ++step) {
             const bool slow = advance();
             quiet = slow ? quiet + 1 : 0;
             if (!over_ && item.every && step % *item.every == 0) refine(*refinement);
             if (over_) break;
+            if (stuck_ >= stall_steps) {
+                result_.totals.status = Status::stalled;
+                break;
+            }
             if (experiment_.stop && quiet >= experiment_.stop->patience) {
                 result_.totals.status = Status::converged;
                 break;
@@ -145,6 +150,7 @@ private:
         const double mean_edge = view_.mean_edge;
         const kernel::StepReport report = deformer_.step(view_.vertex_ids, displacements_, policy_);
         context_ = nullptr;
+        const double came_about = achieved();
         result_.totals.add(report);
         for (const kernel::Event& event : report.events) tell(event);
         refresh_view();
@@ -163,8 +169,7 @@ private:
         publish(row);
 
         const bool moving = row.mean_speed > stall_speed * mean_edge;
-        stuck_ = moving && report.dropped_motion > (1.0 - stall_ratio) * asked ? stuck_ + 1 : 0;
-        if (stuck_ >= stall_steps) end(Status::stalled);
+        stuck_ = moving && came_about < stall_ratio * asked ? stuck_ + 1 : 0;
         if (view_.vertex_count() == 0) over_ = true;
         return experiment_.stop && row.max_speed < experiment_.stop->speed * mean_edge;
     }
@@ -188,6 +193,20 @@ private:
             ++movable;
         }
         row.mean_speed = movable == 0 ? 0.0 : sum / static_cast<double>(movable);
+        return sum;
+    }
+
+    /// Summed length that the vertices of the view have gone since it was taken; one that an edit removed counts with
+    /// what it asked for.
+    double achieved() const {
+        const mesh::Complex& complex = deformer_.complex();
+        double sum = 0.0;
+        for (std::size_t i = 0; i < view_.vertex_count(); ++i) {
+            if (view_.movable[i] == 0) continue;
+            const mesh::VertexId v = view_.vertex_ids[i];
+            const bool there = complex.vertex_alive(v) && complex.birth(v) == view_.births[i];
+            sum += there ? (complex.position(v) - view_.positions[i]).norm() : displacements_[i].norm();
+        }
         return sum;
     }
 

@@ -6,7 +6,7 @@
 #include <list>
 #include <tuple>
 
-class FakeCatalogue final : public dsc::plugin::Catalogue, public dsc::plugin::Registrar {
+class FakeCatalogue : public dsc::plugin::Catalogue, public dsc::plugin::Registrar {
 public:
     std::optional<dsc::plugin::StrategyInfo> find(dsc::plugin::Kind kind, const std::string& id) const override {
         for (const auto& record : records_) {

@@ -49,10 +49,10 @@ struct DriveResult {
 /// Number of steps that the schedule asks for.
 std::uint64_t planned_steps(const Experiment& experiment);
 
-/// Runs the schedule. `cloud` may be null. Converged: the largest speed stayed below stop.speed mean edges for
-/// stop.patience steps at the end of the last series; each series ends that way on its own. Stalled: in five steps in
-/// a row less than 1 % of the asked motion came about, which ends the run. The result depends on neither the workers
-/// nor the callbacks. Throws GeometryError (mesh, cloud outside the box), StrategyError. [setup]
+/// Runs the schedule. `cloud` may be null. A series of steps ends early when it converged (the largest speed stayed
+/// below stop.speed mean edges for stop.patience steps) or stalled (in five steps in a row less than 1 % of the asked
+/// motion came about); the schedule goes on behind it, the status is that of the last series. The result depends on
+/// neither the workers nor the callbacks. Throws GeometryError (mesh, cloud outside the box), StrategyError. [setup]
 DriveResult drive(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
                   const DriveOptions& options);
 

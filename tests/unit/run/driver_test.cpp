@@ -1,0 +1,186 @@
+// The driver with the real kernel and small strategies.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <dsc/base/error.hpp>
+#include <dsc/run/driver.hpp>
+#include <dsc/run/measure.hpp>
+#include <dsc/run/runner.hpp>
+#include <nlohmann/json.hpp>
+
+#include "fakes.hpp"
+
+using namespace dsc;
+using dsc::test::Folder;
+namespace fs = std::filesystem;
+using dsc::test::load_text;
+using dsc::test::minimal;
+
+namespace {
+
+struct Driven {
+    run::DriveResult result;
+    std::vector<run::StepMetrics> rows;
+};
+
+Driven drive(const std::vector<std::string>& overrides, Workers* workers = nullptr) {
+    const dsc::test::Strategies catalogue;
+    const run::LoadedExperiment loaded = load_text(minimal, overrides);
+    run::Strategies strategies = run::make_strategies(loaded.experiment, catalogue);
+    Driven driven;
+    run::DriveOptions options;
+    options.workers = workers;
+    options.on_step = [&](const run::StepMetrics& row, std::uint64_t) { driven.rows.push_back(row); };
+    driven.result = run::drive(loaded.experiment, strategies, nullptr, options);
+    return driven;
+}
+
+}  // namespace
+
+TEST_CASE("steps shrink the cube as the velocity says") {
+    const Driven d = drive({"velocity.factor=-0.05", "schedule.0.steps=2"});
+    REQUIRE(d.rows.size() == 3);
+    CHECK(d.rows[0].step == 0);
+    CHECK(d.rows[2].step == 2);
+    CHECK(d.rows[0].volume == doctest::Approx(1.0));
+    CHECK(d.rows[1].volume == doctest::Approx(std::pow(0.95, 3)));
+    CHECK(d.rows[2].volume == doctest::Approx(std::pow(0.95, 6)));
+    CHECK(d.rows[1].max_speed == doctest::Approx(0.025 * std::sqrt(3.0)));
+    CHECK_FALSE(d.rows[1].vertex_to_cloud_mean.has_value());
+    CHECK(d.result.totals.status == run::Status::max_steps);
+    CHECK(d.result.totals.steps == 2);
+    CHECK(d.result.totals.volume_initial == doctest::Approx(1.0));
+    CHECK(run::measure(d.result.mesh).solid());
+}
+
+TEST_CASE("converged: the last series ended slow, further items still run") {
+    const std::vector<std::string> slow = {"velocity.factor=0", "stop={speed: 1.0e-3, patience: 2}"};
+    const Driven one = drive({slow[0], slow[1], "schedule.0.steps=9"});
+    CHECK(one.result.totals.status == run::Status::converged);
+    CHECK(one.result.totals.steps == 2);
+    const Driven three = drive({slow[0], slow[1], "schedule=[{steps: 9}, {refine: {type: all}}, {steps: 9}]"});
+    CHECK(three.result.totals.steps == 4);
+    CHECK(three.result.totals.refinements == 1);
+    CHECK(three.result.surface.faces.size() > 192);
+    const Driven fast = drive({"velocity.factor=-0.01", slow[1], "schedule.0.steps=3"});
+    CHECK(fast.result.totals.status == run::Status::max_steps);
+}
+
+TEST_CASE("stalled: without repair the motion is blocked in the end") {
+    const Driven d = drive({"velocity.factor=0", "velocity.shift=[0.2, 0, 0]", "schedule.0.steps=100"});
+    CHECK(d.result.totals.status == run::Status::stalled);
+    CHECK(d.result.totals.steps < 100);
+    CHECK(run::measure(d.result.mesh).solid());
+}
+
+TEST_CASE("refinement: by faces, by a sizing field, every so many steps") {
+    CHECK(drive({"schedule=[{refine: {type: all}}]"}).result.surface.points.size() > 98);
+    const Driven coarse = drive({"schedule=[{refine: {type: all, sizing: 5}}]"});
+    CHECK(coarse.result.surface.points.size() == 98);
+    CHECK(coarse.result.totals.refine_requested == 0);
+    // Edges are 0.25 and 0.354 long: 0.3 splits each diagonal once.
+    const Driven fine = drive({"schedule=[{refine: {type: all, sizing: 0.3}}]"});
+    CHECK(fine.result.totals.refine_committed == 96);
+    const Driven often = drive({"velocity.factor=0", "schedule=[{steps: 4, every: 2, refine: {type: all, sizing: 5}}]"});
+    CHECK(often.result.totals.refinements == 2);
+}
+
+TEST_CASE("a refinement that samples is refused beside a velocity that cannot be sampled") {
+    const std::vector<std::string> bad = {"schedule=[{refine: {type: all, sampling: true}}]"};
+    CHECK_THROWS_AS(drive(bad), ConfigError);
+    CHECK_NOTHROW(drive({bad[0], "velocity.sampled=true"}));
+}
+
+TEST_CASE("cancelled: before the first step nothing has moved") {
+    const dsc::test::Strategies catalogue;
+    const run::LoadedExperiment loaded = load_text(minimal);
+    run::Strategies strategies = run::make_strategies(loaded.experiment, catalogue);
+    CancelToken token;
+    token.cancel();
+    run::DriveOptions options;
+    options.cancel = &token;
+    const run::DriveResult result = run::drive(loaded.experiment, strategies, nullptr, options);
+    CHECK(result.totals.status == run::Status::cancelled);
+    CHECK(result.totals.steps == 0);
+}
+
+TEST_CASE("the result does not depend on the number of threads") {
+    Workers three(3);
+    const std::vector<std::string> overrides = {"velocity.factor=-0.08", "schedule=[{steps: 3}, {refine: {type: all}}, {steps: 3}]"};
+    const Driven a = drive(overrides), b = drive(overrides, &three);
+    CHECK(run::identical(a.result.surface, b.result.surface));
+    CHECK(a.result.mesh.tets == b.result.mesh.tets);
+    CHECK(a.result.last.volume == b.result.last.volume);
+}
+
+TEST_CASE("a whole run: the folder holds what it should, a second run the same bytes") {
+    const Folder folder;
+    const dsc::test::Strategies catalogue;
+    // Plugins count by their content: the linked-in one has a file here.
+    const auto work = [&](const std::string& name, unsigned threads) {
+        const run::LoadedExperiment loaded = load_text(minimal, {"observers=[{type: counter}]"});
+        run::RunOptions options;
+        options.folder = folder.path() / name;
+        options.threads = threads;
+        return run::run_experiment(loaded, catalogue, options);
+    };
+    const fs::path here = fs::current_path();
+    fs::current_path(folder.path());
+    folder.write("libdsc_fake.so", "stands for a plugin");
+    const run::RunOutcome outcome = work("one", 1);
+    work("two", 2);
+    fs::current_path(here);
+
+    CHECK(outcome.conforms);
+    CHECK(outcome.surface.solid());
+    for (const char* name : {"result/surface.obj", "result/surface.ply", "result/volume.vtu", "result/volume.dsc",
+                             "metrics.csv", "events.jsonl", "preview.png", "config.resolved.yaml"}) {
+        CAPTURE(name);
+        CHECK(fs::exists(folder.path() / "one" / name));
+        CHECK(folder.read(std::string("one/") + name) == folder.read(std::string("two/") + name));
+    }
+    const auto status = nlohmann::json::parse(folder.read("one/status.json"));
+    CHECK(status["state"] == "done");
+    CHECK(status["status"] == "max_steps");
+    const auto summary = nlohmann::json::parse(folder.read("one/summary.json"));
+    for (const char* key :
+         {"status", "steps", "interface_vertices", "interface_faces", "tets", "min_tet_quality", "inverted_tets",
+          "components", "genus", "boundary_edges", "nonmanifold_edges", "nonmanifold_vertices", "self_intersections",
+          "volume", "volume_initial", "shells", "cavities", "events", "target_length", "clamped", "dropped_motion",
+          "edit_volume", "relabelled_volume", "rounds", "refused", "vertex_to_cloud", "cloud_to_surface", "wall_s", "cpu_s",
+          "peak_rss_mb", "phase_s"}) {
+        CAPTURE(key);
+        CHECK(summary.contains(key));
+    }
+    CHECK(summary["volume"].get<double>() == doctest::Approx(std::pow(0.95, 6)));
+    CHECK(summary["components"] == 1);
+    CHECK(summary["genus"] == 0);
+    CHECK(summary["observers"]["counter"]["total"] == 2.0);
+    const auto provenance = nlohmann::json::parse(folder.read("one/provenance.json"));
+    CHECK(provenance["plugins"][0]["sha256"].get<std::string>().size() == 64);
+    CHECK_FALSE(provenance["finished"].is_null());
+}
+
+TEST_CASE("a run that fails leaves no result and says why") {
+    const Folder folder;
+    folder.write("flat.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n");
+    const dsc::test::Strategies catalogue;
+    const fs::path here = fs::current_path();
+    fs::current_path(folder.path());
+    folder.write("libdsc_fake.so", "stands for a plugin");
+    run::RunOptions options;
+    options.folder = folder.path() / "run";
+    run::run_experiment(load_text(minimal), catalogue, options);
+    CHECK(fs::exists(folder.path() / "run/result/surface.obj"));
+    const auto bad = load_text(minimal + "input: {cloud: {file: " + (folder.path() / "flat.xyz").string() + "}}\n");
+    CHECK_THROWS_AS(run::run_experiment(bad, catalogue, options), GeometryError);
+    fs::current_path(here);
+    for (const char* name : {"result", "summary.json", "preview.png", ".result.part"}) {
+        CAPTURE(name);
+        CHECK_FALSE(fs::exists(folder.path() / "run" / name));
+    }
+    const auto status = nlohmann::json::parse(folder.read("run/status.json"));
+    CHECK(status["state"] == "failed");
+    CHECK(status["exit_code"] == 5);
+    CHECK(status["error_code"] == "cloud.coplanar");
+}

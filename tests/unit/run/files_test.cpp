@@ -1,0 +1,181 @@
+// Inputs, run folders, measures and tables: everything of a run that needs no kernel.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <dsc/base/error.hpp>
+#include <dsc/run/figures.hpp>
+#include <dsc/run/input.hpp>
+#include <dsc/run/measure.hpp>
+#include <dsc/run/run_folder.hpp>
+
+#include "fakes.hpp"
+
+using namespace dsc;
+using dsc::test::Folder;
+namespace fs = std::filesystem;
+
+namespace {
+
+run::Input sampled(std::uint64_t n) {
+    run::Input input;
+    input.cloud.sample = run::SampleInput{"sphere", n, 0.0, 0.0};
+    return input;
+}
+
+config::StrategyConfig filter(const std::string& type) {
+    const config::ConfigNode resolved =
+        config::validate(config::ConfigNode::map(), *run::filter_schema(type), config::NoStrategies(),
+                         *std::make_unique<config::Diagnostics>());
+    return {type, resolved};
+}
+
+mesh::TetMesh box_mesh(int cells) {
+    const dsc::test::Strategies strategies;
+    const plugin::Setup setup(strategies, "initial_mesh");
+    dsc::test::BoxMesh box({cells, 0.5, std::nullopt}, setup);
+    return box.build({});
+}
+
+}  // namespace
+
+TEST_CASE("input: the same sample for the same seed, filters in order, normalised") {
+    run::Input input = sampled(500);
+    const run::LoadedInput plain = run::load_input(input, 3);
+    CHECK(plain.report.points == 500);
+    CHECK(plain.report.used == 500);
+    CHECK(plain.target.transform().identity());
+    CHECK(run::load_input(input, 3).cloud.points == plain.cloud.points);
+    CHECK(run::load_input(input, 4).cloud.points != plain.cloud.points);
+
+    input.normalize = run::NormalizeInput{0.5};
+    input.cloud.filters = {filter("duplicates"), filter("voxel_grid")};
+    const run::LoadedInput small = run::load_input(input, 3);
+    REQUIRE(small.report.filters.size() == 2);
+    CHECK(small.report.filters[0].filter == "duplicates");
+    CHECK(small.report.filters[0].removed == 0);
+    CHECK(small.report.used == small.report.filters[1].kept);
+    CHECK(small.target.box().high.maxCoeff() == doctest::Approx(0.5));
+    const Vec3 back = small.target.transform().inverse(small.target[0]);
+    CHECK((back - small.cloud.points[0]).norm() < 1e-14);
+}
+
+TEST_CASE("input: without normalize a cloud outside the box is refused") {
+    const Folder folder;
+    run::Input input;
+    input.cloud.file = folder.write("far.xyz", "0 0 0\n1 0 0\n0 1 0\n0 0 9\n");
+    try {
+        run::load_input(input, 1);
+        FAIL("no error");
+    } catch (const GeometryError& error) {
+        CHECK(error.code() == "cloud.outside_box");
+    }
+    input.normalize = run::NormalizeInput{};
+    CHECK(run::load_input(input, 1).target.size() == 4);
+}
+
+TEST_CASE("run folder: takes an empty folder or one of ours, refuses all others untouched") {
+    const Folder folder;
+    const fs::path ours = folder.path() / "a" / "b";
+    {
+        const run::RunFolder run(ours);
+        run.write("status.json", "{\"format\": \"dsc-run-1\", \"state\": \"running\"}");
+        run.write("summary.json", "{}");
+        run.write("notes.txt", "mine");
+        run.open_staging();
+        folder.write("a/b/.result.part/surface.obj", "v");
+        CHECK_FALSE(fs::exists(ours / "result"));
+        run.publish_results();
+        CHECK(fs::exists(ours / "result" / "surface.obj"));
+        CHECK_FALSE(fs::exists(run.staging()));
+    }
+    CHECK(run::RunFolder::is_ours(ours));
+    const run::RunFolder again(ours);
+    CHECK_FALSE(fs::exists(ours / "result"));
+    CHECK_FALSE(fs::exists(ours / "summary.json"));
+    CHECK(fs::exists(ours / "notes.txt"));
+
+    folder.write("other/thesis.tex", "text");
+    CHECK_THROWS_AS(run::RunFolder(folder.path() / "other"), UsageError);
+    folder.write("status/status.json", "{\"state\": \"done\"}");
+    CHECK_THROWS_AS(run::RunFolder(folder.path() / "status"), UsageError);
+    CHECK(folder.read("other/thesis.tex") == "text");
+    CHECK_THROWS_AS(run::RunFolder(folder.path() / "other" / "thesis.tex"), UsageError);
+    CHECK_THROWS_AS(run::RunFolder(folder.path() / "other" / "thesis.tex" / "x"), IoError);
+}
+
+TEST_CASE("metrics: empty cells without a cloud, columns of observers") {
+    run::StepMetrics row;
+    row.step = 3;
+    row.mean_edge = 0.1;
+    row.observers = {{"observers.a.error", 0.5}};
+    const std::string header = run::csv_header(row);
+    CHECK(header.substr(0, 24) == "step,interface_vertices,");
+    CHECK(header.find(",observers.a.error\n") != std::string::npos);
+    CHECK(run::csv_row(row) == "3,0,0,0,0.1,0,0,,,,0,0,0,0,0,0,0,0,0,0,0,0.5\n");
+    row.observers.clear();
+    CHECK(run::csv_row(row, 1) == "3,0,0,0,0.1,0,0,,,,0,0,0,0,0,0,0,0,0,0,0,\n");
+    const auto commas = [](const std::string& text) { return std::count(text.begin(), text.end(), ','); };
+    CHECK(commas(header) == commas(run::csv_row(row, 1)));
+}
+
+TEST_CASE("events are told in the input's coordinates") {
+    kernel::Event event;
+    event.kind = kernel::Event::Kind::handle_opened;
+    event.step = 12;
+    event.place = Vec3(0.5, 0, -1);
+    event.label = 1;
+    event.tets = 4;
+    event.volume = 1.0;
+    event.thickness = 0.25;
+    const cloud::Transform transform{Vec3(10, 20, 30), 2.0};
+    CHECK(run::event_line(event, transform) ==
+          "{\"kind\":\"handle_opened\",\"step\":12,\"place\":[10.25,20,29.5],\"label\":1,\"tets\":4,\"volume\":0.125,"
+          "\"thickness\":0.25}\n");
+}
+
+TEST_CASE("measure: a sound box, and each of its possible defects") {
+    const mesh::TetMesh good = box_mesh(12);
+    const run::VolumeMeasure m = run::measure(good);
+    CHECK(m.tets == 8640);
+    CHECK(m.points == 2197);
+    CHECK(m.adjacency_valid());
+    CHECK(m.inverted_tets == 0);
+    CHECK(m.fills_box());
+    CHECK(m.boundary_faces == 6 * 144 * 2);
+    CHECK(m.label_volumes.at(1) == doctest::Approx(1.0));
+    CHECK(m.interface.points.size() == 98);
+    CHECK(m.interface.faces.size() == 192);
+    CHECK(m.solid());
+
+    mesh::TetMesh bad = good;
+    std::swap(bad.tets[5][0], bad.tets[5][1]);
+    CHECK(run::measure(bad).inverted_tets == 1);
+    CHECK_FALSE(run::measure(bad).solid());
+
+    bad = good;
+    bad.tets.push_back(bad.tets[0]);
+    bad.labels.push_back(bad.labels[0]);
+    CHECK_FALSE(run::measure(bad).adjacency_valid());
+    CHECK(run::measure(bad).overused_faces + run::measure(bad).folded_faces == 4);
+
+    bad = good;
+    bad.tets[7][2] = 99999;
+    CHECK(run::measure(bad).invalid_tets == 1);
+
+    bad = good;
+    bad.tets.pop_back();
+    bad.labels.pop_back();
+    CHECK(run::measure(bad).adjacency_valid());
+    CHECK_FALSE(run::measure(bad).fills_box());
+}
+
+TEST_CASE("identical tells single bits and the order apart") {
+    surface::TriangleMesh a{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}}};
+    surface::TriangleMesh b = a;
+    CHECK(run::identical(a, b));
+    b.points[1].x() = std::nextafter(1.0, 2.0);
+    CHECK_FALSE(run::identical(a, b));
+    b = a;
+    b.faces[0] = {1, 2, 0};
+    CHECK_FALSE(run::identical(a, b));
+}
