@@ -20,7 +20,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr unsigned settle_rounds = 3;  // repair rounds after the last motion
+constexpr unsigned move_passes = 2;        // before a repair: neighbours that moved make way for each other
+constexpr double worthwhile_pass = 0.1;    // part of the way left by which a pass must bring the vertices on
 
 void count(const Event& event, mesh::EventCounts& counts) {
     switch (event.kind) {
@@ -70,6 +71,7 @@ struct Deformer::State final : EditListener {
     std::vector<VertexId> active;
     std::vector<VertexId> blocked;
     std::uint32_t pass = 0;
+    std::size_t tried = 0;  // moves attempted in the present round
 
     std::vector<TetId> step_changes;
     std::vector<VertexId> near_collapses;
@@ -175,6 +177,7 @@ struct Deformer::State final : EditListener {
             if (way.listed == pass) continue;
             way.listed = pass;
             if (way.blocked_at == 0 || queues.awake(v, way.blocked_at)) {
+                ++tried;
                 const Motion motion = move_towards(bench, v, way.destination, options.free_path);
                 if (motion == Motion::arrived) {
                     way.step = 0;
@@ -193,14 +196,12 @@ struct Deformer::State final : EditListener {
         return left;
     }
 
-    // One repair round; returns the number of commits.
-    std::size_t repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report) {
+    void repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report) {
         const auto dirty = queues.next_round();
         step_changes.insert(step_changes.end(), dirty.begin(), dirty.end());
         requests.clear();
         policy.propose(mesh::RepairRound{complex, dirty, blocked, last_requests, outcomes, length, policy.flatness, round, settled}, requests);
         outcomes.clear();
-        std::size_t commits = 0;
         for (std::size_t i = 0; i < requests.size(); ++i) {
             const mesh::Request& request = requests[i];
             const Refusal refusal = execute(bench, request);
@@ -209,14 +210,12 @@ struct Deformer::State final : EditListener {
             ++counts.tried;
             if (refusal == Refusal::committed) {
                 ++counts.committed;
-                ++commits;
                 continue;
             }
             ++counts.refused[static_cast<std::size_t>(refusal)];
             if (refusal != Refusal::stale && request.tet != mesh::none) queues.fail(request.tet);
         }
         std::swap(last_requests, requests);
-        return commits;
     }
 
     StepReport advance(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy) {
@@ -224,16 +223,23 @@ struct Deformer::State final : EditListener {
         apply_limits(policy.flatness);
         begin(vertices, displacements, report);
         double best_left = INFINITY;
-        unsigned slow_rounds = 0, settled_rounds = 0;
+        unsigned idle_rounds = 0;
+        unsigned slow_rounds = 0;
         for (unsigned round = 0; round < options.max_rounds; ++round) {
             auto start = Clock::now();
-            const double left = move_all();
+            tried = 0;
+            double left = move_all();
+            for (unsigned again = 1; again < move_passes && !active.empty(); ++again) {
+                const double before = left;
+                left = move_all();
+                if (left > before * (1.0 - worthwhile_pass)) break;
+            }
             report.move_seconds += seconds_since(start);
             ++report.rounds;
             if (left < best_left * (1.0 - options.stall_ratio)) {
                 best_left = left;
                 slow_rounds = 0;
-            } else if (!active.empty() && ++slow_rounds >= options.stall_rounds) {
+            } else if (!active.empty() && (++slow_rounds >= options.stall_rounds || (tried == 0 && ++idle_rounds > 1))) {
                 give_up(report);
             }
             const bool settled = active.empty();
@@ -242,9 +248,9 @@ struct Deformer::State final : EditListener {
                 continue;
             }
             start = Clock::now();
-            const std::size_t commits = repair(policy, round, settled, report);
+            repair(policy, round, settled, report);
             report.repair_seconds += seconds_since(start);
-            if (settled && (commits == 0 || ++settled_rounds >= settle_rounds) && active.empty()) break;
+            if (settled && active.empty()) break;
         }
         give_up(report);
         const auto start = Clock::now();

@@ -1,11 +1,10 @@
-// Regions of the topology stage: growing one until it is regular, measuring its boundary.
+#include "kernel/region.hpp"
+
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include <dsc/geometry/quality.hpp>
-
-#include "kernel/topology.hpp"
 
 namespace dsc::kernel {
 namespace {
@@ -34,12 +33,12 @@ bool contains(const std::vector<TetId>& list, TetId t) { return std::find(list.b
 
 }  // namespace
 
-bool TopologyStage::touches_box(TetId t) const {
-    const auto& v = bench_.complex.tet(t).v;
-    return std::any_of(v.begin(), v.end(), [this](VertexId x) { return bench_.complex.on_box(x); });
+bool touches_box(const mesh::Complex& c, TetId t) {
+    const auto& v = c.tet(t).v;
+    return std::any_of(v.begin(), v.end(), [&c](VertexId x) { return c.on_box(x); });
 }
 
-double TopologyStage::thickness(const Region& region) {
+double thickness(const Region& region) {
     if (region.patches_from == 2) return 2.0 * std::sqrt(0.5 * region.area_from / std::numbers::pi);
     return region.area_to > 0.0 ? 2.0 * region.volume / region.area_to : INFINITY;
 }
@@ -112,33 +111,33 @@ void shortest_chain(mesh::LocalStar& star, mesh::Label from, mesh::Label to, std
 
 }  // namespace
 
-bool TopologyStage::regular(const Region& region) {
-    collect_vertices(bench_.complex, region, region_vertices_);
-    mesh::LocalStar& star = bench_.local_star();
-    return std::all_of(region_vertices_.begin(), region_vertices_.end(), [&](VertexId v) {
+bool regular(Workbench& bench, const Region& region) {
+    collect_vertices(bench.complex, region, bench.vertices);
+    mesh::LocalStar& star = bench.local_star();
+    return std::all_of(bench.vertices.begin(), bench.vertices.end(), [&](VertexId v) {
         star.build(v, region.tets, region.to);
         return star.regular();
     });
 }
 
-RegionFault TopologyStage::grow(Region& region) {
-    const mesh::Complex& c = bench_.complex;
-    const double volume_limit = max_region_volume * geometry::regular_tet_volume(bench_.limits.length);
-    mesh::LocalStar& star = bench_.local_star();
+RegionFault grow(Workbench& bench, Region& region) {
+    const mesh::Complex& c = bench.complex;
+    const double volume_limit = max_region_volume * geometry::regular_tet_volume(bench.limits.length);
+    mesh::LocalStar& star = bench.local_star();
     std::vector<TetId> group, chain;
     for (int round = 0; round <= max_growth; ++round) {
         double volume = 0.0;
         for (const TetId t : region.tets) {
             volume += c.volume(t);
-            if (touches_box(t)) return RegionFault::box;
+            if (touches_box(c, t)) return RegionFault::box;
         }
         if (region.tets.size() > max_region || volume > volume_limit) return RegionFault::too_large;
-        collect_vertices(c, region, region_vertices_);
-        const auto bad = std::find_if(region_vertices_.begin(), region_vertices_.end(), [&](VertexId v) {
+        collect_vertices(c, region, bench.vertices);
+        const auto bad = std::find_if(bench.vertices.begin(), bench.vertices.end(), [&](VertexId v) {
             star.build(v, region.tets, region.to);
             return !star.regular();
         });
-        if (bad == region_vertices_.end()) return RegionFault::none;
+        if (bad == bench.vertices.end()) return RegionFault::none;
         smallest_group(star, region.from, group);
         shortest_chain(star, region.from, region.to, chain);
         const auto& addition = chain.empty() || (!group.empty() && group.size() <= chain.size()) ? group : chain;
@@ -150,8 +149,8 @@ RegionFault TopologyStage::grow(Region& region) {
     return RegionFault::irregular;
 }
 
-RegionFault TopologyStage::measure(Region& region) {
-    const mesh::Complex& c = bench_.complex;
+RegionFault measure(const Workbench& bench, Region& region) {
+    const mesh::Complex& c = bench.complex;
     std::vector<BoundaryFace> faces;
     std::vector<BoundaryEdge> edges;
     std::vector<VertexId> vertices;

@@ -24,6 +24,24 @@ mesh::Label other_label(const mesh::Complex& c, std::span<const TetId> star, mes
     return other;
 }
 
+using Kind = mesh::TopologyCandidate::Kind;
+
+Kind kind_of(const Region& region) {
+    if (region.patches_from == 2) return Kind::cut;
+    if (region.patches_to == 1) return Kind::shift;
+    return region.from > 0 ? Kind::open : Kind::merge;
+}
+
+bool wanted(Kind kind, const mesh::TopologyLimits& limits) {
+    switch (kind) {
+        case Kind::open:
+        case Kind::shift: return limits.open;
+        case Kind::merge: return limits.merge;
+        case Kind::cut: return limits.cut;
+    }
+    return false;
+}
+
 }  // namespace
 
 bool TopologyStage::recent(VertexId v, std::uint64_t step) const {
@@ -131,10 +149,11 @@ RegionFault TopologyStage::start(const Seed& seed, Region& region) {
 
 RegionFault TopologyStage::region_of(const Seed& seed, Region& region) {
     if (const RegionFault fault = start(seed, region); fault != RegionFault::none) return fault;
-    if (const RegionFault fault = grow(region); fault != RegionFault::none) return fault;
-    if (const RegionFault fault = measure(region); fault != RegionFault::none) return fault;
-    const bool event = (region.patches_from == 1 && region.patches_to == 2) || (region.patches_from == 2 && region.patches_to == 1);
-    return event ? RegionFault::none : RegionFault::kind;
+    if (const RegionFault fault = grow(bench_, region); fault != RegionFault::none) return fault;
+    if (const RegionFault fault = measure(bench_, region); fault != RegionFault::none) return fault;
+    const unsigned s = region.patches_from, o = region.patches_to;
+    const bool known = (s == 1 && o == 2) || (s == 2 && o == 1) || (s == 1 && o == 1 && region.from > 0);
+    return known ? RegionFault::none : RegionFault::kind;
 }
 
 bool TopologyStage::same_shell(std::span<const VertexId> from, std::span<const VertexId> to) {
@@ -200,10 +219,8 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
     for (const Seed& seed : seeds_) {
         if (region_of(seed, region) != RegionFault::none) continue;
         mesh::TopologyCandidate candidate;
-        const bool cut = region.patches_from == 2;
-        candidate.kind = cut ? mesh::TopologyCandidate::Kind::cut
-                             : region.from > 0 ? mesh::TopologyCandidate::Kind::open : mesh::TopologyCandidate::Kind::merge;
-        if ((cut && !limits.cut) || (!cut && region.from > 0 && !limits.open) || (!cut && region.from <= 0 && !limits.merge)) continue;
+        candidate.kind = kind_of(region);
+        if (!wanted(candidate.kind, limits)) continue;
         candidate.label = region.from;
         candidate.centroid = region.centroid;
         candidate.thickness = thickness(region) / bench_.limits.length;
@@ -227,19 +244,26 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
     });
     const auto most = static_cast<std::size_t>(
         std::max(1.0, events_per_vertex * static_cast<double>(c.interface_vertices().size())));
-    std::size_t committed = 0;
+    std::size_t committed = 0, shifted = 0;
     near_.clear();
     for (const Found* f : order) {
-        if (committed == most) break;
+        const bool shift = f->candidate.kind == mesh::TopologyCandidate::Kind::shift;
+        if ((shift ? shifted : committed) == most) continue;
         if (!usable(f->seed, step) || region_of(f->seed, region) != RegionFault::none) continue;
-        const bool cut = region.patches_from == 2;
-        if (cut != (f->candidate.kind == mesh::TopologyCandidate::Kind::cut)) continue;
-        if (thickness(region) / bench_.limits.length > limits.thickness) continue;
-        events.push_back(commit(region, step));
-        ++committed;
+        if (kind_of(region) != f->candidate.kind || thickness(region) / bench_.limits.length > limits.thickness) continue;
+        if (shift) {
+            if (region.volume > bench_.limits.edit_volume) continue;
+            c.relabel(region.tets, region.to);
+            bench_.sums.relabelled += region.volume;
+            bench_.sums.volume += region.volume;
+            ++shifted;
+        } else {
+            events.push_back(commit(region, step));
+            ++committed;
+        }
         for (const TetId t : region.tets) near_.insert(near_.end(), c.tet(t).v.begin(), c.tet(t).v.end());
     }
-    if (committed > 0) remove_small_components(step, std::vector<VertexId>(near_), limits.min_component, events);
+    if (!near_.empty()) remove_small_components(step, std::vector<VertexId>(near_), limits.min_component, events);
 }
 
 // The component of the seed if it is small, closed in by one label and bounded by one surface.
@@ -251,7 +275,7 @@ bool TopologyStage::flood_component(TetId seed, double volume_limit, Region& reg
     for (std::size_t i = 0; i < region.tets.size(); ++i) {
         const TetId t = region.tets[i];
         volume += c.volume(t);
-        if (volume >= volume_limit || region.tets.size() > small_component || touches_box(t)) return false;
+        if (volume >= volume_limit || region.tets.size() > small_component || touches_box(c, t)) return false;
         for (unsigned f = 0; f < 4; ++f) {
             const TetId next = mesh::neighbour_tet(c.tet(t).n[f]);
             if (c.label(next) != region.from) {
@@ -284,7 +308,7 @@ void TopologyStage::remove_small_components(std::uint64_t step, std::span<const 
         for (const TetId seed : seeds) {
             if (!flood_component(seed, limit, region)) continue;
             // A ball vanishes as one event; anything with handles or cavities waits until it is one.
-            if (measure(region) != RegionFault::none || region.patches_from != 0 || region.patches_to != 1) continue;
+            if (measure(bench_, region) != RegionFault::none || region.patches_from != 0 || region.patches_to != 1) continue;
             events.push_back(commit(region, step));
             break;
         }

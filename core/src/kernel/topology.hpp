@@ -8,23 +8,9 @@
 #include <dsc/kernel/step_report.hpp>
 #include <dsc/mesh/repair.hpp>
 
-#include "kernel/workbench.hpp"
+#include "kernel/region.hpp"
 
 namespace dsc::kernel {
-
-/// Why a region was not taken.
-enum class RegionFault : std::uint8_t { none, irregular, too_large, not_a_ball, kind, box, labels };
-
-/// A set of tets of one label that could take another.
-struct Region {
-    std::vector<TetId> tets;
-    mesh::Label from = 0, to = 0;
-    unsigned patches_from = 0;  ///< s: edge-connected patches of the boundary that face `from`
-    unsigned patches_to = 0;    ///< o: those that face `to`
-    double volume = 0.0, area_from = 0.0, area_to = 0.0;
-    Vec3 centroid = Vec3::Zero();
-    std::vector<VertexId> patch_a, patch_b;  ///< vertices of the two patches of the side that has two
-};
 
 class TopologyStage {
 public:
@@ -39,17 +25,8 @@ public:
     /// Components near the given vertices below `min_component` regular tets take the label around them.
     void remove_small_components(std::uint64_t step, std::span<const VertexId> near, double min_component, std::vector<Event>& events);
 
-    // The parts, for tests that try arbitrary regions.
-    /// Grows the region until every vertex is regular with `to` on it, or says why not.
-    RegionFault grow(Region& region);
-    /// Whether the region as it is leaves all its vertices regular.
-    bool regular(const Region& region);
-    /// Patches, areas, volume, centroid; not_a_ball unless the boundary is one closed surface of Euler number 2.
-    RegionFault measure(Region& region);
     /// Relabels and names the event; kinds other than (1,2), (2,1), (0,1), (1,0) must not be committed.
     Event commit(const Region& region, std::uint64_t step);
-    /// Length that decides: sheet or gap thickness for (1,2), neck diameter for (2,1).
-    static double thickness(const Region& region);
 
 private:
     // Where a region may start: an edge inside a phase, its ends on the interface; or a face inside a phase whose three
@@ -70,7 +47,6 @@ private:
     RegionFault region_of(const Seed& seed, Region& region);
     bool usable(const Seed& seed, std::uint64_t step) const;
     bool same_shell(std::span<const VertexId> from, std::span<const VertexId> to);
-    bool touches_box(TetId t) const;
     void mark_event(const Region& region, std::uint64_t step);
     bool recent(VertexId v, std::uint64_t step) const;
     bool flood_component(TetId seed, double volume_limit, Region& region);
@@ -80,7 +56,6 @@ private:
     std::vector<Found> found_;
     std::vector<std::uint64_t> event_step_;  // per vertex: 1 + step of the last event that touched it
     std::vector<std::uint32_t> event_birth_;
-    std::vector<VertexId> region_vertices_;
     std::vector<std::uint32_t> seen_;
     std::uint32_t seen_epoch_ = 0;
     std::vector<VertexId> queue_;

@@ -1,6 +1,14 @@
 #include "strategy.hpp"
 
+#include <algorithm>
+#include <vector>
+
 namespace dsc::strategies {
+namespace {
+
+constexpr std::size_t spacing_neighbour = 6;  // as many as a point of a triangulated surface has on average
+
+}  // namespace
 
 void DscImprovement::Topology::declare(config::ParamSchema<Topology>& schema) {
     schema.boolean("open", &Topology::open).doc("Thin sheets of a label above 0 may be pierced.");
@@ -14,6 +22,11 @@ void DscImprovement::Topology::declare(config::ParamSchema<Topology>& schema) {
         .range(0, 10)
         .unit("mean edges")
         .doc("A change is vetoed where a cloud point lies this close to its centre.");
+    schema.real("spacing", &Topology::spacing)
+        .range(0, 10)
+        .unit("1")
+        .doc("Sheets and necks are also spared this close to a cloud point, in distances to its sixth neighbour there: where "
+             "the cloud is sparse, a thin part of the object has few points of its own.");
     schema.real("min_component", &Topology::min_component)
         .range(0, 1000)
         .unit("1")
@@ -70,9 +83,18 @@ mesh::TopologyLimits DscImprovement::topology_limits() const {
 void DscImprovement::select(const hooks::StepContext& context, std::span<const mesh::TopologyCandidate> candidates,
                             std::span<std::uint8_t> accept) {
     const double support = params_.topology.support * context.target_length;
+    std::vector<cloud::Neighbour> around;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const bool supported = context.cloud != nullptr && context.cloud->search().within(candidates[i].centroid, support);
-        accept[i] = supported ? 0 : 1;
+        accept[i] = 1;
+        if (context.cloud == nullptr) continue;
+        const cloud::NearestSearch& search = context.cloud->search();
+        const cloud::Neighbour nearest = search.nearest(candidates[i].centroid);
+        double reach = support;
+        if (candidates[i].kind != mesh::TopologyCandidate::Kind::merge) {
+            search.k_nearest((*context.cloud)[nearest.index], spacing_neighbour + 1, around);
+            reach = std::max(reach, params_.topology.spacing * around.back().distance);
+        }
+        accept[i] = nearest.distance > reach ? 1 : 0;
     }
 }
 

@@ -18,6 +18,7 @@ public:
         bool cut = true;
         double thickness = 0.6;
         double support = 0.5;
+        double spacing = 0.8;
         double min_component = 2.0;
 
         static void declare(config::ParamSchema<Topology>& schema);

@@ -110,7 +110,15 @@ TEST_CASE("the topology policy follows its parameters") {
     std::vector<mesh::TopologyCandidate> candidates(2);
     candidates[0].centroid = Vec3(0.96, 0, 0);
     candidates[1].centroid = Vec3(0.94, 0, 0);
+    for (auto& candidate : candidates) candidate.kind = mesh::TopologyCandidate::Kind::merge;
     std::vector<std::uint8_t> accept(2, 7);
+    on->select(step, candidates, accept);
+    CHECK(accept == std::vector<std::uint8_t>{0, 1});
+    // The octahedron's points are sqrt(2) apart: so sparse a cloud vetoes sheets and necks everywhere near it.
+    for (auto& candidate : candidates) candidate.kind = mesh::TopologyCandidate::Kind::open;
+    on->select(step, candidates, accept);
+    CHECK(accept == std::vector<std::uint8_t>{0, 0});
+    candidates[1].centroid = Vec3(2.8, 0, 0);
     on->select(step, candidates, accept);
     CHECK(accept == std::vector<std::uint8_t>{0, 1});
 }

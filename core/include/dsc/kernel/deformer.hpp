@@ -16,7 +16,7 @@ namespace dsc::kernel {
 /// Limits of the kernel; lengths in target lengths, volumes in regular tets of edge L.
 struct DeformerOptions {
     double quality_floor = 1e-3;     ///< no commit leaves a touched tet below min(floor, its value before)
-    double free_path = 0.9;          ///< fraction of the way to the first inversion that a move may take
+    double free_path = 0.5;          ///< fraction of the way to the first inversion that one move may take
     unsigned max_rounds = 50;        ///< repair rounds a step
     unsigned stall_rounds = 5;       ///< rounds in which the distance left must fall by stall_ratio
     double stall_ratio = 0.01;

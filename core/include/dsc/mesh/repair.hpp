@@ -82,8 +82,10 @@ struct TopologyLimits {
 
 /// A topology change that the kernel found possible.
 struct TopologyCandidate {
-    enum class Kind : std::uint8_t { open, merge, cut };
-    Kind kind = Kind::open;  ///< open: a sheet of a label above 0 pierced; merge: a gap of label 0 bridged; cut: a neck cut
+    /// open: a sheet of a label above 0 pierced; merge: a gap of label 0 bridged; cut: a neck cut; shift: the rim of a
+    /// sheet of a label above 0 drawn back, which changes no topology but lets the hole of a pierced web grow.
+    enum class Kind : std::uint8_t { open, merge, cut, shift };
+    Kind kind = Kind::open;
     Label label = 0;         ///< of the tets that would be relabelled
     Vec3 centroid = Vec3::Zero();
     double thickness = 0.0;  ///< in target lengths
