@@ -15,7 +15,8 @@ std::unique_ptr<Hook> as(std::unique_ptr<hooks::Strategy> strategy) {
 
 std::unique_ptr<hooks::Strategy> check(std::unique_ptr<hooks::Strategy> made, Attribution attribution) {
     switch (attribution.who.kind) {
-        case Kind::velocity: return check_velocity(as<hooks::VelocityField>(std::move(made)), std::move(attribution));
+        case Kind::velocity:
+            return check_velocity(as<hooks::VelocityField>(std::move(made)), std::move(attribution));
         case Kind::curvature:
             return check_curvature(as<hooks::CurvatureEstimator>(std::move(made)), std::move(attribution));
         case Kind::refinement:
@@ -24,7 +25,8 @@ std::unique_ptr<hooks::Strategy> check(std::unique_ptr<hooks::Strategy> made, At
             return check_initial_mesh(as<hooks::InitialMesh>(std::move(made)), std::move(attribution));
         case Kind::improvement:
             return check_improvement(as<hooks::Improvement>(std::move(made)), std::move(attribution));
-        case Kind::observer: return check_observer(as<hooks::Observer>(std::move(made)), std::move(attribution));
+        case Kind::observer:
+            return check_observer(as<hooks::Observer>(std::move(made)), std::move(attribution));
     }
     throw Error(ExitCode::internal, "plugin.kind", "a strategy of no kind");
 }
@@ -35,8 +37,9 @@ std::unique_ptr<hooks::Strategy> check(std::unique_ptr<hooks::Strategy> made, At
     const std::vector<std::string> known = catalogue.ids(name);
     std::string text = path + ": there is no " + name + " '" + id + "'";
     if (const auto near = config::closest(id, known)) text += ", did you mean '" + *near + "'?";
-    text += known.empty() ? "; no plugin with a strategy of this kind is loaded, see --plugin and DSC_PLUGIN_PATH"
-                          : "; loaded are " + config::join(known) + ", others come with --plugin or DSC_PLUGIN_PATH";
+    text += known.empty()
+                ? "; no plugin with a strategy of this kind is loaded, see --plugin and DSC_PLUGIN_PATH"
+                : "; loaded are " + config::join(known) + ", others come with --plugin or DSC_PLUGIN_PATH";
     throw PluginError("plugin.unknown_strategy", text);
 }
 
@@ -71,9 +74,9 @@ std::unique_ptr<hooks::Strategy> Catalogue::create(Kind kind, const config::Stra
     diagnostics.throw_if_errors();
 
     const Setup setup(*this, path);
-    Attribution attribution{{kind, config.type, path, found->plugin->name, found->plugin->version,
-                             found->plugin->file.string()},
-                            setup.instance()};
+    Attribution attribution{
+        {kind, config.type, path, found->plugin->name, found->plugin->version, found->plugin->file.string()},
+        setup.instance()};
     const Call call = attribution.call("constructor");
     auto made = guarded(call, [&] { return found->strategy->make(resolved, setup); });
     return check(std::move(made), std::move(attribution));

@@ -1,6 +1,6 @@
 #pragma once
-// Wrappers round strategies of each kind: they guard every call, give the contexts the strategy's own instance number
-// and judge what comes back. Catalogue::create hands out nothing else.
+// Wrappers round strategies of each kind: they guard every call, give the contexts the strategy's own
+// instance number and judge what comes back. Catalogue::create hands out nothing else.
 
 #include <dsc/plugin/guarded.hpp>
 #include <memory>
@@ -12,7 +12,9 @@ struct Attribution {
     Identity who;
     std::uint64_t instance = 0;
 
-    Call call(std::string_view hook, std::optional<std::uint64_t> step = std::nullopt) const { return {who, hook, step}; }
+    Call call(std::string_view hook, std::optional<std::uint64_t> step = std::nullopt) const {
+        return {who, hook, step};
+    }
 };
 
 /// Save and load of any wrapped hook.
@@ -48,13 +50,17 @@ private:
     Attribution attribution_;
 };
 
-std::unique_ptr<hooks::Strategy> check_velocity(std::unique_ptr<hooks::VelocityField> inner, Attribution attribution);
+std::unique_ptr<hooks::Strategy> check_velocity(std::unique_ptr<hooks::VelocityField> inner,
+                                                Attribution attribution);
 std::unique_ptr<hooks::Strategy> check_curvature(std::unique_ptr<hooks::CurvatureEstimator> inner,
                                                  Attribution attribution);
 std::unique_ptr<hooks::Strategy> check_refinement(std::unique_ptr<hooks::RefinementPolicy> inner,
                                                   Attribution attribution);
-std::unique_ptr<hooks::Strategy> check_initial_mesh(std::unique_ptr<hooks::InitialMesh> inner, Attribution attribution);
-std::unique_ptr<hooks::Strategy> check_improvement(std::unique_ptr<hooks::Improvement> inner, Attribution attribution);
-std::unique_ptr<hooks::Strategy> check_observer(std::unique_ptr<hooks::Observer> inner, Attribution attribution);
+std::unique_ptr<hooks::Strategy> check_initial_mesh(std::unique_ptr<hooks::InitialMesh> inner,
+                                                    Attribution attribution);
+std::unique_ptr<hooks::Strategy> check_improvement(std::unique_ptr<hooks::Improvement> inner,
+                                                   Attribution attribution);
+std::unique_ptr<hooks::Strategy> check_observer(std::unique_ptr<hooks::Observer> inner,
+                                                Attribution attribution);
 
 }  // namespace dsc::plugin

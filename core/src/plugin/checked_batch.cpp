@@ -1,10 +1,10 @@
 // Velocity and curvature: batches of values a vertex, called concurrently.
-#include "plugin/checked.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <dsc/config/yaml.hpp>
 #include <limits>
+
+#include "plugin/checked.hpp"
 
 namespace dsc::plugin {
 namespace {
@@ -35,9 +35,12 @@ std::string vertex_text(const hooks::StepContext& context, std::size_t vertex) {
 // The context that evaluate() calls refer to until the next prepare().
 class StepMemory {
 public:
-    const hooks::StepContext& keep(hooks::StepContext context) { return context_.emplace(std::move(context)); }
+    const hooks::StepContext& keep(hooks::StepContext context) {
+        return context_.emplace(std::move(context));
+    }
     const hooks::StepContext& get(const Call& call) const {
-        if (!context_) throw Error(ExitCode::internal, "plugin.not_prepared", call.who.describe() + ": not prepared");
+        if (!context_)
+            throw Error(ExitCode::internal, "plugin.not_prepared", call.who.describe() + ": not prepared");
         return *context_;
     }
 
@@ -62,7 +65,8 @@ public:
         for (std::size_t i = 0; i < out.size(); ++i) {
             if (out[i].allFinite()) continue;
             fail(current, "strategy.not_finite",
-                 "gave the displacement " + vector_text(out[i]) + " to " + vertex_text(context, range.begin + i),
+                 "gave the displacement " + vector_text(out[i]) + " to " +
+                     vertex_text(context, range.begin + i),
                  values_remedy);
         }
     }
@@ -107,8 +111,8 @@ public:
         for (std::size_t i = 0; i < scalar.size(); ++i) {
             if (std::isfinite(scalar[i]) && vector[i].allFinite()) continue;
             fail(current, "strategy.not_finite",
-                 "gave the curvature " + number(scalar[i]) + " and the vector " + vector_text(vector[i]) + " to " +
-                     vertex_text(context, range.begin + i),
+                 "gave the curvature " + number(scalar[i]) + " and the vector " + vector_text(vector[i]) +
+                     " to " + vertex_text(context, range.begin + i),
                  values_remedy);
         }
     }
@@ -119,7 +123,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<hooks::Strategy> check_velocity(std::unique_ptr<hooks::VelocityField> inner, Attribution attribution) {
+std::unique_ptr<hooks::Strategy> check_velocity(std::unique_ptr<hooks::VelocityField> inner,
+                                                Attribution attribution) {
     return std::make_unique<CheckedVelocity>(std::move(inner), std::move(attribution));
 }
 

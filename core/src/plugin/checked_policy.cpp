@@ -1,16 +1,18 @@
 // Refinement, initial mesh, improvement and observer: called from one thread, answers of any size.
-#include "plugin/checked.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "plugin/checked.hpp"
 
 namespace dsc::plugin {
 namespace {
 
 constexpr std::string_view report = "report this to the plugin's authors";
 
-std::string at(std::string_view what, std::size_t index) { return std::string(what) + " " + std::to_string(index); }
+std::string at(std::string_view what, std::size_t index) {
+    return std::string(what) + " " + std::to_string(index);
+}
 
 class CheckedRefinement final : public Checked<hooks::RefinementPolicy> {
 public:
@@ -27,7 +29,8 @@ public:
         const surface::SurfaceView& view = step.surface;
         const std::size_t vertices = view.vertex_count();
         for (std::size_t i = 0; i < out.split_faces.size(); ++i) {
-            if (out.split_faces[i] >= view.face_count()) bad_index(current, at("split_faces", i), out.split_faces[i]);
+            if (out.split_faces[i] >= view.face_count())
+                bad_index(current, at("split_faces", i), out.split_faces[i]);
         }
         for (std::size_t i = 0; i < out.split_edges.size(); ++i) {
             for (const std::uint32_t v : out.split_edges[i]) {
@@ -54,8 +57,8 @@ public:
 
 private:
     [[noreturn]] static void bad_index(const Call& current, const std::string& where, std::uint32_t value) {
-        fail(current, "strategy.range", "asked in " + where + " for " + std::to_string(value) + ", which does not exist",
-             report);
+        fail(current, "strategy.range",
+             "asked in " + where + " for " + std::to_string(value) + ", which does not exist", report);
     }
 };
 
@@ -71,26 +74,28 @@ public:
         if (mesh.tets.empty()) fail(current, "strategy.size", "gave a mesh without tets", report);
         if (mesh.labels.size() != mesh.tets.size()) {
             fail(current, "strategy.size",
-                 "gave " + std::to_string(mesh.labels.size()) + " labels for " + std::to_string(mesh.tets.size()) +
-                     " tets",
+                 "gave " + std::to_string(mesh.labels.size()) + " labels for " +
+                     std::to_string(mesh.tets.size()) + " tets",
                  report);
         }
         for (std::size_t i = 0; i < mesh.points.size(); ++i) {
             if (!mesh.points[i].allFinite()) {
-                fail(current, "strategy.not_finite", "gave " + at("point", i) + " a coordinate that is not finite",
-                     report);
+                fail(current, "strategy.not_finite",
+                     "gave " + at("point", i) + " a coordinate that is not finite", report);
             }
         }
         for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
             for (const std::uint32_t v : mesh.tets[i]) {
                 if (v < mesh.points.size()) continue;
-                fail(current, "strategy.range", "gave " + at("tet", i) + " the point " + std::to_string(v) + " of " +
+                fail(current, "strategy.range",
+                     "gave " + at("tet", i) + " the point " + std::to_string(v) + " of " +
                          std::to_string(mesh.points.size()),
                      report);
             }
             if (mesh.labels[i] < 0) {
                 fail(current, "strategy.range",
-                     "gave " + at("tet", i) + " the label " + std::to_string(mesh.labels[i]) + " below 0", report);
+                     "gave " + at("tet", i) + " the label " + std::to_string(mesh.labels[i]) + " below 0",
+                     report);
             }
         }
         return mesh;
@@ -107,7 +112,8 @@ public:
         const Call current = call("propose", step.step);
         const std::size_t before = out.size();
         guarded(current, [&] { inner().propose(step, round, out); });
-        if (out.size() < before) fail(current, "strategy.size", "removed requests that were there before", report);
+        if (out.size() < before)
+            fail(current, "strategy.size", "removed requests that were there before", report);
         for (std::size_t i = before; i < out.size(); ++i) judge(current, round.complex, out[i], i - before);
     }
 
@@ -115,7 +121,8 @@ public:
         const Call current = call("flatness");
         const double cosine = guarded(current, [&] { return inner().flatness(); });
         if (!(cosine >= -1 && cosine <= 1)) {
-            fail(current, "strategy.range", "gave " + std::to_string(cosine) + ", which is no cosine", report);
+            fail(current, "strategy.range", "gave " + std::to_string(cosine) + ", which is no cosine",
+                 report);
         }
         return cosine;
     }
@@ -141,7 +148,8 @@ public:
         for (std::size_t i = 0; i < accept.size(); ++i) {
             if (accept[i] <= 1) continue;
             fail(current, "strategy.range",
-                 "gave " + at("candidate", i) + " the answer " + std::to_string(accept[i]) + " where 0 or 1 is due",
+                 "gave " + at("candidate", i) + " the answer " + std::to_string(accept[i]) +
+                     " where 0 or 1 is due",
                  report);
         }
     }
@@ -154,16 +162,17 @@ private:
             fail(current, "strategy.range", "named an operation that does not exist " + where, report);
         }
         if (request.tet != mesh::none && request.tet >= complex.tet_slots()) {
-            fail(current, "strategy.range", "named tet " + std::to_string(request.tet) + ", which does not exist, " + where,
-                 report);
+            fail(current, "strategy.range",
+                 "named tet " + std::to_string(request.tet) + ", which does not exist, " + where, report);
         }
         for (const mesh::VertexId v : request.vertices) {
             if (v == mesh::none || v < complex.vertex_slots()) continue;
-            fail(current, "strategy.range", "named vertex " + std::to_string(v) + ", which does not exist, " + where,
-                 report);
+            fail(current, "strategy.range",
+                 "named vertex " + std::to_string(v) + ", which does not exist, " + where, report);
         }
         for (const float value : {request.parameter, request.only_below, request.accept_above}) {
-            if (std::isnan(value)) fail(current, "strategy.not_finite", "gave a number that is NaN " + where, report);
+            if (std::isnan(value))
+                fail(current, "strategy.not_finite", "gave a number that is NaN " + where, report);
         }
     }
 };
@@ -213,8 +222,8 @@ private:
             }
             seen.push_back(name);
             if (!std::isfinite(value)) {
-                fail(current, "strategy.not_finite", "gave the figure '" + name + "' the value " + std::to_string(value),
-                     report);
+                fail(current, "strategy.not_finite",
+                     "gave the figure '" + name + "' the value " + std::to_string(value), report);
             }
         }
     }
@@ -229,15 +238,18 @@ std::unique_ptr<hooks::Strategy> check_refinement(std::unique_ptr<hooks::Refinem
     return std::make_unique<CheckedRefinement>(std::move(inner), std::move(attribution));
 }
 
-std::unique_ptr<hooks::Strategy> check_initial_mesh(std::unique_ptr<hooks::InitialMesh> inner, Attribution attribution) {
+std::unique_ptr<hooks::Strategy> check_initial_mesh(std::unique_ptr<hooks::InitialMesh> inner,
+                                                    Attribution attribution) {
     return std::make_unique<CheckedInitialMesh>(std::move(inner), std::move(attribution));
 }
 
-std::unique_ptr<hooks::Strategy> check_improvement(std::unique_ptr<hooks::Improvement> inner, Attribution attribution) {
+std::unique_ptr<hooks::Strategy> check_improvement(std::unique_ptr<hooks::Improvement> inner,
+                                                   Attribution attribution) {
     return std::make_unique<CheckedImprovement>(std::move(inner), std::move(attribution));
 }
 
-std::unique_ptr<hooks::Strategy> check_observer(std::unique_ptr<hooks::Observer> inner, Attribution attribution) {
+std::unique_ptr<hooks::Strategy> check_observer(std::unique_ptr<hooks::Observer> inner,
+                                                Attribution attribution) {
     return std::make_unique<CheckedObserver>(std::move(inner), std::move(attribution));
 }
 

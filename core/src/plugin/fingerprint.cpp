@@ -31,7 +31,8 @@ std::vector<Pair> parse(std::string_view text) {
 }
 
 const Pair* find(const std::vector<Pair>& pairs, std::string_view key) {
-    const auto found = std::find_if(pairs.begin(), pairs.end(), [key](const Pair& p) { return p.key == key; });
+    const auto found =
+        std::find_if(pairs.begin(), pairs.end(), [key](const Pair& p) { return p.key == key; });
     return found == pairs.end() ? nullptr : &*found;
 }
 
@@ -53,7 +54,8 @@ std::vector<FingerprintDifference> compare_fingerprints(std::string_view plugin,
         const Pair* other = find(theirs, own.key);
         const std::string_view value = other == nullptr ? std::string_view{} : other->value;
         if (value == own.value) continue;
-        differences.push_back({std::string(own.key), std::string(value), std::string(own.value), is_hard(own.key)});
+        differences.push_back(
+            {std::string(own.key), std::string(value), std::string(own.value), is_hard(own.key)});
     }
     for (const Pair& other : theirs) {
         if (find(ours, other.key) != nullptr) continue;

@@ -4,12 +4,18 @@ namespace dsc::plugin {
 
 std::string_view kind_name(Kind kind) noexcept {
     switch (kind) {
-        case Kind::velocity: return "velocity";
-        case Kind::curvature: return "curvature";
-        case Kind::refinement: return "refinement";
-        case Kind::initial_mesh: return "initial_mesh";
-        case Kind::improvement: return "improvement";
-        case Kind::observer: return "observer";
+        case Kind::velocity:
+            return "velocity";
+        case Kind::curvature:
+            return "curvature";
+        case Kind::refinement:
+            return "refinement";
+        case Kind::initial_mesh:
+            return "initial_mesh";
+        case Kind::improvement:
+            return "improvement";
+        case Kind::observer:
+            return "observer";
     }
     return {};
 }

@@ -34,7 +34,8 @@ public:
     // Up to `size` bytes into `to`; the number read.
     std::size_t copy(std::uint64_t offset, std::size_t size, void* to) const {
         if (offset >= data_.size()) return 0;
-        const std::size_t count = std::min<std::size_t>(size, data_.size() - static_cast<std::size_t>(offset));
+        const std::size_t count =
+            std::min<std::size_t>(size, data_.size() - static_cast<std::size_t>(offset));
         std::memcpy(to, data_.data() + offset, count);
         return count;
     }
@@ -46,7 +47,8 @@ public:
     // Whether a zero-ended text stands at the offset.
     bool text_equals(std::uint64_t offset, std::string_view text) const {
         if (offset > data_.size() || data_.size() - offset < text.size() + 1) return false;
-        return std::memcmp(data_.data() + offset, text.data(), text.size()) == 0 && data_[offset + text.size()] == '\0';
+        return std::memcmp(data_.data() + offset, text.data(), text.size()) == 0 &&
+               data_[offset + text.size()] == '\0';
     }
 
 private:
@@ -84,8 +86,10 @@ Elf64_Ehdr require_library(const Bytes& bytes, const std::filesystem::path& file
     if (!header || std::memcmp(header->e_ident, ELFMAG, SELFMAG) != 0) {
         refuse(file, "plugin.not_elf", "is not a shared library", "name a plugin's file, libdsc_NAME.so");
     }
-    if (header->e_ident[EI_CLASS] != ELFCLASS64 || header->e_ident[EI_DATA] != ELFDATA2LSB || header->e_type != ET_DYN) {
-        refuse(file, "plugin.not_elf", "is not a shared library for this machine", "build it on this machine");
+    if (header->e_ident[EI_CLASS] != ELFCLASS64 || header->e_ident[EI_DATA] != ELFDATA2LSB ||
+        header->e_type != ET_DYN) {
+        refuse(file, "plugin.not_elf", "is not a shared library for this machine",
+               "build it on this machine");
     }
     // The dynamic linker maps the segments without asking whether the file is long enough, and dies of it.
     bool whole = header->e_shentsize == sizeof(Elf64_Shdr) && header->e_phentsize == sizeof(Elf64_Phdr) &&
@@ -99,17 +103,20 @@ Elf64_Ehdr require_library(const Bytes& bytes, const std::filesystem::path& file
 }
 
 // Place in the file of what will lie at a virtual address.
-std::optional<std::uint64_t> file_offset(const Bytes& bytes, const Elf64_Ehdr& header, std::uint64_t address) {
+std::optional<std::uint64_t> file_offset(const Bytes& bytes, const Elf64_Ehdr& header,
+                                         std::uint64_t address) {
     for (std::uint64_t i = 0; i < header.e_phnum; ++i) {
         const auto segment = bytes.read<Elf64_Phdr>(header.e_phoff + i * sizeof(Elf64_Phdr));
         if (!segment) return std::nullopt;
         if (segment->p_type != PT_LOAD || address < segment->p_vaddr) continue;
-        if (address - segment->p_vaddr < segment->p_filesz) return segment->p_offset + (address - segment->p_vaddr);
+        if (address - segment->p_vaddr < segment->p_filesz)
+            return segment->p_offset + (address - segment->p_vaddr);
     }
     return std::nullopt;
 }
 
-// The symbol in the table of dynamic symbols; empty where there is none. Fails on a table that leaves the file.
+// The symbol in the table of dynamic symbols; empty where there is none. Fails on a table that leaves the
+// file.
 std::optional<Elf64_Sym> find_symbol(const Bytes& bytes, const Elf64_Ehdr& header, std::string_view name,
                                      const std::filesystem::path& file) {
     for (std::uint64_t i = 0; i < header.e_shnum; ++i) {
@@ -121,13 +128,16 @@ std::optional<Elf64_Sym> find_symbol(const Bytes& bytes, const Elf64_Ehdr& heade
         for (std::uint64_t k = 0; k < section->sh_size / sizeof(Elf64_Sym); ++k) {
             const auto symbol = bytes.read<Elf64_Sym>(section->sh_offset + k * sizeof(Elf64_Sym));
             if (!symbol) damaged(file);
-            if (symbol->st_shndx != SHN_UNDEF && bytes.text_equals(names->sh_offset + symbol->st_name, name)) return symbol;
+            if (symbol->st_shndx != SHN_UNDEF && bytes.text_equals(names->sh_offset + symbol->st_name, name))
+                return symbol;
         }
     }
     return std::nullopt;
 }
 
-std::string version_text(unsigned major, unsigned minor) { return std::to_string(major) + "." + std::to_string(minor); }
+std::string version_text(unsigned major, unsigned minor) {
+    return std::to_string(major) + "." + std::to_string(minor);
+}
 
 void require_same_build(const plugin::PluginEntry& entry, const std::filesystem::path& file) {
     const std::string theirs = text_of(entry.fingerprint);
@@ -139,14 +149,17 @@ void require_same_build(const plugin::PluginEntry& entry, const std::filesystem:
         cause += difference.key + " is '" + difference.plugin + "' there and '" + difference.host + "' here";
     }
     if (cause.empty()) return;
-    refuse(file, "plugin.fingerprint", cause,
-           "build it with dsc_add_plugin and the compiler options of this dsc (-march and -mavx change align)\n"
-           "  plugin: " + theirs + "\n  dsc:    " + ours);
+    refuse(
+        file, "plugin.fingerprint", cause,
+        "build it with dsc_add_plugin and the compiler options of this dsc (-march and -mavx change align)\n"
+        "  plugin: " +
+            theirs + "\n  dsc:    " + ours);
 }
 
 }  // namespace
 
-void refuse(const std::filesystem::path& file, std::string code, const std::string& cause, const std::string& remedy) {
+void refuse(const std::filesystem::path& file, std::string code, const std::string& cause,
+            const std::string& remedy) {
     throw PluginError(std::move(code), file.string() + ": " + cause + "; " + remedy);
 }
 
@@ -155,7 +168,8 @@ EntryBytes read_entry(const std::filesystem::path& file) {
     const Elf64_Ehdr header = require_library(bytes, file);
     const auto symbol = find_symbol(bytes, header, plugin::entry_symbol, file);
     if (!symbol) {
-        refuse(file, "plugin.no_entry", std::string("is a library without the symbol ") + plugin::entry_symbol,
+        refuse(file, "plugin.no_entry",
+               std::string("is a library without the symbol ") + plugin::entry_symbol,
                "a plugin has one DSC_PLUGIN(...) { ... } in one of its sources");
     }
     const auto offset = file_offset(bytes, header, symbol->st_value);
@@ -170,7 +184,8 @@ EntryBytes read_entry(const std::filesystem::path& file) {
 void require_fitting(const EntryBytes& bytes, const std::filesystem::path& file) {
     const plugin::PluginEntry& entry = bytes.entry;
     if (bytes.available < offsetof(plugin::PluginEntry, fingerprint) || entry.magic != plugin::entry_magic) {
-        refuse(file, "plugin.magic", std::string("has a symbol ") + plugin::entry_symbol + " that is no entry of a dsc plugin",
+        refuse(file, "plugin.magic",
+               std::string("has a symbol ") + plugin::entry_symbol + " that is no entry of a dsc plugin",
                "a plugin's entry is made by DSC_PLUGIN(...) { ... }, never by hand");
     }
     const std::string rebuild = "rebuild it against dsc's headers of this version";

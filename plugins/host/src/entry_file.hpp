@@ -1,6 +1,6 @@
 #pragma once
-// Reads a plugin's entry from the library's file, so that the gate decides before any code of the library runs: not
-// even its static constructors, nor the start-up of a sanitizer that the host lacks.
+// Reads a plugin's entry from the library's file, so that the gate decides before any code of the library
+// runs: not even its static constructors, nor the start-up of a sanitizer that the host lacks.
 
 #include <array>
 #include <cstdint>
@@ -19,8 +19,8 @@ struct EntryBytes {
 /// Throws PluginError "plugin.open", "plugin.not_elf", "plugin.no_entry".
 EntryBytes read_entry(const std::filesystem::path& file);
 
-/// Judges magic, ABI, size and fingerprint, in this order: another ABI explains another size. Throws PluginError
-/// "plugin.magic", "plugin.abi", "plugin.size", "plugin.fingerprint".
+/// Judges magic, ABI, size and fingerprint, in this order: another ABI explains another size. Throws
+/// PluginError "plugin.magic", "plugin.abi", "plugin.size", "plugin.fingerprint".
 void require_fitting(const EntryBytes& bytes, const std::filesystem::path& file);
 
 /// The text up to its zero byte, never beyond the array.

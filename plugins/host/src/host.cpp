@@ -15,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_plain_name(std::string_view name) {
-    return !name.empty() && name[0] >= 'a' && name[0] <= 'z' && std::all_of(name.begin(), name.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-    });
+    return !name.empty() && name[0] >= 'a' && name[0] <= 'z' &&
+           std::all_of(name.begin(), name.end(),
+                       [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
 }
 
 bool is_library_name(const std::string& name) {
@@ -27,8 +27,8 @@ bool is_library_name(const std::string& name) {
            name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
 }
 
-// Loading a library is running it: nobody else may be able to put one there. A sticky folder (as /tmp) protects a file
-// that the user names, but not what a scan of it would find.
+// Loading a library is running it: nobody else may be able to put one there. A sticky folder (as /tmp)
+// protects a file that the user names, but not what a scan of it would find.
 void require_unwritable(const fs::path& path, bool sticky_will_do) {
     std::error_code error;
     const fs::perms permissions = fs::status(path, error).permissions();
@@ -38,8 +38,8 @@ void require_unwritable(const fs::path& path, bool sticky_will_do) {
            "take the permission away (chmod o-w) or move the plugin to a folder of your own");
 }
 
-// The folder beside the core library: whoever may write there may as well replace the program, so a judgement of it
-// would only stop builds made with a permissive umask.
+// The folder beside the core library: whoever may write there may as well replace the program, so a judgement
+// of it would only stop builds made with a permissive umask.
 bool as_trusted_as_the_program(const fs::path& folder) {
     std::error_code error;
     return fs::equivalent(folder, installed_folder(), error);
@@ -48,20 +48,25 @@ bool as_trusted_as_the_program(const fs::path& folder) {
 fs::path real_path(const fs::path& file) {
     std::error_code error;
     fs::path real = fs::canonical(file, error);
-    if (error) refuse(file, "plugin.open", "cannot be opened (" + error.message() + ")", "check the name and the permissions");
+    if (error)
+        refuse(file, "plugin.open", "cannot be opened (" + error.message() + ")",
+               "check the name and the permissions");
     return real;
 }
 
 const plugin::PluginEntry* open_library(const fs::path& file) {
-    // NODELETE, and no dlclose anywhere: virtual tables, exceptions and statics of a plugin stay valid to the end.
+    // NODELETE, and no dlclose anywhere: virtual tables, exceptions and statics of a plugin stay valid to the
+    // end.
     void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     const char* reason = library == nullptr ? dlerror() : nullptr;
     if (library == nullptr) {
-        refuse(file, "plugin.load", std::string("does not load: ") + (reason == nullptr ? "no reason given" : reason),
+        refuse(file, "plugin.load",
+               std::string("does not load: ") + (reason == nullptr ? "no reason given" : reason),
                "a symbol or library that it needs is missing; link with -Wl,-z,defs to see it when building");
     }
     const void* entry = dlsym(library, plugin::entry_symbol);
-    if (entry == nullptr) refuse(file, "plugin.no_entry", "lost its entry while it was loaded", "load it again");
+    if (entry == nullptr)
+        refuse(file, "plugin.no_entry", "lost its entry while it was loaded", "load it again");
     return static_cast<const plugin::PluginEntry*>(entry);
 }
 
@@ -89,7 +94,8 @@ std::vector<plugin::StrategyRecord> enroll(const plugin::PluginEntry& entry, con
     const std::string remedy = "report this to the plugin's authors";
     const std::string name = text_of(entry.name);
     if (!is_plain_name(name)) {
-        refuse(file, "plugin.enroll", "names itself '" + name + "', which is not of the form [a-z][a-z0-9_]*", remedy);
+        refuse(file, "plugin.enroll", "names itself '" + name + "', which is not of the form [a-z][a-z0-9_]*",
+               remedy);
     }
     if (entry.enroll == nullptr) refuse(file, "plugin.enroll", "has no enroll function", remedy);
     Staging staging;
@@ -98,20 +104,28 @@ std::vector<plugin::StrategyRecord> enroll(const plugin::PluginEntry& entry, con
     } catch (const std::exception& error) {
         refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: " + error.what(), remedy);
     } catch (...) {
-        refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: it threw no std::exception", remedy);
+        refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: it threw no std::exception",
+               remedy);
     }
-    if (staging.records.empty()) refuse(file, "plugin.enroll", "plugin '" + name + "' registers no strategy", remedy);
+    if (staging.records.empty())
+        refuse(file, "plugin.enroll", "plugin '" + name + "' registers no strategy", remedy);
     return std::move(staging.records);
 }
 
 plugin::PluginInfo info_of(const plugin::PluginEntry& entry, const fs::path& file) {
-    return {text_of(entry.name),    text_of(entry.version),     text_of(entry.license), text_of(entry.summary),
-            text_of(entry.authors), text_of(entry.fingerprint), file};
+    return {text_of(entry.name),
+            text_of(entry.version),
+            text_of(entry.license),
+            text_of(entry.summary),
+            text_of(entry.authors),
+            text_of(entry.fingerprint),
+            file};
 }
 
 void log_soft_differences(const plugin::PluginInfo& info) {
     for (const auto& d : plugin::compare_fingerprints(info.fingerprint, plugin::core_fingerprint())) {
-        log(LogLevel::debug, info.file.string() + ": " + d.key + " is '" + d.plugin + "', that of dsc is '" + d.host + "'");
+        log(LogLevel::debug,
+            info.file.string() + ": " + d.key + " is '" + d.plugin + "', that of dsc is '" + d.host + "'");
     }
 }
 
@@ -163,6 +177,9 @@ void Host::attempt(const SearchEntry& entry, const fs::path& file, OnFault on_fa
         if (on_fault == OnFault::stop_if_required && fatal) {
             throw PluginError(error.code(), entry.origin + ": " + error.what());
         }
+        const bool known = std::any_of(faults_.begin(), faults_.end(),
+                                       [&file](const Fault& fault) { return fault.file == file; });
+        if (known) return;
         faults_.push_back({file, error.code(), error.what()});
         if (on_fault == OnFault::stop_if_required) log(LogLevel::warning, entry.origin + ": " + error.what());
     }
@@ -177,15 +194,20 @@ void Host::load_folder(const SearchEntry& entry, OnFault on_fault) {
             if (is_library_name(item.path().filename().string())) files.insert(item.path());
         }
         if (error) {
-            refuse(entry.path, "plugin.open", "cannot be listed (" + error.message() + ")", "check its permissions");
+            refuse(entry.path, "plugin.open", "cannot be listed (" + error.message() + ")",
+                   "check its permissions");
         }
     });
+    std::error_code error;
     for (const fs::path& file : files) {
         const auto earlier = std::find_if(loaded_.begin(), loaded_.end(), [&file](const auto& loaded) {
             return loaded->info.file.filename() == file.filename();
         });
         if (earlier != loaded_.end()) {
-            log(LogLevel::info, (*earlier)->info.file.string() + " stands in front of " + file.string());
+            const fs::path& front = (*earlier)->info.file;
+            if (!fs::equivalent(front, file, error)) {
+                log(LogLevel::info, front.string() + " stands in front of " + file.string());
+            }
             continue;
         }
         attempt(entry, file, on_fault, [&] { load(file); });

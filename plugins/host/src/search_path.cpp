@@ -17,9 +17,9 @@ void add_variable(std::vector<SearchEntry>& entries, const std::string& list) {
         begin = end + 1;
         if (path.empty()) continue;
         if (path.is_relative()) {
-            throw PluginError("plugin.search_path",
-                              "DSC_PLUGIN_PATH: '" + path.string() +
-                                  "' is relative, and what it means would depend on the current folder; write it from the root");
+            throw PluginError("plugin.search_path", "DSC_PLUGIN_PATH: '" + path.string() +
+                                                        "' is relative, and what it means would depend on "
+                                                        "the current folder; write it from the root");
         }
         entries.push_back({path, "DSC_PLUGIN_PATH", true});
     }
@@ -44,7 +44,8 @@ fs::path installed_folder() {
 
 std::vector<SearchEntry> search_path(const SearchOptions& options) {
     std::vector<SearchEntry> entries;
-    for (const fs::path& path : options.command_line) entries.push_back({fs::absolute(path), "--plugin", true});
+    for (const fs::path& path : options.command_line)
+        entries.push_back({fs::absolute(path), "--plugin", true});
     for (const fs::path& path : options.experiment) entries.push_back({path, "plugins:", true});
     add_variable(entries, options.environment("DSC_PLUGIN_PATH").value_or(""));
     std::error_code error;

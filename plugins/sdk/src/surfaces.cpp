@@ -12,11 +12,11 @@ using Face = std::array<std::uint32_t, 3>;
 surface::TriangleMesh icosahedron() {
     const double g = 0.5 * (1.0 + std::sqrt(5.0));
     surface::TriangleMesh mesh;
-    mesh.points = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-    mesh.faces = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                  {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                  {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+    mesh.points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+    mesh.faces = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                  {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                  {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
     for (Vec3& p : mesh.points) p.normalize();
     return mesh;
 }
@@ -25,7 +25,8 @@ surface::TriangleMesh split_in_four(const surface::TriangleMesh& mesh) {
     surface::TriangleMesh fine{mesh.points, {}};
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-        const auto [place, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(fine.points.size()));
+        const auto [place, is_new] =
+            middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(fine.points.size()));
         if (is_new) fine.points.push_back((mesh.points[a] + mesh.points[b]).normalized());
         return place->second;
     };
@@ -33,7 +34,8 @@ surface::TriangleMesh split_in_four(const surface::TriangleMesh& mesh) {
         const std::uint32_t ab = middle(a, b);
         const std::uint32_t bc = middle(b, c);
         const std::uint32_t ca = middle(c, a);
-        fine.faces.insert(fine.faces.end(), {Face{a, ab, ca}, Face{ab, b, bc}, Face{ca, bc, c}, Face{ab, bc, ca}});
+        fine.faces.insert(fine.faces.end(),
+                          {Face{a, ab, ca}, Face{ab, b, bc}, Face{ca, bc, c}, Face{ab, bc, ca}});
     }
     return fine;
 }
@@ -78,7 +80,8 @@ surface::TriangleMesh square(unsigned n, double half) {
     surface::TriangleMesh mesh;
     const auto at = [n](unsigned i, unsigned j) { return j * (n + 1) + i; };
     for (unsigned j = 0; j <= n; ++j) {
-        for (unsigned i = 0; i <= n; ++i) mesh.points.emplace_back(half * (2.0 * i / n - 1), half * (2.0 * j / n - 1), 0.0);
+        for (unsigned i = 0; i <= n; ++i)
+            mesh.points.emplace_back(half * (2.0 * i / n - 1), half * (2.0 * j / n - 1), 0.0);
     }
     for (unsigned j = 0; j < n; ++j) {
         for (unsigned i = 0; i < n; ++i) {

@@ -4,5 +4,6 @@
 #include "strategy.hpp"
 
 DSC_PLUGIN("angular_defect", DSC_VERSION, "BSD-3-Clause", "Curvature from the angles round a vertex") {
-    registrar.add<dsc::strategies::AngularDefect>("angular_defect", "2 pi less the sum of the angles at the vertex");
+    registrar.add<dsc::strategies::AngularDefect>("angular_defect",
+                                                  "2 pi less the sum of the angles at the vertex");
 }

@@ -6,8 +6,9 @@
 
 namespace dsc::strategies {
 
-/// 2 pi - sum of the angles at the vertex, in radians; divided by the vertex' mixed area it is the Gaussian curvature
-/// [Meyer2003]. Positive on bumps and in pits alike, negative on saddles. The vector points along the normal.
+/// 2 pi - sum of the angles at the vertex, in radians; divided by the vertex' mixed area it is the Gaussian
+/// curvature [Meyer2003]. Positive on bumps and in pits alike, negative on saddles. The vector points along
+/// the normal.
 class AngularDefect final : public hooks::CurvatureEstimator {
 public:
     struct Params {

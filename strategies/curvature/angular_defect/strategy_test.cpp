@@ -32,8 +32,10 @@ Values evaluate(const dsc::surface::SurfaceView& view, bool per_area) {
 
 TEST_CASE("the defects of a closed surface add up to 4 pi") {
     for (const unsigned level : {0U, 1U, 3U}) {
-        const auto view = dsc::sdk::view_of(dsc::sdk::moved(
-            dsc::sdk::icosphere(level, 1.0), [](const Vec3& p) { return Vec3(2 * p.x(), p.y() + 0.3 * p.x() * p.x(), p.z()); }));
+        const auto view =
+            dsc::sdk::view_of(dsc::sdk::moved(dsc::sdk::icosphere(level, 1.0), [](const Vec3& p) {
+                return Vec3(2 * p.x(), p.y() + 0.3 * p.x() * p.x(), p.z());
+            }));
         double sum = 0;
         for (const double d : evaluate(view, false).scalar) sum += d;
         CHECK(sum == doctest::Approx(4 * std::numbers::pi).epsilon(1e-10));
@@ -46,7 +48,8 @@ TEST_CASE("per area the defect of a sphere converges to 1/r^2") {
     for (const unsigned level : {2U, 3U, 4U}) {
         const auto view = dsc::sdk::view_of(dsc::sdk::icosphere(level, radius));
         double worst = 0;
-        for (const double k : evaluate(view, true).scalar) worst = std::max(worst, std::abs(k * radius * radius - 1));
+        for (const double k : evaluate(view, true).scalar)
+            worst = std::max(worst, std::abs(k * radius * radius - 1));
         CHECK(worst < 0.4 * last);
         last = worst;
     }
@@ -63,7 +66,8 @@ TEST_CASE("signs: corner of a cube, plane, saddle") {
 
     const auto flat = dsc::sdk::square(4, 1.0);
     CHECK(std::abs(evaluate(dsc::sdk::view_of(flat), false).scalar[12]) < 1e-12);
-    const auto saddle = dsc::sdk::moved(flat, [](const Vec3& p) { return Vec3(p.x(), p.y(), p.x() * p.x() - p.y() * p.y()); });
+    const auto saddle = dsc::sdk::moved(
+        flat, [](const Vec3& p) { return Vec3(p.x(), p.y(), p.x() * p.x() - p.y() * p.y()); });
     CHECK(evaluate(dsc::sdk::view_of(saddle), false).scalar[12] < -0.1);
 }
 

@@ -6,8 +6,11 @@ namespace dsc::strategies {
 
 void ImplicitFairing::declare(config::ParamSchema<Params>& schema) {
     schema.choice("area", &Params::area, {{"mixed", Area::mixed}, {"ring", Area::ring}})
-        .doc("What the sum is divided by: 'mixed', the part of the faces that belongs to the vertex, gives the mean "
-             "curvature, 1/r on a sphere; 'ring', all of the faces round it, gives the thesis' figure, about a third of it.");
+        .doc(
+            "What the sum is divided by: 'mixed', the part of the faces that belongs to the vertex, gives "
+            "the mean "
+            "curvature, 1/r on a sphere; 'ring', all of the faces round it, gives the thesis' figure, about "
+            "a third of it.");
 }
 
 ImplicitFairing::ImplicitFairing(const Params& params, const plugin::Setup&) : area_(params.area) {}

@@ -42,7 +42,8 @@ TEST_CASE("on a sphere the mean curvature is 1/r at every resolution") {
             const double tolerance = level <= 2 ? 0.03 : 0.01;
             for (std::size_t i = 0; i < values.scalar.size(); ++i) {
                 CHECK(values.scalar[i] == doctest::Approx(1 / radius).epsilon(tolerance));
-                CHECK((values.vector[i] - values.scalar[i] * view.positions[i] / radius).norm() < tolerance / radius);
+                CHECK((values.vector[i] - values.scalar[i] * view.positions[i] / radius).norm() <
+                      tolerance / radius);
             }
         }
     }
@@ -71,7 +72,8 @@ TEST_CASE("inside out the sign changes, the vector does not") {
 
 TEST_CASE("a plane has none, however its vertices lie in it") {
     const auto uneven = dsc::sdk::moved(dsc::sdk::square(8, 1.0), [](const Vec3& p) {
-        return Vec3(p.x() + 0.05 * std::sin(9 * p.x() + 4 * p.y()), p.y() + 0.05 * std::cos(7 * p.y() - p.x()), 0.0);
+        return Vec3(p.x() + 0.05 * std::sin(9 * p.x() + 4 * p.y()),
+                    p.y() + 0.05 * std::cos(7 * p.y() - p.x()), 0.0);
     });
     const Values values = evaluate(dsc::sdk::view_of(uneven), "mixed");
     for (std::size_t j = 1; j < 8; ++j) {
@@ -98,7 +100,8 @@ TEST_CASE("a cylinder has half of 1/r") {
         }
     }
     const Values values = evaluate(dsc::sdk::view_of(tube), "mixed");
-    for (unsigned i = 0; i < n; ++i) CHECK(values.scalar[4 * n + i] == doctest::Approx(0.5 / radius).epsilon(0.01));
+    for (unsigned i = 0; i < n; ++i)
+        CHECK(values.scalar[4 * n + i] == doctest::Approx(0.5 / radius).epsilon(0.01));
 }
 
 TEST_CASE("degenerate faces give finite values") {

@@ -11,8 +11,10 @@ namespace {
 double excess(const Shape& shape, const Vec3& point) {
     const Vec3 p = point - shape.centre;
     switch (shape.shape) {
-        case ShapeKind::sphere: return p.norm() - shape.radius;
-        case ShapeKind::box: return (p.cwiseAbs() - shape.half_size).maxCoeff();
+        case ShapeKind::sphere:
+            return p.norm() - shape.radius;
+        case ShapeKind::box:
+            return (p.cwiseAbs() - shape.half_size).maxCoeff();
         case ShapeKind::cylinder: {
             const Vec3 axis = shape.axis.normalized();
             const double along = p.dot(axis);
@@ -39,8 +41,13 @@ void declare_shape(config::ParamSchema<Shape>& schema) {
         .greater(0)
         .unit("length")
         .doc("Half the edges of a box along the coordinate axes.");
-    schema.vec3("axis", &Shape::axis).unit("1").doc("Direction of a cylinder's axis; its length does not matter.");
-    schema.real("half_length", &Shape::half_length).greater(0).unit("length").doc("Half the length of a cylinder.");
+    schema.vec3("axis", &Shape::axis)
+        .unit("1")
+        .doc("Direction of a cylinder's axis; its length does not matter.");
+    schema.real("half_length", &Shape::half_length)
+        .greater(0)
+        .unit("length")
+        .doc("Half the length of a cylinder.");
     schema.integer("label", &Shape::label).range(1, 1000).doc("Label that 'add' gives.");
     schema.check([](const Shape& s) { return s.axis.norm() > 1e-9; }, "axis must not be the zero vector");
 }

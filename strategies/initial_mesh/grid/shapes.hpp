@@ -12,7 +12,8 @@ namespace dsc::strategies::grid {
 enum class ShapeKind { sphere, box, cylinder };
 /// What becomes of a tet inside a shape: the shape's label, or 0.
 enum class Action { add, cut };
-/// When a tet counts as inside: its barycentre strictly is, or all four of its vertices are (the border included).
+/// When a tet counts as inside: its barycentre strictly is, or all four of its vertices are (the border
+/// included).
 enum class Rule { barycentre, vertices };
 
 /// One shape; which sizes count depends on the kind.

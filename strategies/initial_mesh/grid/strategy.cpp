@@ -20,13 +20,15 @@ constexpr Pattern odd_cell = {{{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}},
 std::vector<Vec3> lattice_points(unsigned cells, double half) {
     // Symmetric to the last bit: coordinate i is minus coordinate cells - i.
     const auto coordinate = [&](unsigned i) {
-        return half * (2.0 * static_cast<double>(i) - static_cast<double>(cells)) / static_cast<double>(cells);
+        return half * (2.0 * static_cast<double>(i) - static_cast<double>(cells)) /
+               static_cast<double>(cells);
     };
     std::vector<Vec3> points;
     points.reserve(std::size_t{cells + 1} * (cells + 1) * (cells + 1));
     for (unsigned k = 0; k <= cells; ++k) {
         for (unsigned j = 0; j <= cells; ++j) {
-            for (unsigned i = 0; i <= cells; ++i) points.emplace_back(coordinate(i), coordinate(j), coordinate(k));
+            for (unsigned i = 0; i <= cells; ++i)
+                points.emplace_back(coordinate(i), coordinate(j), coordinate(k));
         }
     }
     return points;
@@ -49,17 +51,27 @@ grid::Shape preset_shape(const Grid::Params& params) {
 
 void Grid::declare(config::ParamSchema<Params>& schema) {
     schema.integer("cells", &Params::cells).range(1, 200).unit("1").doc("Cells along each edge of the box.");
-    schema.real("box", &Params::box).greater(0).unit("length").doc("Half the edge of the box, which is centred at 0.");
+    schema.real("box", &Params::box)
+        .greater(0)
+        .unit("length")
+        .doc("Half the edge of the box, which is centred at 0.");
     schema
         .choice("shape", &Params::shape,
                 {{"cube", Preset::cube}, {"sphere", Preset::sphere}, {"none", Preset::none}})
-        .doc("A first shape of label 1: 'cube' holds tets by their barycentres, 'sphere' those with all four vertices "
-             "inside.");
-    schema.real("half_width", &Params::half_width).greater(0).unit("length").doc("Half the edge of shape 'cube'.");
+        .doc(
+            "A first shape of label 1: 'cube' holds tets by their barycentres, 'sphere' those with all four "
+            "vertices "
+            "inside.");
+    schema.real("half_width", &Params::half_width)
+        .greater(0)
+        .unit("length")
+        .doc("Half the edge of shape 'cube'.");
     schema.real("radius", &Params::radius).greater(0).unit("length").doc("Radius of shape 'sphere'.");
     schema.vec3("centre", &Params::centre).unit("length").doc("Centre of the first shape.");
     schema.list("shapes", &Params::shapes, grid::declare_shape)
-        .doc("Further shapes, applied in their order: each gives the tets inside it its label or cuts them away.");
+        .doc(
+            "Further shapes, applied in their order: each gives the tets inside it its label or cuts them "
+            "away.");
 }
 
 Grid::Grid(const Params& params, const plugin::Setup&) : cells_(params.cells), box_(params.box) {

@@ -9,11 +9,12 @@
 
 namespace dsc::strategies {
 
-/// Cells alternate between two mirrored patterns of five tets (four corners and a regular one in the middle), so that
-/// the diagonals of neighbouring cells agree. Tets are labelled by the shapes in their order.
+/// Cells alternate between two mirrored patterns of five tets (four corners and a regular one in the middle),
+/// so that the diagonals of neighbouring cells agree. Tets are labelled by the shapes in their order.
 class Grid final : public hooks::InitialMesh {
 public:
-    /// Short for one shape round the centre: `cube` by barycentres, `sphere` by vertices, as the original's files.
+    /// Short for one shape round the centre: `cube` by barycentres, `sphere` by vertices, as the original's
+    /// files.
     enum class Preset { cube, sphere, none };
     struct Params {
         int cells = 30;
@@ -28,8 +29,8 @@ public:
 
     Grid(const Params& params, const plugin::Setup& setup);
 
-    /// Vertex (i, j, k) has index i + j (N+1) + k (N+1)^2; cells come with k outermost, then j, then i; all tets are
-    /// positive. Throws CancelledError.
+    /// Vertex (i, j, k) has index i + j (N+1) + k (N+1)^2; cells come with k outermost, then j, then i; all
+    /// tets are positive. Throws CancelledError.
     mesh::TetMesh build(const hooks::InitialMeshContext& context) override;
 
 private:

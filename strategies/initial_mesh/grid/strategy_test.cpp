@@ -126,7 +126,7 @@ TEST_CASE("the rows of the two cell patterns are those of the original's files")
     const auto mesh = build(ConfigNode::map({{"cells", 2}, {"box", 1.0}, {"shape", "none"}}));
     // Cell (0,0,0) is even, cell (1,0,0) odd; vertex index = i + 3 j + 9 k.
     const std::vector<std::array<std::uint32_t, 4>> expected = {
-        {0, 9, 10, 12}, {0, 12, 4, 3}, {0, 1, 4, 10}, {13, 10, 12, 4}, {0, 4, 12, 10},
+        {0, 9, 10, 12}, {0, 12, 4, 3}, {0, 1, 4, 10},   {13, 10, 12, 4}, {0, 4, 12, 10},
         {1, 10, 2, 4},  {4, 5, 14, 2}, {13, 4, 14, 10}, {11, 2, 10, 14}, {10, 2, 4, 14}};
     for (std::size_t i = 0; i < expected.size(); ++i) CHECK(mesh.tets[i] == expected[i]);
     CHECK(mesh.points.front() == Vec3(-1, -1, -1));
@@ -156,19 +156,21 @@ TEST_CASE("shapes add and cut in their order") {
             edges.insert({std::min(f[k], f[(k + 1) % 3]), std::max(f[k], f[(k + 1) % 3])});
         }
     }
-    CHECK(static_cast<long>(surface.points.size() + surface.faces.size()) - static_cast<long>(edges.size()) == 0);
+    CHECK(static_cast<long>(surface.points.size() + surface.faces.size()) - static_cast<long>(edges.size()) ==
+          0);
     const double expected = 8.0 - 2 * 3.14159265 * 0.45 * 0.45;
     CHECK(count(mesh).object_volume == doctest::Approx(expected).epsilon(0.02));
 
     // The later shape wins: added after the cut, a box of label 2 fills the middle of the tunnel.
-    const ConfigNode plug = ConfigNode::map(
-        {{"shape", "box"}, {"half_size", ConfigNode::list({0.6, 0.6, 0.2})}, {"label", 2}});
+    const ConfigNode plug =
+        ConfigNode::map({{"shape", "box"}, {"half_size", ConfigNode::list({0.6, 0.6, 0.2})}, {"label", 2}});
     const auto plugged = build(ConfigNode::map({{"shapes", ConfigNode::list({tunnel, plug})}}));
     double plug_volume = 0;
     for (std::size_t t = 0; t < plugged.tets.size(); ++t) {
         const auto& v = plugged.tets[t];
         const auto& p = plugged.points;
-        if (plugged.labels[t] == 2) plug_volume += dsc::geometry::tet_volume(p[v[0]], p[v[1]], p[v[2]], p[v[3]]);
+        if (plugged.labels[t] == 2)
+            plug_volume += dsc::geometry::tet_volume(p[v[0]], p[v[1]], p[v[2]], p[v[3]]);
     }
     CHECK(plug_volume == doctest::Approx(8 * 0.6 * 0.6 * 0.2).epsilon(1e-9));
 }
@@ -176,7 +178,8 @@ TEST_CASE("shapes add and cut in their order") {
 TEST_CASE("the rule decides about tets that a shape crosses") {
     const auto sphere = [](const char* rule) {
         const ConfigNode shape = ConfigNode::map({{"shape", "sphere"}, {"radius", 1.0}, {"rule", rule}});
-        return count(build(ConfigNode::map({{"shape", "none"}, {"shapes", ConfigNode::list({shape})}}))).object_volume;
+        return count(build(ConfigNode::map({{"shape", "none"}, {"shapes", ConfigNode::list({shape})}})))
+            .object_volume;
     };
     const double exact = 4.0 / 3.0 * 3.14159265;
     CHECK(sphere("vertices") == doctest::Approx(3.390667).epsilon(1e-6));
@@ -195,7 +198,8 @@ TEST_CASE("a cancelled run gets no mesh") {
 }
 
 TEST_CASE("a shape without a direction is refused") {
-    const ConfigNode shape = ConfigNode::map({{"shape", "cylinder"}, {"axis", ConfigNode::list({0.0, 0.0, 0.0})}});
+    const ConfigNode shape =
+        ConfigNode::map({{"shape", "cylinder"}, {"axis", ConfigNode::list({0.0, 0.0, 0.0})}});
     CHECK_THROWS_WITH_AS(build(ConfigNode::map({{"shapes", ConfigNode::list({shape})}})),
                          doctest::Contains("axis must not be the zero vector"), dsc::ConfigError);
 }

@@ -4,5 +4,6 @@
 #include "strategy.hpp"
 
 DSC_PLUGIN("average_area", DSC_VERSION, "BSD-3-Clause", "Splitting of large interface faces") {
-    registrar.add<dsc::strategies::AverageArea>("average_area", "splits interface faces of at least the average area");
+    registrar.add<dsc::strategies::AverageArea>("average_area",
+                                                "splits interface faces of at least the average area");
 }

@@ -12,7 +12,8 @@ using dsc::config::ConfigNode;
 std::vector<std::uint32_t> split_faces(const dsc::surface::SurfaceView& view, const ConfigNode& params) {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
-    const auto policy = host.create<dsc::hooks::RefinementPolicy>({"average_area", params}, "schedule.1.refine");
+    const auto policy =
+        host.create<dsc::hooks::RefinementPolicy>({"average_area", params}, "schedule.1.refine");
     CHECK_FALSE(policy->needs_sampling());
     const dsc::hooks::StepContext step{.surface = view, .box = {}, .to_normalised = {}};
     dsc::hooks::RefinementRequests requests;

@@ -13,8 +13,10 @@ void PointCloud::declare(config::ParamSchema<Params>& schema) {
     schema.real("beta", &Params::beta)
         .at_least(0)
         .unit("length/curvature")
-        .doc("How far a vertex goes inwards in a step for a curvature of 1: length^2 for a mean curvature, length for an "
-             "angle. 0 switches the curvature off.");
+        .doc(
+            "How far a vertex goes inwards in a step for a curvature of 1: length^2 for a mean curvature, "
+            "length for an "
+            "angle. 0 switches the curvature off.");
     schema.strategy("curvature", &Params::curvature, "curvature")
         .optional()
         .doc("Estimator of the curvature that beta weighs.");
@@ -29,8 +31,9 @@ PointCloud::PointCloud(const Params& params, const plugin::Setup& setup)
 
 void PointCloud::prepare(const hooks::StepContext& context) {
     if (context.cloud == nullptr) {
-        throw ConfigError("velocity.no_cloud",
-                          "velocity 'point_cloud': the experiment has no cloud to go to; add input: {cloud: {file: ...}}");
+        throw ConfigError(
+            "velocity.no_cloud",
+            "velocity 'point_cloud': the experiment has no cloud to go to; add input: {cloud: {file: ...}}");
     }
     surface_ = &context.surface;
     cloud_ = context.cloud;
@@ -45,7 +48,8 @@ Vec3 PointCloud::attraction(const Vec3& point, const Vec3& unit_normal) const {
 void PointCloud::evaluate(hooks::Range range, std::span<Vec3> out) const {
     for (std::size_t i = 0; i < out.size(); ++i) {
         const std::size_t v = range.begin + i;
-        out[i] = surface_->movable[v] ? attraction(surface_->positions[v], surface_->normals[v]) : Vec3::Zero();
+        out[i] =
+            surface_->movable[v] ? attraction(surface_->positions[v], surface_->normals[v]) : Vec3::Zero();
     }
     if (curvature_ && beta_ > 0) subtract_curvature(range, out);
 }
@@ -58,14 +62,17 @@ void PointCloud::subtract_curvature(hooks::Range range, std::span<Vec3> out) con
     for (std::size_t done = 0; done < range.size(); done += piece) {
         const std::size_t count = std::min(piece, range.size() - done);
         const std::size_t first = range.begin + done;
-        curvature_->evaluate({first, first + count}, std::span(scalar).first(count), std::span(vector).first(count));
+        curvature_->evaluate({first, first + count}, std::span(scalar).first(count),
+                             std::span(vector).first(count));
         for (std::size_t i = 0; i < count; ++i) {
-            if (surface_->movable[first + i]) out[done + i] -= beta_ * scalar[i] * surface_->normals[first + i];
+            if (surface_->movable[first + i])
+                out[done + i] -= beta_ * scalar[i] * surface_->normals[first + i];
         }
     }
 }
 
-void PointCloud::sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals, std::span<Vec3> out) const {
+void PointCloud::sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals,
+                        std::span<Vec3> out) const {
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = attraction(points[i], unit_normals[i]);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Velocity `point_cloud`: every interface vertex goes along its normal towards the nearest point of the cloud.
+// Velocity `point_cloud`: every interface vertex goes along its normal towards the nearest point of the
+// cloud.
 
 #include <dsc/hooks/curvature_estimator.hpp>
 #include <dsc/hooks/velocity_field.hpp>
@@ -7,8 +8,8 @@
 
 namespace dsc::strategies {
 
-/// Displacement (alpha N.(p - x) - beta * curvature) N: x the vertex, N its outward unit normal, p the point of the
-/// cloud nearest to x [Saul2015, eq. 1-4].
+/// Displacement (alpha N.(p - x) - beta * curvature) N: x the vertex, N its outward unit normal, p the point
+/// of the cloud nearest to x [Saul2015, eq. 1-4].
 class PointCloud final : public hooks::VelocityField {
 public:
     struct Params {
@@ -26,7 +27,8 @@ public:
 
     bool can_sample() const override { return true; }
     /// The attraction alone: a curvature belongs to vertices and has no value between them.
-    void sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals, std::span<Vec3> out) const override;
+    void sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals,
+                std::span<Vec3> out) const override;
 
 private:
     Vec3 attraction(const Vec3& point, const Vec3& unit_normal) const;

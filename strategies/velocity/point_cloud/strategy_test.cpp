@@ -32,7 +32,8 @@ struct Bench {
         return host.create<dsc::hooks::VelocityField>({"point_cloud", params}, "velocity");
     }
     dsc::hooks::StepContext context(const dsc::cloud::TargetCloud* cloud) const {
-        return {.step = 3, .surface = view, .cloud = cloud, .target_length = 0.1, .box = {}, .to_normalised = {}};
+        return {
+            .step = 3, .surface = view, .cloud = cloud, .target_length = 0.1, .box = {}, .to_normalised = {}};
     }
     std::vector<Vec3> displacements(dsc::hooks::VelocityField& field, const dsc::cloud::TargetCloud* cloud,
                                     unsigned threads = 1, std::size_t block = 64) const {
@@ -143,13 +144,14 @@ TEST_CASE("threads and blocks do not change a bit") {
 TEST_CASE("an experiment without a cloud is told so") {
     const Bench bench(dsc::sdk::square(1, 0.5));
     const auto field = bench.make(ConfigNode::map());
-    CHECK_THROWS_WITH_AS(field->prepare(bench.context(nullptr)),
-                         "velocity 'point_cloud': the experiment has no cloud to go to; add input: {cloud: {file: ...}}",
-                         dsc::ConfigError);
+    CHECK_THROWS_WITH_AS(
+        field->prepare(bench.context(nullptr)),
+        "velocity 'point_cloud': the experiment has no cloud to go to; add input: {cloud: {file: ...}}",
+        dsc::ConfigError);
 }
 
 TEST_CASE("beta without an estimator is refused") {
     const Bench bench(dsc::sdk::square(1, 0.5));
-    CHECK_THROWS_WITH_AS(bench.make(ConfigNode::map({{"beta", 0.1}})), doctest::Contains("beta above 0 needs a curvature"),
-                         dsc::ConfigError);
+    CHECK_THROWS_WITH_AS(bench.make(ConfigNode::map({{"beta", 0.1}})),
+                         doctest::Contains("beta above 0 needs a curvature"), dsc::ConfigError);
 }

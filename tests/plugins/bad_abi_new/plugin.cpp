@@ -6,7 +6,8 @@
 static void enroll(dsc::plugin::Registrar&) { std::abort(); }
 
 static constexpr dsc::plugin::PluginEntry wrong() {
-    dsc::plugin::PluginEntry entry = dsc::plugin::make_entry(&enroll, "bad_abi_new", "1.0.0", "MIT", "Wrong on purpose");
+    dsc::plugin::PluginEntry entry =
+        dsc::plugin::make_entry(&enroll, "bad_abi_new", "1.0.0", "MIT", "Wrong on purpose");
     entry.abi_minor = DSC_ABI_MINOR + 1;
     return entry;
 }

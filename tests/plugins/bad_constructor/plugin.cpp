@@ -10,7 +10,9 @@ class Refusing final : public dsc::hooks::VelocityField {
 public:
     struct Params {};
     static void declare(dsc::config::ParamSchema<Params>&) {}
-    Refusing(const Params&, const dsc::plugin::Setup&) { throw std::runtime_error("no table for this machine"); }
+    Refusing(const Params&, const dsc::plugin::Setup&) {
+        throw std::runtime_error("no table for this machine");
+    }
     void prepare(const dsc::hooks::StepContext&) override {}
     void evaluate(dsc::hooks::Range, std::span<dsc::Vec3>) const override {}
 };
@@ -40,7 +42,9 @@ public:
     static void declare(dsc::config::ParamSchema<Params>&) {}
     Throwing(const Params&, const dsc::plugin::Setup&) {}
     void prepare(const dsc::hooks::StepContext&) override {}
-    void evaluate(dsc::hooks::Range, std::span<dsc::Vec3>) const override { throw Grumble("the matrix is singular"); }
+    void evaluate(dsc::hooks::Range, std::span<dsc::Vec3>) const override {
+        throw Grumble("the matrix is singular");
+    }
 };
 
 }  // namespace

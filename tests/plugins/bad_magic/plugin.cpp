@@ -6,7 +6,8 @@
 static void enroll(dsc::plugin::Registrar&) { std::abort(); }
 
 static constexpr dsc::plugin::PluginEntry wrong() {
-    dsc::plugin::PluginEntry entry = dsc::plugin::make_entry(&enroll, "bad_magic", "1.0.0", "MIT", "Wrong on purpose");
+    dsc::plugin::PluginEntry entry =
+        dsc::plugin::make_entry(&enroll, "bad_magic", "1.0.0", "MIT", "Wrong on purpose");
     entry.magic = 0x21435344U;
     return entry;
 }

@@ -8,7 +8,9 @@ public:
     struct Params {
         double mystery = 1.0;
     };
-    static void declare(dsc::config::ParamSchema<Params>& schema) { schema.real("mystery", &Params::mystery); }
+    static void declare(dsc::config::ParamSchema<Params>& schema) {
+        schema.real("mystery", &Params::mystery);
+    }
     Silent(const Params&, const dsc::plugin::Setup&) {}
     void prepare(const dsc::hooks::StepContext&) override {}
     void evaluate(dsc::hooks::Range, std::span<dsc::Vec3>) const override {}

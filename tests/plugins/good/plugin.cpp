@@ -32,11 +32,15 @@ public:
         dsc::config::StrategyConfig curvature;
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
-        schema.real("speed", &Params::speed).range(0, 1).unit("length").doc("Displacement along z in a step.");
+        schema.real("speed", &Params::speed)
+            .range(0, 1)
+            .unit("length")
+            .doc("Displacement along z in a step.");
         schema.strategy("curvature", &Params::curvature, "curvature").optional().doc("Multiplies the speed.");
     }
     Upwards(const Params& params, const dsc::plugin::Setup& setup)
-        : speed_(params.speed), curvature_(setup.create<dsc::hooks::CurvatureEstimator>("curvature", params.curvature)) {}
+        : speed_(params.speed),
+          curvature_(setup.create<dsc::hooks::CurvatureEstimator>("curvature", params.curvature)) {}
 
     void prepare(const dsc::hooks::StepContext& context) override {
         if (curvature_) curvature_->prepare(context);
@@ -45,7 +49,8 @@ public:
         for (std::size_t i = 0; i < out.size(); ++i) {
             double factor = 1;
             dsc::Vec3 unused;
-            if (curvature_) curvature_->evaluate({range.begin + i, range.begin + i + 1}, {&factor, 1}, {&unused, 1});
+            if (curvature_)
+                curvature_->evaluate({range.begin + i, range.begin + i + 1}, {&factor, 1}, {&unused, 1});
             out[i] = dsc::Vec3(0, 0, factor * speed_);
         }
     }

@@ -1,5 +1,6 @@
-// Every way of not being a plugin, with its exact text. The fixtures of the first part end the process if any of their
-// code runs (tests/plugins/tripwire.hpp): that these tests end at all shows that the gate reads and does not load.
+// Every way of not being a plugin, with its exact text. The fixtures of the first part end the process if any
+// of their code runs (tests/plugins/tripwire.hpp): that these tests end at all shows that the gate reads and
+// does not load.
 #include <doctest/doctest.h>
 
 #include <dsc/plugin/entry.hpp>
@@ -18,19 +19,22 @@ TEST_CASE("a file that is not there") {
     const auto [code, text] = refusal("/nowhere/libdsc_x.so");
     CHECK(code == "plugin.open");
     CHECK(text ==
-          "/nowhere/libdsc_x.so: cannot be opened (No such file or directory); check the name and the permissions");
+          "/nowhere/libdsc_x.so: cannot be opened (No such file or directory); check the name and the "
+          "permissions");
 }
 
 TEST_CASE("a folder where a file is due") {
     const support::TemporaryFolder folder;
     const auto [code, text] = refusal(folder.path());
     CHECK(code == "plugin.open");
-    CHECK(text == folder.path().string() + ": is a folder, not a library; name the file libdsc_NAME.so in it");
+    CHECK(text ==
+          folder.path().string() + ": is a folder, not a library; name the file libdsc_NAME.so in it");
 }
 
 TEST_CASE("files that are no libraries") {
     const support::TemporaryFolder folder;
-    for (const std::string& bytes : {std::string(), std::string("#!/bin/sh\n"), std::string("\x7f"), std::string(500, 'x')}) {
+    for (const std::string& bytes :
+         {std::string(), std::string("#!/bin/sh\n"), std::string("\x7f"), std::string(500, 'x')}) {
         const fs::path file = folder.write("libdsc_text.so", bytes);
         const auto [code, text] = refusal(file);
         CHECK(code == "plugin.not_elf");
@@ -60,7 +64,8 @@ TEST_CASE("a library without an entry") {
     const auto [code, text] = refusal(fixture("bad_no_entry"));
     CHECK(code == "plugin.no_entry");
     CHECK(text == fixture("bad_no_entry").string() +
-                      ": is a library without the symbol dsc_plugin_entry; a plugin has one DSC_PLUGIN(...) { ... } in one "
+                      ": is a library without the symbol dsc_plugin_entry; a plugin has one DSC_PLUGIN(...) "
+                      "{ ... } in one "
                       "of its sources");
 }
 
@@ -69,7 +74,8 @@ TEST_CASE("an entry that is none") {
         const auto [code, text] = refusal(fixture(name));
         CHECK(code == "plugin.magic");
         CHECK(text == fixture(name).string() +
-                          ": has a symbol dsc_plugin_entry that is no entry of a dsc plugin; a plugin's entry is made by "
+                          ": has a symbol dsc_plugin_entry that is no entry of a dsc plugin; a plugin's "
+                          "entry is made by "
                           "DSC_PLUGIN(...) { ... }, never by hand");
     }
 }
@@ -84,9 +90,9 @@ TEST_CASE("an entry of another size") {
 
 TEST_CASE("other versions of the ABI") {
     CHECK(refusal(fixture("bad_abi_old")).code == "plugin.abi");
-    CHECK(refusal(fixture("bad_abi_old")).text ==
-          fixture("bad_abi_old").string() +
-              ": was built for ABI 0.0, this dsc has ABI 1.0; rebuild it against dsc's headers of this version");
+    CHECK(refusal(fixture("bad_abi_old")).text == fixture("bad_abi_old").string() +
+                                                      ": was built for ABI 0.0, this dsc has ABI 1.0; "
+                                                      "rebuild it against dsc's headers of this version");
     CHECK(refusal(fixture("bad_abi_new")).code == "plugin.abi");
     CHECK(refusal(fixture("bad_abi_new")).text ==
           fixture("bad_abi_new").string() +
@@ -102,8 +108,10 @@ std::string fingerprint_text(const std::string& name, const std::string& key, co
     const std::string own = ours.substr(begin, ours.find(';', begin) - begin);
     std::string plugin = ours;
     plugin.replace(begin, own.size(), theirs);
-    return fixture(name).string() + ": was built in another way than this dsc: " + key + " is '" + theirs + "' there and '" +
-           own + "' here; build it with dsc_add_plugin and the compiler options of this dsc (-march and -mavx change " +
+    return fixture(name).string() + ": was built in another way than this dsc: " + key + " is '" + theirs +
+           "' there and '" + own +
+           "' here; build it with dsc_add_plugin and the compiler options of this dsc (-march and -mavx "
+           "change " +
            "align)\n  plugin: " + plugin + "\n  dsc:    " + ours;
 }
 
@@ -124,7 +132,8 @@ TEST_CASE("a library whose needs cannot be met") {
     const auto [code, text] = refusal(fixture("bad_symbol"));
     CHECK(code == "plugin.load");
     CHECK(text == fixture("bad_symbol").string() + ": does not load: " + fixture("bad_symbol").string() +
-                      ": undefined symbol: dsc_test_missing_function; a symbol or library that it needs is missing; link "
+                      ": undefined symbol: dsc_test_missing_function; a symbol or library that it needs is "
+                      "missing; link "
                       "with -Wl,-z,defs to see it when building");
 }
 
@@ -139,7 +148,9 @@ TEST_CASE("plugins that register something wrong") {
     expect("bad_throws", "plugin 'bad_throws' failed to register: the licence server is away");
     expect("bad_throws_int", "plugin 'bad_throws_int' failed to register: it threw no std::exception");
     expect("bad_empty", "plugin 'bad_empty' registers no strategy");
-    expect("bad_id", "plugin 'bad_id' failed to register: the id of velocity 'Stand-Still' is not of the form [a-z][a-z0-9_]*");
+    expect("bad_id",
+           "plugin 'bad_id' failed to register: the id of velocity 'Stand-Still' is not of the form "
+           "[a-z][a-z0-9_]*");
     expect("bad_twice", "plugin 'bad_twice' failed to register: velocity 'still' is registered twice");
     const auto silent = refusal(fixture("bad_schema"));
     CHECK(silent.code == "plugin.enroll");
@@ -154,19 +165,21 @@ TEST_CASE("libraries that others may write are refused") {
 
     fs::permissions(file, fs::perms::others_write, fs::perm_options::add);
     CHECK(refusal(file).code == "plugin.writable");
-    CHECK(refusal(file).text ==
-          file.string() +
-              ": may be written by everyone, and loading a plugin runs it; take the permission away (chmod o-w) or move the "
-              "plugin to a folder of your own");
+    CHECK(refusal(file).text == file.string() +
+                                    ": may be written by everyone, and loading a plugin runs it; take the "
+                                    "permission away (chmod o-w) or move the "
+                                    "plugin to a folder of your own");
     fs::permissions(file, fs::perms::others_write, fs::perm_options::remove);
 
     fs::permissions(folder.path(), fs::perms::all);
     CHECK(refusal(file).code == "plugin.writable");
     CHECK(refusal(file).text.find(folder.path().string() + ": may be written by everyone") == 0);
-    // As in the system's folder for temporary files: nobody else can replace the named file, but anyone can add one.
+    // As in the system's folder for temporary files: nobody else can replace the named file, but anyone can
+    // add one.
     fs::permissions(folder.path(), fs::perms::all | fs::perms::sticky_bit);
     CHECK(refusal(file).text.empty());
     dsc::host::Host host;
     const std::vector<dsc::host::SearchEntry> entries = {{folder.path(), "--plugin", true}};
-    CHECK_THROWS_WITH_AS(host.load_all(entries), doctest::Contains("may be written by everyone"), dsc::PluginError);
+    CHECK_THROWS_WITH_AS(host.load_all(entries), doctest::Contains("may be written by everyone"),
+                         dsc::PluginError);
 }

@@ -89,7 +89,8 @@ TEST_CASE("the same file twice is loaded once, by any of its names") {
     Host host;
     host.load(fixture("good"));
     host.load(fixture("good"));
-    host.load(fixture("good").parent_path() / ".." / fixture("good").parent_path().filename() / "libdsc_good.so");
+    host.load(fixture("good").parent_path() / ".." / fixture("good").parent_path().filename() /
+              "libdsc_good.so");
     const support::TemporaryFolder folder;
     fs::create_symlink(fixture("good"), folder.path() / "libdsc_alias.so");
     host.load(folder.path() / "libdsc_alias.so");
@@ -111,7 +112,8 @@ TEST_CASE("a duplicate id is refused, both files are named and nothing stays beh
     host.load(fixture("good"));
     const std::string text = message([&] { host.load(fixture("bad_duplicate")); });
     CHECK(text == fixture("bad_duplicate").string() + ": velocity 'upwards' is already there, from " +
-                      fixture("good").string() + "; load only one of the two files, or give one strategy another id");
+                      fixture("good").string() +
+                      "; load only one of the two files, or give one strategy another id");
     CHECK(host.plugins().size() == 1);
     CHECK_FALSE(host.find(Kind::velocity, "bad_duplicate_first"));
 }
@@ -125,22 +127,27 @@ TEST_CASE("faults of a strategy name it") {
                ", at 'velocity' in the experiment): ";
     };
     const std::string remedy = "; check its parameters or report this to the plugin's authors";
-    const auto make = [&](const char* id) { return host.create<dsc::hooks::VelocityField>({id, {}}, "velocity"); };
-    CHECK(message([&] { make("refusing"); }) == who("refusing") + "constructor threw: no table for this machine" + remedy);
+    const auto make = [&](const char* id) {
+        return host.create<dsc::hooks::VelocityField>({id, {}}, "velocity");
+    };
+    CHECK(message([&] { make("refusing"); }) ==
+          who("refusing") + "constructor threw: no table for this machine" + remedy);
 
     const auto view = dsc::sdk::view_of(dsc::sdk::icosphere(0, 1.0));
     std::vector<Vec3> out(view.vertex_count());
     const auto throwing = make("throwing");
     throwing->prepare(context_of(view, 17));
-    CHECK(message([&] { throwing->evaluate({0, out.size()}, out); }) ==
-          who("throwing") + "evaluate at step 17 threw: the matrix is singular" + remedy);
+    CHECK(message([&] {
+              throwing->evaluate({0, out.size()}, out);
+          }) == who("throwing") + "evaluate at step 17 threw: the matrix is singular" + remedy);
 
     const auto not_a_number = make("not_a_number");
     not_a_number->prepare(context_of(view, 2));
     not_a_number->evaluate({0, 7}, std::span(out).first(7));
     const std::string text = message([&] { not_a_number->evaluate({4, 12}, std::span(out).first(8)); });
-    CHECK(text.find(who("not_a_number") +
-                    "evaluate at step 2 gave the displacement (0.5, 0.0, nan) to vertex 7 (birth id 7, at (") == 0);
+    CHECK(text.find(
+              who("not_a_number") +
+              "evaluate at step 2 gave the displacement (0.5, 0.0, nan) to vertex 7 (birth id 7, at (") == 0);
     CHECK_THROWS_AS(not_a_number->evaluate({4, 12}, std::span(out).first(8)), dsc::StrategyError);
 }
 
@@ -150,11 +157,17 @@ TEST_CASE("wrong parameters and unknown strategies") {
     CHECK_THROWS_WITH_AS(
         host.create<dsc::hooks::VelocityField>({"upwards", ConfigNode::map({{"speed", 2.0}})}, "velocity"),
         doctest::Contains("speed"), dsc::ConfigError);
-    CHECK(message([&] { host.create<dsc::hooks::VelocityField>({"upward", {}}, "velocity"); }) ==
-          "velocity: there is no velocity 'upward', did you mean 'upwards'?; loaded are upwards, others come with --plugin "
+    CHECK(message([&] {
+              host.create<dsc::hooks::VelocityField>({"upward", {}}, "velocity");
+          }) ==
+          "velocity: there is no velocity 'upward', did you mean 'upwards'?; loaded are upwards, others come "
+          "with --plugin "
           "or DSC_PLUGIN_PATH");
-    CHECK(message([&] { host.create<dsc::hooks::Observer>({"x", {}}, "observers.0"); }) ==
-          "observers.0: there is no observer 'x'; no plugin with a strategy of this kind is loaded, see --plugin and "
+    CHECK(message([&] {
+              host.create<dsc::hooks::Observer>({"x", {}}, "observers.0");
+          }) ==
+          "observers.0: there is no observer 'x'; no plugin with a strategy of this kind is loaded, see "
+          "--plugin and "
           "DSC_PLUGIN_PATH");
 }
 
@@ -192,7 +205,8 @@ TEST_CASE("in a folder that the user did not name a bad library is a warning") {
     host.load_all(entries);
     CHECK(host.plugins().size() == 1);
     REQUIRE(log.lines.size() == 1);
-    CHECK(log.lines[0] == "user folder: " + bad.string() + ": is not a shared library; name a plugin's file, libdsc_NAME.so");
+    CHECK(log.lines[0] ==
+          "user folder: " + bad.string() + ": is not a shared library; name a plugin's file, libdsc_NAME.so");
 }
 
 TEST_CASE("an earlier place stands in front of a later one, but two answers to one name are an error") {
@@ -200,14 +214,16 @@ TEST_CASE("an earlier place stands in front of a later one, but two answers to o
     const support::TemporaryFolder theirs;
     const fs::path front = mine.copy("good");
     const fs::path behind = theirs.copy("good");
-    const std::vector<dsc::host::SearchEntry> entries = {{front, "--plugin", true}, {theirs.path(), "user folder", false}};
+    const std::vector<dsc::host::SearchEntry> entries = {{front, "--plugin", true},
+                                                         {theirs.path(), "user folder", false}};
     {
         const LogCatcher log;
         Host host;
         host.load_all(entries);
         REQUIRE(host.plugins().size() == 1);
         CHECK(host.plugins()[0].file == front);
-        CHECK(log.lines == std::vector<std::string>{front.string() + " stands in front of " + behind.string()});
+        CHECK(log.lines ==
+              std::vector<std::string>{front.string() + " stands in front of " + behind.string()});
     }
     theirs.copy("bad_duplicate");
     Host host;
@@ -215,4 +231,18 @@ TEST_CASE("an earlier place stands in front of a later one, but two answers to o
           "user folder: " + (theirs.path() / "libdsc_bad_duplicate.so").string() +
               ": velocity 'upwards' is already there, from " + front.string() +
               "; load only one of the two files, or give one strategy another id");
+}
+
+TEST_CASE("loading the same places again changes nothing and says nothing") {
+    const support::TemporaryFolder folder;
+    folder.copy("good");
+    folder.write("libdsc_bad.so", "text");
+    const std::vector<dsc::host::SearchEntry> entries = {{folder.path(), "user folder", false}};
+    const LogCatcher log;
+    Host host;
+    host.load_all(entries);
+    host.load_all(entries);
+    CHECK(host.plugins().size() == 1);
+    CHECK(host.faults().size() == 1);
+    CHECK(log.lines.size() == 1);
 }

@@ -26,10 +26,12 @@ TEST_CASE("the order of the search path") {
     SearchOptions options;
     options.command_line = {"/a/libdsc_a.so"};
     options.experiment = {"/b"};
-    options.environment = environment({{"DSC_PLUGIN_PATH", "/c::/d/libdsc_d.so:"}, {"HOME", home.path().string()}});
+    options.environment =
+        environment({{"DSC_PLUGIN_PATH", "/c::/d/libdsc_d.so:"}, {"HOME", home.path().string()}});
     const std::vector<SearchEntry> entries = search_path(options);
     REQUIRE(entries.size() == 6);
-    const char* origins[] = {"--plugin", "plugins:", "DSC_PLUGIN_PATH", "DSC_PLUGIN_PATH", "user folder", "installed folder"};
+    const char* origins[] = {"--plugin",        "plugins:",    "DSC_PLUGIN_PATH",
+                             "DSC_PLUGIN_PATH", "user folder", "installed folder"};
     const fs::path paths[] = {"/a/libdsc_a.so", "/b", "/c", "/d/libdsc_d.so", users, DSC_BUILTIN_PLUGINS};
     for (std::size_t i = 0; i < entries.size(); ++i) {
         CHECK(entries[i].origin == origins[i]);
@@ -62,10 +64,11 @@ TEST_CASE("the current folder is nobody's plugin folder") {
     CHECK(entries[0].origin == "installed folder");
 
     options.environment = environment({{"DSC_PLUGIN_PATH", "/a:."}});
-    CHECK_THROWS_WITH_AS(search_path(options),
-                         "DSC_PLUGIN_PATH: '.' is relative, and what it means would depend on the current folder; write it "
-                         "from the root",
-                         dsc::PluginError);
+    CHECK_THROWS_WITH_AS(
+        search_path(options),
+        "DSC_PLUGIN_PATH: '.' is relative, and what it means would depend on the current folder; write it "
+        "from the root",
+        dsc::PluginError);
 }
 
 TEST_CASE("the built-in strategies are found beside the core library") {

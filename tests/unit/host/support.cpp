@@ -9,7 +9,9 @@
 namespace support {
 namespace fs = std::filesystem;
 
-fs::path fixture(const std::string& name) { return fs::canonical(fs::path(DSC_TEST_PLUGINS) / ("libdsc_" + name + ".so")); }
+fs::path fixture(const std::string& name) {
+    return fs::canonical(fs::path(DSC_TEST_PLUGINS) / ("libdsc_" + name + ".so"));
+}
 
 TemporaryFolder::TemporaryFolder() {
     std::string pattern = (fs::temp_directory_path() / "dsc-host-XXXXXX").string();
@@ -41,7 +43,8 @@ Refusal refusal(const fs::path& file) {
         host.load(file);
         return {};
     } catch (const dsc::PluginError& error) {
-        if (!host.list().empty() || !host.plugins().empty()) throw std::logic_error("a refused plugin left something behind");
+        if (!host.list().empty() || !host.plugins().empty())
+            throw std::logic_error("a refused plugin left something behind");
         return {error.code(), error.what()};
     }
 }

@@ -32,7 +32,9 @@ public:
     Inner(const Params& params, const dsc::plugin::Setup& setup) {
         seen_inner = {setup.path(), setup.instance(), 0, params.value};
     }
-    void prepare(const dsc::hooks::StepContext& context) override { seen_inner.instance_in_context = context.instance; }
+    void prepare(const dsc::hooks::StepContext& context) override {
+        seen_inner.instance_in_context = context.instance;
+    }
     void evaluate(dsc::hooks::Range, std::span<double>, std::span<dsc::Vec3>) const override {}
 };
 
@@ -71,7 +73,8 @@ FakeCatalogue catalogue() {
 }  // namespace
 
 TEST_CASE("kinds have the names of the experiment and follow from the hook") {
-    for (const Kind kind : dsc::plugin::all_kinds) CHECK(dsc::plugin::find_kind(dsc::plugin::kind_name(kind)) == kind);
+    for (const Kind kind : dsc::plugin::all_kinds)
+        CHECK(dsc::plugin::find_kind(dsc::plugin::kind_name(kind)) == kind);
     CHECK_FALSE(dsc::plugin::find_kind("velocities"));
     CHECK(dsc::plugin::kind_of<Outer>() == Kind::velocity);
     CHECK(dsc::plugin::kind_of<dsc::hooks::InitialMesh>() == Kind::initial_mesh);
@@ -89,7 +92,8 @@ TEST_CASE("a catalogue looks strategies up for the configuration") {
 TEST_CASE("strategies get their parameters, their place and a random stream of that place") {
     const FakeCatalogue all = catalogue();
     const ConfigNode nested = ConfigNode::map({{"type", "inner"}, {"value", 7}});
-    const auto made = all.create<dsc::hooks::VelocityField>({"outer", ConfigNode::map({{"curvature", nested}})}, "velocity");
+    const auto made = all.create<dsc::hooks::VelocityField>(
+        {"outer", ConfigNode::map({{"curvature", nested}})}, "velocity");
     CHECK(seen_outer.path == "velocity");
     CHECK(seen_outer.value == 0.5);
     CHECK(seen_inner.path == "velocity.curvature");
@@ -111,10 +115,12 @@ TEST_CASE("a nested strategy that is not given is not made") {
 TEST_CASE("wrong parameters are faults of the configuration") {
     const FakeCatalogue all = catalogue();
     const StrategyConfig negative{"inner", ConfigNode::map({{"value", -1.0}})};
-    CHECK_THROWS_AS(all.create<dsc::hooks::CurvatureEstimator>(negative, "velocity.curvature"), dsc::ConfigError);
+    CHECK_THROWS_AS(all.create<dsc::hooks::CurvatureEstimator>(negative, "velocity.curvature"),
+                    dsc::ConfigError);
     const StrategyConfig unknown_key{"inner", ConfigNode::map({{"valeu", 1.0}})};
     CHECK_THROWS_WITH_AS(all.create<dsc::hooks::CurvatureEstimator>(unknown_key, "velocity.curvature"),
                          doctest::Contains("curvature 'inner'"), dsc::ConfigError);
-    const StrategyConfig nested_unknown{"outer", ConfigNode::map({{"curvature", ConfigNode::map({{"type", "innner"}})}})};
+    const StrategyConfig nested_unknown{
+        "outer", ConfigNode::map({{"curvature", ConfigNode::map({{"type", "innner"}})}})};
     CHECK_THROWS_AS(all.create<dsc::hooks::VelocityField>(nested_unknown, "velocity"), dsc::ConfigError);
 }

@@ -79,7 +79,8 @@ struct Improvement final : Base<hooks::Improvement> {
     static inline double cosine = 0.99;
     static inline mesh::TopologyLimits limits;
     Improvement(const Params&, const dsc::plugin::Setup&) {}
-    void propose(const hooks::StepContext&, const mesh::RepairRound&, std::vector<mesh::Request>& out) override {
+    void propose(const hooks::StepContext&, const mesh::RepairRound&,
+                 std::vector<mesh::Request>& out) override {
         Act::act(out);
     }
     double flatness() const override { return cosine; }
@@ -134,7 +135,9 @@ struct Bench {
     std::unique_ptr<Hook> make(const char* id = "faulty") const {
         return catalogue.create<Hook>({id, {}}, "here");
     }
-    hooks::StepContext context() const { return {.step = 5, .surface = view, .box = {}, .to_normalised = {}}; }
+    hooks::StepContext context() const {
+        return {.step = 5, .surface = view, .box = {}, .to_normalised = {}};
+    }
 
     FakeCatalogue catalogue;
     dsc::surface::SurfaceView view;
@@ -167,18 +170,23 @@ TEST_CASE("velocity: not a number, infinity, an entry left out") {
     velocity->prepare(bench.context());
     std::vector<Vec3> out(3);
     const auto evaluate = [&] { velocity->evaluate({1, 4}, out); };
-    const std::string every = "; every entry of the output must be written with a finite number; report this to the plugin's authors";
+    const std::string every =
+        "; every entry of the output must be written with a finite number; report this to the plugin's "
+        "authors";
 
     Velocity::Act::act = [](hooks::Range, std::span<Vec3> o) {
         for (Vec3& d : o) d = Vec3(1, 2, 3);
         o[2].y() = -std::numeric_limits<double>::infinity();
     };
-    CHECK(caught(evaluate).text == who("velocity") +
-                                       "evaluate at step 5 gave the displacement (1.0, -inf, 3.0) to vertex 3 (birth id 13, "
-                                       "at (0.0, 0.0, 1.0))" + every);
+    CHECK(caught(evaluate).text ==
+          who("velocity") +
+              "evaluate at step 5 gave the displacement (1.0, -inf, 3.0) to vertex 3 (birth id 13, "
+              "at (0.0, 0.0, 1.0))" +
+              every);
     CHECK(caught(evaluate).code == "strategy.not_finite");
     Velocity::Act::act = [](hooks::Range, std::span<Vec3> o) { o[0] = o[2] = Vec3::Zero(); };
-    CHECK(caught(evaluate).text.find("gave the displacement (nan, nan, nan) to vertex 2 (birth id 12") != std::string::npos);
+    CHECK(caught(evaluate).text.find("gave the displacement (nan, nan, nan) to vertex 2 (birth id 12") !=
+          std::string::npos);
     Velocity::Act::act = [](hooks::Range, std::span<Vec3> o) { std::fill(o.begin(), o.end(), Vec3::Zero()); };
     CHECK(caught(evaluate).text.empty());
 }
@@ -195,9 +203,13 @@ TEST_CASE("whatever is thrown is attributed, but not cancellation and configurat
     CHECK(caught(evaluate).text == who("velocity") + "evaluate at step 5 threw: index 9" + check);
     CHECK(caught(evaluate).code == "strategy.threw");
     Velocity::Act::act = [](hooks::Range, std::span<Vec3>) { throw 7; };
-    CHECK(caught(evaluate).text == who("velocity") + "evaluate at step 5 threw something that is not a std::exception" + check);
-    Velocity::Act::act = [](hooks::Range, std::span<Vec3>) { throw dsc::GeometryError("geometry.flat", "all is flat"); };
-    CHECK(caught(evaluate).text == who("velocity") + "evaluate at step 5 threw geometry.flat: all is flat" + check);
+    CHECK(caught(evaluate).text ==
+          who("velocity") + "evaluate at step 5 threw something that is not a std::exception" + check);
+    Velocity::Act::act = [](hooks::Range, std::span<Vec3>) {
+        throw dsc::GeometryError("geometry.flat", "all is flat");
+    };
+    CHECK(caught(evaluate).text ==
+          who("velocity") + "evaluate at step 5 threw geometry.flat: all is flat" + check);
     Velocity::Act::act = [](hooks::Range, std::span<Vec3>) { throw dsc::CancelledError("stop"); };
     CHECK_THROWS_WITH_AS(evaluate(), "stop", dsc::CancelledError);
     Velocity::Act::act = [](hooks::Range, std::span<Vec3>) { throw dsc::ConfigError("x", "no cloud"); };
@@ -207,7 +219,8 @@ TEST_CASE("whatever is thrown is attributed, but not cancellation and configurat
     CHECK(caught([&] { velocity->save(state); }).text == who("velocity") + "save threw: disk full" + check);
     const std::vector<Vec3> points(1);
     CHECK_FALSE(velocity->can_sample());
-    CHECK(caught([&] { velocity->sample(points, points, out); }).text.find("strategy.no_sampling") != std::string::npos);
+    CHECK(caught([&] { velocity->sample(points, points, out); }).text.find("strategy.no_sampling") !=
+          std::string::npos);
 }
 
 TEST_CASE("velocity: samples are judged too") {
@@ -219,7 +232,8 @@ TEST_CASE("velocity: samples are judged too") {
     Sampled::Act::act = [](std::span<const Vec3>, std::span<Vec3> o) { o[0] = Vec3::Zero(); };
     const Caught fault = caught([&] { velocity->sample(points, points, out); });
     CHECK(fault.code == "strategy.not_finite");
-    CHECK(fault.text.find("sample at step 5 gave the displacement (nan, nan, nan) to point 1 at (0.5, 0.0, 0.0)") !=
+    CHECK(fault.text.find(
+              "sample at step 5 gave the displacement (nan, nan, nan) to point 1 at (0.5, 0.0, 0.0)") !=
           std::string::npos);
 }
 
@@ -235,8 +249,8 @@ TEST_CASE("curvature: scalar and vector must both be finite") {
         v[1] = Vec3(0, no_number, 0);
     };
     const Caught fault = caught([&] { curvature->evaluate({2, 4}, scalar, vector); });
-    CHECK(fault.text.find(who("curvature") +
-                          "evaluate at step 5 gave the curvature 1.0 and the vector (0.0, nan, 0.0) to vertex 3 (birth id 13") == 0);
+    CHECK(fault.text.find(who("curvature") + "evaluate at step 5 gave the curvature 1.0 and the vector (0.0, "
+                                             "nan, 0.0) to vertex 3 (birth id 13") == 0);
 }
 
 TEST_CASE("the fault of a nested strategy stays its own") {
@@ -245,7 +259,9 @@ TEST_CASE("the fault of a nested strategy stays its own") {
     velocity->prepare(bench.context());
     std::vector<Vec3> out(1);
     Curvature::Act::act = [](std::span<double>, std::span<Vec3>) { throw std::runtime_error("oops"); };
-    CHECK(caught([&] { velocity->evaluate({0, 1}, out); }).text ==
+    CHECK(caught([&] {
+              velocity->evaluate({0, 1}, out);
+          }).text ==
           who("curvature", "faulty", "here.curvature") +
               "evaluate at step 5 threw: oops; check its parameters or report this to the plugin's authors");
 }
@@ -259,11 +275,17 @@ TEST_CASE("refinement: faces, edges, sizes and labels that do not exist") {
         hooks::RefinementRequests out;
         return caught([&] { policy->refine({step}, out); });
     };
-    CHECK(refine([](auto& r) { r.split_faces = {0, 1, 2}; }).text ==
+    CHECK(refine([](auto& r) {
+              r.split_faces = {0, 1, 2};
+          }).text ==
           who("refinement") + "refine at step 5 asked in split_faces 2 for 2, which does not exist" + report);
-    CHECK(refine([](auto& r) { r.split_edges = {{0, 4}}; }).text ==
+    CHECK(refine([](auto& r) {
+              r.split_edges = {{0, 4}};
+          }).text ==
           who("refinement") + "refine at step 5 asked in split_edges 0 for 4, which does not exist" + report);
-    CHECK(refine([](auto& r) { r.sizing = {1, 1}; }).text ==
+    CHECK(refine([](auto& r) {
+              r.sizing = {1, 1};
+          }).text ==
           who("refinement") + "refine at step 5 gave a sizing field of 2 entries for 4 vertices" + report);
     CHECK(refine([](auto& r) { r.sizing = {1, 1, 0, 1}; }).code == "strategy.not_finite");
     CHECK(refine([](auto& r) { r.sizing = {1, 1, no_number, 1}; }).code == "strategy.not_finite");
@@ -279,12 +301,14 @@ TEST_CASE("initial mesh: arrays that do not fit together") {
         return caught([&] { generator->build({}); });
     };
     CHECK(build([](mesh::TetMesh&) {}).text.empty());
-    CHECK(build([](mesh::TetMesh& m) { m.tets.clear(); }).text == who("initial_mesh") + "build gave a mesh without tets" + report);
+    CHECK(build([](mesh::TetMesh& m) { m.tets.clear(); }).text ==
+          who("initial_mesh") + "build gave a mesh without tets" + report);
     CHECK(build([](mesh::TetMesh& m) { m.labels.push_back(0); }).text ==
           who("initial_mesh") + "build gave 2 labels for 1 tets" + report);
     CHECK(build([](mesh::TetMesh& m) { m.points[2].x() = no_number; }).text ==
           who("initial_mesh") + "build gave point 2 a coordinate that is not finite" + report);
-    CHECK(build([](mesh::TetMesh& m) { m.tets[0][3] = 4; }).text == who("initial_mesh") + "build gave tet 0 the point 4 of 4" + report);
+    CHECK(build([](mesh::TetMesh& m) { m.tets[0][3] = 4; }).text ==
+          who("initial_mesh") + "build gave tet 0 the point 4 of 4" + report);
     CHECK(build([](mesh::TetMesh& m) { m.labels[0] = -1; }).text ==
           who("initial_mesh") + "build gave tet 0 the label -1 below 0" + report);
 
@@ -311,7 +335,8 @@ TEST_CASE("improvement: requests, limits and answers out of range") {
     request = {};
     request.vertices[1] = 8;
     CHECK(propose(request).text ==
-          who("improvement") + "propose at step 5 named vertex 8, which does not exist, in request 0" + report);
+          who("improvement") + "propose at step 5 named vertex 8, which does not exist, in request 0" +
+              report);
     request = {};
     request.operation = static_cast<mesh::Operation>(200);
     CHECK(propose(request).code == "strategy.range");
@@ -326,7 +351,8 @@ TEST_CASE("improvement: requests, limits and answers out of range") {
     std::vector<std::uint8_t> accept(2);
     Improvement::Select::act = [](std::span<std::uint8_t> a) { a[0] = 1; };
     CHECK(caught([&] { improvement->select(bench.context(), candidates, accept); }).text ==
-          who("improvement") + "select at step 5 gave candidate 1 the answer 255 where 0 or 1 is due" + report);
+          who("improvement") + "select at step 5 gave candidate 1 the answer 255 where 0 or 1 is due" +
+              report);
     Improvement::Select::act = [](std::span<std::uint8_t> a) { a[0] = 1, a[1] = 0; };
     CHECK(caught([&] { improvement->select(bench.context(), candidates, accept); }).text.empty());
 
@@ -351,8 +377,10 @@ TEST_CASE("observer: figures of changing, bad or repeated names and without a va
     CHECK(step(*observer, {{"error_max", 2.0}}).text.empty());
     CHECK(step(*observer, {{"error_mean", 2.0}}).code == "strategy.size");
     CHECK(step(*bench.make<hooks::Observer>(), {{"Error max", 1.0}}).text ==
-          who("observer") + "step at step 5 gave a figure the name 'Error max'; names are snake_case and differ; report this to "
-                            "the plugin's authors");
+          who("observer") +
+              "step at step 5 gave a figure the name 'Error max'; names are snake_case and differ; report "
+              "this to "
+              "the plugin's authors");
     CHECK(step(*bench.make<hooks::Observer>(), {{"a", 1.0}, {"a", 2.0}}).code == "strategy.range");
     CHECK(step(*bench.make<hooks::Observer>(), {{"a", no_number}}).code == "strategy.not_finite");
 }

@@ -8,7 +8,8 @@
 
 class FakeCatalogue : public dsc::plugin::Catalogue, public dsc::plugin::Registrar {
 public:
-    std::optional<dsc::plugin::StrategyInfo> find(dsc::plugin::Kind kind, const std::string& id) const override {
+    std::optional<dsc::plugin::StrategyInfo> find(dsc::plugin::Kind kind,
+                                                  const std::string& id) const override {
         for (const auto& record : records_) {
             if (record.kind == kind && record.id == id) return dsc::plugin::StrategyInfo{&record, &info_};
         }

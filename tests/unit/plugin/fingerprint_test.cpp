@@ -17,8 +17,8 @@ TEST_CASE("equal fingerprints do not differ, in any order of their keys") {
 
 TEST_CASE("every key that memory layouts hang on is hard, the others are soft") {
     const std::string own(dsc::plugin::core_fingerprint());
-    for (const std::string key :
-         {"abi_major", "cxx11abi", "eigen", "align", "real", "index", "dbgstl", "san", "compiler", "cxx", "build"}) {
+    for (const std::string key : {"abi_major", "cxx11abi", "eigen", "align", "real", "index", "dbgstl", "san",
+                                  "compiler", "cxx", "build"}) {
         std::string other = own;
         const std::size_t at = (";" + other).find(";" + key + "=");
         REQUIRE(at != std::string::npos);
@@ -44,11 +44,13 @@ TEST_CASE("missing and additional keys") {
 }
 
 TEST_CASE("an entry holds what it was made of and fits the longest fingerprint") {
-    constexpr dsc::plugin::PluginEntry entry = dsc::plugin::make_entry(&enroll, "name", "1.0.0", "MIT", "what it does");
+    constexpr dsc::plugin::PluginEntry entry =
+        dsc::plugin::make_entry(&enroll, "name", "1.0.0", "MIT", "what it does");
     CHECK(entry.magic == dsc::plugin::entry_magic);
     CHECK(entry.struct_size == sizeof(dsc::plugin::PluginEntry));
     CHECK(std::string(entry.fingerprint) == dsc::plugin::core_fingerprint());
     CHECK(std::string(entry.summary) == "what it does");
     CHECK(std::string(entry.authors).empty());
-    CHECK_THROWS_AS(dsc::plugin::make_entry(&enroll, std::string(64, 'n'), "1", "MIT", "too long a name"), std::length_error);
+    CHECK_THROWS_AS(dsc::plugin::make_entry(&enroll, std::string(64, 'n'), "1", "MIT", "too long a name"),
+                    std::length_error);
 }

@@ -12,8 +12,8 @@ inline double corner_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
     return std::atan2((b - a).cross(c - a).norm(), (b - a).dot(c - a));
 }
 
-/// Cotangent of the angle at `a`, held within +-`limit` so that a degenerate triangle weighs much but not infinitely;
-/// 0 where an edge at `a` has no length. [parallel]
+/// Cotangent of the angle at `a`, held within +-`limit` so that a degenerate triangle weighs much but not
+/// infinitely; 0 where an edge at `a` has no length. [parallel]
 inline double corner_cotangent(const Vec3& a, const Vec3& b, const Vec3& c, double limit) {
     const double cosine = (b - a).dot(c - a);
     const double sine = (b - a).cross(c - a).norm();
@@ -21,9 +21,9 @@ inline double corner_cotangent(const Vec3& a, const Vec3& b, const Vec3& c, doub
     return cosine > 0 ? limit : cosine < 0 ? -limit : 0.0;
 }
 
-/// The part of triangle abc that belongs to `a`: its Voronoi cell where the triangle is acute, else half of the
-/// triangle where the obtuse angle is at `a`, a quarter where it is not [Meyer2003]. The three parts of a triangle add
-/// up to its area. [parallel]
+/// The part of triangle abc that belongs to `a`: its Voronoi cell where the triangle is acute, else half of
+/// the triangle where the obtuse angle is at `a`, a quarter where it is not [Meyer2003]. The three parts of a
+/// triangle add up to its area. [parallel]
 inline double mixed_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double area = 0.5 * (b - a).cross(c - a).norm();
     if ((b - a).dot(c - a) <= 0) return 0.5 * area;

@@ -1,5 +1,6 @@
 #pragma once
-// Catalogue: all strategies that a host has, and the way to make one. Setup: what a strategy's constructor gets.
+// Catalogue: all strategies that a host has, and the way to make one. Setup: what a strategy's constructor
+// gets.
 
 #include <cstdint>
 #include <dsc/config/params.hpp>
@@ -46,12 +47,13 @@ public:
     /// Sorted; empty for an unknown kind. [setup]
     std::vector<std::string> ids(const std::string& kind) const override;
 
-    /// Makes the strategy `config.type` with its parameters; what they lack gets its default. `path` is its place in
-    /// the experiment ("velocity", "velocity.curvature"): messages name it and random streams hang on it.
+    /// Makes the strategy `config.type` with its parameters; what they lack gets its default. `path` is its
+    /// place in the experiment ("velocity", "velocity.curvature"): messages name it and random streams hang
+    /// on it.
     ///
-    /// The result is checked: whatever the strategy throws or returns wrongly ends in a StrategyError that names it
-    /// (see guarded.hpp), and the contexts that it sees carry its own instance number.
-    /// Throws PluginError "plugin.unknown_strategy", ConfigError for wrong parameters, StrategyError. [setup]
+    /// The result is checked: whatever the strategy throws or returns wrongly ends in a StrategyError that
+    /// names it (see guarded.hpp), and the contexts that it sees carry its own instance number. Throws
+    /// PluginError "plugin.unknown_strategy", ConfigError for wrong parameters, StrategyError. [setup]
     template <class Hook>
     std::unique_ptr<Hook> create(const config::StrategyConfig& config, const std::string& path) const {
         return std::unique_ptr<Hook>(static_cast<Hook*>(create(kind_of<Hook>(), config, path).release()));

@@ -18,21 +18,21 @@ inline constexpr std::uint32_t entry_magic = 0x31435344U;
 /// Name of the symbol that every plugin exports.
 inline constexpr const char* entry_symbol = "dsc_plugin_entry";
 
-/// What a plugin says about itself. Texts are stored in place and end with a zero byte, so that the host can read all
-/// but `enroll` from the file without loading it.
+/// What a plugin says about itself. Texts are stored in place and end with a zero byte, so that the host can
+/// read all but `enroll` from the file without loading it.
 struct PluginEntry {
     std::uint32_t magic;        ///< entry_magic
     std::uint32_t struct_size;  ///< sizeof(PluginEntry) as the plugin's compiler saw it
     std::uint16_t abi_major;
     std::uint16_t abi_minor;
-    std::uint32_t reserved;     ///< 0
+    std::uint32_t reserved;  ///< 0
     char fingerprint[256];
     char name[64];
     char version[32];
     char license[64];
     char summary[256];
-    char authors[128];          ///< may be empty
-    void (*enroll)(Registrar&); ///< registers the strategies; may throw
+    char authors[128];           ///< may be empty
+    void (*enroll)(Registrar&);  ///< registers the strategies; may throw
 };
 
 namespace detail {
@@ -66,10 +66,16 @@ constexpr PluginEntry make_entry(void (*enroll)(Registrar&), std::string_view na
 
 extern "C" DSC_PLUGIN_EXPORT const dsc::plugin::PluginEntry dsc_plugin_entry;
 
-/// DSC_PLUGIN(name, version, licence, summary[, authors]) { registrar.add<MyFlow>("my_flow", "what it does"); }
-/// Once in a plugin, outside all namespaces. The name is [a-z][a-z0-9_]*, the library is libdsc_NAME.so.
-#define DSC_PLUGIN(...)                                                       \
-    static void dsc_plugin_enroll(::dsc::plugin::Registrar& registrar);       \
-    constinit const ::dsc::plugin::PluginEntry dsc_plugin_entry =             \
-        ::dsc::plugin::make_entry(&dsc_plugin_enroll, __VA_ARGS__);           \
+/// Makes a library a plugin; once in it, outside all namespaces. The name is [a-z][a-z0-9_]*, the library is
+/// libdsc_NAME.so.
+///
+/// ```
+/// DSC_PLUGIN("my_flow", "1.0.0", "MIT", "what it is for", "its authors, optional") {
+///     registrar.add<MyFlow>("my_flow", "what the strategy does");
+/// }
+/// ```
+#define DSC_PLUGIN(...)                                                 \
+    static void dsc_plugin_enroll(::dsc::plugin::Registrar& registrar); \
+    constinit const ::dsc::plugin::PluginEntry dsc_plugin_entry =       \
+        ::dsc::plugin::make_entry(&dsc_plugin_enroll, __VA_ARGS__);     \
     static void dsc_plugin_enroll([[maybe_unused]] ::dsc::plugin::Registrar& registrar)

@@ -1,5 +1,6 @@
 #pragma once
-// The fingerprint: what must agree between the builds of a plugin and of its host, as text "key=value;key=value".
+// The fingerprint: what must agree between the builds of a plugin and of its host, as text
+// "key=value;key=value".
 
 #include <Eigen/Core>
 #include <string>
@@ -53,7 +54,7 @@
 #define DSC_ABI_MINOR 0
 
 /// Of the translation unit in which it stands. `align` changes with -mavx, which moves every Eigen member.
-#define DSC_FINGERPRINT                                                                                    \
+#define DSC_FINGERPRINT \
     "abi_major=" DSC_TEXT(DSC_ABI_MAJOR) ";cxx11abi=" DSC_FINGERPRINT_CXX11ABI                             \
     ";eigen=" DSC_TEXT(EIGEN_WORLD_VERSION) "." DSC_TEXT(EIGEN_MAJOR_VERSION)                              \
     ";align=" DSC_TEXT(EIGEN_MAX_ALIGN_BYTES) ";real=f64;index=u32;dbgstl=" DSC_FINGERPRINT_DBGSTL         \
@@ -73,8 +74,8 @@ struct FingerprintDifference {
     bool hard = false;  ///< memory layouts may differ: the plugin must not be used
 };
 
-/// The keys that differ, in the order of the host's text, then those only the plugin has. Hard keys are abi_major,
-/// cxx11abi, eigen, align, real, index, dbgstl and san; all others are soft. [parallel]
+/// The keys that differ, in the order of the host's text, then those only the plugin has. Hard keys are
+/// abi_major, cxx11abi, eigen, align, real, index, dbgstl and san; all others are soft. [parallel]
 std::vector<FingerprintDifference> compare_fingerprints(std::string_view plugin, std::string_view host);
 
 /// An address inside the core library, by which its file can be found at run time. [parallel]

@@ -1,6 +1,6 @@
 #pragma once
-// Calls into strategies: whatever one throws or returns wrongly becomes an error that says which strategy of which
-// plugin it was, in which hook and at which step. Catalogue::create wraps every strategy this way.
+// Calls into strategies: whatever one throws or returns wrongly becomes an error that says which strategy of
+// which plugin it was, in which hook and at which step. Catalogue::create wraps every strategy this way.
 
 #include <cstdint>
 #include <dsc/base/error.hpp>
@@ -38,13 +38,13 @@ public:
     ~StrategyFailure() override;
 };
 
-/// Throws StrategyFailure "DESCRIPTION HOOK at step N CAUSE; REMEDY". Codes: "strategy.threw", "strategy.not_finite",
-/// "strategy.size", "strategy.range".
+/// Throws StrategyFailure "DESCRIPTION HOOK at step N CAUSE; REMEDY". Codes: "strategy.threw",
+/// "strategy.not_finite", "strategy.size", "strategy.range".
 [[noreturn]] void fail(const Call& call, std::string code, std::string_view cause, std::string_view remedy);
 
-/// To be called in a catch block. CancelledError, ConfigError and StrategyFailure go on unchanged, outside of steps
-/// IoError and GeometryError too (they concern the user's files); everything else becomes StrategyFailure
-/// "strategy.threw".
+/// To be called in a catch block. CancelledError, ConfigError and StrategyFailure go on unchanged, outside of
+/// steps IoError and GeometryError too (they concern the user's files); everything else becomes
+/// StrategyFailure "strategy.threw".
 [[noreturn]] void rethrow_attributed(const Call& call);
 
 /// Runs `body`, a call into a strategy. [parallel]

@@ -28,9 +28,10 @@ std::optional<Kind> find_kind(std::string_view name) noexcept;
 /// The kind of a hook or of a class derived from one.
 template <class T>
 constexpr Kind kind_of() {
-    constexpr int hooks_of_t = std::is_base_of_v<hooks::VelocityField, T> + std::is_base_of_v<hooks::CurvatureEstimator, T> +
-                               std::is_base_of_v<hooks::RefinementPolicy, T> + std::is_base_of_v<hooks::InitialMesh, T> +
-                               std::is_base_of_v<hooks::Improvement, T> + std::is_base_of_v<hooks::Observer, T>;
+    constexpr int hooks_of_t =
+        std::is_base_of_v<hooks::VelocityField, T> + std::is_base_of_v<hooks::CurvatureEstimator, T> +
+        std::is_base_of_v<hooks::RefinementPolicy, T> + std::is_base_of_v<hooks::InitialMesh, T> +
+        std::is_base_of_v<hooks::Improvement, T> + std::is_base_of_v<hooks::Observer, T>;
     static_assert(hooks_of_t == 1, "a strategy derives publicly from exactly one hook of dsc/hooks");
     if (std::is_base_of_v<hooks::VelocityField, T>) return Kind::velocity;
     if (std::is_base_of_v<hooks::CurvatureEstimator, T>) return Kind::curvature;

@@ -29,7 +29,8 @@ public:
     virtual ~Registrar();
 
     /// Registers `T`: a class derived from one hook, with a struct `T::Params`, a function
-    /// `static void T::declare(config::ParamSchema<Params>&)` and a constructor `T(const Params&, const Setup&)`.
+    /// `static void T::declare(config::ParamSchema<Params>&)` and a constructor
+    /// `T(const Params&, const Setup&)`.
     /// Throws PluginError for a malformed or repeated id and for a faulty declaration. [setup]
     template <class T>
     void add(std::string id, std::string summary) {

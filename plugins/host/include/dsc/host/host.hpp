@@ -25,7 +25,8 @@ enum class OnFault {
     collect,           ///< never throws; see faults()
 };
 
-/// Two hosts in a process are independent of each other. Libraries are never unloaded. One thread at a time. [setup]
+/// Two hosts in a process are independent of each other. Libraries are never unloaded. One thread at a time.
+/// [setup]
 class Host : public plugin::Catalogue {
 public:
     Host();
@@ -33,8 +34,8 @@ public:
     Host(const Host&) = delete;
     Host& operator=(const Host&) = delete;
 
-    /// Loads one library. A file that is loaded already is passed over. All or nothing: a refused library leaves no
-    /// strategy behind. Throws PluginError naming file, reason and remedy:
+    /// Loads one library. A file that is loaded already is passed over. All or nothing: a refused library
+    /// leaves no strategy behind. Throws PluginError naming file, reason and remedy:
     ///
     /// | code | reason |
     /// | --- | --- |
@@ -51,8 +52,9 @@ public:
     /// Up to plugin.load nothing of the library has run: all that is read from the file itself.
     void load(const std::filesystem::path& file);
 
-    /// Loads the entries in order. In folders every libdsc_*.so is loaded, by name; a name that an earlier entry had
-    /// is passed over, so that an own build may stand in front of an installed one.
+    /// Loads the entries in order. In folders every libdsc_*.so is loaded, by name; a name that an earlier
+    /// entry had is passed over, so that an own build may stand in front of an installed one.
+    /// May be called again with more entries: what is there or was refused already is passed over.
     void load_all(std::span<const SearchEntry> entries, OnFault on_fault = OnFault::stop_if_required);
 
     /// Libraries that load_all passed over.

@@ -13,8 +13,8 @@ surface::TriangleMesh icosphere(unsigned level, double radius);
 /// Square [-half, half]^2 in the plane z = 0, normals up, n x n cells of two triangles; its rim is open.
 surface::TriangleMesh square(unsigned n, double half);
 
-/// The view of any oriented triangle mesh, every vertex movable; births count from 0. `vertex_ids` and `face_tets`
-/// name no complex.
+/// The view of any oriented triangle mesh, every vertex movable; births count from 0. `vertex_ids` and
+/// `face_tets` name no complex.
 surface::SurfaceView view_of(const surface::TriangleMesh& mesh);
 
 /// The mesh with every point moved by `move`.
