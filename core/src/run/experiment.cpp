@@ -17,11 +17,6 @@ using config::FieldType;
 using config::Schema;
 using config::StrategyLookup;
 
-constexpr const char* data_variable = "DSC_DATA";
-constexpr const char* data_hint =
-    "note: DSC_DATA names the folder that holds the thesis' point clouds bunny.obj, teapot.obj and cow.obj; they are "
-    "public with the thesis' program, https://github.com/JaronOrchard/PointCloudDSC. Then: export DSC_DATA=FOLDER\n";
-
 /// Folder that relative names in `node` count from.
 fs::path folder_of(const ConfigNode& node) {
     const config::SourcePosition& position = node.position();
@@ -136,26 +131,12 @@ LoadedExperiment resolve_experiment(const ConfigNode& root, const PluginLoader& 
 
 LoadedExperiment load_experiment(const std::string& file, std::span<const std::string> overrides,
                                  const PluginLoader& load_plugins, const config::YamlOptions& options) {
-    bool data_unset = false;
-    config::YamlOptions watched = options;
-    watched.environment = [&](const std::string& name) {
-        std::optional<std::string> value = options.environment(name);
-        if (!value && name == data_variable) data_unset = true;
-        return value;
-    };
-    try {
-        ConfigNode root = config::load_yaml(file, watched);
-        root = config::apply_overrides(root, overrides, watched);
-        if (root.is_map() && root.find("name") == nullptr) {
-            root = root.with("name", ConfigNode(fs::path(file).stem().string()));
-        }
-        return resolve_experiment(root, load_plugins);
-    } catch (const ConfigError& error) {
-        if (!data_unset) throw;
-        std::string text = error.what();
-        if (text.empty() || text.back() != '\n') text += '\n';
-        throw ConfigError(error.code(), text + data_hint);
+    ConfigNode root = config::load_yaml(file, options);
+    root = config::apply_overrides(root, overrides, options);
+    if (root.is_map() && root.find("name") == nullptr) {
+        root = root.with("name", ConfigNode(fs::path(file).stem().string()));
     }
+    return resolve_experiment(root, load_plugins);
 }
 
 std::string resolved_text(const LoadedExperiment& loaded) { return config::to_yaml(loaded.resolved); }

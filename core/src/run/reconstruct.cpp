@@ -33,7 +33,7 @@ std::optional<Detail> detail_from_name(std::string_view name) {
 }
 
 ConfigNode derive_experiment(const std::string& file, const cloud::Cloud& cloud, Detail detail) {
-    cloud::require_volume(cloud.points, file);
+    cloud::require_volume(cloud.points, cloud.source.empty() ? file : cloud.source);
     const Plan plan = plan_of(detail);
     std::vector<ConfigNode> schedule = {ConfigNode::map({{"steps", plan.first_steps}})};
     for (int i = 0; i < plan.refinements; ++i) {

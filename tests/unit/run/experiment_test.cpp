@@ -111,8 +111,8 @@ TEST_CASE("an unset DSC_DATA is explained") {
         FAIL("no error");
     } catch (const ConfigError& error) {
         CHECK(contains(error.what(), "a.yaml:6:"));
-        CHECK(contains(error.what(), "names the folder that holds the thesis' point clouds bunny.obj, teapot.obj and cow.obj"));
-        CHECK(contains(error.what(), "https://"));
+        CHECK(contains(error.what(), "DSC_DATA is the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj"));
+        CHECK(contains(error.what(), "they are public"));
     }
     options.environment = [](const std::string& name) -> std::optional<std::string> {
         if (name == "DSC_DATA") return "/clouds";

@@ -1,0 +1,197 @@
+// Every bad experiment ends in diagnostics with place and remedy, exit code 3 (or that of its fault), and no folder.
+#include <doctest/doctest.h>
+
+#include "process.hpp"
+
+using dsc::test::Cli;
+using dsc::test::Result;
+
+namespace {
+
+const std::string good =
+    "dsc: 1\n"
+    "name: shrink\n"
+    "input: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {scale: 0.9}}\n"
+    "initial_mesh: {type: grid, cells: 12}\n"
+    "velocity: {type: point_cloud, alpha: 0.2}\n"
+    "improvement: {type: dsc}\n"
+    "schedule: [{steps: 1}]\n";
+
+std::string with(const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    return text;
+}
+
+Result run(const Cli& cli, const std::string& text, std::vector<std::string> more = {}) {
+    cli.write("a.yaml", text);
+    std::vector<std::string> arguments = {"run", "a.yaml", "-o", "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return cli.dsc(arguments);
+}
+
+/// Standard error of a run that must end with `code` and leave nothing behind.
+std::string fault(const std::string& text, int code = 3, const std::vector<std::string>& more = {}) {
+    const Cli cli;
+    const Result result = run(cli, text, more);
+    CHECK(result.code == code);
+    CHECK(result.out.empty());
+    CHECK_FALSE(cli.exists("out"));
+    return result.err;
+}
+
+}  // namespace
+
+TEST_CASE("malformed YAML") {
+    CHECK(fault(with("name: shrink", "name: [shrink")) ==
+          R"(a.yaml:3:6: error: malformed YAML: end of sequence flow not found
+    3 | input: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {scale: 0.9}}
+      |      ^  is the '[' in line 2 closed?
+1 error; nothing was run
+)");
+}
+
+TEST_CASE("duplicate key") {
+    CHECK(fault(good + "name: again\n") ==
+          R"(a.yaml:8:1: error: duplicate key 'name', first given in line 2
+    8 | name: again
+      | ^~~~  remove one of the two
+1 error; nothing was run
+)");
+}
+
+TEST_CASE("unknown key") {
+    CHECK(fault(with("alpha: 0.2", "alhpa: 0.2")) ==
+          R"(a.yaml:5:31: error: unknown key 'alhpa' in velocity 'point_cloud'
+    5 | velocity: {type: point_cloud, alhpa: 0.2}
+      |                               ^~~~~  did you mean 'alpha'? (real, [0, 2], default 0.2)
+      note: accepted keys: type, alpha, beta, curvature
+1 error; nothing was run
+)");
+    CHECK(fault(good, 3, {"velocty.alpha=1"}) ==
+          R"(command line: 'velocty.alpha=1': error: unknown key 'velocty' in the experiment
+      note: did you mean 'velocity'? (velocity strategy, required)
+      note: accepted keys: dsc, name, seed, plugins, input, initial_mesh, velocity, improvement, schedule, stop, observers, output
+1 error; nothing was run
+)");
+}
+
+TEST_CASE("wrong type") {
+    CHECK(fault(with("alpha: 0.2", "alpha: fast")) ==
+          R"(a.yaml:5:38: error: 'velocity.alpha' must be a number, not the string 'fast'
+    5 | velocity: {type: point_cloud, alpha: fast}
+      |                                      ^~~~  accepted: real, [0, 2], default 0.2
+1 error; nothing was run
+)");
+}
+
+TEST_CASE("value out of range") {
+    CHECK(fault(with("scale: 0.9", "scale: 1.6")) ==
+          R"(a.yaml:3:70: error: 'input.normalize.scale': 1.6 is above the maximum 1.5
+    3 | input: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {scale: 1.6}}
+      |                                                                      ^~~  accepted: real in length, (0, 1.5], default 0.9
+1 error; nothing was run
+)");
+}
+
+TEST_CASE("unknown strategy") {
+    const std::string text = fault(with("type: point_cloud", "type: point_clod"));
+    CHECK(text.find(R"(a.yaml:5:18: error: unknown velocity 'point_clod'
+    5 | velocity: {type: point_clod, alpha: 0.2}
+      |                  ^~~~~~~~~~  did you mean 'point_cloud'?
+      note: known velocity strategies: )") == 0);
+    CHECK(text.find("1 error; nothing was run\n") != std::string::npos);
+}
+
+TEST_CASE("several faults at once") {
+    CHECK(fault(with("alpha: 0.2", "alpha: fast, gamma: 1") + "speed: 3\n") ==
+          R"(a.yaml:5:38: error: 'velocity.alpha' must be a number, not the string 'fast'
+    5 | velocity: {type: point_cloud, alpha: fast, gamma: 1}
+      |                                      ^~~~  accepted: real, [0, 2], default 0.2
+a.yaml:5:44: error: unknown key 'gamma' in velocity 'point_cloud'
+    5 | velocity: {type: point_cloud, alpha: fast, gamma: 1}
+      |                                            ^~~~~
+      note: accepted keys: type, alpha, beta, curvature
+a.yaml:8:1: error: unknown key 'speed' in the experiment
+    8 | speed: 3
+      | ^~~~~  did you mean 'seed'? (integer, at least 0, default 1)
+      note: accepted keys: dsc, name, seed, plugins, input, initial_mesh, velocity, improvement, schedule, stop, observers, output
+3 errors; nothing was run
+)");
+}
+
+TEST_CASE("a variable that is not set") {
+    const std::string text = fault(with("sample: {shape: sphere, n: 500}", "file: \"${DSC_DATA}/cow.obj\""));
+    CHECK(text.find(R"(a.yaml:3:23: error: the environment variable 'DSC_DATA' is not set
+    3 | input: {cloud: {file: "${DSC_DATA}/cow.obj"}, normalize: {scale: 0.9}}
+      |                       ^~~~~~~~~~~~~~~~~~~~~  set it: export DSC_DATA=...
+)") == 0);
+    CHECK(text.find("DSC_DATA is the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj") != std::string::npos);
+    CHECK(text.find("they are public") != std::string::npos);
+}
+
+TEST_CASE("a value of the command line that is none") {
+    CHECK(fault(good, 3, {"velocity.alpha"}) ==
+          R"(command line: 'velocity.alpha': error: malformed override: no '=' in it
+      note: write path.to.key=value
+1 error; nothing was run
+)");
+    CHECK(fault(good, 3, {"velocity.alpha=7"}) ==
+          R"(command line: 'velocity.alpha=7': error: 'velocity.alpha': 7 is above the maximum 2
+      note: accepted: real, [0, 2], default 0.2
+1 error; nothing was run
+)");
+}
+
+TEST_CASE("an experiment that does not exist") {
+    const Cli cli;
+    const Result result = cli.dsc({"run", "none.yaml"});
+    CHECK(result.code == 6);
+    CHECK(result.err == "error: none.yaml: cannot read the configuration: there is no such file; name a readable YAML file\n");
+}
+
+TEST_CASE("a plugin that does not load") {
+    const Cli cli;
+    cli.write("libdsc_text.so", "no library");
+    const Result option = run(cli, good, {"--plugin", "libdsc_text.so"});
+    CHECK(option.code == 4);
+    CHECK(option.err ==
+          "error: --plugin: DIR/libdsc_text.so: is not a shared library; name a plugin's file, libdsc_NAME.so\n");
+    const Result key = run(cli, good + "plugins: [missing/libdsc_x.so]\n");
+    CHECK(key.code == 4);
+    CHECK(key.err ==
+          "error: plugins:: DIR/missing/libdsc_x.so: cannot be opened (No such file or directory); check the name and the "
+          "permissions\n");
+    CHECK_FALSE(cli.exists("out"));
+}
+
+TEST_CASE("a velocity that needs a cloud without one") {
+    const Cli cli;
+    const Result result = run(cli, with("input: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {scale: 0.9}}\n", ""));
+    CHECK(result.code == 3);
+    CHECK(result.err ==
+          "error: velocity 'point_cloud': the experiment has no cloud to go to; add input: {cloud: {file: ...}}\n");
+    CHECK_FALSE(dsc::test::looks_finished(cli.folder() / "out"));
+}
+
+TEST_CASE("a folder that is not ours is refused, nothing in it is touched") {
+    const Cli cli;
+    cli.write("out/thesis.tex", "text");
+    const Result result = run(cli, good);
+    CHECK(result.code == 2);
+    CHECK(result.err ==
+          "error: out is not empty and no run wrote it; nothing in it was changed; name another folder with -o or empty it\n");
+    CHECK(cli.read("out/thesis.tex") == "text");
+    cli.write("file", "text");
+    cli.write("a.yaml", good);
+    CHECK(cli.dsc({"run", "a.yaml", "-o", "file"}).code == 2);
+}
+
+TEST_CASE("a run that fails takes the former result away") {
+    const Cli cli;
+    CHECK(run(cli, good, {"-q"}).code == 0);
+    CHECK(dsc::test::looks_finished(cli.folder() / "out"));
+    cli.write("flat.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n");
+    CHECK(run(cli, with("sample: {shape: sphere, n: 500}", "file: flat.xyz"), {"-q"}).code == 5);
+    CHECK_FALSE(dsc::test::looks_finished(cli.folder() / "out"));
+}

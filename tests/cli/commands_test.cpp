@@ -1,0 +1,164 @@
+// The commands on good and on wrong calls.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "process.hpp"
+
+using dsc::test::Cli;
+using dsc::test::Result;
+using nlohmann::json;
+
+TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
+    const Cli cli;
+    const Result version = cli.dsc({"--version"});
+    CHECK(version.code == 0);
+    CHECK(version.out.substr(0, 4) == "dsc ");
+    CHECK(version.out.find("fingerprint abi_major=") != std::string::npos);
+    CHECK(cli.dsc({"--help"}).code == 0);
+    CHECK(cli.dsc({"run", "--help"}).out.find("--time-budget") != std::string::npos);
+    for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
+             {},
+             {"walk"},
+             {"run"},
+             {"run", "a.yaml", "--fast"},
+             {"run", "a.yaml", "--resume"},
+             {"run", "a.yaml", "--threads", "0"},
+             {"run", "a.yaml", "--progress", "loud"},
+             {"run", "a.yaml", "-v", "-q"},
+             {"run", "a.yaml", "--time-budget", "soon"},
+             {"reconstruct"},
+             {"sample", "teapot", "-o", "a.xyz"},
+             {"sample", "cup", "-n", "10", "-o", "a.xyz"},
+             {"render", "a.obj"},
+             {"plugin"},
+             {"plugin", "describe", "point_clod"},
+         }) {
+        CAPTURE(wrong);
+        const Result result = cli.dsc(wrong);
+        CHECK(result.code == 2);
+        CHECK(result.out.empty());
+        CHECK(result.err.substr(0, 7) == "error: ");
+        CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
+    }
+    CHECK(cli.dsc({"plugin", "describe", "point_clod"}).err ==
+          "error: no strategy is called 'point_clod'; did you mean 'point_cloud'?; dsc plugin list shows all\n");
+}
+
+TEST_CASE("sample, info, convert, evaluate and render work together") {
+    const Cli cli;
+    const Result sample = cli.dsc({"sample", "torus", "-n", "300", "-o", "torus.ply", "--mesh", "truth.obj"});
+    CHECK(sample.code == 0);
+    CHECK(sample.out == "torus.ply\ntruth.obj\n");
+    const json cloud = json::parse(cli.dsc({"info", "torus.ply", "--json"}).out);
+    CHECK(cloud["kind"] == "cloud");
+    CHECK(cloud["points"] == 300);
+    const json truth = json::parse(cli.dsc({"info", "truth.obj", "--json", "--require-solid"}).out);
+    CHECK(truth["kind"] == "surface");
+    CHECK(truth["genus"] == 1);
+    CHECK(truth["self_intersections"] == 0);
+    CHECK(truth["solid"] == true);
+
+    CHECK(cli.dsc({"convert", "truth.obj", "truth.stl"}).code == 0);
+    CHECK(cli.dsc({"convert", "truth.obj", "truth.off"}).code == 0);
+    CHECK(cli.dsc({"convert", "truth.off", "back.obj"}).code == 0);
+    CHECK(cli.read("back.obj") == cli.read("truth.obj"));
+    CHECK(cli.dsc({"convert", "torus.ply", "torus.xyz"}).code == 0);
+    CHECK(cli.dsc({"convert", "truth.obj", "truth.obj"}).code == 2);
+    CHECK(cli.dsc({"convert", "truth.obj", "truth.vtu"}).code == 2);
+    CHECK(cli.dsc({"convert", "truth.obj", "truth.doc"}).code == 2);
+
+    const Result same = cli.dsc({"evaluate", "truth.obj", "--truth", "back.obj", "--cloud", "torus.ply", "--samples", "2000", "--json"});
+    CHECK(same.code == 0);
+    const json figures = json::parse(same.out);
+    CHECK(figures["truth"]["chamfer_percent"].get<double>() < 1e-9);
+    CHECK(figures["truth"]["f_score_1_percent"] == 1.0);
+    CHECK(figures["cloud"]["cloud_to_surface"]["mean"].get<double>() < 0.01);
+    CHECK(figures["formulas"]["truth"].contains("chamfer_percent"));
+    CHECK(cli.dsc({"evaluate", "truth.obj"}).code == 2);
+    CHECK(cli.dsc({"evaluate", "truth.obj", "--cloud", "torus.ply"}).out.find("vertex_to_cloud.mean") != std::string::npos);
+
+    CHECK(cli.dsc({"render", "truth.obj", "-o", "a.png", "--view", "top", "--size", "64x48", "--edges"}).code == 0);
+    CHECK(cli.read("a.png").substr(1, 3) == "PNG");
+    CHECK(cli.dsc({"render", "truth.obj", "-o", "a.jpg"}).code == 2);
+    CHECK(cli.dsc({"render", "truth.obj", "-o", "a.png", "--size", "big"}).code == 2);
+    CHECK(cli.dsc({"render", "torus.xyz", "-o", "a.png"}).code == 2);
+    CHECK(cli.dsc({"render", "truth.obj", "-o", "none/a.png"}).code == 6);
+    CHECK(cli.dsc({"render", ".", "-o", "a.png"}).code == 6);
+}
+
+TEST_CASE("info --require-solid: exit 5 for an open surface, with the figures") {
+    const Cli cli;
+    cli.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
+    const Result result = cli.dsc({"info", "open.obj", "--require-solid"});
+    CHECK(result.code == 5);
+    CHECK(result.out.find("boundary_edges        3\n") != std::string::npos);
+    CHECK(result.err.find("error: open.obj is not a valid solid") == 0);
+    CHECK(cli.dsc({"info", "open.obj"}).code == 0);
+    cli.write("closed.obj", cli.read("open.obj") + "f 2 3 4\n");
+    CHECK(cli.dsc({"info", "closed.obj", "--require-solid"}).code == 0);
+}
+
+TEST_CASE("plugin list, describe in three forms, path") {
+    const Cli cli;
+    const Result list = cli.dsc({"plugin", "list"});
+    CHECK(list.code == 0);
+    for (const char* id : {"point_cloud", "angular_defect", "implicit_fairing", "average_area", "grid", "voxel_grid"}) {
+        CHECK(list.out.find(id) != std::string::npos);
+    }
+    CHECK(json::parse(cli.dsc({"plugin", "list", "--json"}).out).size() >= 10);
+    const Result text = cli.dsc({"plugin", "describe", "point_cloud"});
+    CHECK(text.code == 0);
+    CHECK(text.out.find("alpha: real, [0, 2], default 0.2") != std::string::npos);
+    const json described = json::parse(cli.dsc({"plugin", "describe", "point_cloud", "--format", "json"}).out);
+    CHECK(described["kind"] == "velocity");
+    CHECK(described["parameters"][0]["name"] == "alpha");
+    CHECK(described["parameters"][0]["default"] == 0.2);
+    // The block is an experiment's: it is accepted where it belongs.
+    const Result yaml = cli.dsc({"plugin", "describe", "point_cloud", "--format", "yaml"});
+    cli.write("block.yaml", "dsc: 1\nschedule: [{steps: 1}]\ninitial_mesh: {type: grid}\nimprovement: {type: dsc}\n" + yaml.out);
+    CHECK(cli.dsc({"run", "block.yaml", "--check"}).code == 0);
+    CHECK(cli.dsc({"plugin", "path"}).out.find("(installed folder)") != std::string::npos);
+}
+
+TEST_CASE("reconstruct: names of outputs are judged before anything is computed") {
+    const Cli cli;
+    cli.dsc({"sample", "sphere", "-n", "200", "-o", "cloud.obj"});
+    CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "cloud.obj"}).err ==
+          "error: cloud.obj is the input; name another file with -o\n");
+    CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "./x/../cloud.obj"}).code == 2);
+    CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.doc"}).err ==
+          "error: a.doc has no extension that is written; use .obj, .ply, .off, .stl for the surface, .vtu, .dsc for the volume\n");
+    CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.obj", "-o", "a.obj"}).code == 2);
+    const Result folder = cli.dsc({"reconstruct", "cloud.obj", "-o", "none/a.obj"});
+    CHECK(folder.code == 6);
+    CHECK(folder.err == "error: none/a.obj: its folder none does not exist; make the folder first\n");
+    CHECK(cli.dsc({"reconstruct", "cloud.obj", "--detail", "ultra"}).code == 2);
+}
+
+TEST_CASE("run: overrides, threads, json progress, a time budget") {
+    const Cli cli;
+    cli.write("a.yaml",
+              "dsc: 1\nname: short\ninput: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {}}\n"
+              "initial_mesh: {type: grid, cells: 12}\nvelocity: {type: point_cloud}\nimprovement: {type: dsc}\n"
+              "schedule: [{steps: 3}]\n");
+    const Result run = cli.dsc({"run", "a.yaml", "schedule.0.steps=2", "--threads", "2", "--progress", "json", "-q"});
+    CHECK(run.code == 0);
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 3);
+    CHECK(json::parse(run.err.substr(0, run.err.find('\n')))["planned"] == 2);
+    CHECK(run.out.substr(0, 11) == "runs/short/");
+    const std::string folder = run.out.substr(0, run.out.find('\n'));
+    CHECK(folder.size() == 11 + 12);
+    CHECK(dsc::test::looks_finished(cli.folder() / folder));
+    CHECK(cli.dsc({"info", folder + "/result/volume.dsc", "--require-solid"}).code == 0);
+    CHECK(cli.dsc({"evaluate", folder, "--cloud", folder + "/result/surface.obj"}).code == 0);
+    CHECK(cli.dsc({"render", folder, "-o", "a.png", "--size", "32x32"}).code == 0);
+    // Running the resolved experiment gives the same bytes.
+    CHECK(cli.dsc({"run", folder + "/config.resolved.yaml", "-o", "again", "-q"}).code == 0);
+    CHECK(cli.read("again/result/surface.obj") == cli.read(folder + "/result/surface.obj"));
+
+    const Result stopped = cli.dsc({"run", "a.yaml", "-o", "out", "--time-budget", "0.000001s", "-q"});
+    CHECK(stopped.code == 75);
+    CHECK(cli.read("out/status.json").find("\"state\": \"stopped\"") != std::string::npos);
+}

@@ -1,0 +1,41 @@
+// A strategy that misbehaves: exit 4, a message that names it, no result.
+#include <doctest/doctest.h>
+
+#include "process.hpp"
+
+using dsc::test::Cli;
+using dsc::test::Result;
+
+namespace {
+
+Result run(const Cli& cli, const std::string& fault) {
+    cli.write("a.yaml",
+              "dsc: 1\nname: faulty\ninitial_mesh: {type: grid, cells: 12, half_width: 0.5}\nvelocity: {type: faulty, fault: " +
+                  fault + "}\nimprovement: {type: dsc}\nschedule: [{steps: 3}]\n");
+    return cli.dsc({"run", "a.yaml", "-o", "out", "-q", "--plugin", DSC_TEST_FAULTY});
+}
+
+}  // namespace
+
+TEST_CASE("without a fault the plugin runs, and is told in the provenance") {
+    const Cli cli;
+    CHECK(run(cli, "none").code == 0);
+    CHECK(cli.read("out/provenance.json").find("\"name\": \"faulty\"") != std::string::npos);
+}
+
+TEST_CASE("a strategy that throws") {
+    const Cli cli;
+    const Result result = run(cli, "throws");
+    CHECK(result.code == 4);
+    CHECK(result.err == "");
+    CHECK_FALSE(dsc::test::looks_finished(cli.folder() / "out"));
+    CHECK(cli.read("out/status.json").find("\"error_code\": \"strategy.threw\"") != std::string::npos);
+}
+
+TEST_CASE("a strategy that returns NaN: the first vertex is named") {
+    const Cli cli;
+    const Result result = run(cli, "nan");
+    CHECK(result.code == 4);
+    CHECK(result.err == "");
+    CHECK_FALSE(dsc::test::looks_finished(cli.folder() / "out"));
+}
