@@ -1,0 +1,54 @@
+#pragma once
+// A small repair policy for the kernel's tests, so that they do not depend on a strategy.
+
+#include <dsc/kernel/deformer.hpp>
+
+namespace dsc::test {
+
+/// Edge removal, face removal, interface flip, smoothing and collapses for bad tets; collapse of small ones.
+inline kernel::RepairPolicy quality_policy() {
+    kernel::RepairPolicy policy;
+    policy.propose = [](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+        const mesh::Complex& c = round.complex;
+        const double small = 0.2 * 0.11785 * round.target_length * round.target_length * round.target_length;
+        for (const mesh::TetId t : round.dirty) {
+            mesh::Request r;
+            r.tet = t;
+            r.birth_date = c.birth_date(t);
+            if (c.quality(t) < 0.3F) {
+                for (const mesh::VertexId v : c.tet(t).v) {
+                    if (c.on_interface(v) || c.on_box(v)) continue;
+                    mesh::Request smooth = r;
+                    smooth.operation = mesh::Operation::smooth_laplacian;
+                    smooth.vertices[0] = v;
+                    out.push_back(smooth);
+                }
+                for (const auto o : {mesh::Operation::edge_removal, mesh::Operation::interface_flip, mesh::Operation::face_removal}) {
+                    r.operation = o;
+                    r.only_below = 0.3F;
+                    out.push_back(r);
+                }
+            }
+            if (c.quality(t) < 0.03F) {
+                r.operation = mesh::Operation::edge_collapse;
+                r.mode = mesh::CollapseMode::bounded;
+                r.accept_above = 0.03F;
+                r.only_below = 0.03F;
+                out.push_back(r);
+                r.operation = mesh::Operation::compound;
+                out.push_back(r);
+                r.operation = mesh::Operation::relabel;
+                out.push_back(r);
+            } else if (c.volume(t) < small) {
+                r.operation = mesh::Operation::edge_collapse;
+                r.mode = mesh::CollapseMode::bounded;
+                r.accept_above = 0.1F;
+                r.only_below = 2.0F;
+                out.push_back(r);
+            }
+        }
+    };
+    return policy;
+}
+
+}  // namespace dsc::test
