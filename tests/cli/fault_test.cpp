@@ -27,7 +27,9 @@ TEST_CASE("a strategy that throws") {
     const Cli cli;
     const Result result = run(cli, "throws");
     CHECK(result.code == 4);
-    CHECK(result.err == "");
+    CHECK(result.err == "error: velocity 'faulty' (plugin faulty 0.3.0, " DSC_TEST_FAULTY
+                        ", at 'velocity' in the experiment): evaluate at step 1 threw: division by zero; check its parameters "
+                        "or report this to the plugin's authors\n");
     CHECK_FALSE(dsc::test::looks_finished(cli.folder() / "out"));
     CHECK(cli.read("out/status.json").find("\"error_code\": \"strategy.threw\"") != std::string::npos);
 }
@@ -36,6 +38,8 @@ TEST_CASE("a strategy that returns NaN: the first vertex is named") {
     const Cli cli;
     const Result result = run(cli, "nan");
     CHECK(result.code == 4);
-    CHECK(result.err == "");
+    CHECK(result.err.find("): evaluate at step 1 gave the displacement (") != std::string::npos);
+    CHECK(result.err.find(") to vertex 7 (birth id ") != std::string::npos);
+    CHECK(result.err.find("must be written with a finite number") != std::string::npos);
     CHECK_FALSE(dsc::test::looks_finished(cli.folder() / "out"));
 }

@@ -72,8 +72,9 @@ private:
         return complex;
     }
 
-    hooks::StepContext make_context() const {
-        return {.step = deformer_.step_count(),
+    /// `step`: as in metrics.csv and events.jsonl, the first one is 1.
+    hooks::StepContext make_context(std::uint64_t step) const {
+        return {.step = step,
                 .surface = view_,
                 .cloud = cloud_,
                 .target_length = deformer_.target_length(),
@@ -91,7 +92,7 @@ private:
 
     void begin() {
         refresh_view();
-        const hooks::StepContext context = make_context();
+        const hooks::StepContext context = make_context(deformer_.step_count());
         for (const auto& observer : strategies_.observers) observer->begin(context);
         StepMetrics row;
         measure_row(row);
@@ -103,7 +104,7 @@ private:
     void finish() {
         RunTotals& totals = result_.totals;
         totals.target_length = deformer_.target_length();
-        const hooks::StepContext context = make_context();
+        const hooks::StepContext context = make_context(deformer_.step_count());
         for (std::size_t i = 0; i < strategies_.observers.size(); ++i) {
             totals.observers.emplace_back(experiment_.observers[i].type, strategies_.observers[i]->end(context));
         }
@@ -143,7 +144,7 @@ private:
             end(Status::cancelled);
             return false;
         }
-        const hooks::StepContext context = make_context();
+        const hooks::StepContext context = make_context(deformer_.step_count() + 1);
         context_ = &context;
         StepMetrics row;
         const double asked = velocities(context, row);
@@ -216,7 +217,7 @@ private:
             return;
         }
         const Timed timed(result_.totals.seconds.refine);
-        const hooks::StepContext context = make_context();
+        const hooks::StepContext context = make_context(deformer_.step_count());
         strategies_.velocity->prepare(context);
         hooks::RefinementRequests requests;
         refinement.refine({context, strategies_.velocity.get()}, requests);
@@ -283,7 +284,7 @@ private:
     void observe(StepMetrics& row) {
         if (strategies_.observers.empty()) return;
         const Timed timed(result_.totals.seconds.measure);
-        const hooks::StepContext context = make_context();
+        const hooks::StepContext context = make_context(deformer_.step_count());
         const hooks::StepFigures figures{row.step, row.interface_vertices, row.tets, row.volume, row.min_tet_quality};
         for (std::size_t i = 0; i < strategies_.observers.size(); ++i) {
             const std::string prefix = "observers." + experiment_.observers[i].type + ".";
