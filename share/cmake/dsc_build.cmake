@@ -22,6 +22,10 @@ target_compile_options(dsc_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Woverloaded-virtual
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   -ffp-contract=off $<$<BOOL:${DSC_WERROR}>:-Werror>)
+# g++ 12 loses track of what is initialised in code that the sanitizers instrument.
+if(DSC_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(dsc_flags INTERFACE -Wno-maybe-uninitialized)
+endif()
 if(DSC_SANITIZE STREQUAL "address")
   target_compile_options(dsc_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
   target_link_options(dsc_flags INTERFACE -fsanitize=address,undefined)
