@@ -7,6 +7,19 @@ namespace dsc::strategies {
 namespace {
 
 constexpr std::size_t spacing_neighbour = 6;  // as many as a point of a triangulated surface has on average
+constexpr std::size_t searched_neighbours = 40;
+
+// Distance to the sixth neighbour, points that coincide counting once.
+double local_spacing(std::span<const cloud::Neighbour> around) {
+    double last = 0.0;
+    std::size_t distinct = 0;
+    for (const cloud::Neighbour& n : around) {
+        if (!(n.distance > last)) continue;
+        last = n.distance;
+        if (++distinct == spacing_neighbour) break;
+    }
+    return last;
+}
 
 }  // namespace
 
@@ -90,9 +103,9 @@ void DscImprovement::select(const hooks::StepContext& context, std::span<const m
         const cloud::NearestSearch& search = context.cloud->search();
         const cloud::Neighbour nearest = search.nearest(candidates[i].centroid);
         double reach = support;
-        if (candidates[i].kind != mesh::TopologyCandidate::Kind::merge) {
-            search.k_nearest((*context.cloud)[nearest.index], spacing_neighbour + 1, around);
-            reach = std::max(reach, params_.topology.spacing * around.back().distance);
+        if (candidates[i].kind == mesh::TopologyCandidate::Kind::cut || candidates[i].kind == mesh::TopologyCandidate::Kind::shift) {
+            search.k_nearest((*context.cloud)[nearest.index], searched_neighbours, around);
+            reach = std::max(reach, params_.topology.spacing * local_spacing(around));
         }
         accept[i] = nearest.distance > reach ? 1 : 0;
     }
