@@ -16,8 +16,8 @@ constexpr double scale = 0.9;
 constexpr double edges_per_cell = 1.24;
 /// By which a split of all faces above the average area shortens the mean edge.
 constexpr double split_ratio = 0.82;
-/// Edges shorter than this many point spacings would follow single points instead of the surface.
-constexpr double least_edge = 1.5;
+/// Edges shorter than this many point spacings add nothing: there is no point for most of the vertices.
+constexpr double least_edge = 0.75;
 /// Clouds with fewer points keep all of them: too few to tell an outlier.
 constexpr std::size_t filtered_from = 100;
 
