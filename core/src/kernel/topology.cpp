@@ -7,7 +7,7 @@
 namespace dsc::kernel {
 namespace {
 
-constexpr std::uint64_t rest_steps = 5;     // steps in which a vertex touched by an event takes part in no other
+constexpr std::uint64_t rest_steps = 5;     // steps in which a vertex touched by an event takes part in none that undoes it
 constexpr double longest_edge = 1.0;        // of a candidate, in L
 constexpr double thickest_neck = 0.5;       // area of a neck's cross-section, in L^2
 constexpr double events_per_vertex = 0.02;  // a step
@@ -44,8 +44,9 @@ bool wanted(Kind kind, const mesh::TopologyLimits& limits) {
 
 }  // namespace
 
-bool TopologyStage::recent(VertexId v, std::uint64_t step) const {
+bool TopologyStage::recent(VertexId v, mesh::Label from, std::uint64_t step) const {
     if (v >= event_step_.size() || event_step_[v] == 0 || event_birth_[v] != bench_.complex.birth(v)) return false;
+    if (event_to_[v] != from) return false;
     return event_step_[v] - 1 + rest_steps >= step;
 }
 
@@ -53,10 +54,12 @@ void TopologyStage::mark_event(const Region& region, std::uint64_t step) {
     const mesh::Complex& c = bench_.complex;
     event_step_.resize(std::max(event_step_.size(), c.vertex_slots()), 0);
     event_birth_.resize(event_step_.size(), 0);
+    event_to_.resize(event_step_.size(), 0);
     for (const TetId t : region.tets) {
         for (const VertexId v : c.tet(t).v) {
             event_step_[v] = step + 1;
             event_birth_[v] = c.birth(v);
+            event_to_[v] = region.to;
         }
     }
 }
@@ -98,7 +101,7 @@ void TopologyStage::collect_seeds(std::uint64_t step, std::span<const TetId> cha
         std::array<bool, 4> ready{};
         unsigned count = 0;
         for (unsigned i = 0; i < 4; ++i) {
-            ready[i] = c.movable(v[i]) && !recent(v[i], step);
+            ready[i] = c.movable(v[i]) && !recent(v[i], c.label(t), step);
             count += ready[i] ? 1 : 0;
         }
         if (count < 2) continue;
@@ -116,9 +119,9 @@ void TopologyStage::collect_seeds(std::uint64_t step, std::span<const TetId> cha
     seeds_.erase(std::unique(seeds_.begin(), seeds_.end(), [](const Seed& x, const Seed& y) { return x.births == y.births; }), seeds_.end());
 }
 
-bool TopologyStage::usable(const Seed& seed, std::uint64_t step) const {
+bool TopologyStage::usable(const Seed& seed, mesh::Label from, std::uint64_t step) const {
     const mesh::Complex& c = bench_.complex;
-    return std::all_of(seed.v.begin(), seed.v.end(), [&](VertexId v) { return v == mesh::none || (c.movable(v) && !recent(v, step)); });
+    return std::all_of(seed.v.begin(), seed.v.end(), [&](VertexId v) { return v == mesh::none || (c.movable(v) && !recent(v, from, step)); });
 }
 
 RegionFault TopologyStage::start(const Seed& seed, Region& region) {
@@ -249,7 +252,7 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
     for (const Found* f : order) {
         const bool shift = f->candidate.kind == mesh::TopologyCandidate::Kind::shift;
         if ((shift ? shifted : committed) == most) continue;
-        if (!usable(f->seed, step) || region_of(f->seed, region) != RegionFault::none) continue;
+        if (!usable(f->seed, f->candidate.label, step) || region_of(f->seed, region) != RegionFault::none) continue;
         if (kind_of(region) != f->candidate.kind || thickness(region) / bench_.limits.length > limits.thickness) continue;
         if (shift) {
             if (region.volume > bench_.limits.edit_volume) continue;

@@ -45,10 +45,11 @@ private:
     bool neck_face(TetId t, unsigned face);
     RegionFault start(const Seed& seed, Region& region);
     RegionFault region_of(const Seed& seed, Region& region);
-    bool usable(const Seed& seed, std::uint64_t step) const;
+    bool usable(const Seed& seed, mesh::Label from, std::uint64_t step) const;
     bool same_shell(std::span<const VertexId> from, std::span<const VertexId> to);
     void mark_event(const Region& region, std::uint64_t step);
-    bool recent(VertexId v, std::uint64_t step) const;
+    /// An event at v gave tets of label `from` back within the last steps: taking them again would undo it.
+    bool recent(VertexId v, mesh::Label from, std::uint64_t step) const;
     bool flood_component(TetId seed, double volume_limit, Region& region);
 
     Workbench& bench_;
@@ -56,6 +57,7 @@ private:
     std::vector<Found> found_;
     std::vector<std::uint64_t> event_step_;  // per vertex: 1 + step of the last event that touched it
     std::vector<std::uint32_t> event_birth_;
+    std::vector<mesh::Label> event_to_;      // the label that the event put there
     std::vector<std::uint32_t> seen_;
     std::uint32_t seen_epoch_ = 0;
     std::vector<VertexId> queue_;

@@ -16,7 +16,7 @@ public:
         bool open = true;
         bool merge = true;
         bool cut = true;
-        double thickness = 0.6;
+        double thickness = 1.0;
         double support = 0.5;
         double spacing = 0.8;
         double min_component = 2.0;

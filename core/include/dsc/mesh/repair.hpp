@@ -75,7 +75,7 @@ struct RepairRound {
 
 /// Limits of topology changes that the kernel needs before it looks for candidates.
 struct TopologyLimits {
-    double thickness = 0.6;      ///< in target lengths; 0 switches topology changes off
+    double thickness = 1.0;      ///< in target lengths; 0 switches topology changes off
     double min_component = 2.0;  ///< in regular tets of edge L; smaller components vanish; 0: none does
     bool open = true, merge = true, cut = true;  ///< kinds worth looking for
 };
