@@ -1,0 +1,110 @@
+// From a cube to a torus: the hole opens by counted events, and the books agree with a recount of every step's volume.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include <dsc/base/random.hpp>
+#include <dsc/cloud/normalize.hpp>
+#include <dsc/cloud/shapes.hpp>
+#include <dsc/cloud/target.hpp>
+#include <dsc/hooks/improvement.hpp>
+#include <dsc/hooks/velocity_field.hpp>
+#include <dsc/host/host.hpp>
+#include <dsc/kernel/deformer.hpp>
+#include <dsc/mesh/adopt.hpp>
+#include <dsc/mesh/validate.hpp>
+#include <dsc/surface/surface_view.hpp>
+
+#include "../unit/mesh/meshes.hpp"
+
+namespace {
+
+using namespace dsc;
+
+Eigen::Matrix3d random_rotation(std::uint64_t seed) {
+    RandomStream random(RandomKey{seed, stream_id("rotation"), 0, 0});
+    Eigen::Vector4d q;
+    for (int i = 0; i < 4; ++i) q[i] = random.normal();
+    q.normalize();
+    return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+}
+
+struct Outcome {
+    mesh::InterfaceCounts counts;
+    mesh::EventCounts events;
+    bool books_balance = true;
+    bool valid = false;
+};
+
+Outcome deform_cube_to(const cloud::Cloud& cloud) {
+    host::Host host;
+    host.load(DSC_TEST_IMPROVEMENT);
+    host.load(DSC_TEST_VELOCITY);
+    const auto improvement = host.create<hooks::Improvement>({"dsc", config::ConfigNode::map()}, "improvement");
+    const auto velocity = host.create<hooks::VelocityField>({"point_cloud", config::ConfigNode::map()}, "velocity");
+    const cloud::TargetCloud target(cloud::normalize(cloud, 0.9));
+    kernel::Deformer deformer(mesh::adopt(test::cube_grid(18), "cube"));
+    Outcome outcome;
+    outcome.counts = mesh::count_interface(deformer.complex());
+    surface::SurfaceView view;
+    std::vector<Vec3> displacements;
+    for (std::uint64_t step = 0; step < 70; ++step) {
+        surface::build_view(deformer.complex(), view);
+        if (step == 40) {
+            double mean = 0.0;
+            for (const double area : view.face_areas) mean += area / static_cast<double>(view.face_count());
+            std::vector<std::array<mesh::VertexId, 3>> large;
+            for (std::size_t f = 0; f < view.face_count(); ++f) {
+                const auto& face = view.faces[f];
+                if (view.face_areas[f] >= mean) large.push_back({view.vertex_ids[face[0]], view.vertex_ids[face[1]], view.vertex_ids[face[2]]});
+            }
+            deformer.refine(large, {});
+            surface::build_view(deformer.complex(), view);
+        }
+        const hooks::StepContext context{.step = step,
+                                         .surface = view,
+                                         .cloud = &target,
+                                         .target_length = deformer.target_length(),
+                                         .box = deformer.complex().box(),
+                                         .to_normalised = target.transform()};
+        displacements.assign(view.vertex_count(), Vec3::Zero());
+        velocity->prepare(context);
+        velocity->evaluate({0, view.vertex_count()}, displacements);
+        kernel::RepairPolicy policy;
+        policy.propose = [&](const mesh::RepairRound& round, std::vector<mesh::Request>& out) { improvement->propose(context, round, out); };
+        policy.select = [&](auto candidates, auto accept) { improvement->select(context, candidates, accept); };
+        policy.topology = improvement->topology_limits();
+        policy.flatness = improvement->flatness();
+        const kernel::StepReport report = deformer.step(view.vertex_ids, displacements, policy);
+        const auto& e = report.event_counts;
+        const mesh::InterfaceCounts now = mesh::count_interface(deformer.complex());
+        const long shells = static_cast<long>(now.shells) - static_cast<long>(outcome.counts.shells);
+        const long genus = now.genus() - outcome.counts.genus();
+        if (shells != static_cast<long>(e.split + e.born) - static_cast<long>(e.merge + e.vanished)) outcome.books_balance = false;
+        if (genus != static_cast<long>(e.handle_opened) - static_cast<long>(e.handle_closed)) outcome.books_balance = false;
+        outcome.counts = now;
+        outcome.events.handle_opened += e.handle_opened;
+        outcome.events.handle_closed += e.handle_closed;
+    }
+    outcome.valid = mesh::validate(deformer.complex()).valid();
+    return outcome;
+}
+
+}  // namespace
+
+TEST_CASE("a torus from the cube in three random rotations and a mirror image: one shell, genus 1, one handle on the books") {
+    const cloud::Cloud torus = cloud::sample_shape("torus", 5000, 1, 0.0, 0.0);
+    for (int pose = 0; pose < 4; ++pose) {
+        CAPTURE(pose);
+        Eigen::Matrix3d turn = random_rotation(pose < 3 ? static_cast<std::uint64_t>(pose) + 1 : 1);
+        if (pose == 3) turn.row(0) *= -1.0;
+        cloud::Cloud posed = torus;
+        for (Vec3& p : posed.points) p = turn * p;
+        const Outcome outcome = deform_cube_to(posed);
+        CHECK(outcome.valid);
+        CHECK(outcome.books_balance);
+        CHECK(outcome.counts.shells == 1);
+        CHECK(outcome.counts.genus() == 1);
+        CHECK(outcome.events.handle_opened - outcome.events.handle_closed == 1);
+    }
+}
