@@ -18,6 +18,11 @@ constexpr double edges_per_cell = 1.24;
 constexpr double split_ratio = 0.82;
 /// Edges shorter than this many point spacings add nothing: there is no point for most of the vertices.
 constexpr double least_edge = 0.75;
+/// The start mesh of a sparse cloud has edges of this many point spacings, but no fewer cells than these.
+constexpr double coarse_edge = 0.5;
+constexpr double least_cells = 16;
+/// Point spacings within which no sheet is pierced.
+constexpr double support_spacings = 0.8;
 /// Clouds with fewer points keep all of them: too few to tell an outlier.
 constexpr std::size_t filtered_from = 100;
 
@@ -54,15 +59,26 @@ double spacing(const cloud::Cloud& cloud) {
     return distances[probes / 2] / 1.06 * scale / half_extent;
 }
 
-/// As many as the level allows, as long as the edges stay longer than the points' spacing.
-int refinements(const Plan& plan, double point_spacing) {
-    double edge = edges_per_cell * 3.0 / plan.cells;
-    int count = 0;
-    while (count < plan.most_refinements && split_ratio * edge >= least_edge * point_spacing) {
+/// The plan fitted to a cloud.
+struct Fitted {
+    int cells;
+    int refinements;
+    double support;  ///< of topology changes, in mean edges
+};
+
+/// A start mesh no finer than a sparse cloud deserves, as many refinements as the level allows and the points carry. No
+/// sheet is pierced nearer to a point than the points' spacing: between the points of a sparse cloud there is surface.
+Fitted fit(const Plan& plan, double point_spacing) {
+    Fitted fitted{};
+    const double finest = edges_per_cell * 3.0 / (coarse_edge * point_spacing);
+    fitted.cells = static_cast<int>(std::clamp<double>(std::round(finest), least_cells, plan.cells));
+    double edge = edges_per_cell * 3.0 / fitted.cells;
+    while (fitted.refinements < plan.most_refinements && split_ratio * edge >= least_edge * point_spacing) {
         edge *= split_ratio;
-        ++count;
+        ++fitted.refinements;
     }
-    return std::max(count, 1);
+    fitted.support = std::clamp(support_spacings * point_spacing / edge, 0.5, 10.0);
+    return fitted;
 }
 
 ConfigNode filters(std::size_t points) {
@@ -87,8 +103,9 @@ ConfigNode derive_experiment(const std::string& file, const cloud::Cloud& cloud,
     cloud::require_volume(cloud.points, cloud.source.empty() ? file : cloud.source);
     const cloud::Cloud distinct = cloud::remove_duplicates(cloud).cloud;
     const Plan plan = plan_of(detail);
+    const Fitted fitted = fit(plan, spacing(distinct));
     std::vector<ConfigNode> schedule = {ConfigNode::map({{"steps", plan.first_steps}})};
-    for (int i = refinements(plan, spacing(distinct)); i > 0; --i) {
+    for (int i = 0; i < fitted.refinements; ++i) {
         schedule.push_back(ConfigNode::map({{"refine", ConfigNode::map({{"type", "average_area"}})}}));
         schedule.push_back(ConfigNode::map({{"steps", plan.further_steps}}));
     }
@@ -97,9 +114,9 @@ ConfigNode derive_experiment(const std::string& file, const cloud::Cloud& cloud,
          {"name", "reconstruct"},
          {"input", ConfigNode::map({{"cloud", ConfigNode::map({{"file", file}, {"filters", filters(distinct.points.size())}})},
                                     {"normalize", ConfigNode::map({{"scale", scale}})}})},
-         {"initial_mesh", ConfigNode::map({{"type", "grid"}, {"cells", plan.cells}})},
+         {"initial_mesh", ConfigNode::map({{"type", "grid"}, {"cells", fitted.cells}})},
          {"velocity", ConfigNode::map({{"type", "point_cloud"}})},
-         {"improvement", ConfigNode::map({{"type", "dsc"}})},
+         {"improvement", ConfigNode::map({{"type", "dsc"}, {"topology", ConfigNode::map({{"support", fitted.support}})}})},
          {"schedule", ConfigNode::list(std::move(schedule))}});
 }
 

@@ -31,8 +31,8 @@ public:
         const surface::TriangleMesh surface = surface::extract_interface(mesh);
         if (surface.faces.empty()) {
             throw GeometryError("run.vanished",
-                                "the surface vanished: no tet with a label above 0 is left, so there is no result; make the "
-                                "steps smaller or stop earlier");
+                                "the surface vanished: no tet with a label above 0 is left, so there is no result; the "
+                                "object may be thinner than the mesh is fine: use more cells, smaller steps, or stop earlier");
         }
         for (const std::string& extension : output_.surface) {
             io::write_surface(staged("surface.", extension), surface);
