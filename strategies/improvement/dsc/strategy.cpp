@@ -38,7 +38,7 @@ void DscImprovement::Topology::declare(config::ParamSchema<Topology>& schema) {
     schema.real("spacing", &Topology::spacing)
         .range(0, 10)
         .unit("1")
-        .doc("Sheets and necks are also spared this close to a cloud point, in distances to its sixth neighbour there: where "
+        .doc("Necks and the rims of sheets are also spared this close to a cloud point, in distances to its sixth neighbour there: where "
              "the cloud is sparse, a thin part of the object has few points of its own.");
     schema.real("min_component", &Topology::min_component)
         .range(0, 1000)

@@ -114,8 +114,8 @@ TEST_CASE("the topology policy follows its parameters") {
     std::vector<std::uint8_t> accept(2, 7);
     on->select(step, candidates, accept);
     CHECK(accept == std::vector<std::uint8_t>{0, 1});
-    // The octahedron's points are sqrt(2) apart: so sparse a cloud vetoes sheets and necks everywhere near it.
-    for (auto& candidate : candidates) candidate.kind = mesh::TopologyCandidate::Kind::open;
+    // The octahedron's points are sqrt(2) apart: so sparse a cloud vetoes cuts of necks everywhere near it.
+    for (auto& candidate : candidates) candidate.kind = mesh::TopologyCandidate::Kind::cut;
     on->select(step, candidates, accept);
     CHECK(accept == std::vector<std::uint8_t>{0, 0});
     candidates[1].centroid = Vec3(2.8, 0, 0);

@@ -8,6 +8,7 @@ namespace dsc::test {
 /// Edge removal, face removal, interface flip, smoothing and collapses for bad tets; collapse of small ones.
 inline kernel::RepairPolicy quality_policy() {
     kernel::RepairPolicy policy;
+    policy.topology.thickness = 0.6;
     policy.propose = [](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
         const mesh::Complex& c = round.complex;
         const double small = 0.2 * 0.11785 * round.target_length * round.target_length * round.target_length;

@@ -363,7 +363,7 @@ TEST_CASE("improvement: requests, limits and answers out of range") {
     Improvement::limits.thickness = no_number;
     CHECK(caught([&] { improvement->topology_limits(); }).code == "strategy.range");
     Improvement::limits = {};
-    CHECK(improvement->topology_limits().thickness == 0.6);
+    CHECK(improvement->topology_limits().thickness == 1.0);
 }
 
 TEST_CASE("observer: figures of changing, bad or repeated names and without a value") {
