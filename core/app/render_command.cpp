@@ -17,6 +17,7 @@ struct RenderArguments {
     std::string input;
     std::string output;
     std::string view = "iso";
+    std::string up = "y";
     std::string size = "1024x768";
     bool edges = false;
 };
@@ -39,6 +40,7 @@ int execute(const RenderArguments& arguments) {
     io::RenderOptions options;
     parse_size(arguments.size, options);
     options.view = io::view_from_name(arguments.view).value();
+    options.up = arguments.up == "z" ? io::UpAxis::z : io::UpAxis::y;
     options.edges = arguments.edges;
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));
     options.workers = &workers;
@@ -56,6 +58,9 @@ void add_render(CLI::App& app, Context& context) {
     command->add_option("-o,--output", arguments->output, "Picture, .png")->required();
     command->add_option("--view", arguments->view, "Where the viewer stands")
         ->check(CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "iso"}))
+        ->capture_default_str();
+    command->add_option("--up", arguments->up, "The axis that points up: y or z")
+        ->check(CLI::IsMember({"y", "z"}))
         ->capture_default_str();
     command->add_option("--size", arguments->size, "Width and height in pixels")->capture_default_str();
     command->add_flag("--edges", arguments->edges, "Draw the edges of the triangles");

@@ -89,8 +89,12 @@ fs::path folder_of(const LoadedExperiment& loaded, const std::string& hash) {
     return fs::path("runs") / loaded.experiment.name / hash.substr(0, 12);
 }
 
-void draw(const RunFolder& folder, const surface::TriangleMesh& surface, Workers& workers) {
+/// The built-in shapes stand along z, most models in files along y.
+void draw(const RunFolder& folder, const surface::TriangleMesh& surface, bool sampled, Workers& workers) {
     io::RenderOptions options;
+    options.width = 800;
+    options.height = 600;
+    options.up = sampled ? io::UpAxis::z : io::UpAxis::y;
     options.workers = &workers;
     io::write_png(folder.file("preview.png"), io::render(surface, options));
 }
@@ -162,7 +166,7 @@ private:
         files.write(to_input(driven.mesh, to_normalised), outcome);
         files.measure_files(outcome);
         require_valid(outcome);
-        draw(folder, outcome.volume.interface, workers_);
+        draw(folder, outcome.volume.interface, experiment.input && experiment.input->cloud.sample, workers_);
         outcome.picture = folder.file("preview.png");
         std::optional<surface::CloudEvaluation> distances;
         if (target != nullptr) distances = surface::evaluate_cloud(driven.surface, target->points(), &workers_);
