@@ -1,7 +1,9 @@
 // The whole job through the real command, judged by the written files.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include <dsc/io/read.hpp>
 #include <dsc/run/measure.hpp>
@@ -41,6 +43,26 @@ void check_result(const fs::path& folder) {
 }
 
 json summary_of(const Cli& cli, const std::string& folder) { return json::parse(cli.read(folder + "/summary.json")); }
+
+/// Median of the column `rounds` of the first steps.
+int median_rounds(const std::string& metrics, std::size_t steps) {
+    std::istringstream lines(metrics);
+    std::string line, cell;
+    std::getline(lines, line);
+    std::size_t column = 0;
+    std::istringstream header(line);
+    while (std::getline(header, cell, ',') && cell != "rounds") ++column;
+    std::getline(lines, line);  // row 0 is the start
+    std::vector<int> rounds;
+    while (rounds.size() < steps && std::getline(lines, line)) {
+        std::istringstream cells(line);
+        for (std::size_t i = 0; i <= column; ++i) std::getline(cells, cell, ',');
+        rounds.push_back(std::stoi(cell));
+    }
+    REQUIRE(rounds.size() == steps);
+    std::sort(rounds.begin(), rounds.end());
+    return rounds[steps / 2];
+}
 
 std::string config(const std::string& name) { return (fs::path(DSC_SOURCE_DIR) / "configs" / name).string(); }
 
@@ -128,8 +150,28 @@ TEST_CASE("the thesis' clouds" * doctest::description("needs DSC_DATA")) {
         CHECK(summary["interface_vertices"].get<int>() >= e.least_vertices);
         CHECK(summary["interface_vertices"].get<int>() <= e.most_vertices);
         CHECK(summary["cpu_s"].get<double>() <= e.cpu);
+        if (std::string(e.name) == "teapot") CHECK(median_rounds(cli.read("out/metrics.csv"), 12) <= 8);
         const std::string truth = (fs::path(data) / (std::string(e.name) + ".obj")).string();
         const json figures = json::parse(cli.dsc({"evaluate", "out", "--truth", truth, "--json"}).out);
         CHECK(figures["truth"]["chamfer_percent"].get<double>() <= e.chamfer);
+    }
+}
+
+TEST_CASE("dsc reconstruct without options on shared scans" * doctest::description("needs DSC_DATA")) {
+    const char* data = std::getenv("DSC_DATA");
+    if (data == nullptr || !fs::exists(fs::path(data) / "spot-clean.obj")) {
+        MESSAGE("SKIPPED: DSC_DATA does not name the folder with spot-clean.obj, fandisk-clean.obj and anchor-clean.obj");
+        return;
+    }
+    for (const std::string name : {"spot-clean", "fandisk-clean", "anchor-clean"}) {
+        CAPTURE(name);
+        const Cli cli;
+        REQUIRE(cli.dsc({"reconstruct", (fs::path(data) / (name + ".obj")).string(), "--keep-run", "kept", "-q"}).code == 0);
+        CHECK(cli.exists(name + "_surface.ply"));
+        CHECK(cli.exists(name + "_volume.vtu"));
+        check_result(cli.folder() / "kept");
+        const json summary = summary_of(cli, "kept");
+        CHECK(summary["cpu_s"].get<double>() < 60.0);
+        CHECK(summary["components"] == 1);
     }
 }
