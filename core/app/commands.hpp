@@ -2,7 +2,6 @@
 // The commands of `dsc`. Each function adds one to the parser; its action, run after parsing, returns the exit code.
 
 #include <CLI/CLI.hpp>
-
 #include <functional>
 #include <string>
 #include <vector>

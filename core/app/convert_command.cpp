@@ -32,7 +32,8 @@ int execute(const ConvertArguments& arguments) {
     const bool xyz = extension_of(arguments.output) == ".xyz";
     if (format == nullptr && !xyz) {
         throw UsageError("usage.format", arguments.output + " has no extension that is written; use " +
-                                             io::surface_extensions() + " for a surface, " + io::volume_extensions() +
+                                             io::surface_extensions() + " for a surface, " +
+                                             io::volume_extensions() +
                                              " for a volume, .xyz, .obj, .ply for a cloud");
     }
     Content content = read_any(arguments.input);
@@ -40,8 +41,9 @@ int execute(const ConvertArguments& arguments) {
         cloud::write_cloud(arguments.output, points_of(std::move(content)));
     } else if (format->volume) {
         if (!content.volume) {
-            throw UsageError("convert.no_volume", arguments.input + " holds no tets, so no volume can be written; make one "
-                                                                    "with dsc reconstruct");
+            throw UsageError("convert.no_volume", arguments.input +
+                                                      " holds no tets, so no volume can be written; make one "
+                                                      "with dsc reconstruct");
         }
         io::write_volume(arguments.output, *content.volume);
     } else if (content.cloud) {
@@ -57,11 +59,13 @@ int execute(const ConvertArguments& arguments) {
 }  // namespace
 
 void add_convert(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("convert", "Another format; of a volume also its surface or its points");
+    CLI::App* command =
+        app.add_subcommand("convert", "Another format; of a volume also its surface or its points");
     const auto arguments = std::make_shared<ConvertArguments>();
     command->add_option("IN", arguments->input, "Surface, volume or cloud")->required();
     command->add_option("OUT", arguments->output, "The extension decides")->required();
-    command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    command->callback(
+        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }
 
 }  // namespace dsc::app

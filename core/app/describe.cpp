@@ -14,11 +14,16 @@ using nlohmann::ordered_json;
 
 ordered_json to_json(const config::ConfigNode& node) {
     switch (node.type()) {
-        case NodeType::null: return nullptr;
-        case NodeType::boolean: return node.as_boolean();
-        case NodeType::integer: return node.as_integer();
-        case NodeType::real: return node.as_real();
-        case NodeType::string: return node.as_string();
+        case NodeType::null:
+            return nullptr;
+        case NodeType::boolean:
+            return node.as_boolean();
+        case NodeType::integer:
+            return node.as_integer();
+        case NodeType::real:
+            return node.as_real();
+        case NodeType::string:
+            return node.as_string();
         case NodeType::list: {
             ordered_json list = ordered_json::array();
             for (const config::ConfigNode& item : node.items()) list.push_back(to_json(item));
@@ -41,9 +46,12 @@ ordered_json bound(const std::optional<config::Bound>& bound) {
 ordered_json fields_json(const config::Schema& schema) {
     ordered_json fields = ordered_json::array();
     for (const Field& field : schema.fields()) {
-        ordered_json json = {{"name", field.name},         {"type", std::string(config::type_name(field.type))},
-                             {"doc", field.doc},           {"unit", field.unit},
-                             {"required", field.required}, {"optional", field.optional},
+        ordered_json json = {{"name", field.name},
+                             {"type", std::string(config::type_name(field.type))},
+                             {"doc", field.doc},
+                             {"unit", field.unit},
+                             {"required", field.required},
+                             {"optional", field.optional},
                              {"default", to_json(field.default_value)}};
         if (field.minimum) json["minimum"] = bound(field.minimum);
         if (field.maximum) json["maximum"] = bound(field.maximum);
@@ -81,7 +89,8 @@ std::string yaml_value(const config::ConfigNode& value) {
 std::string list_text(const std::vector<Described>& all) {
     std::array<std::size_t, 3> width{};
     const auto cells = [](const Described& d) {
-        return std::array<std::string, 3>{d.kind, d.id, d.version.empty() ? d.plugin : d.plugin + " " + d.version};
+        return std::array<std::string, 3>{d.kind, d.id,
+                                          d.version.empty() ? d.plugin : d.plugin + " " + d.version};
     };
     for (const Described& d : all) {
         const auto row = cells(d);
@@ -90,7 +99,8 @@ std::string list_text(const std::vector<Described>& all) {
     std::string text;
     for (const Described& d : all) {
         const auto row = cells(d);
-        for (std::size_t i = 0; i < row.size(); ++i) text += row[i] + std::string(width[i] + 2 - row[i].size(), ' ');
+        for (std::size_t i = 0; i < row.size(); ++i)
+            text += row[i] + std::string(width[i] + 2 - row[i].size(), ' ');
         text += d.summary + "\n";
     }
     return text;
@@ -116,9 +126,11 @@ std::string description_text(const Described& d) {
 }
 
 std::string yaml_text(const Described& d) {
-    std::string text = "# " + d.kind + " '" + d.id + "': " + d.summary + "\n" + d.kind + ":\n  type: " + d.id + "\n";
+    std::string text =
+        "# " + d.kind + " '" + d.id + "': " + d.summary + "\n" + d.kind + ":\n  type: " + d.id + "\n";
     for (const Field& field : d.schema->fields()) {
-        text += "  # " + field.doc + " (" + field.summary() + (field.unit.empty() ? "" : "; unit " + field.unit) + ")\n";
+        text += "  # " + field.doc + " (" + field.summary() +
+                (field.unit.empty() ? "" : "; unit " + field.unit) + ")\n";
         std::string value = field.name + ":" + (field.required ? " \n" : yaml_value(field.default_value));
         if (field.required) value = "# " + field.name + ": required\n";
         for (std::size_t begin = 0; begin < value.size();) {

@@ -24,7 +24,8 @@ struct EvaluateArguments {
     bool json = false;
 };
 
-ordered_json against_truth(const surface::TriangleMesh& result, const EvaluateArguments& arguments, Workers& workers) {
+ordered_json against_truth(const surface::TriangleMesh& result, const EvaluateArguments& arguments,
+                           Workers& workers) {
     surface::EvaluateOptions options;
     options.samples = arguments.samples;
     options.workers = &workers;
@@ -43,15 +44,18 @@ ordered_json against_truth(const surface::TriangleMesh& result, const EvaluateAr
 }
 
 ordered_json truth_formulas() {
-    return {{"diagonal", "diagonal of the box of the truth"},
-            {"accuracy_percent", "100 * mean over samples r of the result of dist(r, truth) / diagonal"},
-            {"completeness_percent", "100 * mean over samples t of the truth of dist(t, result) / diagonal"},
-            {"chamfer_percent", "(accuracy_percent + completeness_percent) / 2"},
-            {"hausdorff_percent", "100 * largest of all these distances / diagonal"},
-            {"hausdorff99_percent", "100 * larger of the two directions' 99 % quantiles / diagonal"},
-            {"f_score_x_percent", "2 P R / (P + R); P, R = share of the result's, the truth's samples closer than x % of diagonal"},
-            {"normal_consistency", "mean over both directions of |n . n'| of a sample's face and the nearest face"},
-            {"dist", "distance to the nearest point of the triangles; samples are uniform by area"}};
+    return {
+        {"diagonal", "diagonal of the box of the truth"},
+        {"accuracy_percent", "100 * mean over samples r of the result of dist(r, truth) / diagonal"},
+        {"completeness_percent", "100 * mean over samples t of the truth of dist(t, result) / diagonal"},
+        {"chamfer_percent", "(accuracy_percent + completeness_percent) / 2"},
+        {"hausdorff_percent", "100 * largest of all these distances / diagonal"},
+        {"hausdorff99_percent", "100 * larger of the two directions' 99 % quantiles / diagonal"},
+        {"f_score_x_percent",
+         "2 P R / (P + R); P, R = share of the result's, the truth's samples closer than x % of diagonal"},
+        {"normal_consistency",
+         "mean over both directions of |n . n'| of a sample's face and the nearest face"},
+        {"dist", "distance to the nearest point of the triangles; samples are uniform by area"}};
 }
 
 /// Scale from input to normalised units of a run folder; empty for anything else.
@@ -62,14 +66,16 @@ std::optional<double> scale_of(const std::filesystem::path& folder) {
     const auto transform = summary.find("to_normalised");
     if (transform == summary.end() || !transform->is_object()) return std::nullopt;
     const auto scale = transform->find("scale");
-    return scale != transform->end() && scale->is_number() ? std::optional(scale->get<double>()) : std::nullopt;
+    return scale != transform->end() && scale->is_number() ? std::optional(scale->get<double>())
+                                                           : std::nullopt;
 }
 
 ordered_json distances(const surface::DistanceFigures& f, double factor) {
     return {{"mean", f.mean * factor}, {"min", f.min * factor}, {"max", f.max * factor}};
 }
 
-ordered_json against_cloud(const surface::TriangleMesh& result, const EvaluateArguments& arguments, Workers& workers) {
+ordered_json against_cloud(const surface::TriangleMesh& result, const EvaluateArguments& arguments,
+                           Workers& workers) {
     const cloud::Cloud cloud = cloud::read_cloud(arguments.cloud);
     const surface::CloudEvaluation e = surface::evaluate_cloud(result, cloud.points, &workers);
     const double diagonal = bounding_box(cloud.points).diagonal();
@@ -88,10 +94,13 @@ ordered_json against_cloud(const surface::TriangleMesh& result, const EvaluateAr
 }
 
 ordered_json cloud_formulas() {
-    return {{"vertex_to_cloud", "over the result's vertices v: distance to the nearest cloud point (table 6.2 of the thesis)"},
-            {"cloud_to_surface", "over the cloud's points p: distance to the nearest point of the result's triangles"},
+    return {{"vertex_to_cloud",
+             "over the result's vertices v: distance to the nearest cloud point (table 6.2 of the thesis)"},
+            {"cloud_to_surface",
+             "over the cloud's points p: distance to the nearest point of the result's triangles"},
             {"_percent", "100 * distance / diagonal of the cloud's box"},
-            {"_normalised", "distance * scale of the run's normalisation, the units of table 6.2; for run folders only"}};
+            {"_normalised",
+             "distance * scale of the run's normalisation, the units of table 6.2; for run folders only"}};
 }
 
 int execute(const EvaluateArguments& arguments) {
@@ -118,7 +127,8 @@ int execute(const EvaluateArguments& arguments) {
 }  // namespace
 
 void add_evaluate(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("evaluate", "How near a result is to the true surface or to its cloud");
+    CLI::App* command =
+        app.add_subcommand("evaluate", "How near a result is to the true surface or to its cloud");
     const auto arguments = std::make_shared<EvaluateArguments>();
     command->add_option("RESULT", arguments->result, "Surface, volume or run folder")->required();
     command->add_option("--truth", arguments->truth, "True surface");
@@ -127,7 +137,8 @@ void add_evaluate(CLI::App& app, Context& context) {
         ->check(CLI::Range(1000, 100000000))
         ->capture_default_str();
     command->add_flag("--json", arguments->json, "JSON instead of text");
-    command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    command->callback(
+        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }
 
 }  // namespace dsc::app

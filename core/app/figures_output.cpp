@@ -34,7 +34,8 @@ void print_figures(const ordered_json& figures, bool as_json) {
     flatten(figures, "", lines);
     std::size_t width = 0;
     for (const auto& [name, text] : lines) width = std::max(width, name.size());
-    for (const auto& [name, text] : lines) std::cout << name << std::string(width + 2 - name.size(), ' ') << text << "\n";
+    for (const auto& [name, text] : lines)
+        std::cout << name << std::string(width + 2 - name.size(), ' ') << text << "\n";
 }
 
 ordered_json box_figures(const Box3& box) {

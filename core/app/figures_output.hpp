@@ -1,9 +1,8 @@
 #pragma once
 // Figures on stdout: JSON for programs, aligned lines for people.
 
-#include <nlohmann/json.hpp>
-
 #include <dsc/geometry/vec.hpp>
+#include <nlohmann/json.hpp>
 
 namespace dsc::app {
 

@@ -55,7 +55,8 @@ surface::TriangleMesh read_any_surface(const fs::path& path) {
     Content content = read_any(path);
     if (content.volume) return surface::extract_interface(*content.volume);
     if (content.cloud) {
-        throw UsageError("file.no_surface", path.string() + " holds points without faces; a surface or a volume is needed here");
+        throw UsageError("file.no_surface",
+                         path.string() + " holds points without faces; a surface or a volume is needed here");
     }
     return std::move(*content.surface);
 }
@@ -72,7 +73,8 @@ void require_output(const fs::path& out, const fs::path& input) {
     }
     const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
     if (!fs::is_directory(folder)) {
-        throw IoError("io.folder", out.string(), "", "its folder " + folder.string() + " does not exist", "make the folder first");
+        throw IoError("io.folder", out.string(), "", "its folder " + folder.string() + " does not exist",
+                      "make the folder first");
     }
     if (fs::is_directory(out)) {
         throw UsageError("file.folder", out.string() + " is a folder; name a file with -o");

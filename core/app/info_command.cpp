@@ -81,7 +81,8 @@ ordered_json volume_figures(const std::filesystem::path& file, const run::Volume
                             {"fills_box", m.fills_box()},
                             {"labels", labels},
                             {"interface", surface_figures(m.interface_measure)}};
-    if (ordered_json same = conformity(file, m.interface); !same.empty()) figures["interface_is_surface"] = same;
+    if (ordered_json same = conformity(file, m.interface); !same.empty())
+        figures["interface_is_surface"] = same;
     figures["solid"] = m.solid();
     return figures;
 }
@@ -122,9 +123,10 @@ int execute(const InfoArguments& arguments) {
     }
     print_figures(figures, arguments.json);
     if (arguments.require_solid && !figures["solid"].get<bool>()) {
-        throw GeometryError("info.not_solid", arguments.file +
-                                                  " is not a valid solid: closed, manifold, oriented outwards, without "
-                                                  "self-intersections; the figures on stdout tell what it lacks");
+        throw GeometryError("info.not_solid",
+                            arguments.file +
+                                " is not a valid solid: closed, manifold, oriented outwards, without "
+                                "self-intersections; the figures on stdout tell what it lacks");
     }
     return 0;
 }
@@ -137,7 +139,8 @@ void add_info(CLI::App& app, Context& context) {
     command->add_option("FILE", arguments->file, "Surface, volume or cloud")->required();
     command->add_flag("--json", arguments->json, "JSON instead of text");
     command->add_flag("--require-solid", arguments->require_solid, "Exit 5 unless it is a valid solid");
-    command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    command->callback(
+        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }
 
 }  // namespace dsc::app

@@ -16,12 +16,14 @@ void print_error(const dsc::Error& error) {
     std::string_view text = error.what();
     while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
     const bool diagnostics = text.find(": error: ") != std::string_view::npos;
-    std::fprintf(stderr, "%s%.*s\n", diagnostics ? "" : "error: ", static_cast<int>(text.size()), text.data());
+    std::fprintf(stderr, "%s%.*s\n", diagnostics ? "" : "error: ", static_cast<int>(text.size()),
+                 text.data());
 }
 
 int usage_error(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App* command = &app;
-    for (auto given = command->get_subcommands(); !given.empty(); given = command->get_subcommands()) command = given.front();
+    for (auto given = command->get_subcommands(); !given.empty(); given = command->get_subcommands())
+        command = given.front();
     std::string name = "dsc";
     if (command != &app) name += " " + command->get_name();
     std::fprintf(stderr, "error: %s; see %s --help\n", error.what(), name.c_str());
@@ -32,7 +34,9 @@ int run(int argc, char** argv) {
     CLI::App app("Point clouds without normals to watertight surfaces and conforming tet meshes.", "dsc");
     app.set_version_flag("--version", dsc::run::version_text);
     app.require_subcommand(1);
-    app.footer("Exit codes: 0 ok, 1 internal, 2 usage, 3 config, 4 plugin or strategy, 5 geometry, 6 input/output, 75 stopped.");
+    app.footer(
+        "Exit codes: 0 ok, 1 internal, 2 usage, 3 config, 4 plugin or strategy, 5 geometry, 6 input/output, "
+        "75 stopped.");
     dsc::app::Context context;
     context.command_line.assign(argv, argv + argc);
     dsc::app::add_run(app, context);

@@ -10,17 +10,19 @@ namespace dsc::app {
 void report(const run::RunOutcome& outcome) {
     const surface::SurfaceReport& s = outcome.surface.report;
     log(LogLevel::info,
-        fmt::format("{} after {} steps: surface of {} vertices and {} faces, {} component{}, genus {}; volume of {} tets, least "
+        fmt::format("{} after {} steps: surface of {} vertices and {} faces, {} component{}, genus {}; "
+                    "volume of {} tets, least "
                     "quality {:.3g}",
                     run::name(outcome.totals.status), outcome.totals.steps, s.vertices, s.faces, s.components,
                     s.components == 1 ? "" : "s", s.genus, outcome.volume.tets, outcome.volume.min_quality));
     if (outcome.surface.solid()) {
         log(LogLevel::info, "the surface as written is closed, manifold and free of self-intersections");
     } else {
-        log(LogLevel::warning,
-            fmt::format("the surface as written has {} boundary edges, {} non-manifold edges, {} non-manifold vertices, {} "
-                        "self-intersections",
-                        s.boundary_edges, s.nonmanifold_edges, s.nonmanifold_vertices, outcome.surface.intersections.count));
+        log(LogLevel::warning, fmt::format("the surface as written has {} boundary edges, {} non-manifold "
+                                           "edges, {} non-manifold vertices, {} "
+                                           "self-intersections",
+                                           s.boundary_edges, s.nonmanifold_edges, s.nonmanifold_vertices,
+                                           outcome.surface.intersections.count));
     }
     if (outcome.totals.status == run::Status::stalled) {
         log(LogLevel::warning, "stalled: the surface could not move on; the result is what was reached");
@@ -31,7 +33,8 @@ void report(const run::RunOutcome& outcome) {
 }
 
 int exit_code(const run::RunOutcome& outcome) {
-    return static_cast<int>(outcome.totals.status == run::Status::cancelled ? ExitCode::stopped : ExitCode::ok);
+    return static_cast<int>(outcome.totals.status == run::Status::cancelled ? ExitCode::stopped
+                                                                            : ExitCode::ok);
 }
 
 }  // namespace dsc::app

@@ -26,12 +26,14 @@ struct PluginArguments {
 std::vector<Described> all_strategies(const host::Host& host) {
     std::vector<Described> all;
     for (const plugin::StrategyInfo& info : host.list()) {
-        all.push_back({std::string(plugin::kind_name(info.strategy->kind)), info.strategy->id, info.strategy->summary,
-                       info.plugin->name, info.plugin->version, info.plugin->file.string(), info.strategy->schema.get()});
+        all.push_back({std::string(plugin::kind_name(info.strategy->kind)), info.strategy->id,
+                       info.strategy->summary, info.plugin->name, info.plugin->version,
+                       info.plugin->file.string(), info.strategy->schema.get()});
     }
     const run::ExperimentLookup lookup(host);
     for (const std::string& id : lookup.ids("filter")) {
-        all.push_back({"filter", id, "filter of the point cloud", "core", "", "", lookup.find_schema("filter", id)});
+        all.push_back(
+            {"filter", id, "filter of the point cloud", "core", "", "", lookup.find_schema("filter", id)});
     }
     return all;
 }
@@ -96,7 +98,9 @@ void add_plugin(CLI::App& app, Context& context) {
         sub->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
             ->expected(1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-        sub->callback([arguments, action, &context] { context.action = [arguments, action] { return action(*arguments); }; });
+        sub->callback([arguments, action, &context] {
+            context.action = [arguments, action] { return action(*arguments); };
+        });
         return sub;
     };
     add("list", "All strategies", list)->add_flag("--json", arguments->json, "JSON instead of text");

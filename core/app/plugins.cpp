@@ -17,7 +17,9 @@ const host::Host& Plugins::load(const std::vector<std::string>& experiment) {
 }
 
 run::PluginLoader Plugins::loader() {
-    return [this](const std::vector<std::string>& experiment) -> const config::StrategyLookup& { return load(experiment); };
+    return [this](const std::vector<std::string>& experiment) -> const config::StrategyLookup& {
+        return load(experiment);
+    };
 }
 
 }  // namespace dsc::app

@@ -51,8 +51,9 @@ std::vector<Target> targets(const ReconstructArguments& arguments) {
     for (const std::string& name : names) {
         const io::Format* format = io::find_format(name);
         if (format == nullptr) {
-            throw UsageError("usage.format", name + " has no extension that is written; use " + io::surface_extensions() +
-                                                 " for the surface, " + io::volume_extensions() + " for the volume");
+            throw UsageError("usage.format", name + " has no extension that is written; use " +
+                                                 io::surface_extensions() + " for the surface, " +
+                                                 io::volume_extensions() + " for the volume");
         }
         require_output(name, arguments.cloud);
         for (const Target& other : list) {
@@ -64,7 +65,8 @@ std::vector<Target> targets(const ReconstructArguments& arguments) {
 }
 
 /// The formats that a run must write so that every target can be copied from it.
-config::ConfigNode wanted(const std::vector<Target>& list, bool volume, const std::vector<std::string>& always) {
+config::ConfigNode wanted(const std::vector<Target>& list, bool volume,
+                          const std::vector<std::string>& always) {
     std::vector<std::string> formats = always;
     for (const Target& target : list) {
         if (target.volume == volume) formats.push_back(target.format);
@@ -93,14 +95,16 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     }
     const std::vector<Target> list = targets(arguments);
     const run::Detail detail = run::detail_from_name(arguments.detail).value();
-    config::ConfigNode root =
-        run::derive_experiment(fs::absolute(arguments.cloud).string(), cloud::read_cloud(arguments.cloud), detail);
+    config::ConfigNode root = run::derive_experiment(fs::absolute(arguments.cloud).string(),
+                                                     cloud::read_cloud(arguments.cloud), detail);
     const bool kept = !arguments.keep_run.empty();
-    root = root.with("output", config::ConfigNode::map(
-                                   {{"surface", wanted(list, false, kept ? std::vector<std::string>{"obj", "ply"}
-                                                                         : std::vector<std::string>{"obj"})},
-                                    {"volume", wanted(list, true, kept ? std::vector<std::string>{"vtu", "dsc"}
-                                                                       : std::vector<std::string>{"dsc"})}}));
+    root = root.with("output",
+                     config::ConfigNode::map({{"surface", wanted(list, false,
+                                                                 kept ? std::vector<std::string>{"obj", "ply"}
+                                                                      : std::vector<std::string>{"obj"})},
+                                              {"volume", wanted(list, true,
+                                                                kept ? std::vector<std::string>{"vtu", "dsc"}
+                                                                     : std::vector<std::string>{"dsc"})}}));
     Plugins plugins(arguments.plugins);
     const run::LoadedExperiment loaded = run::resolve_experiment(root, plugins.loader());
 
@@ -108,7 +112,8 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     if (!kept) temporary.emplace();
     run::RunOptions options;
     options.folder = kept ? fs::path(arguments.keep_run) : temporary->path() / "run";
-    options.threads = arguments.threads != 0 ? arguments.threads : std::max(1U, std::thread::hardware_concurrency());
+    options.threads =
+        arguments.threads != 0 ? arguments.threads : std::max(1U, std::thread::hardware_concurrency());
     options.cancel = &cancel_on_signals();
     options.command = command;
     options.on_step = progress_reporter(arguments.terminal);
@@ -125,10 +130,12 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
 void add_reconstruct(CLI::App& app, Context& context) {
     CLI::App* command = app.add_subcommand("reconstruct", "Point cloud to surface and volume");
     const auto arguments = std::make_shared<ReconstructArguments>();
-    command->add_option("CLOUD", arguments->cloud, "Point cloud: .obj .ply .pcd .xyz .txt .asc .pts .csv")->required();
+    command->add_option("CLOUD", arguments->cloud, "Point cloud: .obj .ply .pcd .xyz .txt .asc .pts .csv")
+        ->required();
     command
         ->add_option("-o,--output", arguments->outputs,
-                     "Output, may repeat; the extension decides: .obj .ply .off .stl surface, .vtu .dsc volume. Default "
+                     "Output, may repeat; the extension decides: .obj .ply .off .stl surface, .vtu .dsc "
+                     "volume. Default "
                      "STEM_surface.ply and STEM_volume.vtu in the current folder")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -136,7 +143,9 @@ void add_reconstruct(CLI::App& app, Context& context) {
         ->check(CLI::IsMember({"low", "medium", "high"}))
         ->capture_default_str();
     command->add_option("--keep-run", arguments->keep_run, "Keep the run folder here");
-    command->add_option("--threads", arguments->threads, "Threads; default all. The result does not depend on it")
+    command
+        ->add_option("--threads", arguments->threads,
+                     "Threads; default all. The result does not depend on it")
         ->check(CLI::Range(1U, 1024U));
     command->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
         ->expected(1)

@@ -34,7 +34,8 @@ void parse_size(const std::string& text, io::RenderOptions& options) {
 
 int execute(const RenderArguments& arguments) {
     if (extension_of(arguments.output) != ".png") {
-        throw UsageError("usage.format", arguments.output + ": pictures are written as .png; name such a file with -o");
+        throw UsageError("usage.format",
+                         arguments.output + ": pictures are written as .png; name such a file with -o");
     }
     require_output(arguments.output, arguments.input);
     io::RenderOptions options;
@@ -64,7 +65,8 @@ void add_render(CLI::App& app, Context& context) {
         ->capture_default_str();
     command->add_option("--size", arguments->size, "Width and height in pixels")->capture_default_str();
     command->add_flag("--edges", arguments->edges, "Draw the edges of the triangles");
-    command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    command->callback(
+        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }
 
 }  // namespace dsc::app

@@ -30,11 +30,11 @@ struct RunArguments {
 
 int check(const run::LoadedExperiment& loaded, const host::Host& host, const RunArguments& arguments) {
     run::make_strategies(loaded.experiment, host);
-    const std::filesystem::path folder =
-        arguments.folder.empty() ? run::default_folder(loaded, host) : std::filesystem::path(arguments.folder);
+    const std::filesystem::path folder = arguments.folder.empty() ? run::default_folder(loaded, host)
+                                                                  : std::filesystem::path(arguments.folder);
     if (arguments.print_config) return 0;
-    std::cout << arguments.config << ": valid, " << run::planned_steps(loaded.experiment) << " steps, would write "
-              << folder.string() << "\n";
+    std::cout << arguments.config << ": valid, " << run::planned_steps(loaded.experiment)
+              << " steps, would write " << folder.string() << "\n";
     return 0;
 }
 
@@ -52,7 +52,8 @@ int execute(const RunArguments& arguments, const std::vector<std::string>& comma
 
     run::RunOptions options;
     options.folder = arguments.folder;
-    options.threads = arguments.threads != 0 ? arguments.threads : std::max(1U, std::thread::hardware_concurrency());
+    options.threads =
+        arguments.threads != 0 ? arguments.threads : std::max(1U, std::thread::hardware_concurrency());
     options.time_budget = budget;
     options.cancel = &cancel_on_signals();
     options.command = command;
@@ -71,13 +72,16 @@ void add_run(CLI::App& app, Context& context) {
     command->add_option("CONFIG", arguments->config, "Experiment, a YAML file")->required();
     command->add_option("KEY=VALUE", arguments->overrides, "Values that override the file's, by dotted path");
     command->add_option("-o,--output", arguments->folder, "Run folder; default runs/NAME/HASH");
-    command->add_option("--threads", arguments->threads, "Threads; default all. The result does not depend on it")
+    command
+        ->add_option("--threads", arguments->threads,
+                     "Threads; default all. The result does not depend on it")
         ->check(CLI::Range(1U, 1024U));
     command->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_flag("--check", arguments->check, "Only say whether the experiment is right");
-    command->add_flag("--print-config", arguments->print_config, "Print the experiment with all defaults, run nothing");
+    command->add_flag("--print-config", arguments->print_config,
+                      "Print the experiment with all defaults, run nothing");
     command->add_option("--time-budget", arguments->time_budget, "Stop after this time: 90, 90s, 10m, 1.5h");
     add_progress(*command, arguments->terminal);
     add_verbosity(*command, arguments->terminal);

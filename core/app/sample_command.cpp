@@ -24,8 +24,8 @@ struct SampleArguments {
 int execute(const SampleArguments& arguments) {
     require_output(arguments.output, "");
     if (!arguments.mesh.empty()) require_output(arguments.mesh, arguments.output);
-    const cloud::Cloud cloud =
-        cloud::sample_shape(arguments.shape, arguments.n, arguments.seed, arguments.noise, arguments.outliers);
+    const cloud::Cloud cloud = cloud::sample_shape(arguments.shape, arguments.n, arguments.seed,
+                                                   arguments.noise, arguments.outliers);
     std::vector<std::string> written = {arguments.output};
     if (!arguments.mesh.empty()) {
         cloud::ShapeMesh truth = cloud::shape_mesh(arguments.shape);
@@ -40,7 +40,8 @@ int execute(const SampleArguments& arguments) {
 }  // namespace
 
 void add_sample(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("sample", "A cloud of a built-in shape: teapot, sphere, torus, box_tunnel");
+    CLI::App* command =
+        app.add_subcommand("sample", "A cloud of a built-in shape: teapot, sphere, torus, box_tunnel");
     const auto arguments = std::make_shared<SampleArguments>();
     command->add_option("SHAPE", arguments->shape, "teapot, sphere, torus or box_tunnel")->required();
     command->add_option("-n", arguments->n, "Number of points")->required()->check(CLI::Range(1, 100000000));
@@ -51,7 +52,8 @@ void add_sample(CLI::App& app, Context& context) {
         ->check(CLI::Range(0.0, 1.0));
     command->add_option("--seed", arguments->seed, "Seed of the random numbers")->capture_default_str();
     command->add_option("--mesh", arguments->mesh, "Also write the true surface: .obj, .ply, .off or .stl");
-    command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    command->callback(
+        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }
 
 }  // namespace dsc::app

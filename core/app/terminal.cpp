@@ -23,18 +23,23 @@ extern "C" void on_signal(int signal) {
 
 spdlog::level::level_enum spdlog_level(LogLevel level) {
     switch (level) {
-        case LogLevel::debug: return spdlog::level::debug;
-        case LogLevel::info: return spdlog::level::info;
-        case LogLevel::warning: return spdlog::level::warn;
-        case LogLevel::error: return spdlog::level::err;
+        case LogLevel::debug:
+            return spdlog::level::debug;
+        case LogLevel::info:
+            return spdlog::level::info;
+        case LogLevel::warning:
+            return spdlog::level::warn;
+        case LogLevel::error:
+            return spdlog::level::err;
     }
     return spdlog::level::err;
 }
 
 void print_line(const run::StepMetrics& row, std::uint64_t planned) {
-    const std::string distance = row.cloud_to_surface_mean ? fmt::format("{:.5f}", *row.cloud_to_surface_mean) : "-";
-    fmt::print(stderr, "\rstep {}/{}  {} vertices  {} tets  speed {:.2e}  cloud to surface {}  \x1b[K", row.step, planned,
-               row.interface_vertices, row.tets, row.mean_speed, distance);
+    const std::string distance =
+        row.cloud_to_surface_mean ? fmt::format("{:.5f}", *row.cloud_to_surface_mean) : "-";
+    fmt::print(stderr, "\rstep {}/{}  {} vertices  {} tets  speed {:.2e}  cloud to surface {}  \x1b[K",
+               row.step, planned, row.interface_vertices, row.tets, row.mean_speed, distance);
     if (row.step >= planned) fmt::print(stderr, "\n");
     std::fflush(stderr);
 }
@@ -61,22 +66,28 @@ void add_verbosity(CLI::App& command, TerminalOptions& options) {
 }
 
 void add_progress(CLI::App& command, TerminalOptions& options) {
-    command.add_option("--progress", options.progress, "auto (a line on a terminal), never, or json (a line a step)")
+    command
+        .add_option("--progress", options.progress,
+                    "auto (a line on a terminal), never, or json (a line a step)")
         ->check(CLI::IsMember({"auto", "never", "json"}))
         ->capture_default_str();
 }
 
 void start_log(const TerminalOptions& options) {
-    const auto logger = std::make_shared<spdlog::logger>("dsc", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+    const auto logger =
+        std::make_shared<spdlog::logger>("dsc", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
     logger->set_pattern("%^%l%$: %v");
-    logger->set_level(options.quiet ? spdlog::level::err : options.verbose ? spdlog::level::debug : spdlog::level::info);
+    logger->set_level(options.quiet     ? spdlog::level::err
+                      : options.verbose ? spdlog::level::debug
+                                        : spdlog::level::info);
     logger->flush_on(spdlog::level::debug);
     set_log_sink([logger](LogLevel level, std::string_view message) {
         logger->log(spdlog_level(level), "{}", message);
     });
 }
 
-std::function<void(const run::StepMetrics&, std::uint64_t)> progress_reporter(const TerminalOptions& options) {
+std::function<void(const run::StepMetrics&, std::uint64_t)> progress_reporter(
+    const TerminalOptions& options) {
     if (options.progress == "json") return print_json;
     if (options.progress == "never" || options.quiet || isatty(STDERR_FILENO) == 0) return {};
     using Clock = std::chrono::steady_clock;

@@ -2,7 +2,6 @@
 // What a person sees while a job goes on: log and progress on stderr, and the signals that end it.
 
 #include <CLI/CLI.hpp>
-
 #include <dsc/base/progress.hpp>
 #include <dsc/run/figures.hpp>
 #include <functional>

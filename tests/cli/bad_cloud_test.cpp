@@ -19,8 +19,9 @@ struct BadCloud {
 };
 
 std::string pcd(const std::string& points, int count) {
-    return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + std::to_string(count) +
-           "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + std::to_string(count) + "\nDATA ascii\n" + points;
+    return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " +
+           std::to_string(count) + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + std::to_string(count) +
+           "\nDATA ascii\n" + points;
 }
 
 std::string ply(const std::string& points, int count) {
@@ -32,7 +33,8 @@ const std::string four_needed = "; a surface needs at least 4 points that do not
 
 const std::vector<BadCloud> bad_clouds = {
     {"truncated.obj", "v 0 0 0\nv 1 0 0\nv 0 1", 6,
-     "truncated.obj:3: the vertex has 2 numbers; a 'v' line is 'v x y z' or 'v x y z r g b'; the file may be cut off, write it "
+     "truncated.obj:3: the vertex has 2 numbers; a 'v' line is 'v x y z' or 'v x y z r g b'; the file may be "
+     "cut off, write it "
      "again\n"},
     {"truncated.ply", ply("0 0 0\n1 0 0\n", 5), 6,
      "truncated.ply: the header promises 5 points, the file holds 2; the file is cut off, write it again\n"},
@@ -43,7 +45,8 @@ const std::vector<BadCloud> bad_clouds = {
     {"infinite.xyz", "0 0 0\n1 inf 0\n", 6,
      "infinite.xyz:2: 'inf' is not a finite number; remove the point or write its true coordinates\n"},
     {"empty.xyz", "", 6, "empty.xyz: the file is empty; write the cloud again\n"},
-    {"none.xyz", "# nothing\n", 6, "none.xyz: the file has no points; a cloud in text has a line 'x y z' for each point\n"},
+    {"none.xyz", "# nothing\n", 6,
+     "none.xyz: the file has no points; a cloud in text has a line 'x y z' for each point\n"},
     {"one.xyz", "1 2 3\n", 5, "one.xyz: the cloud has 1 point" + four_needed},
     {"three.xyz", "0 0 0\n1 0 0\n0 1 0\n", 5, "three.xyz: the cloud has 3 points" + four_needed},
     {"flat.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n", 5,
@@ -53,10 +56,13 @@ const std::vector<BadCloud> bad_clouds = {
      "equal.xyz: all 4 points are equal (extent 0 x 0 x 0)" + four_needed},
     {"all_nan.ply", ply("nan 0 0\n0 inf 0\n", 2), 6, ""},
     {"all_nan.pcd", pcd("nan nan nan\nnan 0 0\n", 2), 6, ""},
-    {"scan.las", "LASF", 6, "scan.las: las files are not read here; convert it first: pdal translate scan.las scan.ply\n"},
-    {"scan.laz", "LASF", 6, "scan.laz: laz files are not read here; convert it first: pdal translate scan.laz scan.ply\n"},
+    {"scan.las", "LASF", 6,
+     "scan.las: las files are not read here; convert it first: pdal translate scan.las scan.ply\n"},
+    {"scan.laz", "LASF", 6,
+     "scan.laz: laz files are not read here; convert it first: pdal translate scan.laz scan.ply\n"},
     {"scan.e57", "ASTM", 6,
-     "scan.e57: e57 files are not read here; convert it first: pdal translate scan.e57 scan.ply, or save it as PLY with "
+     "scan.e57: e57 files are not read here; convert it first: pdal translate scan.e57 scan.ply, or save it "
+     "as PLY with "
      "CloudCompare\n"},
 };
 
@@ -119,7 +125,8 @@ TEST_CASE("points with NaN in PLY and PCD are dropped, counted and reported") {
         run_on(cli, name);
         const Result run = cli.dsc({"run", "experiment.yaml", "-o", "out", "--progress", "never"});
         CHECK(run.code == 0);
-        CHECK(run.err.find("warning: DIR/" + name + ": 6 points, 2 with NaN or infinity dropped\n") != std::string::npos);
+        CHECK(run.err.find("warning: DIR/" + name + ": 6 points, 2 with NaN or infinity dropped\n") !=
+              std::string::npos);
         CHECK(cli.read("out/summary.json").find("\"dropped\": 2") != std::string::npos);
     }
 }
@@ -151,7 +158,9 @@ TEST_CASE("bad meshes: dsc info names file and place") {
     CHECK(info("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n") ==
           "error: index.obj:4: vertex index 4 of 3; correct the line or export the file again\n");
     CHECK(info("truncated.dsc", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 3") ==
-          "error: truncated.dsc:5: the file ends where an integer should be; the file is incomplete: copy or export it again\n");
+          "error: truncated.dsc:5: the file ends where an integer should be; the file is incomplete: copy or "
+          "export it again\n");
     CHECK(info("nan.dsc", "v 0 0 0\nv nan 0 0\n").find("nan.dsc:2") != std::string::npos);
-    CHECK(info("index.dsc", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 9 0\n").find("index.dsc:5") != std::string::npos);
+    CHECK(info("index.dsc", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 9 0\n").find("index.dsc:5") !=
+          std::string::npos);
 }

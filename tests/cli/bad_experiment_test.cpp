@@ -126,7 +126,8 @@ TEST_CASE("a variable that is not set") {
     3 | input: {cloud: {file: "${DSC_DATA}/cow.obj"}, normalize: {scale: 0.9}}
       |                       ^~~~~~~~~~~~~~~~~~~~~  set it: export DSC_DATA=...
 )") == 0);
-    CHECK(text.find("DSC_DATA is the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj") != std::string::npos);
+    CHECK(text.find("DSC_DATA is the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj") !=
+          std::string::npos);
     CHECK(text.find("they are public") != std::string::npos);
 }
 
@@ -147,7 +148,9 @@ TEST_CASE("an experiment that does not exist") {
     const Cli cli;
     const Result result = cli.dsc({"run", "none.yaml"});
     CHECK(result.code == 6);
-    CHECK(result.err == "error: none.yaml: cannot read the configuration: there is no such file; name a readable YAML file\n");
+    CHECK(result.err ==
+          "error: none.yaml: cannot read the configuration: there is no such file; name a readable YAML "
+          "file\n");
 }
 
 TEST_CASE("a plugin that does not load") {
@@ -156,21 +159,25 @@ TEST_CASE("a plugin that does not load") {
     const Result option = run(cli, good, {"--plugin", "libdsc_text.so"});
     CHECK(option.code == 4);
     CHECK(option.err ==
-          "error: --plugin: DIR/libdsc_text.so: is not a shared library; name a plugin's file, libdsc_NAME.so\n");
+          "error: --plugin: DIR/libdsc_text.so: is not a shared library; name a plugin's file, "
+          "libdsc_NAME.so\n");
     const Result key = run(cli, good + "plugins: [missing/libdsc_x.so]\n");
     CHECK(key.code == 4);
     CHECK(key.err ==
-          "error: plugins:: DIR/missing/libdsc_x.so: cannot be opened (No such file or directory); check the name and the "
+          "error: plugins:: DIR/missing/libdsc_x.so: cannot be opened (No such file or directory); check the "
+          "name and the "
           "permissions\n");
     CHECK_FALSE(cli.exists("out"));
 }
 
 TEST_CASE("a velocity that needs a cloud without one") {
     const Cli cli;
-    const Result result = run(cli, with("input: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {scale: 0.9}}\n", ""));
+    const Result result =
+        run(cli, with("input: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {scale: 0.9}}\n", ""));
     CHECK(result.code == 3);
     CHECK(result.err ==
-          "error: velocity 'point_cloud': the experiment has no cloud to go to; add input: {cloud: {file: ...}}\n");
+          "error: velocity 'point_cloud': the experiment has no cloud to go to; add input: {cloud: {file: "
+          "...}}\n");
     CHECK_FALSE(dsc::test::looks_finished(cli.folder() / "out"));
 }
 
@@ -180,7 +187,8 @@ TEST_CASE("a folder that is not ours is refused, nothing in it is touched") {
     const Result result = run(cli, good);
     CHECK(result.code == 2);
     CHECK(result.err ==
-          "error: out is not empty and no run wrote it; nothing in it was changed; name another folder with -o or empty it\n");
+          "error: out is not empty and no run wrote it; nothing in it was changed; name another folder with "
+          "-o or empty it\n");
     CHECK(cli.read("out/thesis.tex") == "text");
     cli.write("file", "text");
     cli.write("a.yaml", good);

@@ -43,7 +43,8 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
         CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
     }
     CHECK(cli.dsc({"plugin", "describe", "point_clod"}).err ==
-          "error: no strategy is called 'point_clod'; did you mean 'point_cloud'?; dsc plugin list shows all\n");
+          "error: no strategy is called 'point_clod'; did you mean 'point_cloud'?; dsc plugin list shows "
+          "all\n");
 }
 
 TEST_CASE("sample, info, convert, evaluate and render work together") {
@@ -69,7 +70,8 @@ TEST_CASE("sample, info, convert, evaluate and render work together") {
     CHECK(cli.dsc({"convert", "truth.obj", "truth.vtu"}).code == 2);
     CHECK(cli.dsc({"convert", "truth.obj", "truth.doc"}).code == 2);
 
-    const Result same = cli.dsc({"evaluate", "truth.obj", "--truth", "back.obj", "--cloud", "torus.ply", "--samples", "2000", "--json"});
+    const Result same = cli.dsc({"evaluate", "truth.obj", "--truth", "back.obj", "--cloud", "torus.ply",
+                                 "--samples", "2000", "--json"});
     CHECK(same.code == 0);
     const json figures = json::parse(same.out);
     CHECK(figures["truth"]["chamfer_percent"].get<double>() < 1e-9);
@@ -77,9 +79,12 @@ TEST_CASE("sample, info, convert, evaluate and render work together") {
     CHECK(figures["cloud"]["cloud_to_surface"]["mean"].get<double>() < 0.01);
     CHECK(figures["formulas"]["truth"].contains("chamfer_percent"));
     CHECK(cli.dsc({"evaluate", "truth.obj"}).code == 2);
-    CHECK(cli.dsc({"evaluate", "truth.obj", "--cloud", "torus.ply"}).out.find("vertex_to_cloud.mean") != std::string::npos);
+    CHECK(cli.dsc({"evaluate", "truth.obj", "--cloud", "torus.ply"}).out.find("vertex_to_cloud.mean") !=
+          std::string::npos);
 
-    CHECK(cli.dsc({"render", "truth.obj", "-o", "a.png", "--view", "top", "--size", "64x48", "--edges"}).code == 0);
+    CHECK(
+        cli.dsc({"render", "truth.obj", "-o", "a.png", "--view", "top", "--size", "64x48", "--edges"}).code ==
+        0);
     CHECK(cli.read("a.png").substr(1, 3) == "PNG");
     CHECK(cli.dsc({"render", "truth.obj", "-o", "a.jpg"}).code == 2);
     CHECK(cli.dsc({"render", "truth.obj", "-o", "a.png", "--size", "big"}).code == 2);
@@ -104,20 +109,24 @@ TEST_CASE("plugin list, describe in three forms, path") {
     const Cli cli;
     const Result list = cli.dsc({"plugin", "list"});
     CHECK(list.code == 0);
-    for (const char* id : {"point_cloud", "angular_defect", "implicit_fairing", "average_area", "grid", "voxel_grid"}) {
+    for (const char* id :
+         {"point_cloud", "angular_defect", "implicit_fairing", "average_area", "grid", "voxel_grid"}) {
         CHECK(list.out.find(id) != std::string::npos);
     }
     CHECK(json::parse(cli.dsc({"plugin", "list", "--json"}).out).size() >= 10);
     const Result text = cli.dsc({"plugin", "describe", "point_cloud"});
     CHECK(text.code == 0);
     CHECK(text.out.find("alpha: real, [0, 2], default 0.2") != std::string::npos);
-    const json described = json::parse(cli.dsc({"plugin", "describe", "point_cloud", "--format", "json"}).out);
+    const json described =
+        json::parse(cli.dsc({"plugin", "describe", "point_cloud", "--format", "json"}).out);
     CHECK(described["kind"] == "velocity");
     CHECK(described["parameters"][0]["name"] == "alpha");
     CHECK(described["parameters"][0]["default"] == 0.2);
     // The block is an experiment's: it is accepted where it belongs.
     const Result yaml = cli.dsc({"plugin", "describe", "point_cloud", "--format", "yaml"});
-    cli.write("block.yaml", "dsc: 1\nschedule: [{steps: 1}]\ninitial_mesh: {type: grid}\nimprovement: {type: dsc}\n" + yaml.out);
+    cli.write(
+        "block.yaml",
+        "dsc: 1\nschedule: [{steps: 1}]\ninitial_mesh: {type: grid}\nimprovement: {type: dsc}\n" + yaml.out);
     CHECK(cli.dsc({"run", "block.yaml", "--check"}).code == 0);
     CHECK(cli.dsc({"plugin", "path"}).out.find("(installed folder)") != std::string::npos);
 }
@@ -129,7 +138,8 @@ TEST_CASE("reconstruct: names of outputs are judged before anything is computed"
           "error: cloud.obj is the input; name another file with -o\n");
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "./x/../cloud.obj"}).code == 2);
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.doc"}).err ==
-          "error: a.doc has no extension that is written; use .obj, .ply, .off, .stl for the surface, .vtu, .dsc for the volume\n");
+          "error: a.doc has no extension that is written; use .obj, .ply, .off, .stl for the surface, .vtu, "
+          ".dsc for the volume\n");
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.obj", "-o", "a.obj"}).code == 2);
     const Result folder = cli.dsc({"reconstruct", "cloud.obj", "-o", "none/a.obj"});
     CHECK(folder.code == 6);
@@ -139,11 +149,13 @@ TEST_CASE("reconstruct: names of outputs are judged before anything is computed"
 
 TEST_CASE("run: overrides, threads, json progress, a time budget") {
     const Cli cli;
-    cli.write("a.yaml",
-              "dsc: 1\nname: short\ninput: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {}}\n"
-              "initial_mesh: {type: grid, cells: 12}\nvelocity: {type: point_cloud}\nimprovement: {type: dsc}\n"
-              "schedule: [{steps: 3}]\n");
-    const Result run = cli.dsc({"run", "a.yaml", "schedule.0.steps=2", "--threads", "2", "--progress", "json", "-q"});
+    cli.write(
+        "a.yaml",
+        "dsc: 1\nname: short\ninput: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {}}\n"
+        "initial_mesh: {type: grid, cells: 12}\nvelocity: {type: point_cloud}\nimprovement: {type: dsc}\n"
+        "schedule: [{steps: 3}]\n");
+    const Result run =
+        cli.dsc({"run", "a.yaml", "schedule.0.steps=2", "--threads", "2", "--progress", "json", "-q"});
     CHECK(run.code == 0);
     CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 3);
     CHECK(json::parse(run.err.substr(0, run.err.find('\n')))["planned"] == 2);

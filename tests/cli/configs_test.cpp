@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 TEST_CASE("each experiment in configs/ passes --check and prints what reproduces it") {
     Cli cli;
     // A check reads the clouds, it does not look into them: any file of the name will do.
-    for (const char* name : {"bunny.obj", "teapot.obj", "cow.obj"}) cli.write(std::string("clouds/") + name, "v 0 0 0\n");
+    for (const char* name : {"bunny.obj", "teapot.obj", "cow.obj"})
+        cli.write(std::string("clouds/") + name, "v 0 0 0\n");
     cli.environment["DSC_DATA"] = (cli.folder() / "clouds").string();
     std::vector<fs::path> configs;
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(DSC_SOURCE_DIR) / "configs")) {
@@ -30,7 +31,8 @@ TEST_CASE("each experiment in configs/ passes --check and prints what reproduces
         const Result printed = cli.dsc({"run", config.string(), "--print-config"});
         CHECK(printed.code == 0);
         std::string text = printed.out;
-        for (std::size_t at = 0; (at = text.find("DIR/", at)) != std::string::npos;) text.replace(at, 3, cli.folder().string());
+        for (std::size_t at = 0; (at = text.find("DIR/", at)) != std::string::npos;)
+            text.replace(at, 3, cli.folder().string());
         cli.write("again.yaml", text);
         CHECK(cli.dsc({"run", "again.yaml", "--print-config"}).out == printed.out);
         CHECK_FALSE(cli.exists("runs"));

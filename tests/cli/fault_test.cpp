@@ -10,7 +10,8 @@ namespace {
 
 Result run(const Cli& cli, const std::string& fault) {
     cli.write("a.yaml",
-              "dsc: 1\nname: faulty\ninitial_mesh: {type: grid, cells: 12, half_width: 0.5}\nvelocity: {type: faulty, fault: " +
+              "dsc: 1\nname: faulty\ninitial_mesh: {type: grid, cells: 12, half_width: 0.5}\nvelocity: "
+              "{type: faulty, fault: " +
                   fault + "}\nimprovement: {type: dsc}\nschedule: [{steps: 3}]\n");
     return cli.dsc({"run", "a.yaml", "-o", "out", "-q", "--plugin", DSC_TEST_FAULTY});
 }
@@ -28,7 +29,8 @@ TEST_CASE("a strategy that throws") {
     const Result result = run(cli, "throws");
     CHECK(result.code == 4);
     CHECK(result.err == "error: velocity 'faulty' (plugin faulty 0.3.0, " DSC_TEST_FAULTY
-                        ", at 'velocity' in the experiment): evaluate at step 1 threw: division by zero; check its parameters "
+                        ", at 'velocity' in the experiment): evaluate at step 1 threw: division by zero; "
+                        "check its parameters "
                         "or report this to the plugin's authors\n");
     CHECK_FALSE(dsc::test::looks_finished(cli.folder() / "out"));
     CHECK(cli.read("out/status.json").find("\"error_code\": \"strategy.threw\"") != std::string::npos);

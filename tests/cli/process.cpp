@@ -27,8 +27,9 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
     }
 }
 
-[[noreturn]] void child(const std::vector<std::string>& arguments, const fs::path& folder, const fs::path& out,
-                        const fs::path& err, const std::map<std::string, std::string>& environment) {
+[[noreturn]] void child(const std::vector<std::string>& arguments, const fs::path& folder,
+                        const fs::path& out, const fs::path& err,
+                        const std::map<std::string, std::string>& environment) {
     const auto redirect = [](const char* file, int to, int flags) {
         const int from = open(file, flags, 0600);
         if (from < 0 || dup2(from, to) < 0) _exit(127);
@@ -55,7 +56,9 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 
 }  // namespace
 
-Cli::Cli() : environment{{"DSC_PLUGIN_PATH", ""}, {"XDG_DATA_HOME", "/nonexistent"}, {"DSC_DATA", ""}, {"DSC_SHARE", ""}} {
+Cli::Cli()
+    : environment{
+          {"DSC_PLUGIN_PATH", ""}, {"XDG_DATA_HOME", "/nonexistent"}, {"DSC_DATA", ""}, {"DSC_SHARE", ""}} {
     std::string pattern = (fs::temp_directory_path() / "dsc-cli-XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch folder");
     folder_ = fs::canonical(pattern);

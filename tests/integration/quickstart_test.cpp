@@ -2,12 +2,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
-#include <sstream>
-
 #include <dsc/io/read.hpp>
 #include <dsc/run/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "../cli/process.hpp"
 #include "../unit/surface/cgal_judge.hpp"
@@ -19,9 +18,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<std::string> result_files = {"result/surface.obj", "result/surface.ply", "result/volume.vtu",
-                                               "result/volume.dsc",  "metrics.csv",        "events.jsonl",
-                                               "preview.png",        "config.resolved.yaml"};
+const std::vector<std::string> result_files = {
+    "result/surface.obj", "result/surface.ply", "result/volume.vtu", "result/volume.dsc",
+    "metrics.csv",        "events.jsonl",       "preview.png",       "config.resolved.yaml"};
 
 /// What must hold of every result, on the files as they are.
 void check_result(const fs::path& folder) {
@@ -42,7 +41,9 @@ void check_result(const fs::path& folder) {
     CHECK(zipped.labels == volume.labels);
 }
 
-json summary_of(const Cli& cli, const std::string& folder) { return json::parse(cli.read(folder + "/summary.json")); }
+json summary_of(const Cli& cli, const std::string& folder) {
+    return json::parse(cli.read(folder + "/summary.json"));
+}
 
 /// Median of the column `rounds` of the first steps.
 int median_rounds(const std::string& metrics, std::size_t steps) {
@@ -98,11 +99,14 @@ TEST_CASE("coordinates of five million with millimetres: the result is there, in
     std::istringstream lines(cli.read("sphere.xyz"));
     for (double x = 0, y = 0, z = 0; lines >> x >> y >> z;) {
         char line[128];
-        std::snprintf(line, sizeof line, "%.17g %.17g %.17g\n", 5e6 + 0.005 * x, -5e6 + 0.005 * y, 3e6 + 0.005 * z);
+        std::snprintf(line, sizeof line, "%.17g %.17g %.17g\n", 5e6 + 0.005 * x, -5e6 + 0.005 * y,
+                      3e6 + 0.005 * z);
         far += line;
     }
     cli.write("far.xyz", far);
-    REQUIRE(cli.dsc({"reconstruct", "far.xyz", "--detail", "low", "-o", "far.obj", "-o", "far.dsc", "-q"}).code == 0);
+    REQUIRE(
+        cli.dsc({"reconstruct", "far.xyz", "--detail", "low", "-o", "far.obj", "-o", "far.dsc", "-q"}).code ==
+        0);
     const auto surface = dsc::io::read_surface(cli.folder() / "far.obj");
     const auto volume = dsc::io::read_volume(cli.folder() / "far.dsc");
     CHECK(dsc::run::identical(surface, dsc::surface::extract_interface(volume)));
@@ -115,7 +119,8 @@ TEST_CASE("reconstruct: default names, one path a line, a kept run") {
     const Cli cli;
     std::filesystem::create_directory(cli.folder() / "clouds");
     REQUIRE(cli.dsc({"sample", "torus", "-n", "3000", "-o", "clouds/torus.ply"}).code == 0);
-    const Result result = cli.dsc({"reconstruct", "clouds/torus.ply", "--detail", "low", "--keep-run", "kept", "-q"});
+    const Result result =
+        cli.dsc({"reconstruct", "clouds/torus.ply", "--detail", "low", "--keep-run", "kept", "-q"});
     REQUIRE(result.code == 0);
     CHECK(result.err.empty());
     CHECK(result.out == "torus_surface.ply\ntorus_volume.vtu\n");
@@ -142,7 +147,8 @@ TEST_CASE("the thesis' clouds" * doctest::description("needs DSC_DATA")) {
         CAPTURE(std::string(e.name));
         Cli cli;
         cli.environment["DSC_DATA"] = data;
-        REQUIRE(cli.dsc({"run", config(std::string("thesis/") + e.name + ".yaml"), "-o", "out", "-q"}).code == 0);
+        REQUIRE(cli.dsc({"run", config(std::string("thesis/") + e.name + ".yaml"), "-o", "out", "-q"}).code ==
+                0);
         check_result(cli.folder() / "out");
         const json summary = summary_of(cli, "out");
         CHECK(summary["vertex_to_cloud"]["mean"].get<double>() <= e.mean);
@@ -160,13 +166,17 @@ TEST_CASE("the thesis' clouds" * doctest::description("needs DSC_DATA")) {
 TEST_CASE("dsc reconstruct without options on shared scans" * doctest::description("needs DSC_DATA")) {
     const char* data = std::getenv("DSC_DATA");
     if (data == nullptr || !fs::exists(fs::path(data) / "spot-clean.obj")) {
-        MESSAGE("SKIPPED: DSC_DATA does not name the folder with spot-clean.obj, fandisk-clean.obj and anchor-clean.obj");
+        MESSAGE(
+            "SKIPPED: DSC_DATA does not name the folder with spot-clean.obj, fandisk-clean.obj and "
+            "anchor-clean.obj");
         return;
     }
     for (const std::string name : {"spot-clean", "fandisk-clean", "anchor-clean"}) {
         CAPTURE(name);
         const Cli cli;
-        REQUIRE(cli.dsc({"reconstruct", (fs::path(data) / (name + ".obj")).string(), "--keep-run", "kept", "-q"}).code == 0);
+        REQUIRE(
+            cli.dsc({"reconstruct", (fs::path(data) / (name + ".obj")).string(), "--keep-run", "kept", "-q"})
+                .code == 0);
         CHECK(cli.exists(name + "_surface.ply"));
         CHECK(cli.exists(name + "_volume.vtu"));
         check_result(cli.folder() / "kept");

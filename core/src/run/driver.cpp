@@ -1,9 +1,8 @@
+#include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/run/driver.hpp>
-
-#include <algorithm>
 
 #include "step_figures.hpp"
 #include "stopwatch.hpp"
@@ -22,10 +21,11 @@ constexpr double stall_speed = 1e-6;
 void require_inside(const cloud::TargetCloud& cloud, const Box3& box) {
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         if (box.contains(cloud[i])) continue;
-        throw GeometryError("cloud.outside_box",
-                            "point " + std::to_string(i + 1) +
-                                " of the cloud lies outside the box of the initial mesh; lower input.normalize.scale or "
-                                "make the initial mesh larger");
+        throw GeometryError(
+            "cloud.outside_box",
+            "point " + std::to_string(i + 1) +
+                " of the cloud lies outside the box of the initial mesh; lower input.normalize.scale or "
+                "make the initial mesh larger");
     }
 }
 
@@ -44,7 +44,8 @@ public:
         policy_.propose = [this](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
             strategies_.improvement->propose(*context_, round, out);
         };
-        policy_.select = [this](std::span<const mesh::TopologyCandidate> candidates, std::span<std::uint8_t> accept) {
+        policy_.select = [this](std::span<const mesh::TopologyCandidate> candidates,
+                                std::span<std::uint8_t> accept) {
             strategies_.improvement->select(*context_, candidates, accept);
         };
         policy_.topology = strategies_.improvement->topology_limits();
@@ -106,7 +107,8 @@ private:
         totals.target_length = deformer_.target_length();
         const hooks::StepContext context = make_context(deformer_.step_count());
         for (std::size_t i = 0; i < strategies_.observers.size(); ++i) {
-            totals.observers.emplace_back(experiment_.observers[i].type, strategies_.observers[i]->end(context));
+            totals.observers.emplace_back(experiment_.observers[i].type,
+                                          strategies_.observers[i]->end(context));
         }
         result_.mesh = deformer_.complex().to_mesh();
         result_.surface = surface::extract_interface(result_.mesh);
@@ -182,7 +184,8 @@ private:
         displacements_.assign(count, Vec3::Zero());
         strategies_.velocity->prepare(context);
         workers_.for_blocks(count, block, [&](std::size_t first, std::size_t last) {
-            strategies_.velocity->evaluate({first, last}, std::span(displacements_).subspan(first, last - first));
+            strategies_.velocity->evaluate({first, last},
+                                           std::span(displacements_).subspan(first, last - first));
         });
         double sum = 0.0;
         std::size_t movable = 0;
@@ -285,7 +288,8 @@ private:
         if (strategies_.observers.empty()) return;
         const Timed timed(result_.totals.seconds.measure);
         const hooks::StepContext context = make_context(deformer_.step_count());
-        const hooks::StepFigures figures{row.step, row.interface_vertices, row.tets, row.volume, row.min_tet_quality};
+        const hooks::StepFigures figures{row.step, row.interface_vertices, row.tets, row.volume,
+                                         row.min_tet_quality};
         for (std::size_t i = 0; i < strategies_.observers.size(); ++i) {
             const std::string prefix = "observers." + experiment_.observers[i].type + ".";
             for (const auto& [figure, value] : strategies_.observers[i]->step(context, figures)) {

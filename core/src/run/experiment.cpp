@@ -1,8 +1,8 @@
+#include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/run/experiment.hpp>
 #include <dsc/run/sha256.hpp>
-#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -53,16 +53,22 @@ ConfigNode map_value(const ConfigNode& value, const Field& field, const Strategy
     if (value.is_null()) return value;
     std::vector<ConfigNode> items;
     switch (field.type) {
-        case FieldType::file: return change(value.as_string());
-        case FieldType::object: return map_files(value, *field.object, lookup, change);
-        case FieldType::strategy: return map_strategy(value, field.kind, lookup, change);
+        case FieldType::file:
+            return change(value.as_string());
+        case FieldType::object:
+            return map_files(value, *field.object, lookup, change);
+        case FieldType::strategy:
+            return map_strategy(value, field.kind, lookup, change);
         case FieldType::object_list:
-            for (const ConfigNode& item : value.items()) items.push_back(map_files(item, *field.object, lookup, change));
+            for (const ConfigNode& item : value.items())
+                items.push_back(map_files(item, *field.object, lookup, change));
             return ConfigNode::list(std::move(items));
         case FieldType::strategy_list:
-            for (const ConfigNode& item : value.items()) items.push_back(map_strategy(item, field.kind, lookup, change));
+            for (const ConfigNode& item : value.items())
+                items.push_back(map_strategy(item, field.kind, lookup, change));
             return ConfigNode::list(std::move(items));
-        default: return value;
+        default:
+            return value;
     }
 }
 
@@ -71,7 +77,8 @@ ConfigNode map_files(const ConfigNode& node, const Schema& schema, const Strateg
     std::vector<ConfigEntry> entries;
     for (const ConfigEntry& entry : node.entries()) {
         const Field* field = schema.find(entry.key);
-        entries.emplace_back(entry.key, field == nullptr ? entry.value : map_value(entry.value, *field, lookup, change));
+        entries.emplace_back(entry.key,
+                             field == nullptr ? entry.value : map_value(entry.value, *field, lookup, change));
     }
     return ConfigNode::map(std::move(entries));
 }
@@ -92,11 +99,13 @@ ConfigNode plugin_content(const std::string& path) {
     return ConfigNode::list(std::move(hashes));
 }
 
-void warn_of_unwritten(const Experiment& experiment, const ConfigNode& resolved, config::Diagnostics& diagnostics) {
+void warn_of_unwritten(const Experiment& experiment, const ConfigNode& resolved,
+                       config::Diagnostics& diagnostics) {
     const auto warn = [&](const char* key) {
         const ConfigNode* output = resolved.find("output");
         const ConfigNode* value = output == nullptr ? nullptr : output->find(key);
-        diagnostics.warning("config.unwritten", value == nullptr ? config::SourcePosition{} : value->position(),
+        diagnostics.warning("config.unwritten",
+                            value == nullptr ? config::SourcePosition{} : value->position(),
                             std::string("output.") + key + " is not written by this version");
     };
     if (experiment.output.checkpoint) warn("checkpoint");

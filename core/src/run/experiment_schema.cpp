@@ -10,8 +10,8 @@ namespace {
 bool plain_name(const std::string& name) {
     if (name.empty() || name.size() > 100 || name.front() == '.' || name.front() == '-') return false;
     return std::all_of(name.begin(), name.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_' ||
-               c == '-';
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+               c == '_' || c == '-';
     });
 }
 
@@ -22,45 +22,60 @@ bool known_shape(const std::string& shape) {
 
 std::string shape_list() {
     std::string text;
-    for (const std::string_view name : cloud::shape_names()) text += (text.empty() ? "" : ", ") + std::string(name);
+    for (const std::string_view name : cloud::shape_names())
+        text += (text.empty() ? "" : ", ") + std::string(name);
     return text;
 }
 
 void declare_sample(config::ParamSchema<SampleInput>& s) {
     s.string("shape", &SampleInput::shape).doc("Built-in shape: " + shape_list() + ".");
     s.integer("n", &SampleInput::n).range(1, 10000000).unit("points").doc("Number of points.");
-    s.real("noise", &SampleInput::noise).range(0, 1).unit("diagonals").doc(
-        "Standard deviation of the noise of each coordinate, as a fraction of the shape's diagonal.");
-    s.real("outliers", &SampleInput::outliers).range(0, 1).open_high().unit("1").doc(
-        "Part of the points that lie anywhere in the shape's box, grown 1.2 times.");
-    s.check([](const SampleInput& p) { return known_shape(p.shape); }, "shape must be one of " + shape_list());
+    s.real("noise", &SampleInput::noise)
+        .range(0, 1)
+        .unit("diagonals")
+        .doc("Standard deviation of the noise of each coordinate, as a fraction of the shape's diagonal.");
+    s.real("outliers", &SampleInput::outliers)
+        .range(0, 1)
+        .open_high()
+        .unit("1")
+        .doc("Part of the points that lie anywhere in the shape's box, grown 1.2 times.");
+    s.check([](const SampleInput& p) { return known_shape(p.shape); },
+            "shape must be one of " + shape_list());
 }
 
 void declare_cloud(config::ParamSchema<CloudInput>& s) {
-    s.file("file", &CloudInput::file).doc(
-        "Point cloud: .obj, .ply, .pcd, .xyz, .txt, .asc, .pts or .csv. Only positions are read.");
+    s.file("file", &CloudInput::file)
+        .doc("Point cloud: .obj, .ply, .pcd, .xyz, .txt, .asc, .pts or .csv. Only positions are read.");
     s.object("sample", &CloudInput::sample, declare_sample).doc("A cloud sampled from a built-in shape.");
-    s.strategies("filters", &CloudInput::filters, "filter").doc("Filters of the cloud, in the order in which they work.");
+    s.strategies("filters", &CloudInput::filters, "filter")
+        .doc("Filters of the cloud, in the order in which they work.");
     s.check([](const CloudInput& p) { return p.file.has_value() != p.sample.has_value(); },
             "input.cloud needs exactly one of 'file' and 'sample'");
 }
 
 void declare_normalize(config::ParamSchema<NormalizeInput>& s) {
-    s.real("scale", &NormalizeInput::scale).range(0, 1.5).open_low().unit("length").doc(
-        "Longest half-extent of the cloud once it is centred in the box [-1.5, 1.5]^3.");
+    s.real("scale", &NormalizeInput::scale)
+        .range(0, 1.5)
+        .open_low()
+        .unit("length")
+        .doc("Longest half-extent of the cloud once it is centred in the box [-1.5, 1.5]^3.");
 }
 
 void declare_input(config::ParamSchema<Input>& s) {
     s.object("cloud", &Input::cloud, declare_cloud).doc("The points that the surface shall follow.");
-    s.object("normalize", &Input::normalize, declare_normalize).doc(
-        "Centre and scale the cloud into the box; results return to the input's coordinates. Left out: the "
-        "coordinates stay as they are and must lie inside the box.");
+    s.object("normalize", &Input::normalize, declare_normalize)
+        .doc(
+            "Centre and scale the cloud into the box; results return to the input's coordinates. Left out: "
+            "the "
+            "coordinates stay as they are and must lie inside the box.");
 }
 
 void declare_series(config::ParamSchema<Series>& s) {
     s.integer("steps", &Series::steps).range(1, 1000000).unit("steps").doc("Number of steps.");
-    s.integer("every", &Series::every).range(1, 1000000).unit("steps").doc(
-        "Refine after every so many of the steps.");
+    s.integer("every", &Series::every)
+        .range(1, 1000000)
+        .unit("steps")
+        .doc("Refine after every so many of the steps.");
     s.strategy("refine", &Series::refine, "refinement").optional().doc("Refinement of the interface.");
     s.check([](const Series& p) { return p.steps || !p.refine.empty(); },
             "an item of the schedule needs 'steps', 'refine' or both with 'every'");
@@ -69,13 +84,19 @@ void declare_series(config::ParamSchema<Series>& s) {
 }
 
 void declare_stop(config::ParamSchema<Stop>& s) {
-    s.real("speed", &Stop::speed).range(0, 1000).open_low().unit("mean edges").doc(
-        "A series of steps ends when the largest speed stays below this.");
+    s.real("speed", &Stop::speed)
+        .range(0, 1000)
+        .open_low()
+        .unit("mean edges")
+        .doc("A series of steps ends when the largest speed stays below this.");
     s.integer("patience", &Stop::patience).range(1, 1000000).unit("steps").doc("For so many steps in a row.");
 }
 
 void declare_checkpoint(config::ParamSchema<CheckpointOutput>& s) {
-    s.integer("every", &CheckpointOutput::every).range(1, 1000000).unit("steps").doc("Steps between checkpoints.");
+    s.integer("every", &CheckpointOutput::every)
+        .range(1, 1000000)
+        .unit("steps")
+        .doc("Steps between checkpoints.");
     s.integer("keep", &CheckpointOutput::keep).range(1, 1000).unit("1").doc("Checkpoints kept.");
 }
 
@@ -84,14 +105,17 @@ void declare_states(config::ParamSchema<SeriesOutput>& s) {
 }
 
 void declare_output(config::ParamSchema<Output>& s) {
-    s.strings("surface", &Output::surface).choices({"obj", "ply", "off", "stl"}).size(1, 4).doc(
-        "Formats of the surface.");
+    s.strings("surface", &Output::surface)
+        .choices({"obj", "ply", "off", "stl"})
+        .size(1, 4)
+        .doc("Formats of the surface.");
     s.strings("volume", &Output::volume).choices({"vtu", "dsc"}).size(1, 2).doc("Formats of the volume.");
-    s.object("checkpoint", &Output::checkpoint, declare_checkpoint).doc(
-        "States to resume from. Accepted, not written by this version.");
-    s.object("series", &Output::series, declare_states).doc(
-        "States on the way as .vtu. Accepted, not written by this version.");
-    s.boolean("report", &Output::report).doc("A page that shows the run. Accepted, not written by this version.");
+    s.object("checkpoint", &Output::checkpoint, declare_checkpoint)
+        .doc("States to resume from. Accepted, not written by this version.");
+    s.object("series", &Output::series, declare_states)
+        .doc("States on the way as .vtu. Accepted, not written by this version.");
+    s.boolean("report", &Output::report)
+        .doc("A page that shows the run. Accepted, not written by this version.");
 }
 
 }  // namespace
@@ -100,17 +124,23 @@ void Experiment::declare(config::ParamSchema<Experiment>& s) {
     s.integer("dsc", &Experiment::format).range(1, 1).required().unit("1").doc("Version of the format: 1.");
     s.string("name", &Experiment::name).doc("Names the run's folder: letters, digits, '.', '_', '-'.");
     s.integer("seed", &Experiment::seed).at_least(0).unit("1").doc("Seed of all random streams.");
-    s.strings("plugins", &Experiment::plugins).doc(
-        "Plugin libraries or folders of them, relative to the experiment's file.");
-    s.object("input", &Experiment::input, declare_input).doc(
-        "The point cloud. Left out: no cloud, normalised units are the output's units.");
-    s.strategy("initial_mesh", &Experiment::initial_mesh, "initial_mesh").doc("The labelled box that the run starts from.");
+    s.strings("plugins", &Experiment::plugins)
+        .doc("Plugin libraries or folders of them, relative to the experiment's file.");
+    s.object("input", &Experiment::input, declare_input)
+        .doc("The point cloud. Left out: no cloud, normalised units are the output's units.");
+    s.strategy("initial_mesh", &Experiment::initial_mesh, "initial_mesh")
+        .doc("The labelled box that the run starts from.");
     s.strategy("velocity", &Experiment::velocity, "velocity").doc("Where the interface wants to go.");
     s.strategy("improvement", &Experiment::improvement, "improvement").doc("Which repairs a step tries.");
-    s.list("schedule", &Experiment::schedule, declare_series).size(1).required().doc(
-        "What happens, item by item: {steps: N}, {refine: {...}} or {steps: N, every: K, refine: {...}}.");
+    s.list("schedule", &Experiment::schedule, declare_series)
+        .size(1)
+        .required()
+        .doc(
+            "What happens, item by item: {steps: N}, {refine: {...}} or {steps: N, every: K, refine: "
+            "{...}}.");
     s.object("stop", &Experiment::stop, declare_stop).doc("Ends a series of steps early. Left out: never.");
-    s.strategies("observers", &Experiment::observers, "observer").doc("Adds figures to metrics.csv and summary.json.");
+    s.strategies("observers", &Experiment::observers, "observer")
+        .doc("Adds figures to metrics.csv and summary.json.");
     s.object("output", &Experiment::output, declare_output).doc("Files of the result.");
     s.check([](const Experiment& p) { return plain_name(p.name); },
             "name must be 1 to 100 letters, digits, '.', '_' or '-', not starting with '.' or '-'");

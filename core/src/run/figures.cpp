@@ -17,10 +17,14 @@ std::string number(const std::optional<double>& value) { return value ? number(*
 
 std::string_view name(Status status) {
     switch (status) {
-        case Status::converged: return "converged";
-        case Status::max_steps: return "max_steps";
-        case Status::stalled: return "stalled";
-        case Status::cancelled: return "cancelled";
+        case Status::converged:
+            return "converged";
+        case Status::max_steps:
+            return "max_steps";
+        case Status::stalled:
+            return "stalled";
+        case Status::cancelled:
+            return "cancelled";
     }
     return "cancelled";
 }
@@ -36,7 +40,9 @@ std::string csv_header(const StepMetrics& row) {
 
 std::string csv_row(const StepMetrics& row, std::size_t observer_columns) {
     std::string text;
-    const auto integer = [&](std::uint64_t value) { text += (text.empty() ? "" : ",") + std::to_string(value); };
+    const auto integer = [&](std::uint64_t value) {
+        text += (text.empty() ? "" : ",") + std::to_string(value);
+    };
     const auto real = [&](const auto& value) { text += "," + number(value); };
     integer(row.step);
     integer(row.interface_vertices);
@@ -102,19 +108,34 @@ void RunTotals::add(const kernel::StepReport& report) {
 void RunTotals::count(kernel::Event::Kind kind) {
     using Kind = kernel::Event::Kind;
     switch (kind) {
-        case Kind::merge: ++events.merge; break;
-        case Kind::split: ++events.split; break;
-        case Kind::handle_opened: ++events.handle_opened; break;
-        case Kind::handle_closed: ++events.handle_closed; break;
-        case Kind::vanished: ++events.vanished; break;
-        case Kind::born: ++events.born; break;
-        case Kind::unpinched: ++events.unpinched; break;
+        case Kind::merge:
+            ++events.merge;
+            break;
+        case Kind::split:
+            ++events.split;
+            break;
+        case Kind::handle_opened:
+            ++events.handle_opened;
+            break;
+        case Kind::handle_closed:
+            ++events.handle_closed;
+            break;
+        case Kind::vanished:
+            ++events.vanished;
+            break;
+        case Kind::born:
+            ++events.born;
+            break;
+        case Kind::unpinched:
+            ++events.unpinched;
+            break;
     }
 }
 
 std::uint64_t RunTotals::refused(mesh::Refusal reason) const {
     std::uint64_t sum = 0;
-    for (const kernel::OperationCounts& counts : operations) sum += counts.refused[static_cast<std::size_t>(reason)];
+    for (const kernel::OperationCounts& counts : operations)
+        sum += counts.refused[static_cast<std::size_t>(reason)];
     return sum;
 }
 

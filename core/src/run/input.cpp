@@ -18,7 +18,8 @@ template <class Options, class Declare, class Apply>
 Filter make_filter(Declare declare, Apply apply) {
     const auto schema = std::make_shared<config::ParamSchema<Options>>();
     declare(*schema);
-    return {schema->shared_schema(), [schema, apply](const cloud::Cloud& cloud, const config::ConfigNode& params) {
+    return {schema->shared_schema(),
+            [schema, apply](const cloud::Cloud& cloud, const config::ConfigNode& params) {
                 return apply(cloud, schema->read(params));
             }};
 }
@@ -31,34 +32,49 @@ const std::map<std::string, Filter>& filters() {
     static const std::map<std::string, Filter> all = {
         {"duplicates", make_filter<DuplicatesOptions>(
                            [](config::ParamSchema<DuplicatesOptions>& s) {
-                               s.real("tolerance", &DuplicatesOptions::tolerance).range(0, 1).unit("diagonals").doc(
-                                   "A point this close to an earlier one is removed; 0 removes exact repetitions only.");
+                               s.real("tolerance", &DuplicatesOptions::tolerance)
+                                   .range(0, 1)
+                                   .unit("diagonals")
+                                   .doc(
+                                       "A point this close to an earlier one is removed; 0 removes exact "
+                                       "repetitions only.");
                            },
                            cloud::remove_duplicates)},
         {"voxel_grid", make_filter<VoxelGridOptions>(
                            [](config::ParamSchema<VoxelGridOptions>& s) {
-                               s.real("size", &VoxelGridOptions::size).range(0, 1).open_low().unit("diagonals").doc(
-                                   "Edge of a cell; one point of each occupied cell stays.");
+                               s.real("size", &VoxelGridOptions::size)
+                                   .range(0, 1)
+                                   .open_low()
+                                   .unit("diagonals")
+                                   .doc("Edge of a cell; one point of each occupied cell stays.");
                            },
                            cloud::voxel_grid)},
         {"statistical_outliers",
          make_filter<StatisticalOutliersOptions>(
              [](config::ParamSchema<StatisticalOutliersOptions>& s) {
-                 s.integer("neighbours", &StatisticalOutliersOptions::neighbours).range(1, 1000).unit("points").doc(
-                     "Nearest points whose mean distance is taken.");
-                 s.real("deviations", &StatisticalOutliersOptions::deviations).range(0, 1000).unit("1").doc(
-                     "Standard deviations above the mean of all points that a point may lie.");
+                 s.integer("neighbours", &StatisticalOutliersOptions::neighbours)
+                     .range(1, 1000)
+                     .unit("points")
+                     .doc("Nearest points whose mean distance is taken.");
+                 s.real("deviations", &StatisticalOutliersOptions::deviations)
+                     .range(0, 1000)
+                     .unit("1")
+                     .doc("Standard deviations above the mean of all points that a point may lie.");
              },
              cloud::remove_statistical_outliers)},
-        {"radius_outliers",
-         make_filter<RadiusOutliersOptions>(
-             [](config::ParamSchema<RadiusOutliersOptions>& s) {
-                 s.real("radius", &RadiusOutliersOptions::radius).range(0, 1).open_low().unit("diagonals").doc(
-                     "Radius in which neighbours are counted.");
-                 s.integer("neighbours", &RadiusOutliersOptions::neighbours).range(1, 1000000).unit("points").doc(
-                     "A point with fewer neighbours is removed.");
-             },
-             cloud::remove_radius_outliers)},
+        {"radius_outliers", make_filter<RadiusOutliersOptions>(
+                                [](config::ParamSchema<RadiusOutliersOptions>& s) {
+                                    s.real("radius", &RadiusOutliersOptions::radius)
+                                        .range(0, 1)
+                                        .open_low()
+                                        .unit("diagonals")
+                                        .doc("Radius in which neighbours are counted.");
+                                    s.integer("neighbours", &RadiusOutliersOptions::neighbours)
+                                        .range(1, 1000000)
+                                        .unit("points")
+                                        .doc("A point with fewer neighbours is removed.");
+                                },
+                                cloud::remove_radius_outliers)},
     };
     return all;
 }
@@ -67,9 +83,10 @@ cloud::Cloud read_points(const CloudInput& input, std::uint64_t seed, InputRepor
     if (input.sample) {
         report.source = input.sample->shape;
         report.format = "sample";
-        cloud::Cloud cloud = cloud::sample_shape(input.sample->shape, input.sample->n,
-                                                 RandomStream(RandomKey{seed, stream_id("input.cloud.sample"), 0, 0})(),
-                                                 input.sample->noise, input.sample->outliers);
+        cloud::Cloud cloud =
+            cloud::sample_shape(input.sample->shape, input.sample->n,
+                                RandomStream(RandomKey{seed, stream_id("input.cloud.sample"), 0, 0})(),
+                                input.sample->noise, input.sample->outliers);
         report.points = cloud.points.size();
         return cloud;
     }
@@ -98,8 +115,9 @@ std::vector<std::string> filter_ids() {
 cloud::Filtered apply_filter(const cloud::Cloud& cloud, const config::StrategyConfig& filter) {
     const auto found = filters().find(filter.type);
     if (found == filters().end()) {
-        throw ConfigError("config.unknown_strategy", "there is no cloud filter '" + filter.type + "'; accepted: " +
-                                                         "duplicates, radius_outliers, statistical_outliers, voxel_grid");
+        throw ConfigError("config.unknown_strategy",
+                          "there is no cloud filter '" + filter.type + "'; accepted: " +
+                              "duplicates, radius_outliers, statistical_outliers, voxel_grid");
     }
     return found->second.apply(cloud, filter.params);
 }
@@ -114,8 +132,8 @@ LoadedInput load_input(const Input& input, std::uint64_t seed) {
     }
     report.used = cloud.points.size();
     report.diagonal = bounding_box(cloud.points).diagonal();
-    const cloud::Normalized normalized = input.normalize ? cloud::normalize(cloud, input.normalize->scale)
-                                                         : cloud::keep_coordinates(cloud);
+    const cloud::Normalized normalized =
+        input.normalize ? cloud::normalize(cloud, input.normalize->scale) : cloud::keep_coordinates(cloud);
     return {std::move(cloud), cloud::TargetCloud(normalized), std::move(report)};
 }
 

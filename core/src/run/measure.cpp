@@ -67,7 +67,8 @@ void count_faces(const mesh::TetMesh& mesh, const std::vector<char>& valid, Volu
 SurfaceMeasure measure(const surface::TriangleMesh& mesh, Workers* workers) {
     SurfaceMeasure result;
     result.report = surface::analyse(mesh);
-    if (result.report.invalid_faces == 0) result.intersections = surface::self_intersections(mesh, 16, workers);
+    if (result.report.invalid_faces == 0)
+        result.intersections = surface::self_intersections(mesh, 16, workers);
     return result;
 }
 

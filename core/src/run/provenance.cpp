@@ -1,14 +1,14 @@
-#include <dsc/base/version.hpp>
-#include <dsc/plugin/fingerprint.hpp>
-#include <dsc/run/provenance.hpp>
-#include <dsc/run/sha256.hpp>
 #include <sys/resource.h>
 #include <sys/utsname.h>
 
 #include <Eigen/Core>
-#include <boost/version.hpp>
 #include <array>
+#include <boost/version.hpp>
 #include <ctime>
+#include <dsc/base/version.hpp>
+#include <dsc/plugin/fingerprint.hpp>
+#include <dsc/run/provenance.hpp>
+#include <dsc/run/sha256.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -31,15 +31,16 @@ std::string cpu_model() {
 ordered_json machine(unsigned threads) {
     utsname name{};
     uname(&name);
-    return {{"host", name.nodename},     {"system", name.sysname}, {"release", name.release},
-            {"architecture", name.machine}, {"cpu", cpu_model()},   {"threads", threads}};
+    return {{"host", name.nodename},        {"system", name.sysname}, {"release", name.release},
+            {"architecture", name.machine}, {"cpu", cpu_model()},     {"threads", threads}};
 }
 
 ordered_json versions() {
     return {{"dsc", DSC_VERSION},
             {"compiler", DSC_RUN_COMPILER},
             {"build", DSC_RUN_BUILD},
-            {"eigen", DSC_TEXT(EIGEN_WORLD_VERSION) "." DSC_TEXT(EIGEN_MAJOR_VERSION) "." DSC_TEXT(EIGEN_MINOR_VERSION)},
+            {"eigen", DSC_TEXT(EIGEN_WORLD_VERSION) "." DSC_TEXT(EIGEN_MAJOR_VERSION) "." DSC_TEXT(
+                          EIGEN_MINOR_VERSION)},
             {"boost", BOOST_LIB_VERSION},
             {"pcl", DSC_RUN_PCL},
             {"openmesh", DSC_RUN_OPENMESH},
@@ -68,9 +69,9 @@ Usage process_usage() {
     return {seconds(usage.ru_utime) + seconds(usage.ru_stime), static_cast<double>(usage.ru_maxrss) / 1024.0};
 }
 
-std::string provenance_json(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue, const std::string& hash,
-                            const std::vector<std::string>& command, unsigned threads, const std::string& started,
-                            const std::string& finished) {
+std::string provenance_json(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
+                            const std::string& hash, const std::vector<std::string>& command,
+                            unsigned threads, const std::string& started, const std::string& finished) {
     ordered_json plugins = ordered_json::array();
     for (const plugin::PluginInfo& plugin : catalogue.plugins()) {
         plugins.push_back({{"name", plugin.name},
@@ -102,8 +103,10 @@ std::string provenance_json(const LoadedExperiment& loaded, const plugin::Catalo
 std::string version_text() {
     std::string text = "dsc " DSC_VERSION "\ncompiler " DSC_RUN_COMPILER ", " DSC_RUN_BUILD "\nfingerprint ";
     text += plugin::core_fingerprint();
-    text += "\nEigen " DSC_TEXT(EIGEN_WORLD_VERSION) "." DSC_TEXT(EIGEN_MAJOR_VERSION) "." DSC_TEXT(EIGEN_MINOR_VERSION);
-    text += ", Boost " BOOST_LIB_VERSION ", PCL " DSC_RUN_PCL ", OpenMesh " DSC_RUN_OPENMESH ", VTK " DSC_RUN_VTK;
+    text += "\nEigen " DSC_TEXT(EIGEN_WORLD_VERSION) "." DSC_TEXT(EIGEN_MAJOR_VERSION) "." DSC_TEXT(
+        EIGEN_MINOR_VERSION);
+    text +=
+        ", Boost " BOOST_LIB_VERSION ", PCL " DSC_RUN_PCL ", OpenMesh " DSC_RUN_OPENMESH ", VTK " DSC_RUN_VTK;
     text += ", Embree " DSC_RUN_EMBREE ", yaml-cpp " DSC_RUN_YAML "\n";
     return text;
 }

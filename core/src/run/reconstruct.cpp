@@ -36,9 +36,12 @@ struct Plan {
 
 Plan plan_of(Detail detail) {
     switch (detail) {
-        case Detail::low: return {24, 2, 40, 25};
-        case Detail::medium: return {30, 4, 40, 25};
-        case Detail::high: return {40, 5, 50, 25};
+        case Detail::low:
+            return {24, 2, 40, 25};
+        case Detail::medium:
+            return {30, 4, 40, 25};
+        case Detail::high:
+            return {40, 5, 50, 25};
     }
     return {30, 4, 40, 25};
 }
@@ -54,7 +57,8 @@ double spacing(const cloud::Cloud& cloud) {
         search.k_nearest(cloud.points[i * count / probes], 5, neighbours);
         distances.push_back(neighbours.back().distance);
     }
-    std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(probes / 2), distances.end());
+    std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(probes / 2),
+                     distances.end());
     const double half_extent = 0.5 * bounding_box(cloud.points).size().maxCoeff();
     return distances[probes / 2] / 1.06 * scale / half_extent;
 }
@@ -85,7 +89,8 @@ ConfigNode filters(std::size_t points) {
     std::vector<ConfigNode> list = {ConfigNode::map({{"type", "duplicates"}})};
     // The second pass sees the spread without the far outliers, which hide the near ones from the first.
     for (int pass = 0; points >= filtered_from && pass < 2; ++pass) {
-        list.push_back(ConfigNode::map({{"type", "statistical_outliers"}, {"neighbours", 16}, {"deviations", 4.0}}));
+        list.push_back(
+            ConfigNode::map({{"type", "statistical_outliers"}, {"neighbours", 16}, {"deviations", 4.0}}));
     }
     return ConfigNode::list(std::move(list));
 }
@@ -112,11 +117,14 @@ ConfigNode derive_experiment(const std::string& file, const cloud::Cloud& cloud,
     return ConfigNode::map(
         {{"dsc", 1},
          {"name", "reconstruct"},
-         {"input", ConfigNode::map({{"cloud", ConfigNode::map({{"file", file}, {"filters", filters(distinct.points.size())}})},
-                                    {"normalize", ConfigNode::map({{"scale", scale}})}})},
+         {"input",
+          ConfigNode::map(
+              {{"cloud", ConfigNode::map({{"file", file}, {"filters", filters(distinct.points.size())}})},
+               {"normalize", ConfigNode::map({{"scale", scale}})}})},
          {"initial_mesh", ConfigNode::map({{"type", "grid"}, {"cells", fitted.cells}})},
          {"velocity", ConfigNode::map({{"type", "point_cloud"}})},
-         {"improvement", ConfigNode::map({{"type", "dsc"}, {"topology", ConfigNode::map({{"support", fitted.support}})}})},
+         {"improvement",
+          ConfigNode::map({{"type", "dsc"}, {"topology", ConfigNode::map({{"support", fitted.support}})}})},
          {"schedule", ConfigNode::list(std::move(schedule))}});
 }
 

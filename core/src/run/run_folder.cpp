@@ -10,7 +10,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What a run writes. Those that look like a result come first.
-constexpr std::array result_names = {"result", ".result.part", "summary.json", "preview.png", "report.html", "series"};
+constexpr std::array result_names = {"result",      ".result.part", "summary.json",
+                                     "preview.png", "report.html",  "series"};
 constexpr std::array other_names = {"metrics.csv", "events.jsonl", "config.resolved.yaml", "provenance.json",
                                     "checkpoint"};
 
@@ -44,9 +45,10 @@ RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
         const bool empty = fs::is_empty(folder_, error);
         if (error) cannot(folder_, "cannot be read", error);
         if (!empty && !is_ours(folder_)) {
-            throw UsageError("run.folder", folder_.string() +
-                                               " is not empty and no run wrote it; nothing in it was changed; name "
-                                               "another folder with -o or empty it");
+            throw UsageError("run.folder",
+                             folder_.string() +
+                                 " is not empty and no run wrote it; nothing in it was changed; name "
+                                 "another folder with -o or empty it");
         }
     }
     fs::create_directories(folder_, error);
@@ -55,7 +57,9 @@ RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
     for (const char* name : other_names) discard(folder_ / name);
 }
 
-void RunFolder::write(std::string_view name, std::string_view content) const { io::write_file(file(name), content); }
+void RunFolder::write(std::string_view name, std::string_view content) const {
+    io::write_file(file(name), content);
+}
 
 void RunFolder::open_staging() const {
     discard(staging());

@@ -29,7 +29,9 @@ void RunLog::add(const StepMetrics& row) {
     write(metrics_, metrics_file_, text + csv_row(row, *columns_));
 }
 
-void RunLog::add(const kernel::Event& event) { write(events_, events_file_, event_line(event, to_normalised_)); }
+void RunLog::add(const kernel::Event& event) {
+    write(events_, events_file_, event_line(event, to_normalised_));
+}
 
 void RunLog::close() {
     if (waiting_) write(metrics_, metrics_file_, csv_header(*waiting_) + csv_row(*waiting_));
@@ -41,7 +43,9 @@ void RunLog::close() {
 
 void RunLog::write(std::ofstream& stream, const std::filesystem::path& file, const std::string& text) {
     stream << text << std::flush;
-    if (!stream) throw IoError("io.write", file.string(), "", "cannot be written", "check the folder and the space on the disk");
+    if (!stream)
+        throw IoError("io.write", file.string(), "", "cannot be written",
+                      "check the folder and the space on the disk");
 }
 
 }  // namespace dsc::run

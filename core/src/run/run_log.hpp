@@ -27,7 +27,8 @@ private:
     std::ofstream metrics_;
     std::ofstream events_;
     cloud::Transform to_normalised_;
-    std::optional<StepMetrics> waiting_;  // row 0, until the first step tells which figures the observers have
+    std::optional<StepMetrics>
+        waiting_;  // row 0, until the first step tells which figures the observers have
     std::optional<std::size_t> columns_;
 };
 

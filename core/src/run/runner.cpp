@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/geometry/quality.hpp>
@@ -8,8 +9,6 @@
 #include <dsc/run/run_folder.hpp>
 #include <dsc/run/runner.hpp>
 #include <dsc/surface/surface_view.hpp>
-
-#include <algorithm>
 
 #include "run_log.hpp"
 #include "stopwatch.hpp"
@@ -30,9 +29,11 @@ public:
         folder_.open_staging();
         const surface::TriangleMesh surface = surface::extract_interface(mesh);
         if (surface.faces.empty()) {
-            throw GeometryError("run.vanished",
-                                "the surface vanished: no tet with a label above 0 is left, so there is no result; the "
-                                "object may be thinner than the mesh is fine: use more cells, smaller steps, or stop earlier");
+            throw GeometryError(
+                "run.vanished",
+                "the surface vanished: no tet with a label above 0 is left, so there is no result; the "
+                "object may be thinner than the mesh is fine: use more cells, smaller steps, or stop "
+                "earlier");
         }
         for (const std::string& extension : output_.surface) {
             io::write_surface(staged("surface.", extension), surface);
@@ -45,7 +46,8 @@ public:
     }
 
     void measure_files(RunOutcome& outcome) const {
-        const mesh::TetMesh volume = io::read_volume(staged("volume.", preferred(output_.volume, {"dsc", "vtu"})));
+        const mesh::TetMesh volume =
+            io::read_volume(staged("volume.", preferred(output_.volume, {"dsc", "vtu"})));
         const surface::TriangleMesh surface =
             io::read_surface(staged("surface.", preferred(output_.surface, {"obj", "ply", "off", "stl"})));
         outcome.surface = measure(surface, &workers_);
@@ -61,9 +63,12 @@ public:
     }
 
 private:
-    fs::path staged(const char* stem, const std::string& extension) const { return folder_.staging() / (stem + extension); }
+    fs::path staged(const char* stem, const std::string& extension) const {
+        return folder_.staging() / (stem + extension);
+    }
 
-    static std::string preferred(const std::vector<std::string>& given, std::initializer_list<const char*> order) {
+    static std::string preferred(const std::vector<std::string>& given,
+                                 std::initializer_list<const char*> order) {
         for (const char* extension : order) {
             if (std::find(given.begin(), given.end(), extension) != given.end()) return extension;
         }
@@ -78,11 +83,12 @@ private:
 void require_valid(const RunOutcome& outcome) {
     const VolumeMeasure& v = outcome.volume;
     if (v.inverted_tets == 0 && v.adjacency_valid() && outcome.conforms) return;
-    throw GeometryError("run.invalid_result",
-                        "the result as written is not valid: " + std::to_string(v.inverted_tets) + " inverted tets, " +
-                            std::to_string(v.overused_faces + v.folded_faces) + " wrong faces, the surface is " +
-                            (outcome.conforms ? "" : "not ") +
-                            "the interface of the volume; if the coordinates are huge, move the input nearer to the origin");
+    throw GeometryError(
+        "run.invalid_result",
+        "the result as written is not valid: " + std::to_string(v.inverted_tets) + " inverted tets, " +
+            std::to_string(v.overused_faces + v.folded_faces) + " wrong faces, the surface is " +
+            (outcome.conforms ? "" : "not ") +
+            "the interface of the volume; if the coordinates are huge, move the input nearer to the origin");
 }
 
 fs::path folder_of(const LoadedExperiment& loaded, const std::string& hash) {
@@ -103,7 +109,10 @@ void draw(const RunFolder& folder, const surface::TriangleMesh& surface, bool sa
 class Job {
 public:
     Job(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue, const RunOptions& options)
-        : loaded_(loaded), catalogue_(catalogue), options_(options), workers_(std::max(1U, options.threads)) {}
+        : loaded_(loaded),
+          catalogue_(catalogue),
+          options_(options),
+          workers_(std::max(1U, options.threads)) {}
 
     RunOutcome run() {
         state_.state = "running";
@@ -169,24 +178,26 @@ private:
         draw(folder, outcome.volume.interface, experiment.input && experiment.input->cloud.sample, workers_);
         outcome.picture = folder.file("preview.png");
         std::optional<surface::CloudEvaluation> distances;
-        if (target != nullptr) distances = surface::evaluate_cloud(driven.surface, target->points(), &workers_);
+        if (target != nullptr)
+            distances = surface::evaluate_cloud(driven.surface, target->points(), &workers_);
         outcome.totals.seconds.io = io_watch.seconds();
         folder.publish_results();
         folder.write("summary.json",
                      summary_json({loaded_, state_.hash, outcome.totals, input ? &*input : nullptr, distances,
-                                   outcome.surface, outcome.volume, outcome.conforms, to_normalised, watch_.seconds(),
-                                   process_usage()}));
+                                   outcome.surface, outcome.volume, outcome.conforms, to_normalised,
+                                   watch_.seconds(), process_usage()}));
         return outcome;
     }
 
     std::string provenance(const std::string& finished) const {
-        return provenance_json(loaded_, catalogue_, state_.hash, options_.command, workers_.threads(), state_.started,
-                               finished);
+        return provenance_json(loaded_, catalogue_, state_.hash, options_.command, workers_.threads(),
+                               state_.started, finished);
     }
 
     static void report_input(const InputReport& report) {
         std::string text = report.source + ": " + std::to_string(report.points) + " points";
-        if (report.dropped > 0) text += ", " + std::to_string(report.dropped) + " with NaN or infinity dropped";
+        if (report.dropped > 0)
+            text += ", " + std::to_string(report.dropped) + " with NaN or infinity dropped";
         for (const cloud::FilterReport& filter : report.filters) {
             text += ", " + filter.filter + " removed " + std::to_string(filter.removed);
         }
@@ -219,7 +230,8 @@ private:
 
 }  // namespace
 
-RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue, const RunOptions& options) {
+RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
+                          const RunOptions& options) {
     return Job(loaded, catalogue, options).run();
 }
 

@@ -1,10 +1,9 @@
-#include <dsc/run/sha256.hpp>
-
 #include <openssl/evp.h>
 
 #include <array>
 #include <dsc/base/error.hpp>
 #include <dsc/io/atomic_file.hpp>
+#include <dsc/run/sha256.hpp>
 #include <memory>
 
 namespace dsc::run {

@@ -44,8 +44,8 @@ double enclosed_volume(const mesh::Complex& complex, const surface::SurfaceView&
     return sum / 6.0;
 }
 
-void measure_state(const mesh::Complex& complex, const surface::SurfaceView& view, const cloud::TargetCloud* cloud,
-                   Workers& workers, StepMetrics& row) {
+void measure_state(const mesh::Complex& complex, const surface::SurfaceView& view,
+                   const cloud::TargetCloud* cloud, Workers& workers, StepMetrics& row) {
     row.interface_vertices = view.vertex_count();
     row.interface_faces = view.face_count();
     row.tets = complex.tet_count();

@@ -10,8 +10,8 @@
 namespace dsc::run {
 
 /// Fills the figures that the state alone gives: sizes, mean edge, distances, volume, quality. `cloud` may be null.
-void measure_state(const mesh::Complex& complex, const surface::SurfaceView& view, const cloud::TargetCloud* cloud,
-                   Workers& workers, StepMetrics& row);
+void measure_state(const mesh::Complex& complex, const surface::SurfaceView& view,
+                   const cloud::TargetCloud* cloud, Workers& workers, StepMetrics& row);
 
 /// Volume of all labels above 0 by the divergence theorem over the interface: the cost grows with the interface only.
 double enclosed_volume(const mesh::Complex& complex, const surface::SurfaceView& view);

@@ -14,11 +14,13 @@ Strategies make_strategies(const Experiment& experiment, const plugin::Catalogue
         const std::string path = "schedule." + std::to_string(i) + ".refine";
         all.refinements.push_back(refine.empty() ? nullptr
                                                  : catalogue.create<hooks::RefinementPolicy>(refine, path));
-        if (all.refinements.back() && all.refinements.back()->needs_sampling() && !all.velocity->can_sample()) {
-            throw ConfigError("config.no_sampling",
-                              path + ": refinement '" + refine.type + "' reads the velocity between the vertices, and velocity '" +
-                                  experiment.velocity.type +
-                                  "' has no value there; choose another refinement or a velocity that can be sampled\n");
+        if (all.refinements.back() && all.refinements.back()->needs_sampling() &&
+            !all.velocity->can_sample()) {
+            throw ConfigError(
+                "config.no_sampling",
+                path + ": refinement '" + refine.type +
+                    "' reads the velocity between the vertices, and velocity '" + experiment.velocity.type +
+                    "' has no value there; choose another refinement or a velocity that can be sampled\n");
         }
     }
     for (std::size_t i = 0; i < experiment.observers.size(); ++i) {

@@ -35,7 +35,8 @@ ordered_json operations(const RunTotals& totals) {
         const kernel::OperationCounts& counts = totals.operations[i];
         ordered_json row = {{"tried", counts.tried}, {"committed", counts.committed}};
         for (std::size_t r = 1; r < counts.refused.size(); ++r) {
-            if (counts.refused[r] > 0) row[std::string(mesh::name(static_cast<mesh::Refusal>(r)))] = counts.refused[r];
+            if (counts.refused[r] > 0)
+                row[std::string(mesh::name(static_cast<mesh::Refusal>(r)))] = counts.refused[r];
         }
         table[std::string(mesh::name(static_cast<mesh::Operation>(i)))] = row;
     }
@@ -49,8 +50,8 @@ ordered_json input(const LoadedInput* loaded) {
     for (const cloud::FilterReport& f : report.filters) {
         filters.push_back({{"type", f.filter}, {"kept", f.kept}, {"removed", f.removed}});
     }
-    return {{"source", report.source},   {"format", report.format}, {"points", report.points},
-            {"dropped", report.dropped}, {"filters", filters},      {"used", report.used},
+    return {{"source", report.source},    {"format", report.format}, {"points", report.points},
+            {"dropped", report.dropped},  {"filters", filters},      {"used", report.used},
             {"diagonal", report.diagonal}};
 }
 
@@ -105,7 +106,8 @@ std::string summary_json(const SummaryParts& parts) {
         {"vertex_to_cloud", distances(parts.distances, true)},
         {"cloud_to_surface", distances(parts.distances, false)},
         {"units",
-         "volume and volume_initial: units of the input, cubed; every other length and volume: normalised units, "
+         "volume and volume_initial: units of the input, cubed; every other length and volume: normalised "
+         "units, "
          "(input - centre) * scale"},
         {"to_normalised", {{"centre", point(parts.to_normalised.centre)}, {"scale", scale}}},
         {"input", input(parts.input)},
@@ -115,7 +117,9 @@ std::string summary_json(const SummaryParts& parts) {
           {"unpinched_vertices", totals.adopted.unpinched_vertices},
           {"vanished_components", totals.adopted.vanished_components}}},
         {"refinements",
-         {{"calls", totals.refinements}, {"requested", totals.refine_requested}, {"committed", totals.refine_committed}}},
+         {{"calls", totals.refinements},
+          {"requested", totals.refine_requested},
+          {"committed", totals.refine_committed}}},
         {"operations", operations(totals)},
         {"observers", observers(totals)},
         {"wall_s", parts.wall_seconds},
@@ -132,11 +136,12 @@ std::string summary_json(const SummaryParts& parts) {
 }
 
 std::string status_json(const RunState& state) {
-    ordered_json root = {{"format", "dsc-run-1"},
-                         {"state", state.state},
-                         {"config_sha256", state.hash},
-                         {"started", state.started},
-                         {"finished", state.finished.empty() ? ordered_json() : ordered_json(state.finished)}};
+    ordered_json root = {
+        {"format", "dsc-run-1"},
+        {"state", state.state},
+        {"config_sha256", state.hash},
+        {"started", state.started},
+        {"finished", state.finished.empty() ? ordered_json() : ordered_json(state.finished)}};
     if (state.totals) {
         root["status"] = std::string(name(state.totals->status));
         root["steps"] = state.totals->steps;

@@ -16,7 +16,7 @@ struct SummaryParts {
     const LoadedExperiment& loaded;
     const std::string& hash;
     const RunTotals& totals;
-    const LoadedInput* input;                                ///< null without a cloud
+    const LoadedInput* input;                                  ///< null without a cloud
     const std::optional<surface::CloudEvaluation>& distances;  ///< normalised units
     const SurfaceMeasure& surface;
     const VolumeMeasure& volume;

@@ -13,7 +13,9 @@ public:
         int step = 1;
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
-        schema.choice("fault", &Params::fault, {{"none", Fault::none}, {"throws", Fault::throws}, {"nan", Fault::nan}})
+        schema
+            .choice("fault", &Params::fault,
+                    {{"none", Fault::none}, {"throws", Fault::throws}, {"nan", Fault::nan}})
             .doc("What goes wrong.");
         schema.integer("step", &Params::step).at_least(0).unit("steps").doc("In which step.");
     }

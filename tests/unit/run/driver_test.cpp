@@ -58,7 +58,8 @@ TEST_CASE("converged: the last series ended slow, further items still run") {
     const Driven one = drive({slow[0], slow[1], "schedule.0.steps=9"});
     CHECK(one.result.totals.status == run::Status::converged);
     CHECK(one.result.totals.steps == 2);
-    const Driven three = drive({slow[0], slow[1], "schedule=[{steps: 9}, {refine: {type: all}}, {steps: 9}]"});
+    const Driven three =
+        drive({slow[0], slow[1], "schedule=[{steps: 9}, {refine: {type: all}}, {steps: 9}]"});
     CHECK(three.result.totals.steps == 4);
     CHECK(three.result.totals.refinements == 1);
     CHECK(three.result.surface.faces.size() > 192);
@@ -81,7 +82,8 @@ TEST_CASE("refinement: by faces, by a sizing field, every so many steps") {
     // Edges are 0.25 and 0.354 long: 0.3 splits each diagonal once.
     const Driven fine = drive({"schedule=[{refine: {type: all, sizing: 0.3}}]"});
     CHECK(fine.result.totals.refine_committed == 96);
-    const Driven often = drive({"velocity.factor=0", "schedule=[{steps: 4, every: 2, refine: {type: all, sizing: 5}}]"});
+    const Driven often =
+        drive({"velocity.factor=0", "schedule=[{steps: 4, every: 2, refine: {type: all, sizing: 5}}]"});
     CHECK(often.result.totals.refinements == 2);
 }
 
@@ -106,7 +108,8 @@ TEST_CASE("cancelled: before the first step nothing has moved") {
 
 TEST_CASE("the result does not depend on the number of threads") {
     Workers three(3);
-    const std::vector<std::string> overrides = {"velocity.factor=-0.08", "schedule=[{steps: 3}, {refine: {type: all}}, {steps: 3}]"};
+    const std::vector<std::string> overrides = {"velocity.factor=-0.08",
+                                                "schedule=[{steps: 3}, {refine: {type: all}}, {steps: 3}]"};
     const Driven a = drive(overrides), b = drive(overrides, &three);
     CHECK(run::identical(a.result.surface, b.result.surface));
     CHECK(a.result.mesh.tets == b.result.mesh.tets);
@@ -133,8 +136,9 @@ TEST_CASE("a whole run: the folder holds what it should, a second run the same b
 
     CHECK(outcome.conforms);
     CHECK(outcome.surface.solid());
-    for (const char* name : {"result/surface.obj", "result/surface.ply", "result/volume.vtu", "result/volume.dsc",
-                             "metrics.csv", "events.jsonl", "preview.png", "config.resolved.yaml"}) {
+    for (const char* name :
+         {"result/surface.obj", "result/surface.ply", "result/volume.vtu", "result/volume.dsc", "metrics.csv",
+          "events.jsonl", "preview.png", "config.resolved.yaml"}) {
         CAPTURE(name);
         CHECK(fs::exists(folder.path() / "one" / name));
         CHECK(folder.read(std::string("one/") + name) == folder.read(std::string("two/") + name));
@@ -143,12 +147,37 @@ TEST_CASE("a whole run: the folder holds what it should, a second run the same b
     CHECK(status["state"] == "done");
     CHECK(status["status"] == "max_steps");
     const auto summary = nlohmann::json::parse(folder.read("one/summary.json"));
-    for (const char* key :
-         {"status", "steps", "interface_vertices", "interface_faces", "tets", "min_tet_quality", "inverted_tets",
-          "components", "genus", "boundary_edges", "nonmanifold_edges", "nonmanifold_vertices", "self_intersections",
-          "volume", "volume_initial", "shells", "cavities", "events", "target_length", "clamped", "dropped_motion",
-          "edit_volume", "relabelled_volume", "rounds", "refused", "vertex_to_cloud", "cloud_to_surface", "wall_s", "cpu_s",
-          "peak_rss_mb", "phase_s"}) {
+    for (const char* key : {"status",
+                            "steps",
+                            "interface_vertices",
+                            "interface_faces",
+                            "tets",
+                            "min_tet_quality",
+                            "inverted_tets",
+                            "components",
+                            "genus",
+                            "boundary_edges",
+                            "nonmanifold_edges",
+                            "nonmanifold_vertices",
+                            "self_intersections",
+                            "volume",
+                            "volume_initial",
+                            "shells",
+                            "cavities",
+                            "events",
+                            "target_length",
+                            "clamped",
+                            "dropped_motion",
+                            "edit_volume",
+                            "relabelled_volume",
+                            "rounds",
+                            "refused",
+                            "vertex_to_cloud",
+                            "cloud_to_surface",
+                            "wall_s",
+                            "cpu_s",
+                            "peak_rss_mb",
+                            "phase_s"}) {
         CAPTURE(key);
         CHECK(summary.contains(key));
     }
@@ -172,7 +201,8 @@ TEST_CASE("a run that fails leaves no result and says why") {
     options.folder = folder.path() / "run";
     run::run_experiment(load_text(minimal), catalogue, options);
     CHECK(fs::exists(folder.path() / "run/result/surface.obj"));
-    const auto bad = load_text(minimal + "input: {cloud: {file: " + (folder.path() / "flat.xyz").string() + "}}\n");
+    const auto bad =
+        load_text(minimal + "input: {cloud: {file: " + (folder.path() / "flat.xyz").string() + "}}\n");
     CHECK_THROWS_AS(run::run_experiment(bad, catalogue, options), GeometryError);
     fs::current_path(here);
     for (const char* name : {"result", "summary.json", "preview.png", ".result.part"}) {

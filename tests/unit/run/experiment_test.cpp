@@ -23,7 +23,9 @@ std::string fault(const std::string& text, const std::vector<std::string>& overr
     return "no error";
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -56,9 +58,10 @@ TEST_CASE("a minimal experiment gets its defaults, its name from the file") {
 }
 
 TEST_CASE("the resolved text reproduces the experiment") {
-    const std::string text = minimal +
-                             "name: a.b-c_1\nseed: 7\nstop: {speed: 0.5}\nobservers: [{type: counter}]\n"
-                             "input: {cloud: {sample: {n: 50}, filters: [{type: voxel_grid}]}, normalize: {}}\n";
+    const std::string text =
+        minimal +
+        "name: a.b-c_1\nseed: 7\nstop: {speed: 0.5}\nobservers: [{type: counter}]\n"
+        "input: {cloud: {sample: {n: 50}, filters: [{type: voxel_grid}]}, normalize: {}}\n";
     const run::LoadedExperiment loaded = load_text(text, {"velocity.factor=0.25", "schedule.0.steps=9"});
     CHECK(loaded.experiment.velocity.params.at("factor").as_real() == 0.25);
     CHECK(loaded.experiment.schedule[0].steps == 9U);
@@ -79,13 +82,17 @@ TEST_CASE("faults name the place and what is accepted") {
     CHECK(contains(fault(minimal, {"velocity.factor=2"}), "command line"));
     CHECK(contains(fault(minimal, {"schedule=[]"}), "schedule"));
     CHECK(contains(fault(minimal, {"schedule=[{every: 2}]"}), "needs 'steps', 'refine' or both"));
-    CHECK(contains(fault(minimal, {"schedule=[{steps: 3, every: 2}]"}), "'every' belongs to an item with both"));
-    CHECK(contains(fault(minimal, {"schedule=[{steps: 3, refine: {type: all}}]"}), "'every' belongs to an item with both"));
+    CHECK(contains(fault(minimal, {"schedule=[{steps: 3, every: 2}]"}),
+                   "'every' belongs to an item with both"));
+    CHECK(contains(fault(minimal, {"schedule=[{steps: 3, refine: {type: all}}]"}),
+                   "'every' belongs to an item with both"));
     CHECK(contains(fault(minimal, {"name=../x"}), "name must be 1 to 100 letters"));
     CHECK(contains(fault(minimal, {"name=.x"}), "name must be 1 to 100 letters"));
     CHECK(contains(fault(minimal, {"input={cloud: {}}"}), "exactly one of 'file' and 'sample'"));
-    CHECK(contains(fault(minimal, {"input={cloud: {file: a.obj, sample: {}}}"}), "exactly one of 'file' and 'sample'"));
-    CHECK(contains(fault(minimal, {"input={cloud: {sample: {shape: cup}}}"}), "shape must be one of teapot, sphere"));
+    CHECK(contains(fault(minimal, {"input={cloud: {file: a.obj, sample: {}}}"}),
+                   "exactly one of 'file' and 'sample'"));
+    CHECK(contains(fault(minimal, {"input={cloud: {sample: {shape: cup}}}"}),
+                   "shape must be one of teapot, sphere"));
     CHECK(contains(fault(minimal, {"input={cloud: {sample: {}}, normalize: {scale: 2}}"}), "(0, 1.5]"));
     CHECK(contains(fault(minimal, {"input={cloud: {sample: {}, filters: [{type: voxels}]}}"}), "voxel_grid"));
     CHECK(contains(fault(minimal, {"output.surface=[dxf]"}), "dxf"));
@@ -102,7 +109,8 @@ TEST_CASE("all faults at once") {
 
 TEST_CASE("an unset DSC_DATA is explained") {
     const Folder folder;
-    const std::string file = folder.write("a.yaml", minimal + "input: {cloud: {file: \"${DSC_DATA}/cow.obj\"}}\n");
+    const std::string file =
+        folder.write("a.yaml", minimal + "input: {cloud: {file: \"${DSC_DATA}/cow.obj\"}}\n");
     const dsc::test::Strategies strategies;
     config::YamlOptions options;
     options.environment = [](const std::string&) { return std::nullopt; };
@@ -111,14 +119,16 @@ TEST_CASE("an unset DSC_DATA is explained") {
         FAIL("no error");
     } catch (const ConfigError& error) {
         CHECK(contains(error.what(), "a.yaml:6:"));
-        CHECK(contains(error.what(), "DSC_DATA is the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj"));
+        CHECK(contains(error.what(),
+                       "DSC_DATA is the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj"));
         CHECK(contains(error.what(), "they are public"));
     }
     options.environment = [](const std::string& name) -> std::optional<std::string> {
         if (name == "DSC_DATA") return "/clouds";
         return std::nullopt;
     };
-    CHECK(run::load_experiment(file, {}, strategies.loader(), options).experiment.input->cloud.file == "/clouds/cow.obj");
+    CHECK(run::load_experiment(file, {}, strategies.loader(), options).experiment.input->cloud.file ==
+          "/clouds/cow.obj");
 }
 
 TEST_CASE("parts that this version does not write are told") {
@@ -149,7 +159,9 @@ TEST_CASE("the hash depends on what is computed, not on names of files") {
     const auto hash = [&](const std::string& text, const std::vector<std::string>& overrides = {}) {
         return run::config_hash(load_text(text, overrides), lookup);
     };
-    const auto with = [&](const std::string& file) { return hash(minimal + "input: {cloud: {file: " + file + "}}\n"); };
+    const auto with = [&](const std::string& file) {
+        return hash(minimal + "input: {cloud: {file: " + file + "}}\n");
+    };
     CHECK(hash(minimal).size() == 64);
     CHECK(hash(minimal) == hash(minimal));
     CHECK(hash("seed: 1\n" + minimal) == hash(minimal));
@@ -162,8 +174,7 @@ TEST_CASE("the hash depends on what is computed, not on names of files") {
     // A file parameter of a strategy counts by its content too.
     CHECK(hash(minimal, {"initial_mesh.file=" + one}) == hash(minimal, {"initial_mesh.file=" + two}));
     CHECK(hash(minimal, {"initial_mesh.file=" + one}) != hash(minimal, {"initial_mesh.file=" + other}));
-    const auto files = run::input_files(load_text(minimal + "input: {cloud: {file: " + one + "}}\n",
-                                                  {"initial_mesh.file=" + two}),
-                                        lookup);
+    const auto files = run::input_files(
+        load_text(minimal + "input: {cloud: {file: " + one + "}}\n", {"initial_mesh.file=" + two}), lookup);
     CHECK(files == std::vector<std::string>{one, two});
 }

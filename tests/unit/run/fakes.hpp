@@ -63,15 +63,19 @@ public:
     mesh::TetMesh build(const hooks::InitialMeshContext&) override {
         mesh::TetMesh mesh;
         const int n = params_.cells;
-        const auto id = [n](int i, int j, int k) { return static_cast<std::uint32_t>(i + (n + 1) * (j + (n + 1) * k)); };
+        const auto id = [n](int i, int j, int k) {
+            return static_cast<std::uint32_t>(i + (n + 1) * (j + (n + 1) * k));
+        };
         for (int k = 0; k <= n; ++k)
             for (int j = 0; j <= n; ++j)
-                for (int i = 0; i <= n; ++i) mesh.points.emplace_back(Vec3(i, j, k) * (3.0 / n) - Vec3::Constant(1.5));
+                for (int i = 0; i <= n; ++i)
+                    mesh.points.emplace_back(Vec3(i, j, k) * (3.0 / n) - Vec3::Constant(1.5));
         for (int k = 0; k < n; ++k)
             for (int j = 0; j < n; ++j)
                 for (int i = 0; i < n; ++i) cell(mesh, id, i, j, k);
         for (auto& tet : mesh.tets) {
-            if (geometry::tet_volume(mesh.points[tet[0]], mesh.points[tet[1]], mesh.points[tet[2]], mesh.points[tet[3]]) < 0) {
+            if (geometry::tet_volume(mesh.points[tet[0]], mesh.points[tet[1]], mesh.points[tet[2]],
+                                     mesh.points[tet[3]]) < 0) {
                 std::swap(tet[0], tet[1]);
             }
             Vec3 centre = Vec3::Zero();
@@ -85,11 +89,14 @@ private:
     template <class Id>
     static void cell(mesh::TetMesh& mesh, const Id& id, int i, int j, int k) {
         std::array<std::uint32_t, 8> c{};
-        for (int b = 0; b < 8; ++b) c[static_cast<std::size_t>(b)] = id(i + (b & 1), j + ((b >> 1) & 1), k + (b >> 2));
+        for (int b = 0; b < 8; ++b)
+            c[static_cast<std::size_t>(b)] = id(i + (b & 1), j + ((b >> 1) & 1), k + (b >> 2));
         // The regular tet of even cells has the corners with an even number of ones, that of odd cells the others.
         const bool odd = ((i + j + k) & 1) != 0;
-        const std::array<std::uint32_t, 4> in = odd ? std::array{c[1], c[2], c[4], c[7]} : std::array{c[0], c[3], c[5], c[6]};
-        const std::array<std::uint32_t, 4> out = odd ? std::array{c[6], c[5], c[3], c[0]} : std::array{c[7], c[4], c[2], c[1]};
+        const std::array<std::uint32_t, 4> in =
+            odd ? std::array{c[1], c[2], c[4], c[7]} : std::array{c[0], c[3], c[5], c[6]};
+        const std::array<std::uint32_t, 4> out =
+            odd ? std::array{c[6], c[5], c[3], c[0]} : std::array{c[7], c[4], c[2], c[1]};
         mesh.tets.push_back(in);
         for (std::size_t corner = 0; corner < 4; ++corner) {
             std::array<std::uint32_t, 4> tet{};
@@ -154,7 +161,10 @@ public:
     };
     static void declare(config::ParamSchema<Params>& s) {
         s.boolean("sampling", &Params::sampling).doc("Whether it needs to sample the velocity.");
-        s.real("sizing", &Params::sizing).range(0, 10).unit("length").doc("Wanted length everywhere; 0 splits all faces.");
+        s.real("sizing", &Params::sizing)
+            .range(0, 10)
+            .unit("length")
+            .doc("Wanted length everywhere; 0 splits all faces.");
     }
     SplitAll(const Params& params, const plugin::Setup&) : params_(params) {}
     bool needs_sampling() const override { return params_.sampling; }
@@ -181,7 +191,9 @@ public:
     hooks::Figures step(const hooks::StepContext&, const hooks::StepFigures&) override {
         return {{"count", static_cast<double>(++count_)}};
     }
-    hooks::Figures end(const hooks::StepContext&) override { return {{"total", static_cast<double>(count_)}}; }
+    hooks::Figures end(const hooks::StepContext&) override {
+        return {{"total", static_cast<double>(count_)}};
+    }
 
 private:
     int count_ = 0;
@@ -207,10 +219,12 @@ public:
 };
 
 inline const std::string minimal =
-    "dsc: 1\ninitial_mesh: {type: box}\nvelocity: {type: linear}\nimprovement: {type: none}\nschedule: [{steps: 2}]\n";
+    "dsc: 1\ninitial_mesh: {type: box}\nvelocity: {type: linear}\nimprovement: {type: none}\nschedule: "
+    "[{steps: 2}]\n";
 
 /// The experiment `text`, with overrides.
-inline run::LoadedExperiment load_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
+inline run::LoadedExperiment load_text(const std::string& text,
+                                       const std::vector<std::string>& overrides = {}) {
     static const Strategies strategies;
     const Folder folder;
     return run::load_experiment(folder.write("test.yaml", text), overrides, strategies.loader());

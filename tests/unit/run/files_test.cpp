@@ -129,7 +129,8 @@ TEST_CASE("events are told in the input's coordinates") {
     event.thickness = 0.25;
     const cloud::Transform transform{Vec3(10, 20, 30), 2.0};
     CHECK(run::event_line(event, transform) ==
-          "{\"kind\":\"handle_opened\",\"step\":12,\"place\":[10.25,20,29.5],\"label\":1,\"tets\":4,\"volume\":0.125,"
+          "{\"kind\":\"handle_opened\",\"step\":12,\"place\":[10.25,20,29.5],\"label\":1,\"tets\":4,"
+          "\"volume\":0.125,"
           "\"thickness\":0.25}\n");
 }
 

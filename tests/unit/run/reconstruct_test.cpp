@@ -60,7 +60,9 @@ TEST_CASE("a handful of points: a coarse start, nothing opens between them") {
 
 TEST_CASE("few points are not filtered for outliers; repeated points do not count") {
     cloud::Cloud cloud = cloud::sample_shape("sphere", 60, 1);
-    const auto filters = [&] { return derive(cloud, run::Detail::low).at("input").at("cloud").at("filters").size(); };
+    const auto filters = [&] {
+        return derive(cloud, run::Detail::low).at("input").at("cloud").at("filters").size();
+    };
     CHECK(filters() == 1);
     const std::vector<Vec3> once = cloud.points;
     for (int i = 0; i < 5; ++i) cloud.points.insert(cloud.points.end(), once.begin(), once.end());

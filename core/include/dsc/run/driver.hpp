@@ -1,10 +1,6 @@
 #pragma once
 // Carries out the schedule of an experiment: strategies say what, the kernel does how, figures are reported.
 
-#include <functional>
-#include <memory>
-#include <optional>
-
 #include <dsc/base/progress.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/target.hpp>
@@ -13,6 +9,9 @@
 #include <dsc/run/experiment.hpp>
 #include <dsc/run/figures.hpp>
 #include <dsc/surface/triangle_mesh.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
 
 namespace dsc::run {
 
@@ -21,7 +20,8 @@ struct Strategies {
     std::unique_ptr<hooks::InitialMesh> initial_mesh;
     std::unique_ptr<hooks::VelocityField> velocity;
     std::unique_ptr<hooks::Improvement> improvement;
-    std::vector<std::unique_ptr<hooks::RefinementPolicy>> refinements;  ///< one an item of the schedule, null for none
+    std::vector<std::unique_ptr<hooks::RefinementPolicy>>
+        refinements;  ///< one an item of the schedule, null for none
     std::vector<std::unique_ptr<hooks::Observer>> observers;
 };
 
@@ -31,9 +31,9 @@ Strategies make_strategies(const Experiment& experiment, const plugin::Catalogue
 
 /// What a run is given besides the experiment.
 struct DriveOptions {
-    Workers* workers = nullptr;             ///< null: one thread
-    const CancelToken* cancel = nullptr;    ///< checked between steps
-    std::function<bool()> out_of_time;      ///< checked between steps; true ends the run like a cancellation
+    Workers* workers = nullptr;           ///< null: one thread
+    const CancelToken* cancel = nullptr;  ///< checked between steps
+    std::function<bool()> out_of_time;    ///< checked between steps; true ends the run like a cancellation
     std::function<void(const StepMetrics&, std::uint64_t planned)> on_step;  ///< also for row 0
     std::function<void(const kernel::Event&)> on_event;
 };

@@ -2,17 +2,16 @@
 // An experiment: the typed form of a configuration, and the way from a file with overrides to it.
 
 #include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/config/node.hpp>
 #include <dsc/config/params.hpp>
 #include <dsc/config/schema.hpp>
 #include <dsc/config/yaml.hpp>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace dsc::run {
 

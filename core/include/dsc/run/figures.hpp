@@ -2,15 +2,14 @@
 // The figures of a run: one row of metrics.csv a step, and the sums that summary.json reports.
 
 #include <cstdint>
+#include <dsc/hooks/observer.hpp>
+#include <dsc/kernel/step_report.hpp>
+#include <dsc/mesh/adopt.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include <dsc/hooks/observer.hpp>
-#include <dsc/kernel/step_report.hpp>
-#include <dsc/mesh/adopt.hpp>
 
 namespace dsc::run {
 
@@ -24,13 +23,15 @@ struct StepMetrics {
     std::size_t interface_vertices = 0;
     std::size_t interface_faces = 0;
     std::size_t tets = 0;
-    double mean_edge = 0.0;    ///< of the interface
-    double mean_speed = 0.0;   ///< length of the displacements of the movable vertices
+    double mean_edge = 0.0;   ///< of the interface
+    double mean_speed = 0.0;  ///< length of the displacements of the movable vertices
     double max_speed = 0.0;
-    std::optional<double> vertex_to_cloud_mean;   ///< interface vertices to the nearest cloud point; empty without cloud
+    std::optional<double>
+        vertex_to_cloud_mean;  ///< interface vertices to the nearest cloud point; empty without cloud
     std::optional<double> vertex_to_cloud_max;
-    std::optional<double> cloud_to_surface_mean;  ///< at most cloud_probes points, evenly taken, to the surface
-    double volume = 0.0;       ///< of all labels above 0
+    std::optional<double>
+        cloud_to_surface_mean;  ///< at most cloud_probes points, evenly taken, to the surface
+    double volume = 0.0;        ///< of all labels above 0
     double min_tet_quality = 0.0;
     unsigned rounds = 0;
     std::size_t requested = 0;

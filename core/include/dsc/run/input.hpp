@@ -2,26 +2,25 @@
 // From the input of an experiment to the cloud that strategies see.
 
 #include <cstddef>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include <dsc/cloud/cloud.hpp>
 #include <dsc/cloud/filter.hpp>
 #include <dsc/cloud/target.hpp>
 #include <dsc/run/experiment.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace dsc::run {
 
 /// What became of the input.
 struct InputReport {
-    std::string source;          ///< file or shape
-    std::string format;          ///< "OBJ", ..., or "sample"
-    std::size_t points = 0;      ///< of the source
-    std::size_t dropped = 0;     ///< not finite, left out by the reader
+    std::string source;       ///< file or shape
+    std::string format;       ///< "OBJ", ..., or "sample"
+    std::size_t points = 0;   ///< of the source
+    std::size_t dropped = 0;  ///< not finite, left out by the reader
     std::vector<cloud::FilterReport> filters;
-    std::size_t used = 0;        ///< after the filters
-    double diagonal = 0.0;       ///< of the used points' box, in the input's units
+    std::size_t used = 0;   ///< after the filters
+    double diagonal = 0.0;  ///< of the used points' box, in the input's units
 };
 
 struct LoadedInput {

@@ -1,14 +1,13 @@
 #pragma once
 // What a written file is worth: surfaces and volumes measured as they stand on the disk.
 
-#include <filesystem>
-#include <map>
-#include <string>
-
 #include <dsc/base/workers.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/intersections.hpp>
+#include <filesystem>
+#include <map>
+#include <string>
 
 namespace dsc::run {
 
@@ -28,19 +27,19 @@ struct VolumeMeasure {
     std::size_t points = 0;
     std::size_t unused_points = 0;
     std::size_t tets = 0;
-    std::size_t invalid_tets = 0;      ///< an index out of range, a repeated vertex or a point that is not finite
-    std::size_t inverted_tets = 0;     ///< orient3d not positive: negative or flat
-    std::size_t overused_faces = 0;    ///< with more than two tets
-    std::size_t folded_faces = 0;      ///< whose two tets lie on the same side
-    std::size_t boundary_faces = 0;    ///< with one tet
+    std::size_t invalid_tets = 0;  ///< an index out of range, a repeated vertex or a point that is not finite
+    std::size_t inverted_tets = 0;   ///< orient3d not positive: negative or flat
+    std::size_t overused_faces = 0;  ///< with more than two tets
+    std::size_t folded_faces = 0;    ///< whose two tets lie on the same side
+    std::size_t boundary_faces = 0;  ///< with one tet
     double min_quality = 0.0;
     double mean_quality = 0.0;
-    double volume = 0.0;               ///< sum over all tets
+    double volume = 0.0;  ///< sum over all tets
     double box_volume = 0.0;
     Box3 box;
     std::map<mesh::Label, std::size_t> label_tets;
     std::map<mesh::Label, double> label_volumes;
-    surface::TriangleMesh interface;   ///< label interface, empty for a mesh with faults of its tets
+    surface::TriangleMesh interface;  ///< label interface, empty for a mesh with faults of its tets
     SurfaceMeasure interface_measure;
 
     /// Every face has one tet or two on opposite sides.
@@ -48,7 +47,9 @@ struct VolumeMeasure {
     /// The tets fill the box of their points, relative 1e-9.
     bool fills_box() const;
     /// Valid tets whose label interface is a solid.
-    bool solid() const { return adjacency_valid() && inverted_tets == 0 && tets > 0 && interface_measure.solid(); }
+    bool solid() const {
+        return adjacency_valid() && inverted_tets == 0 && tets > 0 && interface_measure.solid();
+    }
 };
 
 /// `with_interface` false: the interface is neither extracted nor measured. [step]

@@ -1,12 +1,11 @@
 #pragma once
 // The main job: an experiment derived from a cloud, the thesis' pipeline without a knob but the level of detail.
 
+#include <dsc/cloud/cloud.hpp>
+#include <dsc/config/node.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
-
-#include <dsc/cloud/cloud.hpp>
-#include <dsc/config/node.hpp>
 
 namespace dsc::run {
 

@@ -1,25 +1,24 @@
 #pragma once
 // A whole run: from a loaded experiment to a run folder.
 
+#include <dsc/run/driver.hpp>
+#include <dsc/run/experiment.hpp>
+#include <dsc/run/input.hpp>
+#include <dsc/run/measure.hpp>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <dsc/run/driver.hpp>
-#include <dsc/run/experiment.hpp>
-#include <dsc/run/input.hpp>
-#include <dsc/run/measure.hpp>
-
 namespace dsc::run {
 
 struct RunOptions {
-    std::filesystem::path folder;               ///< empty: runs/NAME/HASH, 12 digits of it
+    std::filesystem::path folder;  ///< empty: runs/NAME/HASH, 12 digits of it
     unsigned threads = 1;
-    std::optional<double> time_budget;          ///< seconds; the run ends after the step in which it is used up
+    std::optional<double> time_budget;  ///< seconds; the run ends after the step in which it is used up
     const CancelToken* cancel = nullptr;
-    std::vector<std::string> command;           ///< as typed, for provenance.json
+    std::vector<std::string> command;  ///< as typed, for provenance.json
     std::function<void(const StepMetrics&, std::uint64_t planned)> on_step;
 };
 
@@ -38,7 +37,8 @@ struct RunOutcome {
 /// Runs it. On an error the folder says "failed" and holds no result, and the error goes on. A result that is not
 /// valid as written (inverted tets, self-intersections, a surface that is not the volume's interface) is a
 /// GeometryError "run.invalid_result". [setup]
-RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue, const RunOptions& options);
+RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
+                          const RunOptions& options);
 
 /// The folder that a run without `-o` gets. [setup]
 std::filesystem::path default_folder(const LoadedExperiment& loaded, const config::StrategyLookup& lookup);
