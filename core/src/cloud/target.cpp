@@ -1,10 +1,61 @@
 #include <dsc/cloud/target.hpp>
 
+#include <mutex>
+#include <vector>
+
 namespace dsc::cloud {
+
+struct TargetCloud::Spacings {
+    std::once_flag once;
+    std::vector<double> values;
+};
+
+namespace {
+
+constexpr std::size_t wanted = 6;
+constexpr std::size_t searched = 16, searched_again = 128;  // more where many points coincide
+
+// Distance to the sixth of the neighbours, to the last one if there are fewer, and how many there are; points in one
+// place count once, and not at all in the place of p. Equal points are equally far: only those need a comparison.
+std::pair<double, std::size_t> sixth(std::span<const Vec3> points, std::span<const Neighbour> around) {
+    double last = 0.0;
+    std::size_t distinct = 0;
+    for (std::size_t i = 0; i < around.size() && distinct < wanted; ++i) {
+        if (!(around[i].distance > 0.0)) continue;
+        bool again = false;
+        for (std::size_t j = i; j > 0 && around[j - 1].distance == around[i].distance && !again; --j) {
+            again = points[around[j - 1].index] == points[around[i].index];
+        }
+        if (again) continue;
+        last = around[i].distance;
+        ++distinct;
+    }
+    return {last, distinct};
+}
+
+}  // namespace
 
 TargetCloud::TargetCloud(const Normalized& normalized)
     : search_(std::make_shared<const NearestSearch>(normalized.points)),
+      spacings_(std::make_shared<Spacings>()),
       transform_(normalized.transform),
       box_(bounding_box(search_->points())) {}
+
+double TargetCloud::spacing(std::size_t index) const {
+    std::call_once(spacings_->once, [this] {
+        std::vector<Neighbour> around;
+        spacings_->values.reserve(size());
+        for (const Vec3& p : points()) {
+            search_->k_nearest(p, searched, around);
+            auto [distance, distinct] = sixth(points(), around);
+            if (distinct < wanted) {
+                search_->k_nearest(p, searched_again, around);
+                distance = sixth(points(), around).first;
+            }
+            spacings_->values.push_back(distance);
+        }
+    });
+    return spacings_->values[index];
+}
 
 }  // namespace dsc::cloud

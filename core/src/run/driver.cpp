@@ -15,8 +15,8 @@ constexpr std::size_t block = 256;
 /// A series stalls when for this many steps less than this part of the asked motion came about.
 constexpr unsigned stall_steps = 5;
 constexpr double stall_ratio = 0.01;
-/// Mean speed, in mean edges, below which nothing is asked for and nothing can stall.
-constexpr double stall_speed = 1e-6;
+/// Mean speed, in mean edges, below which a vertex counts as arrived (as in the kernel) and nothing can stall.
+constexpr double stall_speed = 1e-4;
 
 void require_inside(const cloud::TargetCloud& cloud, const Box3& box) {
     for (std::size_t i = 0; i < cloud.size(); ++i) {

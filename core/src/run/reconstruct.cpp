@@ -23,6 +23,8 @@ constexpr double coarse_edge = 0.5;
 constexpr double least_cells = 16;
 /// Point spacings within which no sheet is pierced.
 constexpr double support_spacings = 0.8;
+/// Point spacings from the nearest point beyond which the surface is carved inwards.
+constexpr double carved_beyond = 4.0;
 /// Clouds with fewer points keep all of them: too few to tell an outlier.
 constexpr std::size_t filtered_from = 100;
 
@@ -122,7 +124,8 @@ ConfigNode derive_experiment(const std::string& file, const cloud::Cloud& cloud,
               {{"cloud", ConfigNode::map({{"file", file}, {"filters", filters(distinct.points.size())}})},
                {"normalize", ConfigNode::map({{"scale", scale}})}})},
          {"initial_mesh", ConfigNode::map({{"type", "grid"}, {"cells", fitted.cells}})},
-         {"velocity", ConfigNode::map({{"type", "point_cloud"}})},
+         {"velocity", ConfigNode::map({{"type", "point_cloud"},
+                          {"unsupported", ConfigNode::map({{"beyond", carved_beyond}})}})},
          {"improvement",
           ConfigNode::map({{"type", "dsc"}, {"topology", ConfigNode::map({{"support", fitted.support}})}})},
          {"schedule", ConfigNode::list(std::move(schedule))}});

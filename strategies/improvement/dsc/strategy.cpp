@@ -1,27 +1,8 @@
 #include "strategy.hpp"
 
 #include <algorithm>
-#include <vector>
 
 namespace dsc::strategies {
-namespace {
-
-constexpr std::size_t spacing_neighbour = 6;  // as many as a point of a triangulated surface has on average
-constexpr std::size_t searched_neighbours = 40;
-
-// Distance to the sixth neighbour, points that coincide counting once.
-double local_spacing(std::span<const cloud::Neighbour> around) {
-    double last = 0.0;
-    std::size_t distinct = 0;
-    for (const cloud::Neighbour& n : around) {
-        if (!(n.distance > last)) continue;
-        last = n.distance;
-        if (++distinct == spacing_neighbour) break;
-    }
-    return last;
-}
-
-}  // namespace
 
 void DscImprovement::Topology::declare(config::ParamSchema<Topology>& schema) {
     schema.boolean("open", &Topology::open).doc("Thin sheets of a label above 0 may be pierced.");
@@ -96,16 +77,13 @@ mesh::TopologyLimits DscImprovement::topology_limits() const {
 void DscImprovement::select(const hooks::StepContext& context, std::span<const mesh::TopologyCandidate> candidates,
                             std::span<std::uint8_t> accept) {
     const double support = params_.topology.support * context.target_length;
-    std::vector<cloud::Neighbour> around;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         accept[i] = 1;
         if (context.cloud == nullptr) continue;
-        const cloud::NearestSearch& search = context.cloud->search();
-        const cloud::Neighbour nearest = search.nearest(candidates[i].centroid);
+        const cloud::Neighbour nearest = context.cloud->search().nearest(candidates[i].centroid);
         double reach = support;
         if (candidates[i].kind == mesh::TopologyCandidate::Kind::cut || candidates[i].kind == mesh::TopologyCandidate::Kind::shift) {
-            search.k_nearest((*context.cloud)[nearest.index], searched_neighbours, around);
-            reach = std::max(reach, params_.topology.spacing * local_spacing(around));
+            reach = std::max(reach, params_.topology.spacing * context.cloud->spacing(nearest.index));
         }
         accept[i] = nearest.distance > reach ? 1 : 0;
     }

@@ -12,10 +12,19 @@ namespace dsc::strategies {
 /// of the cloud nearest to x [Saul2015, eq. 1-4].
 class PointCloud final : public hooks::VelocityField {
 public:
+    /// Surface that no point speaks for: there the data term may stall, because the nearest point lies in the surface's
+    /// own plane (a lid over a tunnel, a web in a handle, a strut).
+    struct Unsupported {
+        double beyond = 0.0;
+        double carve = 0.1;
+
+        static void declare(config::ParamSchema<Unsupported>& schema);
+    };
     struct Params {
         double alpha = 0.2;
         double beta = 0.0;
         config::StrategyConfig curvature;
+        Unsupported unsupported;
     };
     static void declare(config::ParamSchema<Params>& schema);
 
@@ -31,14 +40,16 @@ public:
                 std::span<Vec3> out) const override;
 
 private:
-    Vec3 attraction(const Vec3& point, const Vec3& unit_normal) const;
+    double speed(const Vec3& point, const Vec3& unit_normal) const;
     void subtract_curvature(hooks::Range range, std::span<Vec3> out) const;
 
     double alpha_;
     double beta_;
+    Unsupported unsupported_;
     std::unique_ptr<hooks::CurvatureEstimator> curvature_;
     const surface::SurfaceView* surface_ = nullptr;
     const cloud::TargetCloud* cloud_ = nullptr;
+    double carving_speed_ = 0.0;  // length a step
 };
 
 }  // namespace dsc::strategies

@@ -141,6 +141,52 @@ TEST_CASE("threads and blocks do not change a bit") {
     }
 }
 
+namespace {
+
+// Points on a ring of the given radius in the plane z = height; neighbours are about 2 pi radius / n apart.
+dsc::cloud::TargetCloud ring_cloud(double radius, double height, int n) {
+    dsc::cloud::Normalized ring;
+    for (int i = 0; i < n; ++i) {
+        const double angle = 2 * 3.14159265358979323846 * i / n;
+        ring.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), height);
+    }
+    return dsc::cloud::TargetCloud(ring);
+}
+
+ConfigNode carving(double beyond, double carve) {
+    return ConfigNode::map({{"unsupported", ConfigNode::map({{"beyond", beyond}, {"carve", carve}})}});
+}
+
+}  // namespace
+
+TEST_CASE("a lid whose nearest points lie in its plane stands still, and is carved in where no point supports it") {
+    const Bench bench(dsc::sdk::square(8, 0.5));
+    const auto rim = ring_cloud(0.8, 0.0, 100);
+    const double spacing = rim.spacing(0);
+    CHECK(spacing == doctest::Approx(2 * 0.8 * std::sin(3 * 3.14159265358979323846 / 100)));  // third on either side
+    for (const Vec3& d : bench.displacements(*bench.make(ConfigNode::map()), &rim)) CHECK(d == Vec3::Zero());
+    const auto field = bench.make(carving(3.0, 0.2));
+    const auto out = bench.displacements(*field, &rim);
+    std::size_t carved = 0;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const bool alone = rim.search().nearest(bench.view.positions[i]).distance > 3.0 * spacing;
+        carved += alone ? 1 : 0;
+        CHECK((out[i] - Vec3(0, 0, alone ? -0.2 * 0.1 : 0.0)).norm() < 1e-15);  // target length 0.1
+    }
+    CHECK(carved > 0);
+    CHECK(carved < out.size());
+}
+
+TEST_CASE("surface on its way to points ahead of it is not carved, however far they are") {
+    const Bench bench(dsc::sdk::square(8, 0.5));
+    const auto ahead = plane_cloud(0.9, 1.0, 40);
+    const auto field = bench.make(carving(1.0, 0.2));
+    for (const Vec3& d : bench.displacements(*field, &ahead)) CHECK((d - Vec3(0, 0, 0.2 * 0.9)).norm() < 1e-12);
+    // Behind it: the data term leads inwards already, faster than carving would.
+    const auto behind = plane_cloud(-0.9, 1.0, 40);
+    for (const Vec3& d : bench.displacements(*field, &behind)) CHECK((d - Vec3(0, 0, -0.2 * 0.9)).norm() < 1e-12);
+}
+
 TEST_CASE("an experiment without a cloud is told so") {
     const Bench bench(dsc::sdk::square(1, 0.5));
     const auto field = bench.make(ConfigNode::map());

@@ -22,13 +22,19 @@ public:
     const Vec3& operator[](std::size_t index) const { return points()[index]; }
     /// Nearest points. [parallel]
     const NearestSearch& search() const noexcept { return *search_; }
+    /// Distance from a point to its sixth neighbour (as many as a vertex of a triangulated surface has), points that
+    /// coincide counting once: how far apart the points are there. 0 where fewer than two are distinct. The first call
+    /// computes all. [parallel]
+    double spacing(std::size_t index) const;
     /// From the input's units to normalised ones. [parallel]
     const Transform& transform() const noexcept { return transform_; }
     /// Of the normalised points. [parallel]
     const Box3& box() const noexcept { return box_; }
 
 private:
+    struct Spacings;
     std::shared_ptr<const NearestSearch> search_;
+    std::shared_ptr<Spacings> spacings_;
     Transform transform_;
     Box3 box_;
 };
