@@ -5,16 +5,6 @@
 
 namespace dsc::geometry {
 
-double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    const Vec3 ab = b - a, ac = c - a, ad = d - a;
-    const double mean_square = (ab.squaredNorm() + ac.squaredNorm() + ad.squaredNorm() + (c - b).squaredNorm() +
-                                (d - b).squaredNorm() + (d - c).squaredNorm()) /
-                               6.0;
-    if (!(mean_square > 0.0)) return 0.0;
-    // 6 sqrt(2) V with 6 V = det
-    return std::sqrt(2.0) * ab.cross(ac).dot(ad) / (mean_square * std::sqrt(mean_square));
-}
-
 Vec3 triangle_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 n = (b - a).cross(c - a);
     const double length = n.norm();

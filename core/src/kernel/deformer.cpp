@@ -86,6 +86,7 @@ struct Deformer::State final : EditListener {
     }
 
     void apply_limits(double flatness) {
+        if (bench.limits.length != length) bench.forget_refusals();
         bench.limits = {length, options.quality_floor, options.max_edit_distance * length,
                         options.max_edit_volume * geometry::regular_tet_volume(length), flatness};
     }

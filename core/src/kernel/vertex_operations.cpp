@@ -60,33 +60,31 @@ Vec3 quality_gradient(const Vec3& v, const Vec3& b, const Vec3& c, const Vec3& d
 }  // namespace
 
 Refusal smooth_laplacian(Workbench& bench, VertexId v, float accept_above) {
+    constexpr auto trial = Workbench::Trial::laplacian;
     mesh::Complex& c = bench.complex;
     if (const Refusal r = smoothable(c, v); r != Refusal::committed) return r;
+    if (const Refusal known = bench.known_refusal(v, trial, accept_above); known != Refusal::committed) return known;
+    const auto refuse = [&](Refusal r) { return bench.remember(v, trial, accept_above, r); };
     c.star(v, bench.star_a);
-    bench.vertices.clear();
-    for (const TetId t : bench.star_a) {
-        for (const VertexId w : c.tet(t).v) {
-            if (w != v) bench.vertices.push_back(w);
-        }
-    }
-    std::sort(bench.vertices.begin(), bench.vertices.end(), [&c](VertexId x, VertexId y) { return c.birth(x) < c.birth(y); });
-    bench.vertices.erase(std::unique(bench.vertices.begin(), bench.vertices.end()), bench.vertices.end());
+    bench.neighbours_of(v, bench.star_a, bench.vertices);
     Vec3 mean = Vec3::Zero();
     for (const VertexId w : bench.vertices) mean += c.position(w);
     mean /= static_cast<double>(bench.vertices.size());
     // A vertex that is there already would only wake its neighbourhood.
-    if ((mean - c.position(v)).norm() < 0.02 * bench.limits.length) return Refusal::no_gain;
+    if ((mean - c.position(v)).norm() < 0.02 * bench.limits.length) return refuse(Refusal::no_gain);
     const float old = star_old(c, bench.star_a);
     const float bound = std::min(old, accept_above);
-    if (star_quality(c, bench.star_a, v, mean, bound) < 0.0F) return Refusal::quality;
-    if (!star_positive(c, bench.star_a, v, mean)) return Refusal::quality;
+    if (star_quality(c, bench.star_a, v, mean, bound) < 0.0F) return refuse(Refusal::quality);
+    if (!star_positive(c, bench.star_a, v, mean)) return refuse(Refusal::quality);
     c.move(v, mean, bench.star_a);
     return Refusal::committed;
 }
 
 Refusal smooth_optimise(Workbench& bench, VertexId v) {
+    constexpr auto trial = Workbench::Trial::optimise;
     mesh::Complex& c = bench.complex;
     if (const Refusal r = smoothable(c, v); r != Refusal::committed) return r;
+    if (const Refusal known = bench.known_refusal(v, trial, 0.0F); known != Refusal::committed) return known;
     c.star(v, bench.star_a);
     const float old = star_old(c, bench.star_a);
     float best = old;
@@ -112,17 +110,17 @@ Refusal smooth_optimise(Workbench& bench, VertexId v) {
         if (!(slope > 0.0)) break;
         bool better = false;
         for (int halving = 0; halving < 6 && !better; ++halving, step *= 0.5) {
-            const Vec3 trial = place + (step / slope) * uphill;
-            const float least = star_quality(c, bench.star_a, v, trial, best);
+            const Vec3 there = place + (step / slope) * uphill;
+            const float least = star_quality(c, bench.star_a, v, there, best);
             if (least < 0.0F) continue;
             best = least;
-            place = trial;
+            place = there;
             better = true;
         }
         if (!better) break;
     }
-    if (!(best > old * 1.01F)) return Refusal::no_gain;
-    if (!star_positive(c, bench.star_a, v, place)) return Refusal::quality;
+    if (!(best > old * 1.01F)) return bench.remember(v, trial, 0.0F, Refusal::no_gain);
+    if (!star_positive(c, bench.star_a, v, place)) return bench.remember(v, trial, 0.0F, Refusal::quality);
     c.move(v, place, bench.star_a);
     return Refusal::committed;
 }

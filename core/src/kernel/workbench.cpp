@@ -95,6 +95,34 @@ void Workbench::interface_fan(VertexId v, std::vector<std::array<VertexId, 3>>& 
     }
 }
 
+void Workbench::neighbours_of(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out) {
+    if (vertex_marks_.size() < complex.vertex_slots()) vertex_marks_.resize(complex.vertex_slots() + complex.vertex_slots() / 8, 0);
+    ++vertex_epoch_;
+    vertex_marks_[v] = vertex_epoch_;
+    out.clear();
+    for (const TetId t : star) {
+        for (const VertexId w : complex.tet(t).v) {
+            if (vertex_marks_[w] == vertex_epoch_) continue;
+            vertex_marks_[w] = vertex_epoch_;
+            out.push_back(w);
+        }
+    }
+    std::sort(out.begin(), out.end(), [this](VertexId x, VertexId y) { return complex.birth(x) < complex.birth(y); });
+}
+
+Refusal Workbench::known_refusal(VertexId v, Trial trial, float accept_above) const {
+    if (v >= memory_.size()) return Refusal::committed;
+    const Memory& memory = memory_[v][static_cast<std::size_t>(trial)];
+    const bool same = memory.birth == complex.birth(v) && memory.accept_above == accept_above && complex.vertex_date(v) <= memory.date;
+    return same ? memory.refusal : Refusal::committed;
+}
+
+Refusal Workbench::remember(VertexId v, Trial trial, float accept_above, Refusal refusal) {
+    if (memory_.size() < complex.vertex_slots()) memory_.resize(complex.vertex_slots() + complex.vertex_slots() / 8);
+    memory_[v][static_cast<std::size_t>(trial)] = {complex.birth(v), complex.clock(), accept_above, refusal};
+    return refusal;
+}
+
 bool Workbench::flat(VertexId v) {
     interface_fan(v, fan_);
     normals_.clear();

@@ -49,6 +49,9 @@ struct EditSums {
 
 class Workbench {
 public:
+    /// What known refusals are kept of.
+    enum class Trial : std::uint8_t { laplacian, optimise };
+
     explicit Workbench(mesh::Complex& target) : complex(target), star_(target) {}
 
     mesh::Complex& complex;
@@ -81,6 +84,16 @@ public:
     /// Links and commits. `distance` and `volume` are what the edit does to the interface.
     VertexId commit(double distance, double volume);
 
+    /// The other vertices of a star, each once, by birth.
+    void neighbours_of(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out);
+
+    /// A smoothing that was refused is refused again as long as nothing in the vertex' star changed: `known_refusal` says so
+    /// without trying, `committed` means that a try is worth it. `trial` tells requests of one vertex apart.
+    Refusal known_refusal(VertexId v, Trial trial, float accept_above) const;
+    Refusal remember(VertexId v, Trial trial, float accept_above, Refusal refusal);
+    /// Forgets all refusals: the limits changed.
+    void forget_refusals() { memory_.clear(); }
+
     /// True when the interface faces round v are flat to each other (signed normals).
     bool flat(VertexId v);
     /// Vertices of the star's interface faces as triangles with v first, counter-clockwise from the smaller label.
@@ -93,6 +106,16 @@ private:
     std::vector<TetId> star_scratch_;
     std::vector<std::array<VertexId, 3>> fan_;
     std::vector<Vec3> normals_;
+
+    struct Memory {
+        std::uint32_t birth = 0;
+        std::uint32_t date = 0;  // of the change clock when it was refused
+        float accept_above = 0.0F;
+        Refusal refusal = Refusal::committed;
+    };
+    std::vector<std::array<Memory, 2>> memory_;  // per vertex and trial
+    std::vector<std::uint32_t> vertex_marks_;
+    std::uint32_t vertex_epoch_ = 0;
 };
 
 }  // namespace dsc::kernel

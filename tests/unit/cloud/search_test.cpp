@@ -6,6 +6,7 @@
 #include <dsc/base/random.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/search.hpp>
+#include <dsc/cloud/target.hpp>
 
 #include "files.hpp"
 

@@ -1,6 +1,8 @@
 #pragma once
 // Sizes and shape measures of triangles and tets.
 
+#include <cmath>
+
 #include <dsc/geometry/vec.hpp>
 
 namespace dsc::geometry {
@@ -12,7 +14,15 @@ inline double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
 
 /// Signed volume-length quality 6 sqrt(2) V / l_rms^3 [Parthasarathy1994]: 1 for a regular tet, 0 for a flat one,
 /// negative for an inverted one, 0 when all four points are equal.
-double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    const Vec3 ab = b - a, ac = c - a, ad = d - a;
+    const double mean_square = (ab.squaredNorm() + ac.squaredNorm() + ad.squaredNorm() + (c - b).squaredNorm() +
+                                (d - b).squaredNorm() + (d - c).squaredNorm()) /
+                               6.0;
+    if (!(mean_square > 0.0)) return 0.0;
+    // 6 sqrt(2) V with 6 V = det
+    return 1.4142135623730951 * ab.cross(ac).dot(ad) / (mean_square * std::sqrt(mean_square));
+}
 
 /// Volume of the regular tet with the given edge length.
 inline double regular_tet_volume(double edge) { return edge * edge * edge * 0.11785113019775793; }
