@@ -25,24 +25,34 @@ std::size_t CellSet::count() const {
     return sum;
 }
 
-void CellSet::grow() {
-    const std::uint64_t last = side_ % 64U == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (side_ % 64U)) - 1;
-    std::vector<std::uint64_t> old = words_;
-    for (std::size_t i = 0; i < words_.size(); ++i) {
-        const std::size_t at = i % row_;
-        const std::uint64_t before = at > 0 ? old[i - 1] : 0, after = at + 1 < row_ ? old[i + 1] : 0;
-        words_[i] |= old[i] << 1U | before >> 63U | old[i] >> 1U | after << 63U;
-        if (at + 1 == row_) words_[i] &= last;
-    }
-    // Along y a row's neighbours are a row away, along z a plane; both ends of a column have one neighbour.
-    for (const std::size_t stride : {row_, row_ * side_}) {
-        old = words_;
-        for (std::size_t i = 0; i < words_.size(); ++i) {
+// Each word with the bits of its cells' neighbours along an axis; both ends of a row have one neighbour.
+std::vector<std::uint64_t> CellSet::spread(const std::vector<std::uint64_t>& from, unsigned axis) const {
+    std::vector<std::uint64_t> out = from;
+    if (axis > 0) {
+        // Along y a row's neighbours are a row away, along z a plane.
+        const std::size_t stride = axis == 1 ? row_ : row_ * side_;
+        for (std::size_t i = 0; i < out.size(); ++i) {
             const std::size_t at = i / stride % side_;
-            if (at > 0) words_[i] |= old[i - stride];
-            if (at + 1 < side_) words_[i] |= old[i + stride];
+            if (at > 0) out[i] |= from[i - stride];
+            if (at + 1 < side_) out[i] |= from[i + stride];
         }
+        return out;
     }
+    const std::uint64_t last = side_ % 64U == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (side_ % 64U)) - 1;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const std::size_t at = i % row_;
+        const std::uint64_t before = at > 0 ? from[i - 1] : 0, after = at + 1 < row_ ? from[i + 1] : 0;
+        out[i] |= from[i] << 1U | before >> 63U | from[i] >> 1U | after << 63U;
+        if (at + 1 == row_) out[i] &= last;
+    }
+    return out;
+}
+
+void CellSet::grow() {
+    // Over edges: neighbours along two axes, for every pair of them.
+    const auto x = spread(words_, 0), y = spread(words_, 1);
+    const auto xy = spread(x, 1), xz = spread(x, 2), yz = spread(y, 2);
+    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] = xy[i] | xz[i] | yz[i];
 }
 
 CellSet CellSet::grown(unsigned layers) const {

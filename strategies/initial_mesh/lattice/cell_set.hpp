@@ -32,7 +32,7 @@ public:
     }
     std::size_t count() const;
 
-    /// With all cells that touch one of the set's, `layers` times.
+    /// With all cells that share an edge with one of the set's, `layers` times.
     CellSet grown(unsigned layers) const;
     /// The cells of twice the size that hold at least one of the set's; the side must be even.
     CellSet parents() const;
@@ -42,6 +42,7 @@ private:
         return (static_cast<std::size_t>(c[2]) * side_ + static_cast<std::size_t>(c[1])) * row_ +
                static_cast<std::size_t>(c[0]) / 64U;
     }
+    std::vector<std::uint64_t> spread(const std::vector<std::uint64_t>& from, unsigned axis) const;
     void grow();
 
     unsigned side_;

@@ -22,11 +22,11 @@ struct Frame {
     Vec3 point(const Cell& x) const { return {at(x[0]), at(x[1]), at(x[2])}; }
 };
 
-/// Level 0 has the finest cells, a cell of level l + 1 is eight of level l. Cells that touch, be it at a corner,
-/// differ by at most one level.
+/// Level 0 has the finest cells, a cell of level l + 1 is eight of level l. Cells that share an edge or a part of
+/// one differ by at most one level.
 class Octree {
 public:
-    /// Cells that a surface crosses are of level 0, as are `layers` - 1 more around them; then come at least
+    /// Of level 0 are all cells less than `layers` - 1 of their edges away from a surface; then come at least
     /// `coarse_layers` of each further level up to `top`. The side must be a multiple of 2^top.
     Octree(const Frame& frame, unsigned top, std::span<const mesh::Shape> shapes, unsigned layers,
            unsigned coarse_layers);

@@ -40,7 +40,7 @@ void Lattice::declare(config::ParamSchema<Params>& schema) {
     schema.integer("layers", &Params::layers)
         .range(2, 64)
         .unit("1")
-        .doc("Layers of finest cells on each side of the shapes' surface, at least.");
+        .doc("Layers of finest cells on each side of the shapes' surface.");
     schema.real("growth", &Params::growth)
         .range(1, 2)
         .unit("1")
