@@ -21,6 +21,10 @@ public:
 
     mesh::TetMesh fill() {
         const unsigned top = octree_.top();
+        // Five to twelve of a cell, more where sizes change.
+        out_.tets.reserve(10 * octree_.leaves());
+        out_.labels.reserve(10 * octree_.leaves());
+        for (int x = 0; x <= 2 * static_cast<int>(frame_.side); ++x) at_.push_back(frame_.at(x));
         const auto roots = static_cast<int>(octree_.side(top));
         for (int k = 0; k < roots; ++k) {
             for (int j = 0; j < roots; ++j) {
@@ -33,7 +37,7 @@ public:
             }
         }
         out_.points.reserve(table_.points().size());
-        for (const Cell& x : table_.points()) out_.points.push_back(frame_.point(x));
+        for (const Cell& x : table_.points()) out_.points.push_back(point(x));
         return std::move(out_);
     }
 
@@ -140,11 +144,15 @@ private:
         }
         if (sign < 0) std::swap(c, d);
         out_.tets.push_back({table_.number(a), table_.number(b), table_.number(c), table_.number(d)});
-        const mesh::Label label =
-            mesh::label_of(shapes_, {frame_.point(a), frame_.point(b), frame_.point(c), frame_.point(d)});
+        const mesh::Label label = mesh::label_of(shapes_, {point(a), point(b), point(c), point(d)});
         out_.labels.push_back(label);
         if (label == 0) return;
         for (const Cell& x : {a, b, c, d}) refuse_on_box(x);
+    }
+
+    Vec3 point(const Cell& x) const {
+        return {at_[static_cast<std::size_t>(x[0])], at_[static_cast<std::size_t>(x[1])],
+                at_[static_cast<std::size_t>(x[2])]};
     }
 
     void refuse_on_box(const Cell& x) const {
@@ -161,6 +169,7 @@ private:
     std::span<const mesh::Shape> shapes_;
     Pattern finest_;
     const CancelToken* cancel_;
+    std::vector<double> at_;  // the frame's coordinates in space
     VertexTable table_;
     mesh::TetMesh out_;
 };
