@@ -1,10 +1,8 @@
-#include <dsc/cloud/shapes.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <string>
-
 #include <dsc/base/error.hpp>
+#include <dsc/cloud/shapes.hpp>
+#include <string>
 
 #include "surfaces.hpp"
 #include "text.hpp"

@@ -63,6 +63,18 @@ void Proposals::note_edges(const mesh::RepairRound& round, mesh::TetId t) {
     }
 }
 
+void Proposals::note_free_edges(const mesh::RepairRound& round, mesh::TetId t) {
+    const mesh::Complex& c = round.complex;
+    for (const auto& ends : mesh::edge_vertices) {
+        mesh::VertexId a = c.tet(t).v[ends[0]], b = c.tet(t).v[ends[1]];
+        if (c.on_interface(a) == c.on_interface(b)) continue;
+        const double length = (c.position(a) - c.position(b)).norm();
+        if (length <= limits_.max_free_edge * round.target_length) continue;
+        if (c.birth(a) > c.birth(b)) std::swap(a, b);
+        free_long_.push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / round.target_length)});
+    }
+}
+
 void Proposals::sort_out(const mesh::RepairRound& round) {
     const mesh::Complex& c = round.complex;
     const double small = limits_.min_tet_volume * geometry::regular_tet_volume(round.target_length);
@@ -70,6 +82,7 @@ void Proposals::sort_out(const mesh::RepairRound& round) {
     small_.clear();
     short_.clear();
     long_.clear();
+    free_long_.clear();
     free_.clear();
     free_tets_.clear();
     ++visit_;
@@ -86,12 +99,13 @@ void Proposals::sort_out(const mesh::RepairRound& round) {
         const double volume = c.volume(t);
         if (volume < small) small_.push_back({quantised(volume / small), t});
         note_edges(round, t);
+        if (limits_.max_free_edge > 0.0) note_free_edges(round, t);
     }
     const auto by_key = [](const Entry& x, const Entry& y) { return x.key < y.key; };
     std::stable_sort(low_.begin(), low_.end(), by_key);
     std::stable_sort(small_.begin(), small_.end(), by_key);
     const auto by_births = [](const EdgeEntry& x, const EdgeEntry& y) { return x.low != y.low ? x.low < y.low : x.high < y.high; };
-    for (auto* edges : {&short_, &long_}) {
+    for (auto* edges : {&short_, &long_, &free_long_}) {
         std::stable_sort(edges->begin(), edges->end(), by_births);
         edges->erase(std::unique(edges->begin(), edges->end(), [](const EdgeEntry& x, const EdgeEntry& y) { return x.low == y.low && x.high == y.high; }),
                      edges->end());
@@ -104,6 +118,12 @@ void Proposals::write(const mesh::RepairRound& round, std::vector<mesh::Request>
     const mesh::Complex& c = round.complex;
     sort_out(round);
     const double low = limits_.min_tet_quality, degenerate = limits_.degenerate_tet_quality;
+    // 0. Long edges ahead of the interface, longest first: what follows smooths the vertices that they get.
+    for (const EdgeEntry& edge : free_long_) {
+        Request request = on_tet(c, edge.tet, Operation::edge_split, 2.0, 2.0);
+        request.vertices = {edge.a, edge.b, mesh::none};
+        out.push_back(request);
+    }
     // 1. Free vertices to the mean of their neighbours.
     for (std::size_t i = 0; i < free_.size(); ++i) {
         Request request = on_tet(c, free_tets_[i], Operation::smooth_laplacian, 2.0, 2.0);

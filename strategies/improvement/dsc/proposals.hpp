@@ -17,6 +17,7 @@ struct Thresholds {
     double min_edge_length = 0.5;
     double max_edge_length = 2.0;
     double min_tet_volume = 0.2;
+    double max_free_edge = 0.0;  ///< of edges from the interface into a phase; 0: any
 };
 
 /// Writes the requests of a round. Keeps scratch memory only: the result depends on the round alone.
@@ -38,11 +39,12 @@ private:
     };
     void sort_out(const mesh::RepairRound& round);
     void note_edges(const mesh::RepairRound& round, mesh::TetId t);
+    void note_free_edges(const mesh::RepairRound& round, mesh::TetId t);
     bool first_visit(mesh::VertexId v);
 
     Thresholds limits_;
     std::vector<Entry> low_, small_;
-    std::vector<EdgeEntry> short_, long_;
+    std::vector<EdgeEntry> short_, long_, free_long_;
     std::vector<mesh::VertexId> free_;
     std::vector<mesh::TetId> free_tets_;
     std::vector<std::uint32_t> visited_;

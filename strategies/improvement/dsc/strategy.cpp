@@ -52,6 +52,11 @@ void DscImprovement::declare(config::ParamSchema<Params>& schema) {
         .range(0, 1)
         .unit("1")
         .doc("Tets below this part of a regular tet with the mean edge are thinned out.");
+    schema.real("max_free_edge", &Params::max_free_edge)
+        .range(0, 100)
+        .unit("mean edges")
+        .doc("Edges from the interface into a phase that are longer than this are split, so that a surface that moves into large tets "
+             "finds room there; 0 switches it off.");
     schema.real("flatness", &Params::flatness)
         .range(0, 1)
         .unit("1")
@@ -63,7 +68,7 @@ void DscImprovement::declare(config::ParamSchema<Params>& schema) {
 DscImprovement::DscImprovement(const Params& params, const plugin::Setup&)
     : params_(params),
       proposals_({params.min_tet_quality, params.degenerate_tet_quality, params.smooth_below, params.min_edge_length,
-                  params.max_edge_length, params.min_tet_volume}) {}
+                  params.max_edge_length, params.min_tet_volume, params.max_free_edge}) {}
 
 void DscImprovement::propose(const hooks::StepContext&, const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
     proposals_.write(round, out);

@@ -33,6 +33,7 @@ public:
         double min_edge_length = improvement::Thresholds{}.min_edge_length;
         double max_edge_length = improvement::Thresholds{}.max_edge_length;
         double min_tet_volume = improvement::Thresholds{}.min_tet_volume;
+        double max_free_edge = improvement::Thresholds{}.max_free_edge;
     };
     static void declare(config::ParamSchema<Params>& schema);
 

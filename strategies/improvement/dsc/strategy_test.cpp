@@ -91,6 +91,35 @@ TEST_CASE("short interface edges are collapsed within the bounds, unless the thr
     CHECK(shorts(config::ConfigNode::map({{"min_edge_length", 0.2}})) == 0);
 }
 
+TEST_CASE("long edges from the interface into a phase are split when asked for, longest first") {
+    const auto splits = [](const mesh::Complex& c, double longest) {
+        auto requests = proposals(c, config::ConfigNode::map({{"max_free_edge", longest}, {"min_edge_length", 0.0}, {"max_edge_length", 100.0}}));
+        requests.erase(std::remove_if(requests.begin(), requests.end(), [](const mesh::Request& r) { return r.operation != mesh::Operation::edge_split; }),
+                       requests.end());
+        return requests;
+    };
+    const auto length = [](const mesh::Complex& c, const mesh::Request& r) { return (c.position(r.vertices[0]) - c.position(r.vertices[1])).norm(); };
+    const mesh::Complex c = cells(0.6);
+    CHECK(splits(c, 0.0).empty());
+    CHECK(splits(c, 3.0).empty());
+    for (const double longest : {1.1, 1.5}) {
+        std::size_t expected = 0;  // counted from the edges themselves
+        std::vector<std::array<mesh::VertexId, 2>> seen;
+        for (mesh::TetId t = 0; t < c.tet_slots(); ++t) {
+            for (const auto& e : mesh::edge_vertices) {
+                const mesh::VertexId a = std::min(c.tet(t).v[e[0]], c.tet(t).v[e[1]]), b = std::max(c.tet(t).v[e[0]], c.tet(t).v[e[1]]);
+                if (c.on_interface(a) == c.on_interface(b) || std::find(seen.begin(), seen.end(), std::array{a, b}) != seen.end()) continue;
+                seen.push_back({a, b});
+                expected += (c.position(a) - c.position(b)).norm() > longest ? 1 : 0;
+            }
+        }
+        const auto requests = splits(c, longest);
+        CHECK(expected > 0);
+        CHECK(requests.size() == expected);
+        for (std::size_t i = 1; i < requests.size(); ++i) CHECK(length(c, requests[i - 1]) > length(c, requests[i]) - 1e-3);
+    }
+}
+
 TEST_CASE("the topology policy follows its parameters") {
     host::Host host;
     host.load(DSC_TEST_PLUGIN);

@@ -34,19 +34,6 @@ std::vector<Vec3> lattice_points(unsigned cells, double half) {
     return points;
 }
 
-grid::Shape preset_shape(const Grid::Params& params) {
-    grid::Shape shape;
-    shape.centre = params.centre;
-    if (params.shape == Grid::Preset::cube) {
-        shape.shape = grid::ShapeKind::box;
-        shape.half_size = Vec3::Constant(params.half_width);
-    } else {
-        shape.radius = params.radius;
-        shape.rule = grid::Rule::vertices;
-    }
-    return shape;
-}
-
 }  // namespace
 
 void Grid::declare(config::ParamSchema<Params>& schema) {
@@ -55,45 +42,19 @@ void Grid::declare(config::ParamSchema<Params>& schema) {
         .greater(0)
         .unit("length")
         .doc("Half the edge of the box, which is centred at 0.");
-    schema
-        .choice("shape", &Params::shape,
-                {{"cube", Preset::cube}, {"sphere", Preset::sphere}, {"none", Preset::none}})
-        .doc(
-            "A first shape of label 1: 'cube' holds tets by their barycentres, 'sphere' those with all four "
-            "vertices "
-            "inside.");
-    schema.real("half_width", &Params::half_width)
-        .greater(0)
-        .unit("length")
-        .doc("Half the edge of shape 'cube'.");
-    schema.real("radius", &Params::radius).greater(0).unit("length").doc("Radius of shape 'sphere'.");
-    schema.vec3("centre", &Params::centre).unit("length").doc("Centre of the first shape.");
-    schema.list("shapes", &Params::shapes, grid::declare_shape)
-        .doc(
-            "Further shapes, applied in their order: each gives the tets inside it its label or cuts them "
-            "away.");
+    plugin::declare_shapes(schema);
 }
 
-Grid::Grid(const Params& params, const plugin::Setup&) : cells_(params.cells), box_(params.box) {
-    if (params.shape != Preset::none) shapes_.push_back(preset_shape(params));
-    shapes_.insert(shapes_.end(), params.shapes.begin(), params.shapes.end());
-}
-
-mesh::Label Grid::label_of(const std::array<Vec3, 4>& corners) const {
-    mesh::Label label = 0;
-    for (const grid::Shape& shape : shapes_) {
-        if (holds(shape, corners)) label = shape.action == grid::Action::add ? shape.label : 0;
-    }
-    return label;
-}
+Grid::Grid(const Params& params, const plugin::Setup&)
+    : cells_(params.cells), box_(params.box), shapes_(params.all()) {}
 
 mesh::TetMesh Grid::build(const hooks::InitialMeshContext& context) {
     const auto cells = static_cast<unsigned>(cells_);
     const unsigned row = cells + 1;
-    mesh::TetMesh mesh;
-    mesh.points = lattice_points(cells, box_);
-    mesh.tets.reserve(std::size_t{5} * cells * cells * cells);
-    mesh.labels.reserve(mesh.tets.capacity());
+    mesh::TetMesh out;
+    out.points = lattice_points(cells, box_);
+    out.tets.reserve(std::size_t{5} * cells * cells * cells);
+    out.labels.reserve(out.tets.capacity());
     for (unsigned k = 0; k < cells; ++k) {
         if (context.cancel != nullptr && context.cancel->cancelled()) {
             throw CancelledError("the initial mesh was not finished");
@@ -106,15 +67,15 @@ mesh::TetMesh Grid::build(const hooks::InitialMeshContext& context) {
                     for (std::size_t c = 0; c < 4; ++c) {
                         const auto& [x, y, z] = pattern[c];
                         tet[c] = (i + x) + row * ((j + y) + row * (k + z));
-                        corners[c] = mesh.points[tet[c]];
+                        corners[c] = out.points[tet[c]];
                     }
-                    mesh.tets.push_back(tet);
-                    mesh.labels.push_back(label_of(corners));
+                    out.tets.push_back(tet);
+                    out.labels.push_back(mesh::label_of(shapes_, corners));
                 }
             }
         }
     }
-    return mesh;
+    return out;
 }
 
 }  // namespace dsc::strategies

@@ -3,9 +3,8 @@
 
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/plugin/plugin.hpp>
+#include <dsc/plugin/shape_params.hpp>
 #include <vector>
-
-#include "shapes.hpp"
 
 namespace dsc::strategies {
 
@@ -13,17 +12,9 @@ namespace dsc::strategies {
 /// so that the diagonals of neighbouring cells agree. Tets are labelled by the shapes in their order.
 class Grid final : public hooks::InitialMesh {
 public:
-    /// Short for one shape round the centre: `cube` by barycentres, `sphere` by vertices, as the original's
-    /// files.
-    enum class Preset { cube, sphere, none };
-    struct Params {
+    struct Params : plugin::ShapeParams {
         int cells = 30;
         double box = 1.5;
-        Preset shape = Preset::cube;
-        double half_width = 1.0;
-        double radius = 1.0;
-        Vec3 centre = Vec3::Zero();
-        std::vector<grid::Shape> shapes;
     };
     static void declare(config::ParamSchema<Params>& schema);
 
@@ -34,11 +25,9 @@ public:
     mesh::TetMesh build(const hooks::InitialMeshContext& context) override;
 
 private:
-    mesh::Label label_of(const std::array<Vec3, 4>& corners) const;
-
     int cells_;
     double box_;
-    std::vector<grid::Shape> shapes_;
+    std::vector<mesh::Shape> shapes_;
 };
 
 }  // namespace dsc::strategies

@@ -4,11 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <dsc/cloud/cloud.hpp>
 #include <span>
 #include <string_view>
 #include <vector>
-
-#include <dsc/cloud/cloud.hpp>
 
 namespace dsc::cloud {
 

@@ -1,0 +1,55 @@
+#include <dsc/plugin/shape_params.hpp>
+
+namespace dsc::plugin {
+
+using mesh::Shape;
+using mesh::ShapeAction;
+using mesh::ShapeKind;
+using mesh::ShapeRule;
+
+std::vector<Shape> ShapeParams::all() const {
+    std::vector<Shape> list;
+    if (shape != Preset::none) {
+        Shape& first = list.emplace_back();
+        first.centre = centre;
+        if (shape == Preset::cube) {
+            first.shape = ShapeKind::box;
+            first.half_size = Vec3::Constant(half_width);
+        } else {
+            first.radius = radius;
+            first.rule = ShapeRule::vertices;
+        }
+    }
+    list.insert(list.end(), shapes.begin(), shapes.end());
+    return list;
+}
+
+void declare_shape(config::ParamSchema<Shape>& schema) {
+    schema
+        .choice("shape", &Shape::shape,
+                {{"sphere", ShapeKind::sphere}, {"box", ShapeKind::box}, {"cylinder", ShapeKind::cylinder}})
+        .doc("What it is; a cylinder ends flat.");
+    schema.choice("action", &Shape::action, {{"add", ShapeAction::add}, {"cut", ShapeAction::cut}})
+        .doc("'add' gives the tets inside the shape's label, 'cut' gives them label 0.");
+    schema
+        .choice("rule", &Shape::rule,
+                {{"barycentre", ShapeRule::barycentre}, {"vertices", ShapeRule::vertices}})
+        .doc("A tet is inside when its barycentre is, or only when all four of its vertices are.");
+    schema.vec3("centre", &Shape::centre).unit("length").doc("The shape's centre.");
+    schema.real("radius", &Shape::radius).greater(0).unit("length").doc("Radius of a sphere or a cylinder.");
+    schema.vec3("half_size", &Shape::half_size)
+        .greater(0)
+        .unit("length")
+        .doc("Half the edges of a box along the coordinate axes.");
+    schema.vec3("axis", &Shape::axis)
+        .unit("1")
+        .doc("Direction of a cylinder's axis; its length does not matter.");
+    schema.real("half_length", &Shape::half_length)
+        .greater(0)
+        .unit("length")
+        .doc("Half the length of a cylinder.");
+    schema.integer("label", &Shape::label).range(1, 1000).doc("Label that 'add' gives.");
+    schema.check([](const Shape& s) { return s.axis.norm() > 1e-9; }, "axis must not be the zero vector");
+}
+
+}  // namespace dsc::plugin

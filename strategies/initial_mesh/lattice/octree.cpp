@@ -1,0 +1,66 @@
+#include "octree.hpp"
+
+namespace dsc::strategies::lattice {
+namespace {
+
+// Of a cell, in its edges; a little more, so that a surface through a corner counts.
+constexpr double half_diagonal = 0.8660254037844387 * (1 + 1e-9);
+
+// The finest cells within a distance of places where tets may have different labels, found from the top down.
+class Near {
+public:
+    Near(const Frame& frame, std::span<const mesh::Shape> shapes, double distance)
+        : frame_(frame), shapes_(shapes), distance_(distance), cells_(frame.side) {}
+
+    void search(unsigned level, const Cell& cell) {
+        const Cell low = corner_of(level, cell);
+        const int half = edge_of(level) / 2;
+        const Vec3 centre = frame_.point({low[0] + half, low[1] + half, low[2] + half});
+        const double edge = 2 * half * frame_.length / frame_.units;
+        const double radius = distance_ + half_diagonal * edge;
+        if (mesh::same_label_within(shapes_, centre, radius)) return;
+        if (level == 0) return cells_.add(cell);
+        for (int n = 0; n < 8; ++n)
+            search(level - 1, {2 * cell[0] + (n & 1), 2 * cell[1] + (n >> 1 & 1), 2 * cell[2] + (n >> 2)});
+    }
+    const CellSet& cells() const { return cells_; }
+
+private:
+    const Frame& frame_;
+    std::span<const mesh::Shape> shapes_;
+    double distance_;
+    CellSet cells_;
+};
+
+}  // namespace
+
+Octree::Octree(const Frame& frame, unsigned top, std::span<const mesh::Shape> shapes, unsigned layers,
+               unsigned coarse_layers) {
+    divided_.emplace_back(frame.side);
+    if (top == 0) return;
+    // One layer is crossed by the surface itself.
+    const double distance = (layers - 1) * 2 * frame.length / frame.units;
+    Near near(frame, shapes, distance);
+    const auto roots = static_cast<int>(frame.side >> top);
+    for (int k = 0; k < roots; ++k) {
+        for (int j = 0; j < roots; ++j) {
+            for (int i = 0; i < roots; ++i) near.search(top, {i, j, k});
+        }
+    }
+    divided_.push_back(near.cells().parents());
+    while (divided_.size() <= top) divided_.push_back(divided_.back().grown(coarse_layers).parents());
+}
+
+bool Octree::leaf(unsigned level, const Cell& cell) const {
+    if (divided(level, cell)) return false;
+    return level == top() || divided(level + 1, {cell[0] >> 1, cell[1] >> 1, cell[2] >> 1});
+}
+
+std::size_t Octree::leaves() const {
+    const std::size_t roots = side(top());
+    std::size_t sum = roots * roots * roots;
+    for (const CellSet& set : divided_) sum += 7 * set.count();
+    return sum;
+}
+
+}  // namespace dsc::strategies::lattice

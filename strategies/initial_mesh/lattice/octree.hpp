@@ -1,0 +1,53 @@
+#pragma once
+// Which cells of the octree are divided: all at the shapes' surface, fewer away from it.
+
+#include <dsc/geometry/vec.hpp>
+#include <dsc/mesh/shapes.hpp>
+#include <span>
+#include <vector>
+
+#include "cell_set.hpp"
+
+namespace dsc::strategies::lattice {
+
+/// How the integer coordinates of the octree lie in space: from 0 to 2 side along each axis, in halves of a
+/// finest cell, so that centres of cells have coordinates too.
+struct Frame {
+    unsigned side = 0;  ///< finest cells along the box, even
+    double length = 0;  ///< of `units` halves of a finest cell
+    double units = 1;
+
+    /// Symmetric to the last bit: coordinate x is minus coordinate 2 side - x.
+    double at(int x) const { return length * static_cast<double>(x - static_cast<int>(side)) / units; }
+    Vec3 point(const Cell& x) const { return {at(x[0]), at(x[1]), at(x[2])}; }
+};
+
+/// Level 0 has the finest cells, a cell of level l + 1 is eight of level l. Cells that share an edge or a part of
+/// one differ by at most one level.
+class Octree {
+public:
+    /// Of level 0 are all cells less than `layers` - 1 of their edges away from a surface; then come at least
+    /// `coarse_layers` of each further level up to `top`. The side must be a multiple of 2^top.
+    Octree(const Frame& frame, unsigned top, std::span<const mesh::Shape> shapes, unsigned layers,
+           unsigned coarse_layers);
+
+    unsigned top() const { return static_cast<unsigned>(divided_.size()) - 1; }
+    unsigned side(unsigned level) const { return divided_[level].side(); }
+    /// Whether there are cells of the next finer level in this cell's place. False beyond the box.
+    bool divided(unsigned level, const Cell& cell) const { return divided_[level].has(cell); }
+    /// Whether a cell of this level is part of the mesh: neither divided nor part of a larger one.
+    bool leaf(unsigned level, const Cell& cell) const;
+    /// Number of cells of the mesh.
+    std::size_t leaves() const;
+
+private:
+    std::vector<CellSet> divided_;
+};
+
+/// Low corner of a cell in the frame's coordinates, and its edge.
+inline Cell corner_of(unsigned level, const Cell& c) {
+    return {c[0] << (level + 1), c[1] << (level + 1), c[2] << (level + 1)};
+}
+inline int edge_of(unsigned level) { return 2 << level; }
+
+}  // namespace dsc::strategies::lattice

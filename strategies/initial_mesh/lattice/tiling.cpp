@@ -1,0 +1,184 @@
+#include "tiling.hpp"
+
+#include <array>
+#include <dsc/base/error.hpp>
+
+#include "vertex_table.hpp"
+
+namespace dsc::strategies::lattice {
+namespace {
+
+Cell moved(Cell x, std::size_t axis, int by) {
+    x[axis] += by;
+    return x;
+}
+
+class Tiling {
+public:
+    Tiling(const Octree& octree, const Frame& frame, std::span<const mesh::Shape> shapes, Pattern finest,
+           const CancelToken* cancel)
+        : octree_(octree), frame_(frame), shapes_(shapes), finest_(finest), cancel_(cancel) {}
+
+    mesh::TetMesh fill() {
+        const unsigned top = octree_.top();
+        // Five to twelve of a cell, more where sizes change.
+        out_.tets.reserve(10 * octree_.leaves());
+        out_.labels.reserve(10 * octree_.leaves());
+        for (int x = 0; x <= 2 * static_cast<int>(frame_.side); ++x) at_.push_back(frame_.at(x));
+        const auto roots = static_cast<int>(octree_.side(top));
+        for (int k = 0; k < roots; ++k) {
+            for (int j = 0; j < roots; ++j) {
+                for (int i = 0; i < roots; ++i) {
+                    if (cancel_ != nullptr && cancel_->cancelled()) {
+                        throw CancelledError("the initial mesh was not finished");
+                    }
+                    visit(top, {i, j, k});
+                }
+            }
+        }
+        out_.points.reserve(table_.points().size());
+        for (const Cell& x : table_.points()) out_.points.push_back(point(x));
+        return std::move(out_);
+    }
+
+private:
+    void visit(unsigned level, const Cell& cell) {
+        if (octree_.divided(level, cell)) {
+            for (int n = 0; n < 8; ++n) {
+                visit(level - 1, {2 * cell[0] + (n & 1), 2 * cell[1] + (n >> 1 & 1), 2 * cell[2] + (n >> 2)});
+            }
+        } else if (level == 0 && finest_ == Pattern::parity) {
+            tile_by_parity(cell);
+        } else {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                for (const int side : {-1, 1}) tile_face(level, cell, axis, side);
+            }
+        }
+    }
+
+    // Four corners round the tet of those whose coordinates have an even sum. Diagonals so chosen run from a
+    // larger cell's corners to the centre of its face, as the tets on the other side have them.
+    void tile_by_parity(const Cell& cell) {
+        std::array<Cell, 4> even{}, odd{};
+        std::size_t evens = 0, odds = 0;
+        for (int n = 0; n < 8; ++n) {
+            const Cell corner = {cell[0] + (n & 1), cell[1] + (n >> 1 & 1), cell[2] + (n >> 2)};
+            const Cell x = {2 * corner[0], 2 * corner[1], 2 * corner[2]};
+            if ((corner[0] + corner[1] + corner[2]) % 2 == 0) {
+                even[evens++] = x;
+            } else {
+                odd[odds++] = x;
+            }
+        }
+        add(even[0], even[1], even[2], even[3]);
+        for (const Cell& x : odd) {
+            // The three even corners that are neighbours of x: all but the one across the cell.
+            std::array<Cell, 3> near{};
+            std::size_t nears = 0;
+            for (const Cell& y : even) {
+                if (x[0] == y[0] || x[1] == y[1] || x[2] == y[2]) near[nears++] = y;
+            }
+            add(x, near[0], near[1], near[2]);
+        }
+    }
+
+    void tile_face(unsigned level, const Cell& cell, std::size_t axis, int side) {
+        const Cell across = moved(cell, axis, side);
+        const bool boundary = across[axis] < 0 || across[axis] >= static_cast<int>(octree_.side(level));
+        const bool equal = !boundary && octree_.leaf(level, across);
+        if (equal && side < 0) return;  // the neighbour's turn
+        const int half = edge_of(level) / 2;
+        Cell centre = corner_of(level, cell);
+        for (int& x : centre) x += half;
+        const Cell middle = moved(centre, axis, side * half);
+        const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+        if (!boundary && !equal && !octree_.divided(level, across)) {
+            halve_pyramid(level, centre, middle, u, v, half);
+            return;
+        }
+        const Cell apex = equal ? moved(middle, axis, half) : middle;
+        for (const auto& [along, out] : {std::array{u, v}, std::array{v, u}}) {
+            for (const int way : {-1, 1}) {
+                const Cell m = moved(middle, out, way * half);
+                const Cell a = moved(m, along, -half), b = moved(m, along, half);
+                if (halved(level, cell, axis, side, out, way)) {
+                    add(centre, apex, a, m);
+                    add(centre, apex, m, b);
+                } else {
+                    add(centre, apex, a, b);
+                }
+            }
+        }
+    }
+
+    // Whether a smaller cell has its corner in the middle of the edge between two faces of the cell.
+    bool halved(unsigned level, const Cell& cell, std::size_t axis, int side, std::size_t out,
+                int way) const {
+        const Cell first = moved(cell, axis, side);
+        return octree_.divided(level, first) || octree_.divided(level, moved(cell, out, way)) ||
+               octree_.divided(level, moved(first, out, way));
+    }
+
+    // Cuts along the diagonal between the two corners of even sum: a corner and the centre of the larger face.
+    void halve_pyramid(unsigned level, const Cell& centre, const Cell& middle, std::size_t u, std::size_t v,
+                       int half) {
+        const auto corner = [&](int du, int dv) { return moved(moved(middle, u, du * half), v, dv * half); };
+        const Cell low = corner(-1, -1);
+        const int shift = static_cast<int>(level) + 1;
+        if (((low[0] >> shift) + (low[1] >> shift) + (low[2] >> shift)) % 2 == 0) {
+            add(centre, low, corner(1, 1), corner(1, -1));
+            add(centre, low, corner(1, 1), corner(-1, 1));
+        } else {
+            add(centre, corner(1, -1), corner(-1, 1), low);
+            add(centre, corner(1, -1), corner(-1, 1), corner(1, 1));
+        }
+    }
+
+    void add(const Cell& a, const Cell& b, Cell c, Cell d) {
+        using Wide = std::int64_t;
+        const auto minus = [&](const Cell& x, std::size_t i) { return static_cast<Wide>(x[i] - a[i]); };
+        Wide sign = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+            sign += minus(b, i) * (minus(c, j) * minus(d, k) - minus(c, k) * minus(d, j));
+        }
+        if (sign < 0) std::swap(c, d);
+        out_.tets.push_back({table_.number(a), table_.number(b), table_.number(c), table_.number(d)});
+        const mesh::Label label = mesh::label_of(shapes_, {point(a), point(b), point(c), point(d)});
+        out_.labels.push_back(label);
+        if (label == 0) return;
+        for (const Cell& x : {a, b, c, d}) refuse_on_box(x);
+    }
+
+    Vec3 point(const Cell& x) const {
+        return {at_[static_cast<std::size_t>(x[0])], at_[static_cast<std::size_t>(x[1])],
+                at_[static_cast<std::size_t>(x[2])]};
+    }
+
+    void refuse_on_box(const Cell& x) const {
+        const auto end = static_cast<int>(2 * frame_.side);
+        if (x[0] > 0 && x[1] > 0 && x[2] > 0 && x[0] < end && x[1] < end && x[2] < end) return;
+        throw ConfigError(
+            "lattice.box",
+            "initial mesh 'lattice': a shape reaches the faces of the box; make the shape smaller or "
+            "`box` larger");
+    }
+
+    const Octree& octree_;
+    const Frame& frame_;
+    std::span<const mesh::Shape> shapes_;
+    Pattern finest_;
+    const CancelToken* cancel_;
+    std::vector<double> at_;  // the frame's coordinates in space
+    VertexTable table_;
+    mesh::TetMesh out_;
+};
+
+}  // namespace
+
+mesh::TetMesh tile(const Octree& octree, const Frame& frame, std::span<const mesh::Shape> shapes,
+                   Pattern finest, const CancelToken* cancel) {
+    return Tiling(octree, frame, shapes, finest, cancel).fill();
+}
+
+}  // namespace dsc::strategies::lattice

@@ -1,0 +1,65 @@
+#pragma once
+// Numbers of lattice points, in the order in which they are first asked for.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "cell_set.hpp"
+
+namespace dsc::strategies::lattice {
+
+/// Open addressing; grows by doubling. Points asked for a short while ago are found in a small table that stays in
+/// the processor's cache. Coordinates are in [0, 2^21).
+class VertexTable {
+public:
+    VertexTable() : slots_(1024, Slot{unused, 0}), recent_(1U << recent_bits, Slot{unused, 0}) {}
+
+    /// Number of the point, a new one at its first call.
+    std::uint32_t number(const Cell& x) {
+        const std::uint64_t key = static_cast<std::uint64_t>(x[0]) | static_cast<std::uint64_t>(x[1]) << 21U |
+                                  static_cast<std::uint64_t>(x[2]) << 42U;
+        Slot& seen = recent_[static_cast<std::size_t>(spread(key) >> (64U - recent_bits))];
+        if (seen.key == key) return seen.number;
+        if (2 * points_.size() > slots_.size()) grow();
+        Slot& slot = find(key);
+        if (slot.key == unused) {
+            slot = {key, static_cast<std::uint32_t>(points_.size())};
+            points_.push_back(x);
+        }
+        seen = slot;
+        return slot.number;
+    }
+    /// All points by their numbers.
+    const std::vector<Cell>& points() const { return points_; }
+
+private:
+    struct Slot {
+        std::uint64_t key;
+        std::uint32_t number;
+    };
+    static constexpr std::uint64_t unused = ~std::uint64_t{0};
+    static constexpr unsigned recent_bits = 13;
+
+    // Fibonacci hashing: the upper bits of the product depend on all bits of the key.
+    static std::uint64_t spread(std::uint64_t key) { return key * 0x9e3779b97f4a7c15U; }
+
+    Slot& find(std::uint64_t key) {
+        const std::size_t mask = slots_.size() - 1;
+        std::size_t at = static_cast<std::size_t>(spread(key) >> 24U) & mask;
+        while (slots_[at].key != unused && slots_[at].key != key) at = (at + 1) & mask;
+        return slots_[at];
+    }
+    void grow() {
+        std::vector<Slot> old(2 * slots_.size(), Slot{unused, 0});
+        old.swap(slots_);
+        for (const Slot& slot : old) {
+            if (slot.key != unused) find(slot.key) = slot;
+        }
+    }
+
+    std::vector<Slot> slots_, recent_;
+    std::vector<Cell> points_;
+};
+
+}  // namespace dsc::strategies::lattice
