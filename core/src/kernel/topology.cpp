@@ -105,8 +105,14 @@ void TopologyStage::collect_seeds(std::uint64_t step, std::span<const TetId> cha
             count += ready[i] ? 1 : 0;
         }
         if (count < 2) continue;
+        std::array<bool, 4> interface{};
+        for (unsigned f = 0; f < 4; ++f) interface[f] = c.interface_face(t, f);
         for (const auto& e : mesh::edge_vertices) {
             if (!ready[e[0]] || !ready[e[1]]) continue;
+            // Most interface edges show it in this tet: one of the two faces at the edge, opposite the other vertices.
+            bool seen = false;
+            for (unsigned f = 0; f < 4; ++f) seen = seen || (interface[f] && f != e[0] && f != e[1]);
+            if (seen) continue;
             if ((c.position(v[e[0]]) - c.position(v[e[1]])).squaredNorm() > limit2) continue;
             if (!interface_edge(t, v[e[0]], v[e[1]])) add_seed({v[e[0]], v[e[1]], mesh::none});
         }

@@ -7,10 +7,21 @@
 #include <dsc/geometry/quality.hpp>
 
 namespace dsc::mesh {
+namespace {
+
+constexpr float no_quality = 2.0F;  // of a slot without a tet
+
+}  // namespace
 
 double Complex::volume(TetId t) const {
     const auto& v = tets_[t].v;
     return geometry::tet_volume(position(v[0]), position(v[1]), position(v[2]), position(v[3]));
+}
+
+float Complex::least_quality() const {
+    float least = no_quality;
+    for (const float q : qualities_) least = q < least ? q : least;
+    return least;
 }
 
 VertexId Complex::allocate_vertex(const Vec3& position) {
@@ -167,6 +178,7 @@ VertexId Complex::replace(Edit& edit) {
     for (std::size_t i = edit.added.size(); i < edit.removed.size(); ++i) {
         const TetId t = edit.removed[i];
         tets_[t].v[0] = none;
+        qualities_[t] = no_quality;
         birth_dates_[t] = clock_;
         dates_[t] = clock_;
         free_tets_.push_back(t);

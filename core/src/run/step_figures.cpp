@@ -51,11 +51,7 @@ void measure_state(const mesh::Complex& complex, const surface::SurfaceView& vie
     row.tets = complex.tet_count();
     row.mean_edge = view.mean_edge;
     row.volume = enclosed_volume(complex, view);
-    float quality = 1.0F;
-    for (mesh::TetId t = 0; t < complex.tet_slots(); ++t) {
-        if (complex.tet_alive(t)) quality = std::min(quality, complex.quality(t));
-    }
-    row.min_tet_quality = static_cast<double>(quality);
+    row.min_tet_quality = static_cast<double>(std::min(1.0F, complex.least_quality()));
     if (cloud == nullptr || view.face_count() == 0) return;
 
     const std::vector<double> to_cloud = table(view.vertex_count(), workers, [&](std::size_t i) {

@@ -101,6 +101,8 @@ public:
     Label label(TetId t) const { return labels_[t]; }
     /// Volume-length quality in (0, 1], cached.
     float quality(TetId t) const { return qualities_[t]; }
+    /// Least quality of all tets, 2 without any. Reads 4 bytes a tet.
+    float least_quality() const;
     /// Value of the change clock when the tet was made, moved or relabelled last.
     std::uint32_t date(TetId t) const { return dates_[t]; }
     /// Value of the change clock when the tet's slot was filled last: differs when another tet took the slot.
