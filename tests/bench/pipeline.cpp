@@ -84,8 +84,14 @@ StepCost Body::step(const Displacement& displace) {
     });
     context_ = &now;
     kernel::StepReport report;
-    const double seconds =
-        cpu_of([&] { report = deformer_.step(view_.vertex_ids, displacements_, policy_); });
+    const auto advance = [&] { report = deformer_.step(view_.vertex_ids, displacements_, policy_); };
+    const double seconds = cpu_of([&] {
+        if (counting_) {
+            measured(advance);
+        } else {
+            advance();
+        }
+    });
     context_ = nullptr;
     const double wall = report.move_seconds + report.repair_seconds;
     cost.seconds.move = wall > 0.0 ? seconds * report.move_seconds / wall : 0.0;
@@ -178,8 +184,12 @@ double Protocol::refine_again() {
     throw UsageError("bench.refinement", "the experiment has no refinement");
 }
 
+std::string thesis_file(const std::string& name) {
+    return DSC_SOURCE_DIR "/configs/thesis/" + name + ".yaml";
+}
+
 run::LoadedExperiment thesis(const Plugins& plugins, const std::string& name, bool data) {
-    const std::string file = DSC_SOURCE_DIR "/configs/thesis/" + name + ".yaml";
+    const std::string file = thesis_file(name);
     if (data) return plugins.load(file, {});
     return plugins.load(file, {"input.cloud={sample: {shape: teapot, n: 5000}}"});
 }

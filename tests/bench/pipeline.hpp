@@ -70,6 +70,8 @@ public:
     StepCost step(const Displacement& displace);
     /// A step in which nothing moves.
     StepCost idle();
+    /// From here on the Deformer's part of each step lies inside measured().
+    void count_deformer() { counting_ = true; }
     const surface::SurfaceView& view() const { return view_; }
     const kernel::Deformer& deformer() const { return deformer_; }
     hooks::StepContext context() const;
@@ -86,6 +88,7 @@ private:
     surface::SurfaceView view_;
     std::vector<Vec3> displacements_;
     const hooks::StepContext* context_ = nullptr;  // of the step under way
+    bool counting_ = false;
 };
 
 /// An experiment as `dsc run` runs it, without files and figures.
@@ -120,7 +123,9 @@ private:
     std::uint32_t in_item_ = 0;
 };
 
-/// configs/thesis/NAME.yaml: on $DSC_DATA/NAME.obj where `data` says so, else on 5000 points of the built-in teapot. The
+/// The path of configs/thesis/NAME.yaml.
+std::string thesis_file(const std::string& name);
+/// That file: on $DSC_DATA/NAME.obj where `data` says so, else on 5000 points of the built-in teapot. The
 /// thesis' 1,202 are evenly spread; as many random ones leave gaps in which holes open.
 run::LoadedExperiment thesis(const Plugins& plugins, const std::string& name, bool data);
 

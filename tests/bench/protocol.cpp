@@ -26,13 +26,15 @@ struct Arguments {
     std::string name = "teapot";
     bool data = false;
     bool idle = true;
+    std::uint64_t steps = 0;
     std::string json, csv;
 };
 
 constexpr const char* usage =
-    "dsc_protocol [--data] [--name teapot|bunny|cow] [--no-idle] [--csv FILE] [--json FILE]\n"
+    "dsc_protocol [--data] [--name teapot|bunny|cow] [--no-idle] [--steps N] [--csv FILE] [--json FILE]\n"
     "  --data    on $DSC_DATA/NAME.obj instead of the built-in teapot\n"
     "  --no-idle without the settled, idle and one-vertex steps at 2,400 interface vertices\n"
+    "  --steps   no more than the first N\n"
     "  --csv     a row a step\n  --json    the summary\n";
 
 Arguments parse(int argc, char** argv) {
@@ -49,6 +51,8 @@ Arguments parse(int argc, char** argv) {
             arguments.idle = false;
         else if (word == "--name")
             arguments.name = value();
+        else if (word == "--steps")
+            arguments.steps = std::strtoull(value().c_str(), nullptr, 10);
         else if (word == "--csv")
             arguments.csv = value();
         else if (word == "--json")
@@ -153,7 +157,7 @@ int work(const Arguments& arguments) {
     {
         Protocol protocol(plugins, thesis(plugins, arguments.name, arguments.data));
         Rows rows;
-        protocol.run_to(protocol.steps(),
+        protocol.run_to(arguments.steps > 0 ? arguments.steps : protocol.steps(),
                         [&](std::uint64_t, const StepCost& cost) { rows.steps.push_back(cost); });
         out["cloud"] = arguments.data ? arguments.name : "built-in teapot";
         out["protocol"] = summary(rows, protocol.body().deformer().complex());

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <type_traits>
 #include <vector>
 
 namespace dsc::bench {
@@ -41,8 +40,8 @@ extern "C" void dsc_measured(detail::Thunk call, void* work);
 
 /// Runs the work inside the function dsc_measured, at whose name callgrind switches its counting on and off.
 template <class Work>
-void measured(Work&& work) {
-    dsc_measured([](void* object) { (*static_cast<std::remove_reference_t<Work>*>(object))(); }, &work);
+void measured(Work work) {
+    dsc_measured([](void* object) { (*static_cast<Work*>(object))(); }, &work);
 }
 
 }  // namespace dsc::bench
