@@ -4,7 +4,7 @@
 #   share/bench.sh [--repetitions N]   all benchmarks, N times each (default 5); DSC_DATA adds the thesis' clouds
 #   share/bench.sh --quick             everything once and small, to standard output: shows that it works, measures nothing
 #
-# Run it on a machine that does nothing else; it takes some ten minutes a core's worth of CPU time.
+# Run it on a machine that does nothing else; it takes some ten minutes after the build.
 set -euo pipefail
 
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
