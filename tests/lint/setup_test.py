@@ -175,6 +175,14 @@ class Setup(unittest.TestCase):
         installed = set((self.fake / "installed").read_text().split())
         self.assertLessEqual({"valgrind", "chromium", "snakemake", "slurm-wlm"}, installed)
 
+    def test_the_gate_is_run_by_full_only_and_its_absence_is_told(self):
+        result = self.setup("test")
+        self.assertIn(" -LE ^gate$", self.calls("ctest")[0])
+        self.assertIn("without the gate", result.stderr)
+        result = self.setup("test", "--full")
+        self.assertNotIn("gate", self.calls("ctest")[0])
+        self.assertNotIn("without the gate", result.stderr)
+
     def test_full_goes_on_without_a_tool_that_cannot_be_installed_and_says_so(self):
         self.put("no_chromium")
         result = self.setup("test", "--full")
