@@ -85,9 +85,9 @@ public:
     // How far the interface moves: from each old vertex to the new faces, from the new place to the old ones.
     double interface_distance(const Plan& plan) {
         std::vector<std::array<VertexId, 3>>& old = old_faces_;
-        bench_.interface_fan(plan.removed, fan_);
+        bench_.interface_fan(plan.removed, plan.removed == a_ ? bench_.star_a : bench_.star_b, fan_);
         old = fan_;
-        bench_.interface_fan(plan.kept, fan_);
+        bench_.interface_fan(plan.kept, plan.removed == a_ ? bench_.star_b : bench_.star_a, fan_);
         old.insert(old.end(), fan_.begin(), fan_.end());
         const Vec3 target = place(plan);
         const auto near = [](const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -131,8 +131,8 @@ Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     if (!a_goes && !b_goes) return c.on_box(a) || c.on_box(b) ? Refusal::box : Refusal::not_applicable;
     // In safe mode the interface may only be edited where it is flat round the vertex that leaves its place.
     const bool shape_matters = interface_edge && mode == CollapseMode::safe;
-    const bool a_moves = a_goes && (!shape_matters || bench.flat(a));
-    const bool b_moves = b_goes && (!shape_matters || bench.flat(b));
+    const bool a_moves = a_goes && (!shape_matters || bench.flat(a, bench.star_a));
+    const bool b_moves = b_goes && (!shape_matters || bench.flat(b, bench.star_b));
     if (!a_moves && !b_moves) return Refusal::bound;
 
     float old = 1.0F;
@@ -162,14 +162,8 @@ Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
     if (!c.link(bench.edit)) return Refusal::irregular;
     if (interface_edge) {
-        bench.vertices.clear();
-        for (const TetId s : bench.edit.removed) {
-            for (const VertexId v : c.tet(s).v) {
-                if (c.on_interface(v)) bench.vertices.push_back(v);
-            }
-        }
-        std::sort(bench.vertices.begin(), bench.vertices.end());
-        bench.vertices.erase(std::unique(bench.vertices.begin(), bench.vertices.end()), bench.vertices.end());
+        // Round any other vertex nothing dies and nothing meets: its tets only have a corner renamed.
+        bench.shared_interface_vertices(bench.vertices);
         if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
     }
     bench.commit(distance, volume);

@@ -80,10 +80,9 @@ VertexId Workbench::commit(double distance, double volume) {
     return complex.replace(edit);
 }
 
-void Workbench::interface_fan(VertexId v, std::vector<std::array<VertexId, 3>>& out) {
+void Workbench::interface_fan(VertexId v, std::span<const TetId> star, std::vector<std::array<VertexId, 3>>& out) const {
     out.clear();
-    complex.star(v, star_scratch_);
-    for (const TetId t : star_scratch_) {
+    for (const TetId t : star) {
         const mesh::Tet& tet = complex.tet(t);
         for (unsigned f = 0; f < 4; ++f) {
             if (tet.v[f] == v || complex.label(t) <= complex.label_across(t, f)) continue;
@@ -95,15 +94,35 @@ void Workbench::interface_fan(VertexId v, std::vector<std::array<VertexId, 3>>& 
     }
 }
 
-void Workbench::neighbours_of(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out) {
+std::uint32_t Workbench::new_vertex_epoch() {
     if (vertex_marks_.size() < complex.vertex_slots()) vertex_marks_.resize(complex.vertex_slots() + complex.vertex_slots() / 8, 0);
-    ++vertex_epoch_;
-    vertex_marks_[v] = vertex_epoch_;
+    return ++vertex_epoch_;
+}
+
+void Workbench::shared_interface_vertices(std::vector<VertexId>& out) {
+    out.clear();
+    const std::uint32_t near_a = new_vertex_epoch(), listed = new_vertex_epoch();
+    for (const TetId t : star_a) {
+        for (const VertexId w : complex.tet(t).v) vertex_marks_[w] = near_a;
+    }
+    for (const TetId t : star_b) {
+        for (const VertexId w : complex.tet(t).v) {
+            if (vertex_marks_[w] != near_a || !complex.on_interface(w)) continue;
+            vertex_marks_[w] = listed;
+            out.push_back(w);
+        }
+    }
+    std::sort(out.begin(), out.end());
+}
+
+void Workbench::neighbours_of(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out) {
+    const std::uint32_t listed = new_vertex_epoch();
+    vertex_marks_[v] = listed;
     out.clear();
     for (const TetId t : star) {
         for (const VertexId w : complex.tet(t).v) {
-            if (vertex_marks_[w] == vertex_epoch_) continue;
-            vertex_marks_[w] = vertex_epoch_;
+            if (vertex_marks_[w] == listed) continue;
+            vertex_marks_[w] = listed;
             out.push_back(w);
         }
     }
@@ -123,8 +142,8 @@ Refusal Workbench::remember(VertexId v, Trial trial, float accept_above, Refusal
     return refusal;
 }
 
-bool Workbench::flat(VertexId v) {
-    interface_fan(v, fan_);
+bool Workbench::flat(VertexId v, std::span<const TetId> star) {
+    interface_fan(v, star, fan_);
     normals_.clear();
     for (const auto& face : fan_) {
         normals_.push_back(geometry::triangle_normal(complex.position(face[0]), complex.position(face[1]), complex.position(face[2])));

@@ -86,6 +86,8 @@ public:
 
     /// The other vertices of a star, each once, by birth.
     void neighbours_of(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out);
+    /// Interface vertices of both stars, `star_a` and `star_b`, by id.
+    void shared_interface_vertices(std::vector<VertexId>& out);
 
     /// A smoothing that was refused is refused again as long as nothing in the vertex' star changed: `known_refusal` says so
     /// without trying, `committed` means that a try is worth it. `trial` tells requests of one vertex apart.
@@ -94,16 +96,17 @@ public:
     /// Forgets all refusals: the limits changed.
     void forget_refusals() { memory_.clear(); }
 
-    /// True when the interface faces round v are flat to each other (signed normals).
-    bool flat(VertexId v);
+    /// True when the interface faces round v are flat to each other (signed normals). `star`: the tets of v.
+    bool flat(VertexId v, std::span<const TetId> star);
     /// Vertices of the star's interface faces as triangles with v first, counter-clockwise from the smaller label.
-    void interface_fan(VertexId v, std::vector<std::array<VertexId, 3>>& out);
+    void interface_fan(VertexId v, std::span<const TetId> star, std::vector<std::array<VertexId, 3>>& out) const;
 
     mesh::LocalStar& local_star() { return star_; }
 
 private:
     mesh::LocalStar star_;
-    std::vector<TetId> star_scratch_;
+    std::uint32_t new_vertex_epoch();
+
     std::vector<std::array<VertexId, 3>> fan_;
     std::vector<Vec3> normals_;
 
