@@ -27,7 +27,7 @@ constexpr std::array<std::pair<std::string_view, View>, 7> view_names = {{{"fron
                                                                           {"iso", View::iso}}};
 constexpr int largest_size = 16384;
 constexpr float margin = 0.05F;          // of the frame, on each side
-constexpr unsigned occlusion_rays = 4;   // a pixel; 4 x 4 pixels share theirs
+constexpr unsigned occlusion_rays = 8;   // a pixel; 4 x 4 pixels share theirs
 
 /// Rows: right, up, towards the viewer, in the mesh's coordinates.
 Eigen::Matrix3d view_axes(View view, UpAxis up) {
