@@ -15,7 +15,7 @@ os_release=${DSC_OS_RELEASE:-/etc/os-release}  # replaced by the script's own te
 
 build_packages=(
     cmake ninja-build g++
-    libboost-dev libcli11-dev libeigen3-dev libembree-dev libopenmesh-dev libpcl-dev libpng-dev librandom123-dev
+    libboost-dev libcli11-dev libeigen3-dev libembree-dev libnanoflann-dev libopenmesh-dev libpcl-dev libpng-dev librandom123-dev
     libspdlog-dev libssl-dev libvtk9-dev libyaml-cpp-dev nlohmann-json3-dev
 )
 test_packages=(doctest-dev libbenchmark-dev libcgal-dev libgmp-dev libmpfr-dev python3)

@@ -33,6 +33,7 @@ FOR_STRATEGIES = BELOW["plugin"] | {"plugin"}
 # A third-party header and the folders that may include it.
 WALLS = {
     "pcl/": ("core/src/cloud/",),
+    "nanoflann": ("core/src/cloud/",),
     "OpenMesh/": ("core/src/surface/", "core/src/io/"),
     "yaml-cpp/": ("core/src/config/",),
     "vtk": ("core/src/io/",),

@@ -1,5 +1,5 @@
-// NearestSearch on FLANN, the kd-tree behind PCL's search. It is a template and works on doubles, so nothing
-// is rounded; our result sets give it the order by distance and index that its own do not keep.
+// NearestSearch on nanoflann's kd-tree. It is a template and works on doubles, so nothing is rounded, and a query allocates
+// nothing; our result sets give it the order by distance and index that its own do not keep.
 #include <dsc/cloud/search.hpp>
 
 #include <algorithm>
@@ -7,9 +7,7 @@
 #include <limits>
 #include <string>
 
-#include <flann/general.h>
-#include <flann/algorithms/dist.h>
-#include <flann/algorithms/kdtree_single_index.h>
+#include <nanoflann.hpp>
 
 #include <dsc/base/error.hpp>
 
@@ -17,8 +15,20 @@ namespace dsc::cloud {
 
 namespace {
 
-using Metric = flann::L2_Simple<double>;
-using Index = flann::KDTreeSingleIndex<Metric>;
+/// The points as the tree reads them.
+struct Points {
+    std::vector<Vec3> points;
+
+    std::size_t kdtree_get_point_count() const { return points.size(); }
+    double kdtree_get_pt(std::size_t index, std::size_t axis) const {
+        return points[index][static_cast<Eigen::Index>(axis)];
+    }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+        return false;
+    }
+};
+using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3, std::uint32_t>;
 
 /// The tree drops what is not nearer than this. A little more than the squared distance itself: points just
 /// as far must still be seen for their index, and the tree's running sums of squares may be off by a few
@@ -30,16 +40,20 @@ bool before(const Neighbour& a, const Neighbour& b) {
 }
 
 /// Keeps the best one. `distance` holds squares while the tree is walked, in all three sets.
-class Best final : public flann::ResultSet<double> {
+class Best {
 public:
-    bool full() const override { return true; }
-    void addPoint(double squared, std::size_t index) override {
-        const Neighbour found{static_cast<std::uint32_t>(index), squared};
-        if (!before(found, best)) return;
-        best = found;
-        worst_ = widened(squared);
+    using DistanceType = double;
+    using IndexType = std::uint32_t;
+    bool full() const { return true; }
+    bool addPoint(double squared, std::uint32_t index) {
+        const Neighbour found{index, squared};
+        if (before(found, best)) {
+            best = found;
+            worst_ = widened(squared);
+        }
+        return true;
     }
-    double worstDist() const override { return worst_; }
+    double worstDist() const { return worst_; }
 
     Neighbour best{std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<double>::infinity()};
 
@@ -48,20 +62,23 @@ private:
 };
 
 /// Keeps the best k, in order.
-class BestK final : public flann::ResultSet<double> {
+class BestK {
 public:
+    using DistanceType = double;
+    using IndexType = std::uint32_t;
     BestK(std::size_t k, std::vector<Neighbour>& out) : k_(k), out_(out) {}
-    bool full() const override { return out_.size() == k_; }
-    void addPoint(double squared, std::size_t index) override {
-        const Neighbour found{static_cast<std::uint32_t>(index), squared};
+    bool full() const { return out_.size() == k_; }
+    bool addPoint(double squared, std::uint32_t index) {
+        const Neighbour found{index, squared};
         if (full()) {
-            if (!before(found, out_.back())) return;
+            if (!before(found, out_.back())) return true;
             out_.pop_back();
         }
         out_.insert(std::upper_bound(out_.begin(), out_.end(), found, before), found);
         if (full()) worst_ = widened(out_.back().distance);
+        return true;
     }
-    double worstDist() const override { return worst_; }
+    double worstDist() const { return worst_; }
 
 private:
     std::size_t k_;
@@ -70,20 +87,20 @@ private:
 };
 
 /// Keeps all within a radius; with `one`, stops at the first.
-class Within final : public flann::ResultSet<double> {
+class Within {
 public:
+    using DistanceType = double;
+    using IndexType = std::uint32_t;
     Within(double radius, std::vector<Neighbour>* out)
         : radius_(radius), out_(out), worst_(widened(radius * radius)) {}
-    bool full() const override { return true; }
-    void addPoint(double squared, std::size_t index) override {
-        if (!(std::sqrt(squared) <= radius_)) return;
+    bool full() const { return true; }
+    bool addPoint(double squared, std::uint32_t index) {
+        if (!(std::sqrt(squared) <= radius_)) return true;
         any = true;
-        if (out_)
-            out_->push_back({static_cast<std::uint32_t>(index), squared});
-        else
-            worst_ = -1.0;
+        if (out_) out_->push_back({index, squared});
+        return out_ != nullptr;  // the first one is enough where nobody wants them all
     }
-    double worstDist() const override { return worst_; }
+    double worstDist() const { return worst_; }
 
     bool any = false;
 
@@ -101,18 +118,16 @@ void take_roots(std::vector<Neighbour>& out) {
 
 struct NearestSearch::Tree {
     explicit Tree(std::span<const Vec3> source)
-        : points(source.begin(), source.end()),
-          index(flann::Matrix<double>(points.data()->data(), points.size(), 3),
-                flann::KDTreeSingleIndexParams(8, true)) {
+        : points{{source.begin(), source.end()}}, index(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(8)) {
         index.buildIndex();
     }
-    void walk(const Vec3& p, flann::ResultSet<double>& result) const {
-        index.findNeighbors(result, p.data(), exact);
+    template <class Result>
+    void walk(const Vec3& p, Result& result) const {
+        index.findNeighbors(result, p.data(), nanoflann::SearchParams());
     }
 
-    std::vector<Vec3> points;
+    Points points;
     Index index;
-    flann::SearchParams exact{flann::FLANN_CHECKS_UNLIMITED, 0.0F};
 };
 
 NearestSearch::NearestSearch(std::span<const Vec3> points) {
@@ -133,7 +148,7 @@ NearestSearch::~NearestSearch() = default;
 NearestSearch::NearestSearch(NearestSearch&&) noexcept = default;
 NearestSearch& NearestSearch::operator=(NearestSearch&&) noexcept = default;
 
-std::span<const Vec3> NearestSearch::points() const noexcept { return tree_->points; }
+std::span<const Vec3> NearestSearch::points() const noexcept { return tree_->points.points; }
 
 Neighbour NearestSearch::nearest(const Vec3& p) const {
     Best result;

@@ -84,11 +84,12 @@ public:
 
     // How far the interface moves: from each old vertex to the new faces, from the new place to the old ones.
     double interface_distance(const Plan& plan) {
-        std::vector<std::array<VertexId, 3>>& old = old_faces_;
-        bench_.interface_fan(plan.removed, plan.removed == a_ ? bench_.star_a : bench_.star_b, fan_);
-        old = fan_;
-        bench_.interface_fan(plan.kept, plan.removed == a_ ? bench_.star_b : bench_.star_a, fan_);
-        old.insert(old.end(), fan_.begin(), fan_.end());
+        auto& old = bench_.faces;
+        auto& fan = bench_.fan;
+        bench_.interface_fan(plan.removed, plan.removed == a_ ? bench_.star_a : bench_.star_b, fan);
+        old = fan;
+        bench_.interface_fan(plan.kept, plan.removed == a_ ? bench_.star_b : bench_.star_a, fan);
+        old.insert(old.end(), fan.begin(), fan.end());
         const Vec3 target = place(plan);
         const auto near = [](const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
             return (p - geometry::closest_point_on_triangle(p, a, b, c)).norm();
@@ -109,7 +110,6 @@ private:
     mesh::Complex& c_;
     bool interface_edge_;
     VertexId a_ = mesh::none, b_ = mesh::none;
-    std::vector<std::array<VertexId, 3>> fan_, old_faces_;
 };
 
 bool is_interface_edge(const Workbench& bench) {

@@ -23,6 +23,13 @@ std::array<Edge, 6> edges_of(const mesh::Complex& c, TetId t) {
     return edges;
 }
 
+// By insertion: stable, and without the buffer that std::stable_sort takes.
+void sort_by_length(std::array<Edge, 6>& edges) {
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+        for (std::size_t j = i; j > 0 && edges[j].length2 < edges[j - 1].length2; --j) std::swap(edges[j], edges[j - 1]);
+    }
+}
+
 // Of several refusals the one that says most: topology and bounds before quality before "does not apply".
 Refusal stronger(Refusal x, Refusal y) {
     const auto rank = [](Refusal r) {
@@ -61,7 +68,7 @@ Refusal on_edges(Workbench& bench, const Request& request, TetId t) {
                 return flip_interface_edge(bench, t, e.a, e.b, request.accept_above);
             });
         case Operation::edge_collapse:
-            std::stable_sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return x.length2 < y.length2; });
+            sort_by_length(edges);
             return first_success(edges, [&](const Edge& e) { return collapse_edge(bench, t, e.a, e.b, request.mode, request.accept_above); });
         default: {
             const auto longest = std::max_element(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return x.length2 < y.length2; });

@@ -24,6 +24,22 @@ struct BoundaryEdge {
     std::uint32_t face;
 };
 
+// Arrays that keep their memory from one region to the next.
+struct Scratch {
+    std::vector<std::size_t> group_size;
+    std::vector<char> is_from, has_outside;
+    std::vector<std::uint32_t> group, previous, distance, queue;
+    std::vector<TetId> addition_group, addition_chain;
+    std::vector<BoundaryFace> faces;
+    std::vector<BoundaryEdge> edges;
+    std::vector<VertexId> vertices;
+    std::vector<std::uint32_t> whole, patch, from_roots, to_roots;
+};
+Scratch& scratch() {
+    static thread_local Scratch own;
+    return own;
+}
+
 std::uint32_t root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
@@ -56,8 +72,11 @@ void collect_vertices(const mesh::Complex& c, const Region& region, std::vector<
 void smallest_group(mesh::LocalStar& star, mesh::Label from, std::vector<TetId>& out) {
     out.clear();
     const unsigned count = star.groups();
-    std::vector<std::size_t> size(count, 0);
-    std::vector<char> is_from(count, 0), has_outside(count, 0);
+    std::vector<std::size_t>& size = scratch().group_size;
+    std::vector<char>&is_from = scratch().is_from, &has_outside = scratch().has_outside;
+    size.assign(count, 0);
+    is_from.assign(count, 0);
+    has_outside.assign(count, 0);
     for (std::size_t i = 0; i < star.nodes().size(); ++i) {
         ++size[star.group_of()[i]];
         is_from[star.group_of()[i]] = star.label(i) == from ? 1 : 0;
@@ -80,12 +99,16 @@ void shortest_chain(mesh::LocalStar& star, mesh::Label from, mesh::Label to, std
     out.clear();
     star.groups();
     const std::size_t n = star.nodes().size();
-    std::vector<std::uint32_t> group(star.group_of().begin(), star.group_of().end());
+    std::vector<std::uint32_t>&group = scratch().group, &previous = scratch().previous, &distance = scratch().distance;
+    std::vector<std::uint32_t>& queue = scratch().queue;
+    group.assign(star.group_of().begin(), star.group_of().end());
     std::size_t best = n + 1;
     for (std::size_t start = 0; start < n; ++start) {
         if (star.label(start) != to) continue;
         // Breadth-first from one node of each group is not enough: chains may leave from any of its nodes.
-        std::vector<std::uint32_t> previous(n, mesh::none), distance(n, mesh::none), queue;
+        previous.assign(n, mesh::none);
+        distance.assign(n, mesh::none);
+        queue.clear();
         distance[start] = 0;
         queue.push_back(static_cast<std::uint32_t>(start));
         for (std::size_t i = 0; i < queue.size(); ++i) {
@@ -124,7 +147,7 @@ RegionFault grow(Workbench& bench, Region& region) {
     const mesh::Complex& c = bench.complex;
     const double volume_limit = max_region_volume * geometry::regular_tet_volume(bench.limits.length);
     mesh::LocalStar& star = bench.local_star();
-    std::vector<TetId> group, chain;
+    std::vector<TetId>&group = scratch().addition_group, &chain = scratch().addition_chain;
     for (int round = 0; round <= max_growth; ++round) {
         double volume = 0.0;
         for (const TetId t : region.tets) {
@@ -151,9 +174,12 @@ RegionFault grow(Workbench& bench, Region& region) {
 
 RegionFault measure(const Workbench& bench, Region& region) {
     const mesh::Complex& c = bench.complex;
-    std::vector<BoundaryFace> faces;
-    std::vector<BoundaryEdge> edges;
-    std::vector<VertexId> vertices;
+    std::vector<BoundaryFace>& faces = scratch().faces;
+    std::vector<BoundaryEdge>& edges = scratch().edges;
+    std::vector<VertexId>& vertices = scratch().vertices;
+    faces.clear();
+    edges.clear();
+    vertices.clear();
     region.volume = region.area_from = region.area_to = 0.0;
     region.centroid.setZero();
     for (const TetId t : region.tets) {
@@ -184,7 +210,9 @@ RegionFault measure(const Workbench& bench, Region& region) {
     std::sort(edges.begin(), edges.end(), [](const BoundaryEdge& x, const BoundaryEdge& y) {
         return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.face < y.face;
     });
-    std::vector<std::uint32_t> whole(faces.size()), patch(faces.size());
+    std::vector<std::uint32_t>&whole = scratch().whole, &patch = scratch().patch;
+    whole.resize(faces.size());
+    patch.resize(faces.size());
     std::iota(whole.begin(), whole.end(), 0U);
     std::iota(patch.begin(), patch.end(), 0U);
     std::size_t edge_count = 0;
@@ -196,7 +224,9 @@ RegionFault measure(const Workbench& bench, Region& region) {
         whole[root(whole, f)] = root(whole, g);
         if (faces[f].faces_to == faces[g].faces_to) patch[root(patch, f)] = root(patch, g);
     }
-    std::vector<std::uint32_t> from_roots, to_roots;
+    std::vector<std::uint32_t>&from_roots = scratch().from_roots, &to_roots = scratch().to_roots;
+    from_roots.clear();
+    to_roots.clear();
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
         if (root(whole, f) != root(whole, 0)) return RegionFault::not_a_ball;
         if (root(patch, f) == f) (faces[f].faces_to ? to_roots : from_roots).push_back(f);

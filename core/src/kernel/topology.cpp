@@ -224,7 +224,7 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
     collect_seeds(step, changed);
     found_.clear();
     const double regular_volume = geometry::regular_tet_volume(bench_.limits.length);
-    Region region;
+    Region& region = region_;
     for (const Seed& seed : seeds_) {
         if (region_of(seed, region) != RegionFault::none) continue;
         mesh::TopologyCandidate candidate;
@@ -237,16 +237,16 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
         if (candidate.thickness <= limits.thickness) found_.push_back({seed, candidate});
     }
     if (found_.empty()) return;
-    std::vector<mesh::TopologyCandidate> batch;
-    for (const Found& f : found_) batch.push_back(f.candidate);
-    std::vector<std::uint8_t> accept(batch.size(), select ? 0 : 1);
-    if (select) select(batch, accept);
-    std::vector<const Found*> order;
+    batch_.clear();
+    for (const Found& f : found_) batch_.push_back(f.candidate);
+    accept_.assign(batch_.size(), select ? 0 : 1);
+    if (select) select(batch_, accept_);
+    order_.clear();
     for (std::size_t i = 0; i < found_.size(); ++i) {
-        if (accept[i] != 0) order.push_back(&found_[i]);
+        if (accept_[i] != 0) order_.push_back(&found_[i]);
     }
     const auto key = [](const Found& f) { return std::llround(f.candidate.thickness * 1e6); };
-    std::sort(order.begin(), order.end(), [&](const Found* x, const Found* y) {
+    std::sort(order_.begin(), order_.end(), [&](const Found* x, const Found* y) {
         const auto kx = key(*x), ky = key(*y);
         if (kx != ky) return kx < ky;
         return x->seed.births < y->seed.births;
@@ -254,8 +254,8 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
     const auto most = static_cast<std::size_t>(
         std::max(1.0, events_per_vertex * static_cast<double>(c.interface_vertices().size())));
     std::size_t committed = 0, shifted = 0;
-    near_.clear();
-    for (const Found* f : order) {
+    touched_.clear();
+    for (const Found* f : order_) {
         const bool shift = f->candidate.kind == mesh::TopologyCandidate::Kind::shift;
         if ((shift ? shifted : committed) == most) continue;
         if (!usable(f->seed, f->candidate.label, step) || region_of(f->seed, region) != RegionFault::none) continue;
@@ -270,9 +270,9 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
             events.push_back(commit(region, step));
             ++committed;
         }
-        for (const TetId t : region.tets) near_.insert(near_.end(), c.tet(t).v.begin(), c.tet(t).v.end());
+        for (const TetId t : region.tets) touched_.insert(touched_.end(), c.tet(t).v.begin(), c.tet(t).v.end());
     }
-    if (!near_.empty()) remove_small_components(step, std::vector<VertexId>(near_), limits.min_component, events);
+    if (!touched_.empty()) remove_small_components(step, touched_, limits.min_component, events);
 }
 
 // The component of the seed if it is small, closed in by one label and bounded by one surface.
@@ -303,8 +303,8 @@ void TopologyStage::remove_small_components(std::uint64_t step, std::span<const 
     if (!(min_component > 0.0)) return;
     mesh::Complex& c = bench_.complex;
     const double limit = min_component * geometry::regular_tet_volume(bench_.limits.length);
-    Region region;
-    std::vector<TetId> seeds;
+    Region& region = region_;
+    std::vector<TetId>& seeds = component_seeds_;
     for (const VertexId v : near) {
         if (v >= c.vertex_slots() || !c.vertex_alive(v) || !c.on_interface(v)) continue;
         // One seed a label: the star of a regular vertex has one group each.

@@ -62,7 +62,12 @@ private:
     std::uint32_t seen_epoch_ = 0;
     std::vector<VertexId> queue_;
     std::vector<TetId> star_;
-    std::vector<VertexId> near_;
+    std::vector<VertexId> touched_;
+    std::vector<TetId> component_seeds_;
+    std::vector<mesh::TopologyCandidate> batch_;
+    std::vector<std::uint8_t> accept_;
+    std::vector<const Found*> order_;
+    Region region_;
 };
 
 }  // namespace dsc::kernel

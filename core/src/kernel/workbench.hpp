@@ -64,6 +64,7 @@ public:
     mesh::EdgeRing ring, ring2;
     std::vector<TetId> star_a, star_b;
     std::vector<VertexId> vertices;
+    std::vector<std::array<VertexId, 3>> fan, faces;
 
     /// Position with the edit's changes.
     const Vec3& at(VertexId v) const {

@@ -26,15 +26,17 @@ Request on_tet(const mesh::Complex& c, mesh::TetId t, Operation operation, doubl
 }
 
 bool edge_is_flat(const mesh::Complex& c, const mesh::EdgeRing& ring, mesh::VertexId a, mesh::VertexId b, double flatness) {
-    std::vector<Vec3> normals;
+    std::array<Vec3, 2> normals;
+    std::size_t count = 0;
     const std::size_t n = ring.tets.size();
     for (std::size_t i = 0; i < n; ++i) {
         const mesh::Label before = c.label(ring.tets[(i + n - 1) % n]), after = c.label(ring.tets[i]);
         if (before == after) continue;
         const Vec3 normal = geometry::triangle_normal(c.position(a), c.position(b), c.position(ring.link[i]));
-        normals.push_back(after > before ? normal : Vec3(-normal));
+        if (count < 2) normals[count] = after > before ? normal : Vec3(-normal);
+        ++count;
     }
-    return normals.size() == 2 && normals[0].dot(normals[1]) >= flatness;
+    return count == 2 && normals[0].dot(normals[1]) >= flatness;
 }
 
 }  // namespace
@@ -58,7 +60,8 @@ void Proposals::note_edges(const mesh::RepairRound& round, mesh::TetId t) {
             const double length = (c.position(a) - c.position(b)).norm();
             if (length >= shortest && length <= longest) continue;
             if (c.birth(a) > c.birth(b)) std::swap(a, b);
-            (length < shortest ? short_ : long_).push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / round.target_length)});
+            auto& edges = length < shortest ? short_ : long_;
+            edges.push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / round.target_length), static_cast<std::uint32_t>(edges.size())});
         }
     }
 }
@@ -71,7 +74,8 @@ void Proposals::note_free_edges(const mesh::RepairRound& round, mesh::TetId t) {
         const double length = (c.position(a) - c.position(b)).norm();
         if (length <= limits_.max_free_edge * round.target_length) continue;
         if (c.birth(a) > c.birth(b)) std::swap(a, b);
-        free_long_.push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / round.target_length)});
+        free_long_.push_back(
+            {c.birth(a), c.birth(b), a, b, t, quantised(length / round.target_length), static_cast<std::uint32_t>(free_long_.size())});
     }
 }
 
@@ -88,7 +92,7 @@ void Proposals::sort_out(const mesh::RepairRound& round) {
     ++visit_;
     for (const mesh::TetId t : round.dirty) {
         const double q = static_cast<double>(c.quality(t));
-        if (q < limits_.min_tet_quality) low_.push_back({quantised(q), t});
+        if (q < limits_.min_tet_quality) low_.push_back({quantised(q), t, static_cast<std::uint32_t>(low_.size())});
         if (q < limits_.smooth_below) {
             for (const mesh::VertexId v : c.tet(t).v) {
                 if (c.on_interface(v) || c.on_box(v) || !first_visit(v)) continue;
@@ -97,20 +101,26 @@ void Proposals::sort_out(const mesh::RepairRound& round) {
             }
         }
         const double volume = c.volume(t);
-        if (volume < small) small_.push_back({quantised(volume / small), t});
+        if (volume < small) small_.push_back({quantised(volume / small), t, static_cast<std::uint32_t>(small_.size())});
         note_edges(round, t);
         if (limits_.max_free_edge > 0.0) note_free_edges(round, t);
     }
-    const auto by_key = [](const Entry& x, const Entry& y) { return x.key < y.key; };
-    std::stable_sort(low_.begin(), low_.end(), by_key);
-    std::stable_sort(small_.begin(), small_.end(), by_key);
-    const auto by_births = [](const EdgeEntry& x, const EdgeEntry& y) { return x.low != y.low ? x.low < y.low : x.high < y.high; };
+    // Total orders, so that no stable sort with its buffer is needed.
+    const auto by_key = [](const Entry& x, const Entry& y) { return x.key != y.key ? x.key < y.key : x.order < y.order; };
+    std::sort(low_.begin(), low_.end(), by_key);
+    std::sort(small_.begin(), small_.end(), by_key);
+    const auto by_births = [](const EdgeEntry& x, const EdgeEntry& y) {
+        return x.low != y.low ? x.low < y.low : x.high != y.high ? x.high < y.high : x.order < y.order;
+    };
     for (auto* edges : {&short_, &long_, &free_long_}) {
-        std::stable_sort(edges->begin(), edges->end(), by_births);
+        std::sort(edges->begin(), edges->end(), by_births);
         edges->erase(std::unique(edges->begin(), edges->end(), [](const EdgeEntry& x, const EdgeEntry& y) { return x.low == y.low && x.high == y.high; }),
                      edges->end());
         const bool ascending = edges == &short_;
-        std::stable_sort(edges->begin(), edges->end(), [&](const EdgeEntry& x, const EdgeEntry& y) { return ascending ? x.key < y.key : x.key > y.key; });
+        std::sort(edges->begin(), edges->end(), [&](const EdgeEntry& x, const EdgeEntry& y) {
+            if (x.key != y.key) return ascending ? x.key < y.key : x.key > y.key;
+            return by_births(x, y);
+        });
     }
 }
 
@@ -159,10 +169,9 @@ void Proposals::write(const mesh::RepairRound& round, std::vector<mesh::Request>
         request.mode = CollapseMode::bounded;
         out.push_back(request);
     }
-    mesh::EdgeRing ring;
     for (const EdgeEntry& edge : long_) {
-        c.ring(edge.tet, edge.a, edge.b, ring);
-        if (!ring.closed || edge_is_flat(c, ring, edge.a, edge.b, round.flatness)) continue;
+        c.ring(edge.tet, edge.a, edge.b, ring_);
+        if (!ring_.closed || edge_is_flat(c, ring_, edge.a, edge.b, round.flatness)) continue;
         Request request = on_tet(c, edge.tet, Operation::edge_split, 2.0, 2.0);
         request.vertices = {edge.a, edge.b, mesh::none};
         out.push_back(request);

@@ -30,12 +30,14 @@ private:
     struct Entry {
         std::int64_t key;
         mesh::TetId tet;
+        std::uint32_t order;  // of discovery
     };
     struct EdgeEntry {
         std::uint32_t low, high;  // births
         mesh::VertexId a, b;
         mesh::TetId tet;
         std::int64_t key;
+        std::uint32_t order;  // of discovery
     };
     void sort_out(const mesh::RepairRound& round);
     void note_edges(const mesh::RepairRound& round, mesh::TetId t);
@@ -47,6 +49,7 @@ private:
     std::vector<EdgeEntry> short_, long_, free_long_;
     std::vector<mesh::VertexId> free_;
     std::vector<mesh::TetId> free_tets_;
+    mesh::EdgeRing ring_;
     std::vector<std::uint32_t> visited_;
     std::uint32_t visit_ = 0;
 };
