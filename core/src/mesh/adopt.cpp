@@ -7,6 +7,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
+#include <dsc/mesh/face_groups.hpp>
 #include <dsc/mesh/unpinch.hpp>
 
 namespace dsc::mesh {
@@ -90,59 +91,37 @@ void orient(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string
 
 // Joins equal faces; positive tets on both sides of a face see it in opposite order.
 void join_faces(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name) {
-    struct Face {
-        std::array<VertexId, 3> key;
-        std::uint32_t code;
-        bool odd;
+    struct Fault {
+        std::size_t count = 0;
+        std::uint32_t tet = 0, vertex = 0;  // of the first
+    } crowded, same_side;
+    const auto note = [](Fault& fault, const FaceKey& key, const FaceUse& use) {
+        if (fault.count++ == 0) fault = {1, use.code >> 2U, key[0]};
     };
-    std::vector<Face> faces;
-    faces.reserve(4 * tets.size());
-    for (std::size_t t = 0; t < tets.size(); ++t) {
-        for (unsigned f = 0; f < 4; ++f) {
-            std::array<VertexId, 3> key{};
-            for (unsigned k = 0; k < 3; ++k) key[k] = tets[t].v[face_vertices[f][k]];
-            bool odd = false;
-            const auto exchange = [&](unsigned i, unsigned j) {
-                if (key[i] <= key[j]) return;
-                std::swap(key[i], key[j]);
-                odd = !odd;
-            };
-            exchange(0, 1);
-            exchange(1, 2);
-            exchange(0, 1);
-            faces.push_back({key, static_cast<std::uint32_t>(4 * t + f), odd});
-        }
-    }
-    std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key != b.key ? a.key < b.key : a.code < b.code; });
-    std::size_t crowded = 0, same_side = 0;
-    const Face* crowded_face = nullptr;
-    const Face* same_side_face = nullptr;
-    for (std::size_t i = 0; i < faces.size();) {
-        std::size_t j = i + 1;
-        while (j < faces.size() && faces[j].key == faces[i].key) ++j;
-        if (j - i > 2) {
-            if (crowded++ == 0) crowded_face = &faces[i + 2];
-        } else if (j - i == 2) {
-            if (faces[i].odd == faces[i + 1].odd) {
-                if (same_side++ == 0) same_side_face = &faces[i + 1];
+    const auto corners = [&](std::size_t t) { return &tets[t].v; };
+    for_each_face(points.size(), tets.size(), corners, [&](const FaceKey& key, std::span<const FaceUse> uses) {
+        if (uses.size() > 2) {
+            note(crowded, key, uses[2]);
+        } else if (uses.size() == 2) {
+            if (uses[0].odd == uses[1].odd) {
+                note(same_side, key, uses[1]);
             } else {
-                tets[faces[i].code >> 2U].n[faces[i].code & 3U] = faces[i + 1].code;
-                tets[faces[i + 1].code >> 2U].n[faces[i + 1].code & 3U] = faces[i].code;
+                tets[uses[0].code >> 2U].n[uses[0].code & 3U] = uses[1].code;
+                tets[uses[1].code >> 2U].n[uses[1].code & 3U] = uses[0].code;
             }
         }
-        i = j;
-    }
-    const auto face_text = [&](const Face& face) {
-        return "tet " + std::to_string(face.code >> 2U) + " at " + point_text(points[face.key[0]]);
+    });
+    const auto face_text = [&](const Fault& fault) {
+        return "tet " + std::to_string(fault.tet) + " at " + point_text(points[fault.vertex]);
     };
-    if (crowded > 0) {
+    if (crowded.count > 0) {
         refuse(name, "crowded_face",
-               face_text(*crowded_face) + " has a face that two other tets have already (" + std::to_string(crowded) + " such in all)",
+               face_text(crowded) + " has a face that two other tets have already (" + std::to_string(crowded.count) + " such in all)",
                "remove duplicate tets: some writers repeat the last line of the file");
     }
-    if (same_side > 0) {
+    if (same_side.count > 0) {
         refuse(name, "same_side",
-               face_text(*same_side_face) + " lies on the same side of a face as its neighbour (" + std::to_string(same_side) +
+               face_text(same_side) + " lies on the same side of a face as its neighbour (" + std::to_string(same_side.count) +
                    " such in all)",
                "tets must not overlap");
     }

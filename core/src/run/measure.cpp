@@ -4,6 +4,7 @@
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/complex.hpp>
+#include <dsc/mesh/face_groups.hpp>
 #include <dsc/run/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
 
@@ -22,44 +23,23 @@ bool sound(const mesh::TetMesh& mesh, const TetCorners& tet) {
     return true;
 }
 
-/// A tet's face: its vertices in ascending order and the vertex opposite.
-struct FaceUse {
-    std::array<std::uint32_t, 3> key;
-    std::uint32_t apex;
-    bool operator<(const FaceUse& other) const { return key < other.key; }
-};
-
 /// Counts faces by the number and the sides of their tets.
 void count_faces(const mesh::TetMesh& mesh, const std::vector<char>& valid, VolumeMeasure& measure) {
-    std::vector<FaceUse> uses;
-    uses.reserve(4 * mesh.tets.size());
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-        if (!valid[t]) continue;
-        const TetCorners& tet = mesh.tets[t];
-        for (std::size_t face = 0; face < 4; ++face) {
-            std::array<std::uint32_t, 3> key{};
-            for (std::size_t i = 0; i < 3; ++i) key[i] = tet[mesh::face_vertices[face][i]];
-            std::sort(key.begin(), key.end());
-            uses.push_back({key, tet[face]});
-        }
-    }
-    std::stable_sort(uses.begin(), uses.end());
-    for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-        end = begin + 1;
-        while (end < uses.size() && uses[end].key == uses[begin].key) ++end;
-        if (end - begin == 1) {
+    const auto corners = [&](std::size_t t) { return valid[t] ? &mesh.tets[t] : nullptr; };
+    const auto count = [&](const mesh::FaceKey& key, std::span<const mesh::FaceUse> uses) {
+        if (uses.size() == 1) {
             ++measure.boundary_faces;
-        } else if (end - begin > 2) {
+        } else if (uses.size() > 2) {
             ++measure.overused_faces;
         } else {
-            const auto& key = uses[begin].key;
-            const auto side = [&](std::size_t use) {
-                return geometry::orient3d(mesh.points[key[0]], mesh.points[key[1]], mesh.points[key[2]],
-                                          mesh.points[uses[use].apex]);
+            const auto side = [&](const mesh::FaceUse& use) {
+                const std::uint32_t apex = mesh.tets[use.code >> 2U][use.code & 3U];
+                return geometry::orient3d(mesh.points[key[0]], mesh.points[key[1]], mesh.points[key[2]], mesh.points[apex]);
             };
-            if (side(begin) * side(begin + 1) >= 0) ++measure.folded_faces;
+            if (side(uses[0]) * side(uses[1]) >= 0) ++measure.folded_faces;
         }
-    }
+    };
+    mesh::for_each_face(mesh.points.size(), mesh.tets.size(), corners, count);
 }
 
 }  // namespace

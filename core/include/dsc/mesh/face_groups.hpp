@@ -1,0 +1,69 @@
+#pragma once
+// The faces of a tet mesh in plain arrays, each with the tets that use it.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <dsc/mesh/complex.hpp>
+
+namespace dsc::mesh {
+
+/// A face's vertices in ascending order.
+using FaceKey = std::array<std::uint32_t, 3>;
+
+/// A face as one of its tets sees it.
+struct FaceUse {
+    std::uint32_t second, third;  ///< of the key
+    std::uint32_t code;           ///< 4 * tet + face
+    bool odd;                     ///< the key is an odd permutation of the face's vertices as in face_vertices
+};
+
+/// Calls visit(FaceKey, std::span<const FaceUse>) once for every face, in the order of the keys, its uses in the order of
+/// their codes. `corners(t)` points to the four vertices, all below `points`, of one of `tets` tets, or is null: such a
+/// tet has no faces. Faces are dealt out by their first vertex before they are sorted; 64 bytes a tet.
+template <class Corners, class Visit>
+void for_each_face(std::size_t points, std::size_t tets, const Corners& corners, const Visit& visit) {
+    std::vector<std::uint32_t> start(points + 2, 0);  // of the uses with first vertex v at v + 1 while they are dealt out
+    for (std::size_t t = 0; t < tets; ++t) {
+        const std::array<std::uint32_t, 4>* v = corners(t);
+        if (v == nullptr) continue;
+        for (const auto& face : face_vertices) ++start[std::min({(*v)[face[0]], (*v)[face[1]], (*v)[face[2]]}) + 2];
+    }
+    for (std::size_t i = 2; i < start.size(); ++i) start[i] += start[i - 1];
+    std::vector<FaceUse> uses(start.back());
+    for (std::size_t t = 0; t < tets; ++t) {
+        const std::array<std::uint32_t, 4>* v = corners(t);
+        if (v == nullptr) continue;
+        for (unsigned f = 0; f < 4; ++f) {
+            FaceKey key{};
+            for (unsigned k = 0; k < 3; ++k) key[k] = (*v)[face_vertices[f][k]];
+            bool odd = false;
+            const auto exchange = [&](unsigned i, unsigned j) {
+                if (key[i] <= key[j]) return;
+                std::swap(key[i], key[j]);
+                odd = !odd;
+            };
+            exchange(0, 1);
+            exchange(1, 2);
+            exchange(0, 1);
+            uses[start[key[0] + 1]++] = {key[1], key[2], static_cast<std::uint32_t>(4 * t + f), odd};
+        }
+    }
+    for (std::size_t first = 0; first < points; ++first) {
+        const auto group = std::span(uses).subspan(start[first], start[first + 1] - start[first]);
+        std::sort(group.begin(), group.end(), [](const FaceUse& a, const FaceUse& b) {
+            return a.second != b.second ? a.second < b.second : a.third != b.third ? a.third < b.third : a.code < b.code;
+        });
+        for (std::size_t begin = 0, end = 0; begin < group.size(); begin = end) {
+            end = begin + 1;
+            while (end < group.size() && group[end].second == group[begin].second && group[end].third == group[begin].third) ++end;
+            visit(FaceKey{static_cast<std::uint32_t>(first), group[begin].second, group[begin].third},
+                  std::span<const FaceUse>(group.subspan(begin, end - begin)));
+        }
+    }
+}
+
+}  // namespace dsc::mesh
