@@ -59,15 +59,17 @@ struct Deformer::State final : EditListener {
     double length = 0.0;
     std::uint64_t step = 0;
 
-    // Destinations of this step; an entry is valid where travelling_[v] == step + 1 and the birth fits.
+    // Destinations of this step, one a vertex under way; `travel_of` leads to a vertex' entry, which is its own where vertex
+    // and birth fit.
     struct Travel {
         Vec3 destination;
-        std::uint64_t step = 0;
+        VertexId vertex = mesh::none;  // none: arrived or given up
         std::uint32_t birth = 0;
         std::uint32_t blocked_at = 0;  // 0: not blocked
         std::uint32_t listed = 0;      // pass in which it was handled, against double entries
     };
     std::vector<Travel> travel;
+    std::vector<std::uint32_t> travel_of;
     std::vector<VertexId> active;
     std::vector<VertexId> blocked;
     std::uint32_t pass = 0;
@@ -120,11 +122,25 @@ struct Deformer::State final : EditListener {
     }
 
     // ---- destinations that follow the edits ---------------------------------------------------------------------
-    bool travels(VertexId v) const { return v < travel.size() && travel[v].step == step && travel[v].birth == complex.birth(v); }
-    Vec3 destination_of(VertexId v) const { return travels(v) ? travel[v].destination : complex.position(v); }
+    // The entry of v, even if v is dead by now; null if it has none.
+    Travel* way_of(VertexId v) {
+        if (v >= travel_of.size() || travel_of[v] >= travel.size()) return nullptr;
+        Travel& way = travel[travel_of[v]];
+        return way.vertex == v ? &way : nullptr;
+    }
+    bool travels(VertexId v) {
+        const Travel* way = way_of(v);
+        return way != nullptr && way->birth == complex.birth(v);
+    }
+    Vec3 destination_of(VertexId v) { return travels(v) ? way_of(v)->destination : complex.position(v); }
     void send(VertexId v, const Vec3& destination) {
-        travel.resize(std::max<std::size_t>(travel.size(), complex.vertex_slots()));
-        travel[v] = {destination, step, complex.birth(v), 0, 0};
+        if (travel_of.size() < complex.vertex_slots()) travel_of.resize(complex.vertex_slots(), mesh::none);
+        Travel* way = way_of(v);
+        if (way == nullptr) {
+            travel_of[v] = static_cast<std::uint32_t>(travel.size());
+            way = &travel.emplace_back();
+        }
+        *way = {destination, v, complex.birth(v), 0, 0};
         active.push_back(v);
     }
 
@@ -134,11 +150,11 @@ struct Deformer::State final : EditListener {
     }
     void on_collapse(VertexId kept, VertexId removed, double s) override {
         // The removed id is dead but its entry is still there: births differ only once the slot is taken again.
-        const bool goes = removed < travel.size() && travel[removed].step == step;
+        const bool goes = way_of(removed) != nullptr;
         const bool stays = travels(kept);
         if ((!goes && !stays) || !complex.movable(kept) || s == 0.0) return;
-        const Vec3 from = stays ? travel[kept].destination : complex.position(kept);
-        const Vec3 to = goes ? travel[removed].destination : complex.position(kept);
+        const Vec3 from = stays ? way_of(kept)->destination : complex.position(kept);
+        const Vec3 to = goes ? way_of(removed)->destination : complex.position(kept);
         send(kept, (1.0 - s) * from + s * to);
     }
     void on_interface_collapse(VertexId kept) override { near_collapses.push_back(kept); }
@@ -147,6 +163,7 @@ struct Deformer::State final : EditListener {
     void begin(std::span<const VertexId> vertices, std::span<const Vec3> displacements, StepReport& report) {
         ++step;
         active.clear();
+        travel.clear();
         near_collapses.clear();
         step_changes.clear();
         last_requests.clear();
@@ -174,14 +191,14 @@ struct Deformer::State final : EditListener {
         for (std::size_t i = 0; i < active.size(); ++i) {
             const VertexId v = active[i];
             if (v >= complex.vertex_slots() || !complex.vertex_alive(v) || !travels(v) || !complex.movable(v)) continue;
-            Travel& way = travel[v];
+            Travel& way = *way_of(v);
             if (way.listed == pass) continue;
             way.listed = pass;
             if (way.blocked_at == 0 || queues.awake(v, way.blocked_at)) {
                 ++tried;
                 const Motion motion = move_towards(bench, v, way.destination, options.free_path);
                 if (motion == Motion::arrived) {
-                    way.step = 0;
+                    way.vertex = mesh::none;
                     continue;
                 }
                 way.blocked_at = motion == Motion::blocked ? complex.clock() : 0;
@@ -275,8 +292,8 @@ struct Deformer::State final : EditListener {
     void give_up(StepReport& report) {
         for (const VertexId v : active) {
             if (!complex.vertex_alive(v) || !travels(v)) continue;
-            report.dropped_motion += (travel[v].destination - complex.position(v)).norm();
-            travel[v].step = 0;
+            report.dropped_motion += (way_of(v)->destination - complex.position(v)).norm();
+            way_of(v)->vertex = mesh::none;
             ++stranded;
         }
         active.clear();

@@ -27,13 +27,17 @@ double first_inversion(const mesh::Complex& c, std::span<const TetId> star, Vert
     return first;
 }
 
-bool acceptable(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& place, float floor) {
+// Whether v may go to `place`; the tets' qualities there are in `qualities` then.
+bool acceptable(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& place, float floor,
+                std::vector<float>& qualities) {
+    qualities.clear();
     for (const TetId t : star) {
         const auto& x = c.tet(t).v;
         std::array<const Vec3*, 4> p{};
         for (unsigned i = 0; i < 4; ++i) p[i] = x[i] == v ? &place : &c.position(x[i]);
         const auto q = static_cast<float>(geometry::tet_quality(*p[0], *p[1], *p[2], *p[3]));
         if (!(q >= std::min(floor, c.quality(t))) || geometry::orient3d(*p[0], *p[1], *p[2], *p[3]) != 1) return false;
+        qualities.push_back(q);
     }
     return true;
 }
@@ -51,8 +55,8 @@ Motion move_towards(Workbench& bench, VertexId v, const Vec3& destination, doubl
     for (int halving = 0; halving <= 8; ++halving, fraction *= 0.5) {
         if (fraction * length < least_step) break;
         const Vec3 place = fraction == 1.0 ? destination : Vec3(p + fraction * (destination - p));
-        if (!acceptable(c, bench.star_a, v, place, static_cast<float>(bench.limits.quality_floor))) continue;
-        c.move(v, place, bench.star_a);
+        if (!acceptable(c, bench.star_a, v, place, static_cast<float>(bench.limits.quality_floor), bench.edit.qualities)) continue;
+        c.move(v, place, bench.star_a, bench.edit.qualities);
         return (destination - place).norm() < least_step ? Motion::arrived : Motion::moved;
     }
     return Motion::blocked;

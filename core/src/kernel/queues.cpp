@@ -23,25 +23,30 @@ bool RepairQueues::awake(VertexId v, std::uint32_t blocked_at) {
 }
 
 std::span<const TetId> RepairQueues::next_round() {
-    ++round_;
     const std::uint32_t previous_clock = last_clock_;
     last_clock_ = complex_.clock();
-    in_dirty_.resize(std::max(in_dirty_.size(), complex_.tet_slots()), 0);
-    in_failed_.resize(in_dirty_.size(), 0);
     dirty_.clear();
     complex_.take_changes(changes_);
+    // Of a slot's failures in a round the first one counts.
+    complex_.new_epoch();
+    for (const Failure& failure : failed_now_) {
+        if (complex_.tet_marked(failure.tet)) continue;
+        complex_.mark_tet(failure.tet);
+        failed_.push_back(failure);
+    }
+    failed_now_.clear();
+    // From here on the marks are the tets on offer.
+    complex_.new_epoch();
     const auto offer = [this](TetId t) {
-        if (!complex_.tet_alive(t) || in_dirty_[t] == round_ || lost()) return;
-        in_dirty_[t] = round_;
+        if (!complex_.tet_alive(t) || complex_.tet_marked(t) || lost()) return;
+        complex_.mark_tet(t);
         dirty_.push_back(t);
     };
     for (const TetId t : changes_) offer(t);
     std::size_t kept = 0;
-    failed_.insert(failed_.end(), failed_now_.begin(), failed_now_.end());
-    failed_now_.clear();
     for (const Failure& failure : failed_) {
         if (!complex_.tet_alive(failure.tet) || complex_.birth_date(failure.tet) != failure.birth_date) continue;
-        if (in_dirty_[failure.tet] == round_) continue;
+        if (complex_.tet_marked(failure.tet)) continue;
         if (out_of_date(failure.tet, failure.date)) {
             offer(failure.tet);
         } else {
@@ -54,8 +59,7 @@ std::span<const TetId> RepairQueues::next_round() {
 }
 
 void RepairQueues::fail(TetId t) {
-    if (in_failed_[t] == round_) return;
-    in_failed_[t] = round_;
+    if (!failed_now_.empty() && failed_now_.back().tet == t) return;
     const Failure failure = {t, complex_.birth_date(t), complex_.clock()};
     failed_now_.push_back(failure);
     if (!audit_) return;
@@ -67,7 +71,7 @@ void RepairQueues::fail(TetId t) {
 void RepairQueues::check(std::uint32_t previous_clock) {
     memory_.resize(std::max(memory_.size(), complex_.tet_slots()), Failure{mesh::none, 0, 0});
     for (TetId t = 0; t < complex_.tet_slots(); ++t) {
-        if (!complex_.tet_alive(t) || in_dirty_[t] == round_) continue;
+        if (!complex_.tet_alive(t) || complex_.tet_marked(t)) continue;
         const bool changed = complex_.date(t) > previous_clock;
         const Failure& failure = memory_[t];
         const bool woken = failure.tet == t && failure.birth_date == complex_.birth_date(t) && out_of_date(t, failure.date);

@@ -46,10 +46,7 @@ private:
     std::vector<TetId> dirty_;
     std::vector<Failure> failed_;
     std::vector<Failure> failed_now_;
-    std::vector<std::uint32_t> in_dirty_;  // per tet: round in which it was offered last
-    std::vector<std::uint32_t> in_failed_; // per tet: round in which it failed last
     std::vector<Failure> memory_;          // audit only, per tet: its last failure, kept apart from the queues
-    std::uint32_t round_ = 0;
     std::uint32_t last_clock_ = 0;
 };
 

@@ -10,15 +10,18 @@
 namespace dsc::kernel {
 namespace {
 
-// Least quality of the star with v at `place`; -1 when a tet is not exactly positive, early out at `bound`.
-float star_quality(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& place, float bound) {
+// Least quality of the star with v at `place`, all of them in `qualities`; -1 as soon as one is not above `bound`.
+float star_quality(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& place, float bound,
+                   std::vector<float>& qualities) {
     float least = 2.0F;
+    qualities.clear();
     for (const TetId t : star) {
         const auto& x = c.tet(t).v;
         std::array<const Vec3*, 4> p{};
         for (unsigned i = 0; i < 4; ++i) p[i] = x[i] == v ? &place : &c.position(x[i]);
         const auto q = static_cast<float>(geometry::tet_quality(*p[0], *p[1], *p[2], *p[3]));
         if (!(q > bound)) return -1.0F;
+        qualities.push_back(q);
         least = std::min(least, q);
     }
     return least;
@@ -74,9 +77,9 @@ Refusal smooth_laplacian(Workbench& bench, VertexId v, float accept_above) {
     if ((mean - c.position(v)).norm() < 0.02 * bench.limits.length) return refuse(Refusal::no_gain);
     const float old = star_old(c, bench.star_a);
     const float bound = std::min(old, accept_above);
-    if (star_quality(c, bench.star_a, v, mean, bound) < 0.0F) return refuse(Refusal::quality);
+    if (star_quality(c, bench.star_a, v, mean, bound, bench.edit.qualities) < 0.0F) return refuse(Refusal::quality);
     if (!star_positive(c, bench.star_a, v, mean)) return refuse(Refusal::quality);
-    c.move(v, mean, bench.star_a);
+    c.move(v, mean, bench.star_a, bench.edit.qualities);
     return Refusal::committed;
 }
 
@@ -111,7 +114,7 @@ Refusal smooth_optimise(Workbench& bench, VertexId v) {
         bool better = false;
         for (int halving = 0; halving < 6 && !better; ++halving, step *= 0.5) {
             const Vec3 there = place + (step / slope) * uphill;
-            const float least = star_quality(c, bench.star_a, v, there, best);
+            const float least = star_quality(c, bench.star_a, v, there, best, bench.edit.qualities);
             if (least < 0.0F) continue;
             best = least;
             place = there;

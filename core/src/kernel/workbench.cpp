@@ -95,7 +95,7 @@ void Workbench::interface_fan(VertexId v, std::span<const TetId> star, std::vect
 }
 
 std::uint32_t Workbench::new_vertex_epoch() {
-    if (vertex_marks_.size() < complex.vertex_slots()) vertex_marks_.resize(complex.vertex_slots() + complex.vertex_slots() / 8, 0);
+    if (vertex_marks_.size() < complex.vertex_slots()) vertex_marks_.resize(complex.vertex_slots(), 0);
     return ++vertex_epoch_;
 }
 
@@ -131,14 +131,20 @@ void Workbench::neighbours_of(VertexId v, std::span<const TetId> star, std::vect
 
 Refusal Workbench::known_refusal(VertexId v, Trial trial, float accept_above) const {
     if (v >= memory_.size()) return Refusal::committed;
-    const Memory& memory = memory_[v][static_cast<std::size_t>(trial)];
-    const bool same = memory.birth == complex.birth(v) && memory.accept_above == accept_above && complex.vertex_date(v) <= memory.date;
-    return same ? memory.refusal : Refusal::committed;
+    const auto i = static_cast<std::size_t>(trial);
+    const Memory& m = memory_[v];
+    const bool same = m.birth == complex.birth(v) && m.accept_above[i] == accept_above && complex.vertex_date(v) <= m.date[i];
+    return same ? m.refusal[i] : Refusal::committed;
 }
 
 Refusal Workbench::remember(VertexId v, Trial trial, float accept_above, Refusal refusal) {
-    if (memory_.size() < complex.vertex_slots()) memory_.resize(complex.vertex_slots() + complex.vertex_slots() / 8);
-    memory_[v][static_cast<std::size_t>(trial)] = {complex.birth(v), complex.clock(), accept_above, refusal};
+    if (memory_.size() < complex.vertex_slots()) memory_.resize(complex.vertex_slots());
+    const auto i = static_cast<std::size_t>(trial);
+    Memory& m = memory_[v];
+    if (m.birth != complex.birth(v)) m = Memory{complex.birth(v), {}, {}, {}};
+    m.date[i] = complex.clock();
+    m.accept_above[i] = accept_above;
+    m.refusal[i] = refusal;
     return refusal;
 }
 

@@ -111,13 +111,14 @@ private:
     std::vector<std::array<VertexId, 3>> fan_;
     std::vector<Vec3> normals_;
 
+    // What was refused at a vertex, by trial: when, by the change clock, and why.
     struct Memory {
         std::uint32_t birth = 0;
-        std::uint32_t date = 0;  // of the change clock when it was refused
-        float accept_above = 0.0F;
-        Refusal refusal = Refusal::committed;
+        std::array<std::uint32_t, 2> date = {0, 0};
+        std::array<float, 2> accept_above = {0.0F, 0.0F};
+        std::array<Refusal, 2> refusal = {Refusal::committed, Refusal::committed};
     };
-    std::vector<std::array<Memory, 2>> memory_;  // per vertex and trial
+    std::vector<Memory> memory_;  // per vertex
     std::vector<std::uint32_t> vertex_marks_;
     std::uint32_t vertex_epoch_ = 0;
 };

@@ -50,17 +50,13 @@ TetId Complex::allocate_tet() {
     qualities_.push_back(0);
     dates_.push_back(0);
     birth_dates_.push_back(0);
-    changed_.push_back(0);
     marks_.push_back(0);
     return t;
 }
 
 void Complex::touch(TetId t) {
+    if (dates_[t] <= taken_clock_) changes_.push_back(t);
     dates_[t] = clock_;
-    if (changed_[t] != change_round_) {
-        changed_[t] = change_round_;
-        changes_.push_back(t);
-    }
     for (const VertexId v : tets_[t].v) {
         if (vertices_[v].date == clock_) continue;
         vertices_[v].date = clock_;
@@ -71,7 +67,7 @@ void Complex::touch(TetId t) {
 void Complex::take_changes(std::vector<TetId>& out) {
     out.clear();
     std::swap(out, changes_);
-    ++change_round_;
+    taken_clock_ = clock_;
 }
 
 void Complex::set_phases(VertexId v, unsigned phases) {
@@ -113,6 +109,16 @@ void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star
         qualities_[t] = static_cast<float>(
             geometry::tet_quality(this->position(x[0]), this->position(x[1]), this->position(x[2]), this->position(x[3])));
         touch(t);
+    }
+}
+
+void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities) {
+    ++clock_;
+    touched_vertices_.clear();
+    vertices_[v].position = position;
+    for (std::size_t i = 0; i < star.size(); ++i) {
+        qualities_[star[i]] = qualities[i];
+        touch(star[i]);
     }
 }
 
@@ -180,7 +186,7 @@ VertexId Complex::replace(Edit& edit) {
         tets_[t].v[0] = none;
         qualities_[t] = no_quality;
         birth_dates_[t] = clock_;
-        dates_[t] = clock_;
+        dates_[t] = 0;  // whatever takes the slot is listed again
         free_tets_.push_back(t);
     }
     if (edit.deleted != none) {
@@ -205,9 +211,8 @@ Complex Complex::assemble(std::vector<Vec3> points, std::span<const Tet> tets, s
     c.labels_.assign(labels.begin(), labels.end());
     const std::size_t n = tets.size();
     c.qualities_.resize(n);
-    c.dates_.assign(n, 1);
+    c.dates_.assign(n, 0);
     c.birth_dates_.assign(n, 1);
-    c.changed_.assign(n, 0);
     c.marks_.assign(n, 0);
     c.clock_ = 1;
     for (TetId t = 0; t < n; ++t) {

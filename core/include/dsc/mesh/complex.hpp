@@ -148,6 +148,8 @@ public:
     VertexId replace(Edit& edit);
     /// Moves a vertex; `star` are its tets, all positive at the new position. [step]
     void move(VertexId v, const Vec3& position, std::span<const TetId> star);
+    /// The same where the tets' qualities at the new position are known, in the order of the star. [step]
+    void move(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities);
     /// Gives tets another label. [step]
     void relabel(std::span<const TetId> tets, Label label);
 
@@ -196,7 +198,6 @@ private:
     std::vector<float> qualities_;
     std::vector<std::uint32_t> dates_;
     std::vector<std::uint32_t> birth_dates_;
-    std::vector<std::uint32_t> changed_;  // change-list round in which the tet was listed last
     mutable std::vector<std::uint32_t> marks_;
     mutable std::uint32_t epoch_ = 0;
     std::vector<VertexId> free_vertices_;
@@ -206,7 +207,7 @@ private:
     std::vector<TetId> last_added_;
     std::vector<VertexId> touched_vertices_;
     mutable std::vector<TetId> star_scratch_;
-    std::uint32_t change_round_ = 1;
+    std::uint32_t taken_clock_ = 0;  // when the change list was taken last: tets of a later date are listed
     std::uint32_t clock_ = 0;
     std::uint32_t next_birth_ = 0;
     Box3 box_;
