@@ -57,7 +57,7 @@ endfunction()
 # dsc_unit_test(MODULE SOURCES ... [USES modules...] [LINK targets...] [LABELS ...]): doctest executable test_MODULE.
 function(dsc_unit_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;USES;LINK;LABELS" ${ARGN})
-  add_executable(test_${name} ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/tests/unit/main.cpp)
+  add_executable(test_${name} ${arg_SOURCES} $<TARGET_OBJECTS:dsc_test_main>)
   list(TRANSFORM arg_USES PREPEND dsc_ OUTPUT_VARIABLE used)
   target_link_libraries(test_${name} PRIVATE ${used} dsc_flags doctest::doctest ${arg_LINK})
   target_compile_definitions(test_${name} PRIVATE DSC_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
