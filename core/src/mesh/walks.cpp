@@ -31,7 +31,7 @@ void Complex::star(VertexId v, std::vector<TetId>& out) const {
     marks[first] = epoch;
     out.push_back(first);
     for (std::size_t i = 0; i < out.size(); ++i) {
-        const Tet tet = tets[out[i]];
+        const Tet& tet = tets[out[i]];
         for (unsigned f = 0; f < 4; ++f) {
             if (tet.v[f] == v || tet.n[f] == none) continue;
             const TetId next = neighbour_tet(tet.n[f]);
