@@ -5,6 +5,7 @@
 
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
+#include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/local_star.hpp>
 
 namespace dsc::mesh {
@@ -314,6 +315,21 @@ private:
 ProjectReport project_interface(Complex& complex, const std::function<Vec3(const Vec3&)>& nearest,
                                 const ProjectOptions& options) {
     return Projection(complex, nearest, options).run();
+}
+
+TetMesh make_projected(const std::function<TetMesh(std::span<const Shape>)>& make, std::span<const Shape> shapes,
+                       double cell, std::string_view name) {
+    // A tet belongs to a shape when no vertex lies farther outside than this part of a cell: so no tet outside has four
+    // vertices on the interface, and the interface has as much to go inwards as outwards.
+    constexpr double reach = 0.4;
+    std::vector<Shape> reached;
+    for (const Shape& shape : shapes) {
+        reached.push_back(grown(shape, reach * cell));
+        reached.back().rule = ShapeRule::vertices;
+    }
+    Complex complex = adopt(make(reached), name, nullptr, 0.0);
+    project_interface(complex, [&](const Vec3& p) { return nearest_on_surface(shapes, p); });
+    return complex.to_mesh();
 }
 
 }  // namespace dsc::mesh

@@ -1,6 +1,5 @@
 #include "strategy.hpp"
 
-#include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/project.hpp>
 
 namespace dsc::strategies {
@@ -46,10 +45,6 @@ void Grid::declare(config::ParamSchema<Params>& schema) {
         .unit("length")
         .doc("Half the edge of the box.");
     schema.vec3("box_centre", &Params::box_centre).unit("length").doc("Centre of the box.");
-    schema.boolean("project", &Params::project)
-        .doc(
-            "Takes the interface's vertices to the shapes' surface; tets are labelled by their vertices then, "
-            "whatever the shapes' rules say.");
     plugin::declare_shapes(schema);
 }
 
@@ -61,21 +56,9 @@ Grid::Grid(const Params& params, const plugin::Setup&)
       shapes_(params.all()) {}
 
 mesh::TetMesh Grid::build(const hooks::InitialMeshContext& context) {
-    return project_ ? projected(context) : lattice(context, shapes_);
-}
-
-mesh::TetMesh Grid::projected(const hooks::InitialMeshContext& context) const {
-    // Tets whose vertices all lie within this part of a cell outside a shape belong to it: so no tet outside has four
-    // vertices on the interface, and the vertices come from both sides of the surface.
-    constexpr double reach = 0.4;
-    std::vector<mesh::Shape> shapes;
-    for (const mesh::Shape& shape : shapes_) {
-        shapes.push_back(mesh::grown(shape, reach * 2 * box_ / cells_));
-        shapes.back().rule = mesh::ShapeRule::vertices;
-    }
-    mesh::Complex complex = mesh::adopt(lattice(context, shapes), "initial mesh 'grid'", nullptr, 0.0);
-    mesh::project_interface(complex, [this](const Vec3& p) { return mesh::nearest_on_surface(shapes_, p); });
-    return complex.to_mesh();
+    if (!project_) return lattice(context, shapes_);
+    return mesh::make_projected([&](std::span<const mesh::Shape> shapes) { return lattice(context, shapes); }, shapes_,
+                                2 * box_ / cells_, "initial mesh 'grid'");
 }
 
 mesh::TetMesh Grid::lattice(const hooks::InitialMeshContext& context, std::span<const mesh::Shape> shapes) const {

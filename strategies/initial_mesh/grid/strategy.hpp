@@ -17,7 +17,6 @@ public:
         int cells = 30;
         double box = 1.5;
         Vec3 box_centre = Vec3::Zero();
-        bool project = false;
     };
     static void declare(config::ParamSchema<Params>& schema);
 
@@ -29,7 +28,6 @@ public:
 
 private:
     mesh::TetMesh lattice(const hooks::InitialMeshContext& context, std::span<const mesh::Shape> shapes) const;
-    mesh::TetMesh projected(const hooks::InitialMeshContext& context) const;
 
     int cells_;
     double box_;

@@ -4,6 +4,8 @@
 #include <functional>
 
 #include <dsc/mesh/complex.hpp>
+#include <dsc/mesh/shapes.hpp>
+#include <string_view>
 
 namespace dsc::mesh {
 
@@ -27,5 +29,11 @@ struct ProjectReport {
 /// positive; a vertex for which there is no way stays as near as it got. [setup]
 ProjectReport project_interface(Complex& complex, const std::function<Vec3(const Vec3&)>& nearest,
                                 const ProjectOptions& options = {});
+
+/// A generator's mesh with its interface on the surface of the shapes. `make` labels a lattice by the shapes that it is
+/// given: these, grown by a part of `cell`, the edge of the lattice's cells at the surface, and held by all four
+/// vertices. `name` is the generator named in messages. Throws as adopt(). [setup]
+TetMesh make_projected(const std::function<TetMesh(std::span<const Shape>)>& make, std::span<const Shape> shapes,
+                       double cell, std::string_view name);
 
 }  // namespace dsc::mesh
