@@ -24,12 +24,17 @@ void Analytic::declare(config::ParamSchema<Params>& schema) {
         .choice("solution", &Params::solution,
                 {{"start", Solution::start},
                  {"sphere", Solution::sphere},
+                 {"growing_sphere", Solution::growing_sphere},
                  {"shrinking_sphere", Solution::shrinking_sphere}})
         .doc(
             "Where the interface should be: 'start', where it began, for a motion that comes back; 'sphere', on "
-            "a sphere that stays; 'shrinking_sphere', on one whose radius is sqrt(radius^2 - 4 t).");
+            "a sphere that stays; 'growing_sphere', on one whose radius grows with every step; "
+            "'shrinking_sphere', on one whose radius is sqrt(radius^2 - 4 t).");
     schema.vec3("centre", &Params::centre).unit("length").doc("Centre of the sphere.");
     schema.real("radius", &Params::radius).greater(0).unit("length").doc("Radius of the sphere at the start.");
+    schema.real("growth", &Params::growth)
+        .unit("length")
+        .doc("By how much the radius of 'growing_sphere' grows in a step.");
     schema.real("time_step", &Params::time_step)
         .greater(0)
         .unit("length^2")
@@ -38,15 +43,23 @@ void Analytic::declare(config::ParamSchema<Params>& schema) {
         .range(0, 1)
         .open_low()
         .unit("radius")
-        .doc("'shrinking_sphere' is judged until its radius is this part of the start's.");
+        .doc("radius_error judges a sphere that shrinks until its radius is this part of the start's.");
 }
 
 Analytic::Analytic(const Params& params, const plugin::Setup&) : params_(params) {}
 
 double Analytic::true_radius(std::uint64_t step) const {
-    if (params_.solution != Solution::shrinking_sphere) return params_.radius;
-    const double time = params_.time_step * static_cast<double>(step);
-    return std::sqrt(std::max(0.0, params_.radius * params_.radius - 4 * time));
+    const auto steps = static_cast<double>(step);
+    switch (params_.solution) {
+        case Solution::start:
+        case Solution::sphere:
+            return params_.radius;
+        case Solution::growing_sphere:
+            return std::max(0.0, params_.radius + params_.growth * steps);
+        case Solution::shrinking_sphere:
+            return std::sqrt(std::max(0.0, params_.radius * params_.radius - 4 * params_.time_step * steps));
+    }
+    return params_.radius;
 }
 
 double Analytic::true_volume(std::uint64_t step) const {

@@ -11,13 +11,14 @@ namespace dsc::strategies {
 /// surface, so it is meant for complexes of two labels.
 class Analytic final : public hooks::Observer {
 public:
-    /// The solution: the start's own surface (of a motion that comes back, or keeps it), a sphere that stays, or one
-    /// that shrinks by its mean curvature.
-    enum class Solution { start, sphere, shrinking_sphere };
+    /// The solution: the start's own surface (of a motion that comes back, or keeps it), a sphere that stays, one that
+    /// grows by the same length in every step, or one that shrinks by its mean curvature.
+    enum class Solution { start, sphere, growing_sphere, shrinking_sphere };
     struct Params {
         Solution solution = Solution::start;
         Vec3 centre = Vec3::Zero();
         double radius = 1.0;
+        double growth = 0.01;
         double time_step = 1e-3;
         double down_to = 0.5;
     };

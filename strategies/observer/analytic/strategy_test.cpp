@@ -134,6 +134,18 @@ TEST_CASE("shrinking_sphere: sqrt(r^2 - 4 t), judged down to half the radius") {
     CHECK(end(*observer, {}, 26).at("radius_error") < 1e-13);
 }
 
+TEST_CASE("growing_sphere: the radius grows by the same length in every step") {
+    const Bench bench;
+    const auto observer =
+        bench.make(ConfigNode::map({{"solution", "growing_sphere"}, {"radius", 0.5}, {"growth", 0.05}}));
+    const auto mesh = dsc::sdk::icosphere(3, 0.5);
+    begin(*observer, mesh);
+    const Table row = step(*observer, scaled(mesh, 1.4), 4);
+    CHECK(row.at("radius_error") < 1e-13);
+    CHECK(row.at("volume_drift") < 1e-13);
+    CHECK(step(*observer, scaled(mesh, 1.4), 5).at("radius_error") == doctest::Approx(0.05 / 0.75).epsilon(1e-9));
+}
+
 TEST_CASE("shrinking_sphere: an interface that vanished too early is wrong") {
     const Bench bench;
     const auto observer =
