@@ -43,8 +43,12 @@ Outcome drive_to(const Adversary::Destination& destination, std::uint32_t steps,
     test::load_strategies(host);
     run::Experiment experiment;
     experiment.name = "adversary";
-    experiment.initial_mesh = {"grid", config::ConfigNode::map({{"cells", 12}, {"shape", "sphere"}, {"radius", 0.8}, {"project", true}})};
-    experiment.improvement = {"dsc", config::ConfigNode::map({{"topology", config::ConfigNode::map({{"thickness", events ? 1.0 : 0.0}})}})};
+    experiment.initial_mesh = {
+        "grid",
+        config::ConfigNode::map({{"cells", 12}, {"shape", "sphere"}, {"radius", 0.8}, {"project", true}})};
+    experiment.improvement = {
+        "dsc", config::ConfigNode::map(
+                   {{"topology", config::ConfigNode::map({{"thickness", events ? 1.0 : 0.0}})}})};
     experiment.velocity = {"rotate", config::ConfigNode::map()};
     experiment.schedule.push_back({steps, {}, {}});
     run::Strategies strategies = run::make_strategies(experiment, host);
@@ -81,7 +85,8 @@ TEST_CASE("random places near by, new ones in every step") {
         [](const hooks::StepContext& context, std::size_t v) {
             RandomStream random = context.random(context.surface.births[v]);
             const double reach = 2 * context.target_length;
-            return Vec3(context.surface.positions[v] + Vec3(random.uniform(-reach, reach), random.uniform(-reach, reach),
+            return Vec3(context.surface.positions[v] + Vec3(random.uniform(-reach, reach),
+                                                            random.uniform(-reach, reach),
                                                             random.uniform(-reach, reach)));
         },
         5);
@@ -90,7 +95,8 @@ TEST_CASE("random places near by, new ones in every step") {
 
 TEST_CASE("every vertex to the place of the one opposite: through the middle, where the sphere vanishes") {
     const Outcome outcome = drive_to(
-        [](const hooks::StepContext& context, std::size_t v) { return Vec3(-context.surface.positions[v]); }, 10);
+        [](const hooks::StepContext& context, std::size_t v) { return Vec3(-context.surface.positions[v]); },
+        10);
     CHECK(outcome.measure.interface.faces.empty());
     CHECK(outcome.result.totals.events.vanished == 1);
 }
@@ -112,7 +118,8 @@ TEST_CASE("all to one point outside the sphere") {
 }
 
 TEST_CASE("all to the middle of the sphere: it vanishes") {
-    const Outcome outcome = drive_to([](const hooks::StepContext&, std::size_t) { return Vec3(Vec3::Zero()); }, 10);
+    const Outcome outcome =
+        drive_to([](const hooks::StepContext&, std::size_t) { return Vec3(Vec3::Zero()); }, 10);
     CHECK(outcome.measure.interface.faces.empty());
     CHECK(outcome.result.totals.events.vanished == 1);
 }
@@ -135,11 +142,10 @@ TEST_CASE("through the box' walls: clamped to a smaller box, stalled there") {
 }
 
 TEST_CASE("through one wall: pressed flat against it") {
-    const Outcome outcome = drive_to(
-        [](const hooks::StepContext& context, std::size_t v) {
-            return Vec3(context.surface.positions[v] + Vec3(3.0, 0, 0));
-        },
-        10);
+    const Outcome outcome =
+        drive_to([](const hooks::StepContext& context,
+                    std::size_t v) { return Vec3(context.surface.positions[v] + Vec3(3.0, 0, 0)); },
+                 10);
     CHECK(outcome.result.totals.clamped > 0);
     const double margin = 1.5 - 2 * outcome.result.totals.target_length;
     for (const Vec3& p : outcome.result.surface.points) CHECK(p.x() <= margin + 1e-9);

@@ -28,7 +28,8 @@ Outcome run_counting(const std::string& name) {
     host::Host host;
     test::load_strategies(host);
     const run::LoadedExperiment loaded = run::load_experiment(
-        test::config(name), {}, [&](const std::vector<std::string>&) -> const config::StrategyLookup& { return host; });
+        test::config(name), {},
+        [&](const std::vector<std::string>&) -> const config::StrategyLookup& { return host; });
     run::Strategies strategies = run::make_strategies(loaded.experiment, host);
     kernel::Deformer deformer(mesh::adopt(strategies.initial_mesh->build({}), name));
     Outcome outcome;
@@ -50,7 +51,9 @@ Outcome run_counting(const std::string& name) {
         policy.propose = [&](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
             improvement.propose(context, round, out);
         };
-        policy.select = [&](auto candidates, auto accept) { improvement.select(context, candidates, accept); };
+        policy.select = [&](auto candidates, auto accept) {
+            improvement.select(context, candidates, accept);
+        };
         policy.topology = improvement.topology_limits();
         policy.flatness = improvement.flatness();
         const mesh::EventCounts e = deformer.step(view.vertex_ids, displacements, policy).event_counts;

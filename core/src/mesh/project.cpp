@@ -1,12 +1,10 @@
-#include <dsc/mesh/project.hpp>
-
 #include <algorithm>
-#include <iterator>
-
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/local_star.hpp>
+#include <dsc/mesh/project.hpp>
+#include <iterator>
 
 namespace dsc::mesh {
 namespace {
@@ -23,7 +21,8 @@ constexpr double farthest_pushed = 0.9;
 
 class Projection {
 public:
-    Projection(Complex& complex, const std::function<Vec3(const Vec3&)>& nearest, const ProjectOptions& options)
+    Projection(Complex& complex, const std::function<Vec3(const Vec3&)>& nearest,
+               const ProjectOptions& options)
         : complex_(complex), nearest_(nearest), options_(options), local_(complex), floor_(options.quality) {}
 
     ProjectReport run() {
@@ -32,9 +31,10 @@ public:
         while (push_vertices()) collect();
         for (unsigned round = 0; round < options_.rounds; ++round) {
             const bool nearer = approach();
-            const bool better = slide() | relax();
+            const bool slid = slide();
+            const bool relaxed = relax();
             if (nearer) continue;
-            if (off_surface() == 0 && !better) break;
+            if (off_surface() == 0 && !slid && !relaxed) break;
             stuck_ = floor_ == options_.least_quality;
             floor_ = std::max(0.5 * floor_, options_.least_quality);
         }
@@ -88,7 +88,8 @@ private:
             complex_.star(v, star_);
             for (const TetId t : star_) {
                 for (const auto& [i, j] : edge_vertices) {
-                    sum += (complex_.position(complex_.tet(t).v[i]) - complex_.position(complex_.tet(t).v[j])).norm();
+                    sum += (complex_.position(complex_.tet(t).v[i]) - complex_.position(complex_.tet(t).v[j]))
+                               .norm();
                     ++count;
                 }
             }
@@ -101,8 +102,8 @@ private:
         return (nearest_(p) - p).norm() <= arrived * scale_;
     }
     std::size_t off_surface() const {
-        return static_cast<std::size_t>(
-            std::count_if(interface_.begin(), interface_.end(), [this](VertexId v) { return !on_surface(v); }));
+        return static_cast<std::size_t>(std::count_if(interface_.begin(), interface_.end(),
+                                                      [this](VertexId v) { return !on_surface(v); }));
     }
 
     double quality_at(TetId t, VertexId v, const Vec3& position) const {
@@ -111,7 +112,8 @@ private:
             const VertexId w = complex_.tet(t).v[i];
             p[i] = w == v ? position : complex_.position(w);
         }
-        return geometry::orient3d(p[0], p[1], p[2], p[3]) == 1 ? geometry::tet_quality(p[0], p[1], p[2], p[3]) : 0.0;
+        return geometry::orient3d(p[0], p[1], p[2], p[3]) == 1 ? geometry::tet_quality(p[0], p[1], p[2], p[3])
+                                                               : 0.0;
     }
     /// Least quality of the star of v, which star_ holds, with v at `position`.
     double star_quality(VertexId v, const Vec3& position) const {
@@ -186,10 +188,14 @@ private:
 
     /// A place farther away from the opposite face of the worst tet at v.
     Vec3 away_from_worst(VertexId v) const {
-        const TetId worst = *std::min_element(star_.begin(), star_.end(), [this](TetId a, TetId b) { return complex_.quality(a) < complex_.quality(b); });
+        const TetId worst = *std::min_element(star_.begin(), star_.end(), [this](TetId a, TetId b) {
+            return complex_.quality(a) < complex_.quality(b);
+        });
         const Tet& tet = complex_.tet(worst);
         const auto& face = face_vertices[index_of(tet, v)];
-        const Vec3 normal = geometry::triangle_normal(complex_.position(tet.v[face[0]]), complex_.position(tet.v[face[1]]), complex_.position(tet.v[face[2]]));
+        const Vec3 normal =
+            geometry::triangle_normal(complex_.position(tet.v[face[0]]), complex_.position(tet.v[face[1]]),
+                                      complex_.position(tet.v[face[2]]));
         return complex_.position(v) - escape_step * scale_ * normal;
     }
 
@@ -244,7 +250,8 @@ private:
         }
         for (const Label from : labels) {
             std::vector<TetId> region;
-            std::copy_if(star.begin(), star.end(), std::back_inserter(region), [&](TetId t) { return complex_.label(t) == from; });
+            std::copy_if(star.begin(), star.end(), std::back_inserter(region),
+                         [&](TetId t) { return complex_.label(t) == from; });
             const Label to = from == labels[0] ? labels[1] : labels[0];
             if (push_region(region, from, to)) return true;
         }
@@ -263,7 +270,8 @@ private:
         const std::size_t before = trapped_round(touched);
         complex_.relabel(region, to);
         const bool near = std::all_of(touched.begin(), touched.end(), [this](VertexId v) {
-            return !complex_.on_interface(v) || (nearest_(complex_.position(v)) - complex_.position(v)).norm() < farthest_pushed * scale_;
+            return !complex_.on_interface(v) ||
+                   (nearest_(complex_.position(v)) - complex_.position(v)).norm() < farthest_pushed * scale_;
         });
         if (near && trapped_round(touched) < before) {
             report_.relabelled += region.size();
@@ -281,7 +289,8 @@ private:
         }
         std::sort(tets.begin(), tets.end());
         tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
-        return static_cast<std::size_t>(std::count_if(tets.begin(), tets.end(), [this](TetId t) { return trapped(t); }));
+        return static_cast<std::size_t>(
+            std::count_if(tets.begin(), tets.end(), [this](TetId t) { return trapped(t); }));
     }
 
     bool stays_regular(std::span<const VertexId> touched, std::span<const TetId> region, Label label) {
@@ -317,8 +326,8 @@ ProjectReport project_interface(Complex& complex, const std::function<Vec3(const
     return Projection(complex, nearest, options).run();
 }
 
-TetMesh make_projected(const std::function<TetMesh(std::span<const Shape>)>& make, std::span<const Shape> shapes,
-                       double cell, std::string_view name) {
+TetMesh make_projected(const std::function<TetMesh(std::span<const Shape>)>& make,
+                       std::span<const Shape> shapes, double cell, std::string_view name) {
     // A tet belongs to a shape when no vertex lies farther outside than this part of a cell: so no tet outside has four
     // vertices on the interface, and the interface has as much to go inwards as outwards.
     constexpr double reach = 0.4;

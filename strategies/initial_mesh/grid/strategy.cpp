@@ -40,10 +40,7 @@ std::vector<Vec3> lattice_points(unsigned cells, double half, const Vec3& centre
 
 void Grid::declare(config::ParamSchema<Params>& schema) {
     schema.integer("cells", &Params::cells).range(1, 200).unit("1").doc("Cells along each edge of the box.");
-    schema.real("box", &Params::box)
-        .greater(0)
-        .unit("length")
-        .doc("Half the edge of the box.");
+    schema.real("box", &Params::box).greater(0).unit("length").doc("Half the edge of the box.");
     schema.vec3("box_centre", &Params::box_centre).unit("length").doc("Centre of the box.");
     plugin::declare_shapes(schema);
 }
@@ -57,11 +54,12 @@ Grid::Grid(const Params& params, const plugin::Setup&)
 
 mesh::TetMesh Grid::build(const hooks::InitialMeshContext& context) {
     if (!project_) return lattice(context, shapes_);
-    return mesh::make_projected([&](std::span<const mesh::Shape> shapes) { return lattice(context, shapes); }, shapes_,
-                                2 * box_ / cells_, "initial mesh 'grid'");
+    return mesh::make_projected([&](std::span<const mesh::Shape> shapes) { return lattice(context, shapes); },
+                                shapes_, 2 * box_ / cells_, "initial mesh 'grid'");
 }
 
-mesh::TetMesh Grid::lattice(const hooks::InitialMeshContext& context, std::span<const mesh::Shape> shapes) const {
+mesh::TetMesh Grid::lattice(const hooks::InitialMeshContext& context,
+                            std::span<const mesh::Shape> shapes) const {
     const auto cells = static_cast<unsigned>(cells_);
     const unsigned row = cells + 1;
     mesh::TetMesh out;

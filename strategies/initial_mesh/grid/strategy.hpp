@@ -27,7 +27,8 @@ public:
     mesh::TetMesh build(const hooks::InitialMeshContext& context) override;
 
 private:
-    mesh::TetMesh lattice(const hooks::InitialMeshContext& context, std::span<const mesh::Shape> shapes) const;
+    mesh::TetMesh lattice(const hooks::InitialMeshContext& context,
+                          std::span<const mesh::Shape> shapes) const;
 
     int cells_;
     double box_;

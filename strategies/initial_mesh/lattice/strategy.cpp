@@ -34,10 +34,7 @@ void Lattice::declare(config::ParamSchema<Params>& schema) {
         .greater(0)
         .unit("length")
         .doc("Edge of the finest cells; unset: that of 'cells' in the box.");
-    schema.real("box", &Params::box)
-        .greater(0)
-        .unit("length")
-        .doc("Half the edge of the box, at least.");
+    schema.real("box", &Params::box).greater(0).unit("length").doc("Half the edge of the box, at least.");
     schema.vec3("box_centre", &Params::box_centre).unit("length").doc("Centre of the box.");
     schema.integer("layers", &Params::layers)
         .range(2, 64)
@@ -83,7 +80,9 @@ mesh::TetMesh Lattice::build(const hooks::InitialMeshContext& context) {
         frame.length = *params_.cell;
         frame.units = 2.0;
     }
-    const auto make = [&](std::span<const mesh::Shape> shapes) { return tiled(frame, top, shapes, context.cancel); };
+    const auto make = [&](std::span<const mesh::Shape> shapes) {
+        return tiled(frame, top, shapes, context.cancel);
+    };
     if (!params_.project) return make(shapes_);
     return mesh::make_projected(make, shapes_, frame.cell(), "initial mesh 'lattice'");
 }

@@ -72,7 +72,8 @@ SphereComparison compare_with_sphere(const surface::TriangleMesh& mesh, const Ve
         out.largest_distance = std::max(out.largest_distance, radius - (nearest - centre).norm());
     }
     if (area > 0) out.radius = weighted / area;
-    out.mean_distance = mean_over(mesh, [&](const Vec3& p) { return std::abs((p - centre).norm() - radius); });
+    out.mean_distance =
+        mean_over(mesh, [&](const Vec3& p) { return std::abs((p - centre).norm() - radius); });
     return out;
 }
 

@@ -7,7 +7,8 @@ namespace dsc::strategies {
 
 /// In the units of the mesh. All are 0 for a mesh without faces.
 struct SphereComparison {
-    double radius = 0.0;            ///< mean distance of the vertices from the centre, each weighted by the area round it
+    double radius =
+        0.0;  ///< mean distance of the vertices from the centre, each weighted by the area round it
     double mean_distance = 0.0;     ///< of the surface from the sphere, over its area
     double largest_distance = 0.0;  ///< exact: of vertices outside, of face interiors inside
 };

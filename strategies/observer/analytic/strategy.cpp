@@ -27,11 +27,15 @@ void Analytic::declare(config::ParamSchema<Params>& schema) {
                  {"growing_sphere", Solution::growing_sphere},
                  {"shrinking_sphere", Solution::shrinking_sphere}})
         .doc(
-            "Where the interface should be: 'start', where it began, for a motion that comes back; 'sphere', on "
+            "Where the interface should be: 'start', where it began, for a motion that comes back; 'sphere', "
+            "on "
             "a sphere that stays; 'growing_sphere', on one whose radius grows with every step; "
             "'shrinking_sphere', on one whose radius is sqrt(radius^2 - 4 t).");
     schema.vec3("centre", &Params::centre).unit("length").doc("Centre of the sphere.");
-    schema.real("radius", &Params::radius).greater(0).unit("length").doc("Radius of the sphere at the start.");
+    schema.real("radius", &Params::radius)
+        .greater(0)
+        .unit("length")
+        .doc("Radius of the sphere at the start.");
     schema.real("growth", &Params::growth)
         .unit("length")
         .doc("By how much the radius of 'growing_sphere' grows in a step.");
@@ -99,8 +103,11 @@ hooks::Figures Analytic::figures_now(const hooks::StepContext& context) {
     const double off = std::abs(surface::volume(now_) - expected);
     const auto vertices = static_cast<double>(now_.points.size());
     hooks::Figures out;
-    out.emplace_back("volume_drift", expected > 0 ? off / expected : start_volume_ > 0 ? off / start_volume_ : 0.0);
-    out.emplace_back("vertex_ratio", start_vertices_ > 0 ? vertices / static_cast<double>(start_vertices_) : 0.0);
+    out.emplace_back("volume_drift", expected > 0        ? off / expected
+                                     : start_volume_ > 0 ? off / start_volume_
+                                                         : 0.0);
+    out.emplace_back("vertex_ratio",
+                     start_vertices_ > 0 ? vertices / static_cast<double>(start_vertices_) : 0.0);
     if (params_.solution != Solution::start) add_sphere_figures(context, out);
     return out;
 }
@@ -124,8 +131,8 @@ hooks::Figures Analytic::end(const hooks::StepContext& context) {
 
 void Analytic::save(std::ostream& out) const {
     out.precision(std::numeric_limits<double>::max_digits10);
-    out << start_vertices_ << ' ' << start_volume_ << ' ' << start_distance_ << ' ' << worst_radius_error_ << ' '
-        << start_.points.size() << ' ' << start_.faces.size() << '\n';
+    out << start_vertices_ << ' ' << start_volume_ << ' ' << start_distance_ << ' ' << worst_radius_error_
+        << ' ' << start_.points.size() << ' ' << start_.faces.size() << '\n';
     for (const Vec3& p : start_.points) out << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
     for (const auto& [a, b, c] : start_.faces) out << a << ' ' << b << ' ' << c << '\n';
 }
@@ -145,7 +152,9 @@ void Analytic::load(std::istream& in) {
         in >> face[0] >> face[1] >> face[2];
         start_.faces.push_back(face);
     }
-    if (!in) throw StrategyError("observer.state", "observer 'analytic': the saved state is damaged; start the run anew");
+    if (!in)
+        throw StrategyError("observer.state",
+                            "observer 'analytic': the saved state is damaged; start the run anew");
     surface::require_sound(start_);
 }
 

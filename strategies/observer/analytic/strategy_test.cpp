@@ -143,7 +143,8 @@ TEST_CASE("growing_sphere: the radius grows by the same length in every step") {
     const Table row = step(*observer, scaled(mesh, 1.4), 4);
     CHECK(row.at("radius_error") < 1e-13);
     CHECK(row.at("volume_drift") < 1e-13);
-    CHECK(step(*observer, scaled(mesh, 1.4), 5).at("radius_error") == doctest::Approx(0.05 / 0.75).epsilon(1e-9));
+    CHECK(step(*observer, scaled(mesh, 1.4), 5).at("radius_error") ==
+          doctest::Approx(0.05 / 0.75).epsilon(1e-9));
 }
 
 TEST_CASE("shrinking_sphere: an interface that vanished too early is wrong") {

@@ -10,7 +10,8 @@ void CurvatureFlow::declare(config::ParamSchema<Params>& schema) {
         .greater(0)
         .unit("length^2")
         .doc(
-            "Time of a step. The step is explicit: above about an eighth of the squared shortest edge neighbouring "
+            "Time of a step. The step is explicit: above about an eighth of the squared shortest edge "
+            "neighbouring "
             "vertices overtake each other.");
     schema.strategy("curvature", &Params::curvature, "curvature")
         .doc("Estimator of the mean curvature normal, 1/r on a sphere of radius r.");
@@ -32,7 +33,8 @@ void CurvatureFlow::evaluate(hooks::Range range, std::span<Vec3> out) const {
     for (std::size_t done = 0; done < out.size(); done += piece) {
         const std::size_t count = std::min(piece, out.size() - done);
         const std::size_t first = range.begin + done;
-        curvature_->evaluate({first, first + count}, std::span(scalar).first(count), out.subspan(done, count));
+        curvature_->evaluate({first, first + count}, std::span(scalar).first(count),
+                             out.subspan(done, count));
     }
     for (std::size_t i = 0; i < out.size(); ++i) {
         const bool movable = surface_->movable[range.begin + i] != 0;

@@ -13,9 +13,9 @@ struct Field {
     Vec3 centre = Vec3::Zero();
     Vec3 axis = Vec3(1, 0, 0);    ///< direction of translate and shear, axis of rotate, line of part
     Vec3 across = Vec3(0, 1, 0);  ///< the direction in which the speed of shear grows
-    double speed = 1.0;           ///< of translate and part, length/time; of shear and rotate per length, radians/time
-    double width = 0.25;          ///< of the layer between the two sides of part
-    double period = 3.0;          ///< of enright
+    double speed = 1.0;  ///< of translate and part, length/time; of shear and rotate per length, radians/time
+    double width = 0.25;  ///< of the layer between the two sides of part
+    double period = 3.0;  ///< of enright
 };
 
 /// Velocity at a point and a time:

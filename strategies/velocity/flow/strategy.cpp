@@ -11,8 +11,10 @@ void Flow::declare(config::ParamSchema<Params>& schema) {
                  {"part", FieldKind::part},
                  {"enright", FieldKind::enright}})
         .doc(
-            "'translate' along axis; 'rotate' about it; 'shear' along it, faster the farther across; 'part', two "
-            "sides apart along axis, or together; 'enright', the deformation of the unit cube that comes back.");
+            "'translate' along axis; 'rotate' about it; 'shear' along it, faster the farther across; 'part', "
+            "two "
+            "sides apart along axis, or together; 'enright', the deformation of the unit cube that comes "
+            "back.");
     schema.vec3("centre", static_cast<Vec3 Params::*>(&Params::centre))
         .unit("length")
         .doc("Where rotate, shear and part have no speed.");
@@ -58,7 +60,8 @@ void Flow::prepare(const hooks::StepContext& context) {
 }
 
 void Flow::evaluate(hooks::Range range, std::span<Vec3> out) const {
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = displacement_of(surface_->positions[range.begin + i]);
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = displacement_of(surface_->positions[range.begin + i]);
 }
 
 void Flow::sample(std::span<const Vec3> points, std::span<const Vec3>, std::span<Vec3> out) const {

@@ -92,8 +92,7 @@ TEST_CASE("enright: nothing crosses the cube's walls, and at t = T everything is
     const Field field = field_of(FieldKind::enright);
     CHECK(std::abs(velocity(field, Vec3(1, 0.3, 0.4), 0.1).x()) < 1e-15);
     CHECK(std::abs(velocity(field, Vec3(0.3, 0, 0.4), 0.1).y()) < 1e-15);
-    CHECK(velocity(field, Vec3(0.25, 0.25, 0.25), 0.0)
-              .isApprox(Vec3(2 * 0.5 * 1 * 1, -0.5, -0.5), 1e-14));
+    CHECK(velocity(field, Vec3(0.25, 0.25, 0.25), 0.0).isApprox(Vec3(2 * 0.5 * 1 * 1, -0.5, -0.5), 1e-14));
     const Bench bench;
     const auto flow = bench.make(ConfigNode::map({{"field", "enright"}, {"time_step", 0.05}}));
     const auto start = dsc::sdk::moved(dsc::sdk::icosphere(2, 0.15),

@@ -14,7 +14,8 @@ using dsc::config::ConfigNode;
 struct Bench {
     Bench() { host.load(DSC_TEST_PLUGIN); }
     std::unique_ptr<dsc::hooks::VelocityField> make(double speed) const {
-        return host.create<dsc::hooks::VelocityField>({"normal", ConfigNode::map({{"speed", speed}})}, "velocity");
+        return host.create<dsc::hooks::VelocityField>({"normal", ConfigNode::map({{"speed", speed}})},
+                                                      "velocity");
     }
     dsc::host::Host host;
 };

@@ -29,8 +29,7 @@ void Rotate::declare(config::ParamSchema<Params>& schema) {
 }
 
 Rotate::Rotate(const Params& params, const plugin::Setup&)
-    : centre_(params.centre),
-      change_(change_by_rotation(params.axis, params.degrees * radians_per_degree)) {}
+    : centre_(params.centre), change_(change_by_rotation(params.axis, params.degrees * radians_per_degree)) {}
 
 void Rotate::prepare(const hooks::StepContext& context) { surface_ = &context.surface; }
 

@@ -90,7 +90,8 @@ TEST_CASE("the answer does not depend on blocks and threads") {
     const auto field = bench.make(ConfigNode::map({{"axis", vector(1, 1, 0)}}));
     const auto view = dsc::sdk::view_of(dsc::sdk::icosphere(3, 1.0));
     const auto context = dsc::sdk::step_context(view);
-    CHECK(dsc::sdk::displacements(*field, context, 1, 1000) == dsc::sdk::displacements(*field, context, 3, 17));
+    CHECK(dsc::sdk::displacements(*field, context, 1, 1000) ==
+          dsc::sdk::displacements(*field, context, 3, 17));
 }
 
 TEST_CASE("an axis without direction is refused") {

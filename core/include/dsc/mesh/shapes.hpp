@@ -40,8 +40,8 @@ Vec3 nearest_on_border(const Shape& shape, const Vec3& point);
 Shape grown(Shape shape, double by);
 
 /// A point of the surface between the labels of the shapes near to `point`: the nearest on that border which is not
-/// covered by a later shape; where borders meet, the crease, found by going to and fro between them. The point itself
-/// without such a border. [parallel]
+/// covered by a later shape; where borders meet, one near the crease, found by going to and fro between them, which
+/// need not be the very nearest. The point itself without such a border. [parallel]
 Vec3 nearest_on_surface(std::span<const Shape> shapes, const Vec3& point);
 
 /// Whether the shape holds a tet, by its rule.
