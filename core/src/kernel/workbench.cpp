@@ -115,20 +115,6 @@ void Workbench::shared_interface_vertices(std::vector<VertexId>& out) {
     std::sort(out.begin(), out.end());
 }
 
-void Workbench::neighbours_of(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out) {
-    const std::uint32_t listed = new_vertex_epoch();
-    vertex_marks_[v] = listed;
-    out.clear();
-    for (const TetId t : star) {
-        for (const VertexId w : complex.tet(t).v) {
-            if (vertex_marks_[w] == listed) continue;
-            vertex_marks_[w] = listed;
-            out.push_back(w);
-        }
-    }
-    std::sort(out.begin(), out.end(), [this](VertexId x, VertexId y) { return complex.birth(x) < complex.birth(y); });
-}
-
 Refusal Workbench::known_refusal(VertexId v, Trial trial, float accept_above) const {
     if (v >= memory_.size()) return Refusal::committed;
     const auto i = static_cast<std::size_t>(trial);
@@ -137,12 +123,12 @@ Refusal Workbench::known_refusal(VertexId v, Trial trial, float accept_above) co
     return same ? m.refusal[i] : Refusal::committed;
 }
 
-Refusal Workbench::remember(VertexId v, Trial trial, float accept_above, Refusal refusal) {
+Refusal Workbench::remember(VertexId v, Trial trial, float accept_above, Refusal refusal, std::uint32_t date) {
     if (memory_.size() < complex.vertex_slots()) memory_.resize(complex.vertex_slots());
     const auto i = static_cast<std::size_t>(trial);
     Memory& m = memory_[v];
     if (m.birth != complex.birth(v)) m = Memory{complex.birth(v), {}, {}, {}};
-    m.date[i] = complex.clock();
+    m.date[i] = date;
     m.accept_above[i] = accept_above;
     m.refusal[i] = refusal;
     return refusal;

@@ -1,6 +1,7 @@
 #include <dsc/mesh/complex.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <numeric>
 
@@ -50,7 +51,6 @@ TetId Complex::allocate_tet() {
     qualities_.push_back(0);
     dates_.push_back(0);
     birth_dates_.push_back(0);
-    marks_.push_back(0);
     return t;
 }
 
@@ -112,14 +112,34 @@ void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star
     }
 }
 
-void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities) {
+void Complex::place(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities) {
+    vertices_[v].position = position;
+    for (std::size_t i = 0; i < star.size(); ++i) qualities_[star[i]] = qualities[i];
+}
+
+void Complex::note_change(std::span<const TetId> star) {
     ++clock_;
     touched_vertices_.clear();
-    vertices_[v].position = position;
-    for (std::size_t i = 0; i < star.size(); ++i) {
-        qualities_[star[i]] = qualities[i];
-        touch(star[i]);
+    for (const TetId t : star) touch(t);
+}
+
+void Complex::date_star(std::span<const TetId> star, std::uint32_t clock, std::vector<TetId>& changed) {
+    for (const TetId t : star) {
+        if (dates_[t] <= taken_clock_) changed.push_back(t);
+        dates_[t] = clock;
+        for (const VertexId v : tets_[t].v) {
+            // Another star may share the vertex: the latest date stays, whoever comes first.
+            const std::atomic_ref<std::uint32_t> date(vertices_[v].date);
+            std::uint32_t before = date.load(std::memory_order_relaxed);
+            while (before < clock && !date.compare_exchange_weak(before, clock, std::memory_order_relaxed)) {
+            }
+        }
     }
+}
+
+void Complex::note_changes(std::uint32_t clock, std::span<const TetId> changed) {
+    clock_ = clock;
+    changes_.insert(changes_.end(), changed.begin(), changed.end());
 }
 
 void Complex::relabel(std::span<const TetId> tets, Label label) {
@@ -186,7 +206,6 @@ VertexId Complex::replace(Edit& edit) {
         tets_[t].v[0] = none;
         qualities_[t] = no_quality;
         birth_dates_[t] = clock_;
-        dates_[t] = 0;  // whatever takes the slot is listed again
         free_tets_.push_back(t);
     }
     if (edit.deleted != none) {
@@ -213,7 +232,6 @@ Complex Complex::assemble(std::vector<Vec3> points, std::span<const Tet> tets, s
     c.qualities_.resize(n);
     c.dates_.assign(n, 0);
     c.birth_dates_.assign(n, 1);
-    c.marks_.assign(n, 0);
     c.clock_ = 1;
     for (TetId t = 0; t < n; ++t) {
         const auto& v = c.tets_[t].v;
