@@ -25,17 +25,18 @@ bool RepairQueues::awake(VertexId v, std::uint32_t blocked_at) {
 std::span<const TetId> RepairQueues::next_round() {
     const std::uint32_t previous_clock = last_clock_;
     last_clock_ = complex_.clock();
-    dirty_.clear();
-    complex_.take_changes(changes_);
+    complex_.take_changes(dirty_);
+    std::size_t offered = 0;
+    for (const TetId t : dirty_) {
+        if (complex_.tet_alive(t) && !lost()) dirty_[offered++] = t;
+    }
+    dirty_.resize(offered);
     // Of a slot's failures in a round the first one counts.
     seen_.clear();
     for (const Failure& failure : failed_now_) {
         if (seen_.insert(failure.tet)) failed_.push_back(failure);
     }
     failed_now_.clear();
-    for (const TetId t : changes_) {
-        if (complex_.tet_alive(t) && !lost()) dirty_.push_back(t);
-    }
     seen_.clear();
     std::size_t kept = 0;
     for (const Failure& failure : failed_) {

@@ -42,7 +42,6 @@ private:
     mesh::Complex& complex_;
     bool audit_;
     std::uint64_t drop_;
-    std::vector<TetId> changes_;
     std::vector<TetId> dirty_;
     std::vector<Failure> failed_;
     std::vector<Failure> failed_now_;

@@ -68,7 +68,7 @@ public:
 
 private:
     static constexpr std::size_t most_blocks = 64;
-    static constexpr std::size_t least_block = 4096;  // vertices
+    static constexpr std::size_t least_block = 2048;  // vertices
     static constexpr std::uint8_t no_block = 0xff;
 
     struct Entry {
@@ -144,7 +144,7 @@ private:
     void date_wave(std::size_t count, Workers* workers);
 
     mesh::Complex& complex_;
-    std::array<Block, 16> blocks_;  // a wave of them, so that the stars that they keep stay few
+    std::array<Block, 8> blocks_;  // a wave of them, so that the stars that they keep stay few
     std::size_t block_count_ = 0;
     std::size_t wave_ = 0;                // first block of the wave
     std::vector<std::uint8_t> block_of_;  // a vertex of the list; no_block for any other

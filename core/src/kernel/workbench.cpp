@@ -101,13 +101,13 @@ std::uint32_t Workbench::new_vertex_epoch() {
 
 void Workbench::shared_interface_vertices(std::vector<VertexId>& out) {
     out.clear();
-    const std::uint32_t near_a = new_vertex_epoch(), listed = new_vertex_epoch();
+    const std::uint32_t first_star = new_vertex_epoch(), listed = new_vertex_epoch();
     for (const TetId t : star_a) {
-        for (const VertexId w : complex.tet(t).v) vertex_marks_[w] = near_a;
+        for (const VertexId w : complex.tet(t).v) vertex_marks_[w] = first_star;
     }
     for (const TetId t : star_b) {
         for (const VertexId w : complex.tet(t).v) {
-            if (vertex_marks_[w] != near_a || !complex.on_interface(w)) continue;
+            if (vertex_marks_[w] != first_star || !complex.on_interface(w)) continue;
             vertex_marks_[w] = listed;
             out.push_back(w);
         }

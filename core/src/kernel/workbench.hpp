@@ -65,7 +65,7 @@ public:
     // Scratch of the operations; whoever needs one fills it.
     mesh::EdgeRing ring, ring2;
     std::vector<TetId> star_a, star_b;
-    std::vector<VertexId> vertices;
+    std::vector<VertexId> vertices, near_a, near_b;
     StarScratch scratch;
     std::vector<std::array<VertexId, 3>> fan, faces;
 
