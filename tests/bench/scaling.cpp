@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <dsc/base/error.hpp>
 #include <dsc/mesh/validate.hpp>
+#include <dsc/run/sha256.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -118,6 +119,18 @@ config::StrategyConfig mesh_for(const Arguments& arguments, double n) {
     return strategy(arguments.mesh, parameters);
 }
 
+// SHA-256 of points, tets and labels: equal for the same bits.
+std::string digest(const mesh::TetMesh& mesh) {
+    std::string bytes;
+    const auto append = [&bytes](const auto& list) {
+        bytes.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof list[0]);
+    };
+    append(mesh.points);
+    append(mesh.tets);
+    append(mesh.labels);
+    return run::sha256(bytes);
+}
+
 // One sphere: built, then moved on in a straight line by the same part of its edges each step. The first step, which looks
 // at the whole mesh and lets the arrays grow, is not measured.
 Json measure(const Arguments& arguments, double n) {
@@ -160,7 +173,8 @@ Json measure(const Arguments& arguments, double n) {
                 {"dropped_part", dropped},
                 {"rss_mb", rss_mb() - rss_before},
                 {"kb_per_vertex", 1e3 * (rss_mb() - rss_before) / vertices},
-                {"peak_rss_mb", peak_rss_mb()}};
+                {"peak_rss_mb", peak_rss_mb()},
+                {"digest", digest(body.deformer().complex().to_mesh())}};
     if (arguments.validate) row["valid"] = mesh::validate(body.deformer().complex()).valid();
     return row;
 }

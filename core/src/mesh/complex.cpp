@@ -152,13 +152,45 @@ void Complex::relabel(std::span<const TetId> tets, Label label) {
     for (const VertexId v : touched_vertices_) refresh_phases(v);
 }
 
+// Whether the labels round some vertices may become others; then relabelled_ are the existing ones among them. Where a vertex
+// has the same labels in the cavity before and after, as in nearly every edit, its star keeps them, too.
+bool Complex::find_relabelled(const Edit& edit) {
+    relabelled_.clear();
+    const Label first = edit.added.empty() ? 0 : edit.added.front().label;
+    const auto same = [first](Label label) { return label == first; };
+    if (std::all_of(edit.removed.begin(), edit.removed.end(), [&](TetId t) { return same(labels_[t]); }) &&
+        std::all_of(edit.added.begin(), edit.added.end(), [&](const NewTet& t) { return same(t.label); })) {
+        return false;
+    }
+    places_.clear();
+    cavity_labels_.clear();
+    // A set of labels as bits, exact for labels up to 63; beyond, every vertex of the cavity is looked at.
+    const auto bit = [](Label label) { return std::uint64_t{1} << (static_cast<std::uint32_t>(label) & 63U); };
+    const auto note = [&](VertexId v, Label label, std::size_t when) {
+        if (v == created_vertex) return;
+        if (places_.insert(v)) cavity_labels_.push_back({v, {0, 0}});
+        cavity_labels_[places_.find(v)].labels[when] |= bit(label);
+    };
+    const auto small = [](Label label) { return label >= 0 && label < 64; };
+    bool exact = true;
+    for (const TetId t : edit.removed) {
+        exact = exact && small(labels_[t]);
+        for (const VertexId v : tets_[t].v) note(v, labels_[t], 0);
+    }
+    for (const NewTet& tet : edit.added) {
+        exact = exact && small(tet.label);
+        for (const VertexId v : tet.v) note(v, tet.label, 1);
+    }
+    for (const CavityLabels& entry : cavity_labels_) {
+        if (entry.vertex != edit.deleted && (!exact || entry.labels[0] != entry.labels[1])) relabelled_.push_back(entry.vertex);
+    }
+    return true;
+}
+
 VertexId Complex::replace(Edit& edit) {
     ++clock_;
     touched_vertices_.clear();
-    bool one_label = true;
-    const Label first = edit.added.empty() ? 0 : edit.added.front().label;
-    for (const TetId t : edit.removed) one_label = one_label && labels_[t] == first;
-    for (const NewTet& tet : edit.added) one_label = one_label && tet.label == first;
+    const bool several_labels = find_relabelled(edit);
 
     VertexId created = none;
     if (edit.creates) created = allocate_vertex(edit.created_at);
@@ -213,9 +245,8 @@ VertexId Complex::replace(Edit& edit) {
         vertices_[edit.deleted].seed = none;
         free_vertices_.push_back(edit.deleted);
     }
-    if (!one_label) {
-        for (const VertexId v : touched_vertices_) refresh_phases(v);
-    }
+    for (const VertexId v : relabelled_) refresh_phases(v);
+    if (several_labels && created != none) refresh_phases(created);
     return created;
 }
 

@@ -197,6 +197,7 @@ private:
     TetId allocate_tet();
     void note_change(std::span<const TetId> star);
     void touch(TetId t);
+    bool find_relabelled(const Edit& edit);
     void refresh_phases(VertexId v);
     void set_phases(VertexId v, unsigned phases);
 
@@ -212,6 +213,12 @@ private:
     std::vector<TetId> changes_;
     std::vector<TetId> last_added_;
     std::vector<VertexId> touched_vertices_;
+    struct CavityLabels {
+        VertexId vertex;
+        std::array<std::uint64_t, 2> labels;  // before and after
+    };
+    std::vector<CavityLabels> cavity_labels_;
+    std::vector<VertexId> relabelled_;
     mutable std::vector<TetId> star_scratch_;
     mutable TetIndex places_;
     std::uint32_t taken_clock_ = 0;  // when the change list was taken last: tets of a later date are listed
