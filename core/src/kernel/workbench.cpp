@@ -119,18 +119,17 @@ Refusal Workbench::known_refusal(VertexId v, Trial trial, float accept_above) co
     if (v >= memory_.size()) return Refusal::committed;
     const auto i = static_cast<std::size_t>(trial);
     const Memory& m = memory_[v];
-    const bool same = m.birth == complex.birth(v) && m.accept_above[i] == accept_above && complex.vertex_date(v) <= m.date[i];
-    return same ? m.refusal[i] : Refusal::committed;
+    if (complex.vertex_date(v) > m.date[i]) return Refusal::committed;
+    return trial == Trial::laplacian && m.accept_above != accept_above ? Refusal::committed : m.refusal[i];
 }
 
 Refusal Workbench::remember(VertexId v, Trial trial, float accept_above, Refusal refusal, std::uint32_t date) {
     if (memory_.size() < complex.vertex_slots()) memory_.resize(complex.vertex_slots());
     const auto i = static_cast<std::size_t>(trial);
     Memory& m = memory_[v];
-    if (m.birth != complex.birth(v)) m = Memory{complex.birth(v), {}, {}, {}};
     m.date[i] = date;
-    m.accept_above[i] = accept_above;
     m.refusal[i] = refusal;
+    if (trial == Trial::laplacian) m.accept_above = accept_above;
     return refusal;
 }
 

@@ -115,11 +115,11 @@ private:
     std::vector<std::array<VertexId, 3>> fan_;
     std::vector<Vec3> normals_;
 
-    // What was refused at a vertex, by trial: when, by the change clock, and why.
+    // What was refused at a vertex, by trial: when, by the change clock, and why. The star of a vertex that takes the slot of
+    // another is younger than what was remembered of that one.
     struct Memory {
-        std::uint32_t birth = 0;
         std::array<std::uint32_t, 2> date = {0, 0};
-        std::array<float, 2> accept_above = {0.0F, 0.0F};
+        float accept_above = 0.0F;  // of the Laplacian; the other trial has no bound
         std::array<Refusal, 2> refusal = {Refusal::committed, Refusal::committed};
     };
     std::vector<Memory> memory_;  // per vertex

@@ -35,7 +35,7 @@ VertexId Complex::allocate_vertex(const Vec3& position) {
         free_vertices_.pop_back();
     }
     // Dated before this change, so that touch() lists it.
-    vertices_[v] = {position, none, next_birth_++, clock_ - 1, none, 1, false};
+    vertices_[v] = {position, none, next_birth_++, clock_ - 1, no_slot, 1, 0};
     return v;
 }
 
@@ -72,17 +72,17 @@ void Complex::take_changes(std::vector<TetId>& out) {
 
 void Complex::set_phases(VertexId v, unsigned phases) {
     Vertex& vertex = vertices_[v];
-    vertex.phases = static_cast<std::uint8_t>(phases);
-    const bool listed = vertex.interface_slot != none;
+    vertex.phases = phases & 3U;
+    const bool listed = vertex.interface_slot != no_slot;
     if (phases > 1 && !listed) {
-        vertex.interface_slot = static_cast<std::uint32_t>(interface_.size());
+        vertex.interface_slot = static_cast<std::uint32_t>(interface_.size()) & no_slot;
         interface_.push_back(v);
     } else if (phases <= 1 && listed) {
         const VertexId last = interface_.back();
         interface_[vertex.interface_slot] = last;
         vertices_[last].interface_slot = vertex.interface_slot;
         interface_.pop_back();
-        vertex.interface_slot = none;
+        vertex.interface_slot = no_slot;
     }
 }
 
@@ -96,7 +96,7 @@ void Complex::refresh_phases(VertexId v) {
         }
     };
     for (const TetId t : star_scratch_) note(labels_[t]);
-    if (vertices_[v].on_box) note(0);
+    if (on_box(v)) note(0);
     set_phases(v, count);
 }
 
@@ -254,7 +254,7 @@ Complex Complex::assemble(std::vector<Vec3> points, std::span<const Tet> tets, s
     Complex c;
     c.vertices_.reserve(points.size());
     for (const Vec3& p : points) {
-        c.vertices_.push_back({p, none, c.next_birth_++, 0, none, 1, false});
+        c.vertices_.push_back({p, none, c.next_birth_++, 0, no_slot, 1, 0});
         c.box_.extend(p);
     }
     c.tets_.assign(tets.begin(), tets.end());
@@ -271,7 +271,7 @@ Complex Complex::assemble(std::vector<Vec3> points, std::span<const Tet> tets, s
         for (unsigned f = 0; f < 4; ++f) {
             c.vertices_[v[f]].seed = t;
             if (c.tets_[t].n[f] != none) continue;
-            for (const auto i : face_vertices[f]) c.vertices_[v[i]].on_box = true;
+            for (const auto i : face_vertices[f]) c.vertices_[v[i]].on_box = 1;
         }
         c.touch(t);
     }

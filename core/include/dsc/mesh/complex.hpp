@@ -116,12 +116,12 @@ public:
     std::uint32_t birth(VertexId v) const { return vertices_[v].birth; }
 
     Box3 box() const { return box_; }
-    bool on_box(VertexId v) const { return vertices_[v].on_box; }
+    bool on_box(VertexId v) const { return vertices_[v].on_box != 0; }
     /// Number of different labels in the star, the outside of the box counting as 0; capped at 3.
     unsigned phases(VertexId v) const { return vertices_[v].phases; }
     bool on_interface(VertexId v) const { return vertices_[v].phases > 1; }
     /// Interface, not on the box, not where three labels meet.
-    bool movable(VertexId v) const { return vertices_[v].phases == 2 && !vertices_[v].on_box; }
+    bool movable(VertexId v) const { return vertices_[v].phases == 2 && vertices_[v].on_box == 0; }
     /// All interface vertices, in no promised order (sort by birth).
     std::span<const VertexId> interface_vertices() const { return interface_; }
     /// Label behind face i: of the neighbour, or 0 outside the box.
@@ -188,10 +188,12 @@ private:
         TetId seed;
         std::uint32_t birth;
         std::uint32_t date;
-        std::uint32_t interface_slot;  // index into interface_, none if not there
-        std::uint8_t phases;
-        bool on_box;
+        std::uint32_t interface_slot : 29;  // index into interface_, no_slot if not there
+        std::uint32_t phases : 2;
+        std::uint32_t on_box : 1;
     };
+    static_assert(sizeof(Vertex) == 40);
+    static constexpr std::uint32_t no_slot = (1U << 29U) - 1;
 
     VertexId allocate_vertex(const Vec3& position);
     TetId allocate_tet();
