@@ -113,7 +113,7 @@ class Bench:
             return "Instructions are left out: valgrind is not installed.\n"
         say("instructions of scaling under callgrind")
         # A uniform grid for 20,000 vertices takes callgrind minutes to build.
-        sizes = [300, 600] if self.quick else [2000, 6000, 20000] if self.mesh() else [2000, 6000]
+        sizes = [300, 600] if self.quick else [2000, 6000, 20000, 60000, 200000] if self.mesh() else [2000, 6000]
         steps = 2 if self.quick else 3
         rows = []
         for n in sizes:
