@@ -15,7 +15,9 @@ void report(const run::RunOutcome& outcome) {
                     "quality {:.3g}",
                     run::name(outcome.totals.status), outcome.totals.steps, s.vertices, s.faces, s.components,
                     s.components == 1 ? "" : "s", s.genus, outcome.volume.tets, outcome.volume.min_quality));
-    if (outcome.surface.solid()) {
+    if (outcome.surfaces.empty()) {
+        log(LogLevel::warning, "the surface vanished: no tet with a label above 0 is left");
+    } else if (outcome.surface.solid()) {
         log(LogLevel::info, "the surface as written is closed, manifold and free of self-intersections");
     } else {
         log(LogLevel::warning, fmt::format("the surface as written has {} boundary edges, {} non-manifold "

@@ -48,8 +48,11 @@ Phases& Phases::operator+=(const Phases& other) {
 }
 
 Body::Body(mesh::Complex complex, std::unique_ptr<hooks::Improvement> improvement,
-           const cloud::TargetCloud* cloud)
-    : improvement_(std::move(improvement)), cloud_(cloud), deformer_(std::move(complex)) {
+           const cloud::TargetCloud* cloud, Workers* workers)
+    : improvement_(std::move(improvement)),
+      cloud_(cloud),
+      workers_(workers),
+      deformer_(std::move(complex), {}, workers) {
     policy_.propose = [this](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
         improvement_->propose(*context_, round, out);
     };
@@ -62,7 +65,7 @@ Body::Body(mesh::Complex complex, std::unique_ptr<hooks::Improvement> improvemen
     refresh();
 }
 
-void Body::refresh() { surface::build_view(deformer_.complex(), view_); }
+void Body::refresh() { surface::build_view(deformer_.complex(), view_, workers_); }
 
 hooks::StepContext Body::context() const {
     return {.step = deformer_.step_count() + 1,
@@ -71,7 +74,8 @@ hooks::StepContext Body::context() const {
             .target_length = deformer_.target_length(),
             .box = deformer_.complex().box(),
             .to_normalised = cloud_ != nullptr ? cloud_->transform() : cloud::Transform{},
-            .seed = 1};
+            .seed = 1,
+            .workers = workers_};
 }
 
 StepCost Body::step(const Displacement& displace) {

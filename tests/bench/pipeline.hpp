@@ -64,7 +64,7 @@ public:
     using Displacement = std::function<void(const hooks::StepContext&, std::span<Vec3>)>;
 
     Body(mesh::Complex complex, std::unique_ptr<hooks::Improvement> improvement,
-         const cloud::TargetCloud* cloud = nullptr);
+         const cloud::TargetCloud* cloud = nullptr, Workers* workers = nullptr);
 
     /// One step; `displace` fills the displacements of the view's vertices.
     StepCost step(const Displacement& displace);
@@ -83,6 +83,7 @@ private:
 
     std::unique_ptr<hooks::Improvement> improvement_;
     const cloud::TargetCloud* cloud_;
+    Workers* workers_;
     kernel::Deformer deformer_;
     kernel::RepairPolicy policy_;
     surface::SurfaceView view_;

@@ -96,6 +96,14 @@ class Bench:
         sizes = "300,600" if self.quick else "2000,6000,20000,60000,200000"
         return [self.json_of("dsc_scaling", "--n", sizes, *self.mesh()) for _ in range(self.repetitions)]
 
+    def threads(self):
+        say(f"threads, {self.repetitions} repetitions")
+        size = "600" if self.quick else "20000"
+        counts = [1, 2] + ([4] if (os.cpu_count() or 1) >= 4 else [])
+        # In turns, so that the machine's moods meet all of them.
+        return [{count: self.json_of("dsc_scaling", "--n", size, "--threads", str(count), *self.mesh())["rows"][0] for count in counts}
+                for _ in range(self.repetitions)]
+
     def mesh(self):
         """A graded exterior where the build has one: a uniform grid grows with N to the power of 1.5."""
         return ("--mesh", "lattice") if list(self.programs.parent.glob("lib/dsc/plugins/libdsc_lattice.so")) else ()
@@ -185,6 +193,18 @@ def scaling_table(runs):
         f"Exponent of the CPU time: {spread([run['exponent'] for run in runs])}.\n"
 
 
+def threads_table(runs):
+    rows = []
+    for count in runs[0]:
+        each = [run[count] for run in runs]
+        rows.append([str(count), f"{each[0]['n']:,.0f}", spread([row["wall_ms"] for row in each]), spread([row["step_ms"] for row in each]),
+                     spread([run[1]["wall_ms"] / run[count]["wall_ms"] for run in runs])])
+    digests = {row["digest"] for run in runs for row in run.values()}
+    return markdown(["threads", "N", "wall ms a step", "CPU ms a step", "faster, times"], rows) + \
+        ("\n\nThe complex at the end has the same bytes in all of these runs.\n" if len(digests) == 1
+         else f"\n\nDIFFERENT RESULTS: {len(digests)} different complexes.\n")
+
+
 def replace_measured(page, text):
     """The page with `text` between its markers."""
     if page.count(BEGIN) != 1 or page.count(END) != 1 or page.index(BEGIN) > page.index(END):
@@ -199,11 +219,12 @@ def everything(bench, build):
         for name in ("teapot", "bunny", "cow"):
             if (Path(os.environ["DSC_DATA"]) / f"{name}.obj").exists():
                 clouds[f"{name}, as configs/thesis/{name}.yaml"] = bench.protocol(name, "--data", "--name", name, "--no-idle")
-    parts = [f"Measured on: {machine(build)}; one thread. Median [least, largest] of {bench.repetitions} runs. The machine's load "
+    parts = [f"Measured on: {machine(build)}; one thread where no other number stands. Median [least, largest] of {bench.repetitions} runs. The machine's load "
              f"before them was {load:.1f}: well below 1 is quiet.",
              "### The thesis' protocol", protocol_tables(clouds),
              "### Settled, idle and one-vertex steps", quiet_table(clouds["built-in teapot"]),
              "### Growth with the interface", scaling_table(bench.scaling()), bench.instructions(),
+             "### Threads", threads_table(bench.threads()),
              "### Single operations", bench.micro()]
     return "\n\n".join(part.strip() for part in parts)
 

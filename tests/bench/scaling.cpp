@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <dsc/base/error.hpp>
 #include <dsc/mesh/validate.hpp>
+#include <dsc/run/sha256.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -28,10 +30,11 @@ constexpr double stride = 0.1;  // of L, each step
 constexpr double pi = 3.14159265358979323846;
 
 constexpr const char* usage =
-    "dsc_scaling [--n LIST] [--steps N] [--max-tets N] [--validate] [--json FILE] [--mesh TYPE [key=value "
+    "dsc_scaling [--n LIST] [--steps N] [--max-tets N] [--threads N] [--validate] [--json FILE] [--mesh TYPE [key=value "
     "...]]\n"
     "  --n         interface vertices, by commas; default 2000,6000,20000,60000,200000\n"
     "  --max-tets  grids that would have more are left out; default 10000000\n"
+    "  --threads   that share the work of a step; step_ms is CPU time, wall_ms is what they save; default 1\n"
     "  --validate  check every invariant at the end\n"
     "  --mesh      initial mesh strategy; {edge} in a value is the edge that gives N vertices, {cells} the "
     "cells of\n"
@@ -41,6 +44,7 @@ struct Arguments {
     std::vector<double> n = {2e3, 6e3, 2e4, 6e4, 2e5};
     unsigned steps = 20;
     double max_tets = 1e7;
+    unsigned threads = 1;
     bool validate = false;
     std::string json;
     std::string mesh = "grid";
@@ -72,6 +76,8 @@ Arguments parse(int argc, char** argv) {
             arguments.steps = static_cast<unsigned>(number(value()));
         } else if (word == "--max-tets") {
             arguments.max_tets = number(value());
+        } else if (word == "--threads") {
+            arguments.threads = static_cast<unsigned>(number(value()));
         } else if (word == "--validate") {
             arguments.validate = true;
         } else if (word == "--json") {
@@ -113,6 +119,18 @@ config::StrategyConfig mesh_for(const Arguments& arguments, double n) {
     return strategy(arguments.mesh, parameters);
 }
 
+// SHA-256 of points, tets and labels: equal for the same bits.
+std::string digest(const mesh::TetMesh& mesh) {
+    std::string bytes;
+    const auto append = [&bytes](const auto& list) {
+        bytes.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof list[0]);
+    };
+    append(mesh.points);
+    append(mesh.tets);
+    append(mesh.labels);
+    return run::sha256(bytes);
+}
+
 // One sphere: built, then moved on in a straight line by the same part of its edges each step. The first step, which looks
 // at the whole mesh and lets the arrays grow, is not measured.
 Json measure(const Arguments& arguments, double n) {
@@ -120,14 +138,16 @@ Json measure(const Arguments& arguments, double n) {
     const double rss_before = rss_mb();
     double build_seconds = cpu_seconds();
     const config::StrategyConfig improvement = strategy("dsc", {});
+    Workers workers(arguments.threads);
     Body body(initial_complex(plugins, mesh_for(arguments, n)),
-              plugins.host().create<hooks::Improvement>(improvement, "improvement"));
+              plugins.host().create<hooks::Improvement>(improvement, "improvement"), nullptr, &workers);
     build_seconds = cpu_seconds() - build_seconds;
     const Vec3 way = stride * body.deformer().target_length() * Vec3(1.0, 0.6, 0.35).normalized();
     const auto onward = [&](const hooks::StepContext&, std::span<Vec3> out) {
         std::fill(out.begin(), out.end(), way);
     };
     body.step(onward);
+    const auto start = std::chrono::steady_clock::now();
     double vertices = 0.0, tets = 0.0, rounds = 0.0, dropped = 0.0;
     Phases sum;
     measured([&] {
@@ -141,17 +161,20 @@ Json measure(const Arguments& arguments, double n) {
                        (way.norm() * static_cast<double>(cost.interface_vertices) * arguments.steps);
         }
     });
+    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     Json row = {{"n", vertices},
                 {"tets", tets},
                 {"tets_per_vertex", tets / vertices},
                 {"build_s", build_seconds},
                 {"step_ms", 1e3 * sum.sum() / arguments.steps},
+                {"wall_ms", 1e3 * wall / arguments.steps},
                 {"us_per_vertex_and_step", 1e6 * sum.sum() / arguments.steps / vertices},
                 {"rounds", rounds},
                 {"dropped_part", dropped},
                 {"rss_mb", rss_mb() - rss_before},
                 {"kb_per_vertex", 1e3 * (rss_mb() - rss_before) / vertices},
-                {"peak_rss_mb", peak_rss_mb()}};
+                {"peak_rss_mb", peak_rss_mb()},
+                {"digest", digest(body.deformer().complex().to_mesh())}};
     if (arguments.validate) row["valid"] = mesh::validate(body.deformer().complex()).valid();
     return row;
 }
@@ -203,7 +226,7 @@ double exponent(const std::vector<double>& x, const std::vector<double>& y) {
 
 int work(const Arguments& arguments) {
     Json out = {{"mesh", arguments.mesh}, {"steps", arguments.steps}, {"rows", Json::array()}};
-    std::printf("%9s %10s %6s %8s %9s %9s %6s %8s %8s %9s\n", "N", "tets", "tets/N", "build_s", "step_ms",
+    std::printf("%9s %10s %6s %8s %9s %9s %9s %6s %8s %8s %9s\n", "N", "tets", "tets/N", "build_s", "step_ms", "wall_ms",
                 "us/N/step", "rounds", "rss_mb", "kB/N", "peak_mb");
     bool failed = false;
     std::vector<double> n, seconds;
@@ -222,8 +245,8 @@ int work(const Arguments& arguments) {
             continue;
         }
         const auto value = [&](const char* key) { return row[key].get<double>(); };
-        std::printf("%9.0f %10.0f %6.1f %8.2f %9.2f %9.2f %6.1f %8.1f %8.2f %9.1f%s\n", value("n"),
-                    value("tets"), value("tets_per_vertex"), value("build_s"), value("step_ms"),
+        std::printf("%9.0f %10.0f %6.1f %8.2f %9.2f %9.2f %9.2f %6.1f %8.1f %8.2f %9.1f%s\n", value("n"),
+                    value("tets"), value("tets_per_vertex"), value("build_s"), value("step_ms"), value("wall_ms"),
                     value("us_per_vertex_and_step"), value("rounds"), value("rss_mb"), value("kb_per_vertex"),
                     value("peak_rss_mb"), row.value("valid", true) ? "" : " INVALID");
         std::fflush(stdout);

@@ -9,10 +9,13 @@
 #include <sstream>
 
 #include "../cli/process.hpp"
-#include "../unit/surface/cgal_judge.hpp"
+#include "results.hpp"
 
+using dsc::test::check_result;
 using dsc::test::Cli;
+using dsc::test::config;
 using dsc::test::Result;
+using dsc::test::summary_of;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -21,29 +24,6 @@ namespace {
 const std::vector<std::string> result_files = {
     "result/surface.obj", "result/surface.ply", "result/volume.vtu", "result/volume.dsc",
     "metrics.csv",        "events.jsonl",       "preview.png",       "config.resolved.yaml"};
-
-/// What must hold of every result, on the files as they are.
-void check_result(const fs::path& folder) {
-    const auto surface = dsc::io::read_surface(folder / "result" / "surface.obj");
-    const auto volume = dsc::io::read_volume(folder / "result" / "volume.dsc");
-    CHECK(dsc::run::identical(surface, dsc::surface::extract_interface(volume)));
-    CHECK(dsc::run::identical(surface, dsc::io::read_surface(folder / "result" / "surface.ply")));
-    const dsc::run::VolumeMeasure measure = dsc::run::measure(volume);
-    CHECK(measure.inverted_tets == 0);
-    CHECK(measure.adjacency_valid());
-    CHECK(measure.fills_box());
-    CHECK(measure.interface_measure.solid());
-    CHECK(measure.interface_measure.report.duplicate_points == 0);
-    CHECK(dsc::surface::test::cgal_mesh_intersections(surface).empty());
-    const auto zipped = dsc::io::read_volume(folder / "result" / "volume.vtu");
-    CHECK(zipped.points == volume.points);
-    CHECK(zipped.tets == volume.tets);
-    CHECK(zipped.labels == volume.labels);
-}
-
-json summary_of(const Cli& cli, const std::string& folder) {
-    return json::parse(cli.read(folder + "/summary.json"));
-}
 
 /// Median of the column `rounds` of the first steps.
 int median_rounds(const std::string& metrics, std::size_t steps) {
@@ -64,8 +44,6 @@ int median_rounds(const std::string& metrics, std::size_t steps) {
     std::sort(rounds.begin(), rounds.end());
     return rounds[steps / 2];
 }
-
-std::string config(const std::string& name) { return (fs::path(DSC_SOURCE_DIR) / "configs" / name).string(); }
 
 }  // namespace
 

@@ -105,7 +105,42 @@ public:
         return std::max({kept, removed, back});
     }
 
+    // The link condition of a surface [Dey1999], with which the interface keeps its topology and every vertex stays regular:
+    // a and b have the two vertices opposite their edge in common as neighbours, and no others. False says nothing.
+    bool link_condition() {
+        const auto simple = [this](VertexId v) { return c_.phases(v) == 2 && !c_.on_box(v); };
+        if (!simple(a_) || !simple(b_)) return false;
+        interface_neighbours(a_, bench_.star_a, bench_.near_a);
+        interface_neighbours(b_, bench_.star_b, bench_.near_b);
+        std::size_t common = 0;
+        auto y = bench_.near_b.begin();
+        for (const VertexId x : bench_.near_a) {
+            while (y != bench_.near_b.end() && *y < x) ++y;
+            if (y == bench_.near_b.end() || *y != x) continue;
+            if (!simple(x)) return false;
+            ++common;
+        }
+        // The vertex that stays has the rest of both as neighbours: three at least.
+        return common == 2 && bench_.near_a.size() + bench_.near_b.size() >= 7;
+    }
+
 private:
+    // The other ends of v's interface edges, by id.
+    void interface_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out) const {
+        out.clear();
+        for (const TetId t : star) {
+            const mesh::Tet& tet = c_.tet(t);
+            for (unsigned f = 0; f < 4; ++f) {
+                if (tet.v[f] == v || c_.label(t) <= c_.label_across(t, f)) continue;
+                for (const auto k : mesh::face_vertices[f]) {
+                    if (tet.v[k] != v) out.push_back(tet.v[k]);
+                }
+            }
+        }
+        std::sort(out.begin(), out.end());
+        out.erase(std::unique(out.begin(), out.end()), out.end());
+    }
+
     Workbench& bench_;
     mesh::Complex& c_;
     bool interface_edge_;
@@ -161,7 +196,7 @@ Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     }
     if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
     if (!c.link(bench.edit)) return Refusal::irregular;
-    if (interface_edge) {
+    if (interface_edge && !collapse.link_condition()) {
         // Round any other vertex nothing dies and nothing meets: its tets only have a corner renamed.
         bench.shared_interface_vertices(bench.vertices);
         if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;

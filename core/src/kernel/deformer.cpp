@@ -9,10 +9,10 @@
 #include <dsc/mesh/unpinch.hpp>
 #include <dsc/mesh/validate.hpp>
 
-#include "kernel/movement.hpp"
 #include "kernel/operations.hpp"
 #include "kernel/queues.hpp"
 #include "kernel/topology.hpp"
+#include "kernel/travels.hpp"
 
 namespace dsc::kernel {
 namespace {
@@ -50,7 +50,7 @@ OperationCounts& OperationCounts::operator+=(const OperationCounts& other) {
     return *this;
 }
 
-struct Deformer::State final : EditListener {
+struct Deformer::State {
     mesh::Complex complex;
     DeformerOptions options;
     Workbench bench;
@@ -59,30 +59,27 @@ struct Deformer::State final : EditListener {
     double length = 0.0;
     std::uint64_t step = 0;
 
-    // Destinations of this step, one a vertex under way; `travel_of` leads to a vertex' entry, which is its own where vertex
-    // and birth fit.
-    struct Travel {
-        Vec3 destination;
-        VertexId vertex = mesh::none;  // none: arrived or given up
-        std::uint32_t birth = 0;
-        std::uint32_t blocked_at = 0;  // 0: not blocked
-        std::uint32_t listed = 0;      // pass in which it was handled, against double entries
-    };
-    std::vector<Travel> travel;
-    std::vector<std::uint32_t> travel_of;
-    std::vector<VertexId> active;
-    std::vector<VertexId> blocked;
-    std::uint32_t pass = 0;
-    std::size_t tried = 0;  // moves attempted in the present round
+    StarLoop star_loop;
+    Travels travels;
+    Workers* workers;  // null: one thread
 
     std::vector<TetId> step_changes;
-    std::vector<VertexId> near_collapses;
+    std::vector<bool> noted;  // per tet: it is in step_changes
     std::vector<mesh::Request> requests, last_requests;
     std::vector<mesh::Outcome> outcomes;
+    std::vector<VertexId> smoothed;  // of a batch of requests
 
-    State(mesh::Complex start, const DeformerOptions& wanted)
-        : complex(std::move(start)), options(wanted), bench(complex), queues(complex, wanted.audit, wanted.drop_wake_up), topology(bench) {
-        bench.listener = this;
+    State(mesh::Complex start, const DeformerOptions& wanted, Workers* given)
+        : complex(std::move(start)),
+          options(wanted),
+          bench(complex),
+          queues(complex, wanted.audit, wanted.drop_wake_up),
+          topology(bench),
+          star_loop(complex),
+          travels(complex, queues, star_loop),
+          // The lost wake-up is counted in the order of one thread.
+          workers(wanted.drop_wake_up == 0 ? given : nullptr) {
+        bench.listener = &travels;
         length = mean_interface_edge();
         apply_limits(0.995);
     }
@@ -121,50 +118,11 @@ struct Deformer::State final : EditListener {
         return edges > 0 ? sum / static_cast<double>(edges) : 0.0;
     }
 
-    // ---- destinations that follow the edits ---------------------------------------------------------------------
-    // The entry of v, even if v is dead by now; null if it has none.
-    Travel* way_of(VertexId v) {
-        if (v >= travel_of.size() || travel_of[v] >= travel.size()) return nullptr;
-        Travel& way = travel[travel_of[v]];
-        return way.vertex == v ? &way : nullptr;
-    }
-    bool travels(VertexId v) {
-        const Travel* way = way_of(v);
-        return way != nullptr && way->birth == complex.birth(v);
-    }
-    Vec3 destination_of(VertexId v) { return travels(v) ? way_of(v)->destination : complex.position(v); }
-    void send(VertexId v, const Vec3& destination) {
-        if (travel_of.size() < complex.vertex_slots()) travel_of.resize(complex.vertex_slots(), mesh::none);
-        Travel* way = way_of(v);
-        if (way == nullptr) {
-            travel_of[v] = static_cast<std::uint32_t>(travel.size());
-            way = &travel.emplace_back();
-        }
-        *way = {destination, v, complex.birth(v), 0, 0};
-        active.push_back(v);
-    }
-
-    void on_split(VertexId vertex, VertexId a, VertexId b, double s) override {
-        if (!complex.movable(vertex) || (!travels(a) && !travels(b))) return;
-        send(vertex, (1.0 - s) * destination_of(a) + s * destination_of(b));
-    }
-    void on_collapse(VertexId kept, VertexId removed, double s) override {
-        // The removed id is dead but its entry is still there: births differ only once the slot is taken again.
-        const bool goes = way_of(removed) != nullptr;
-        const bool stays = travels(kept);
-        if ((!goes && !stays) || !complex.movable(kept) || s == 0.0) return;
-        const Vec3 from = stays ? way_of(kept)->destination : complex.position(kept);
-        const Vec3 to = goes ? way_of(removed)->destination : complex.position(kept);
-        send(kept, (1.0 - s) * from + s * to);
-    }
-    void on_interface_collapse(VertexId kept) override { near_collapses.push_back(kept); }
-
     // ---- the parts of a step ------------------------------------------------------------------------------------
     void begin(std::span<const VertexId> vertices, std::span<const Vec3> displacements, StepReport& report) {
         ++step;
-        active.clear();
-        travel.clear();
-        near_collapses.clear();
+        travels.clear();
+        for (const TetId t : step_changes) noted[t] = false;
         step_changes.clear();
         last_requests.clear();
         outcomes.clear();
@@ -173,65 +131,97 @@ struct Deformer::State final : EditListener {
         const Vec3 high = complex.box().high.array() - 2.0 * length;
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const VertexId v = vertices[i];
-            if (!complex.movable(v) || displacements[i].isZero(0.0)) continue;
+            // In this order: a vertex that rests is not even looked at.
+            if (displacements[i].isZero(0.0) || !complex.movable(v)) continue;
             ++report.requested;
             const Vec3 wanted = complex.position(v) + displacements[i];
             const Vec3 inside = wanted.cwiseMax(low).cwiseMin(high);
             if (inside != wanted) ++report.clamped;
-            send(v, inside);
+            travels.send(v, inside);
         }
     }
 
-    // One attempt for every vertex under way; returns the summed distance left.
-    double move_all() {
-        ++pass;
-        blocked.clear();
-        double left = 0.0;
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < active.size(); ++i) {
-            const VertexId v = active[i];
-            if (v >= complex.vertex_slots() || !complex.vertex_alive(v) || !travels(v) || !complex.movable(v)) continue;
-            Travel& way = *way_of(v);
-            if (way.listed == pass) continue;
-            way.listed = pass;
-            if (way.blocked_at == 0 || queues.awake(v, way.blocked_at)) {
-                ++tried;
-                const Motion motion = move_towards(bench, v, way.destination, options.free_path);
-                if (motion == Motion::arrived) {
-                    way.vertex = mesh::none;
-                    continue;
-                }
-                way.blocked_at = motion == Motion::blocked ? complex.clock() : 0;
-            } else if (options.audit && complex.vertex_date(v) > way.blocked_at) {
-                throw GeometryError("kernel.audit", "audit: vertex " + std::to_string(v) +
-                                                        " sleeps though its star changed; the queues of the kernel lost a wake-up");
-            }
-            if (way.blocked_at != 0) blocked.push_back(v);
-            left += (way.destination - complex.position(v)).norm();
-            active[kept++] = v;
+    // For the topology stage: what changed in this step, each tet once.
+    void note_changes(std::span<const TetId> changed) {
+        noted.resize(std::max(noted.size(), complex.tet_slots()), false);
+        for (const TetId t : changed) {
+            if (noted[t]) continue;
+            noted[t] = true;
+            step_changes.push_back(t);
         }
-        active.resize(kept);
-        return left;
+    }
+
+    // A refused request makes its tet wait until its neighbourhood changes.
+    void record(std::uint32_t i, Refusal refusal, std::uint32_t date, StepReport& report) {
+        outcomes[i] = {i, refusal};
+        const mesh::Request& request = requests[i];
+        auto& counts = report.operations[static_cast<std::size_t>(request.operation)];
+        ++counts.tried;
+        if (refusal == Refusal::committed) {
+            ++counts.committed;
+            return;
+        }
+        ++counts.refused[static_cast<std::size_t>(refusal)];
+        if (refusal != Refusal::stale && request.tet != mesh::none) queues.fail(request.tet, date);
+    }
+
+    // Requests that smooth different vertices one after the other may run side by side.
+    struct Smoothing {
+        State& state;
+        std::uint32_t first;  // request of vertex 0
+        StepReport& report;
+
+        const mesh::Request& request(std::size_t i) const { return state.requests[first + i]; }
+        bool decide(std::size_t i, Refusal refusal) const {
+            state.outcomes[first + i].refusal = refusal;
+            return refusal == Refusal::committed;
+        }
+        bool ready(std::size_t i) const {
+            return decide(i, may_smooth(state.bench, request(i).vertices[0], request(i).accept_above));
+        }
+        bool attempt(std::size_t i, StarScratch& scratch) const {
+            return decide(i, plan_laplacian(state.complex, state.bench.limits, request(i).vertices[0], request(i).accept_above, scratch));
+        }
+        void settle(std::uint32_t i, bool attempted, std::uint32_t date) const {
+            const Refusal refusal = state.outcomes[first + i].refusal;
+            if (attempted && refusal != Refusal::committed) {
+                state.bench.remember(request(i).vertices[0], Workbench::Trial::laplacian, request(i).accept_above, refusal, date);
+            }
+            state.record(first + i, refusal, date, report);
+        }
+    };
+
+    // Whether the request is sure to be a Laplacian smoothing at its turn, whatever other smoothings do before it.
+    bool plain_smoothing(const mesh::Request& request) const {
+        const VertexId v = request.vertices[0];
+        const TetId t = request.tet;
+        return request.operation == mesh::Operation::smooth_laplacian && v != mesh::none && request.vertices[1] == mesh::none &&
+               request.only_below > 1.0F && t != mesh::none && t < complex.tet_slots() && complex.tet_alive(t) &&
+               complex.birth_date(t) == request.birth_date && mesh::has_vertex(complex.tet(t), v);
+    }
+
+    std::size_t smooth_from(std::size_t first, StepReport& report) {
+        smoothed.clear();
+        for (std::size_t i = first; i < requests.size() && plain_smoothing(requests[i]); ++i) smoothed.push_back(requests[i].vertices[0]);
+        Smoothing action{*this, static_cast<std::uint32_t>(first), report};
+        star_loop.run(smoothed, workers, action);
+        return smoothed.size();
     }
 
     void repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report) {
         const auto dirty = queues.next_round();
-        step_changes.insert(step_changes.end(), dirty.begin(), dirty.end());
+        note_changes(dirty);
         requests.clear();
-        policy.propose(mesh::RepairRound{complex, dirty, blocked, last_requests, outcomes, length, policy.flatness, round, settled}, requests);
-        outcomes.clear();
-        for (std::size_t i = 0; i < requests.size(); ++i) {
-            const mesh::Request& request = requests[i];
-            const Refusal refusal = execute(bench, request);
-            outcomes.push_back({static_cast<std::uint32_t>(i), refusal});
-            auto& counts = report.operations[static_cast<std::size_t>(request.operation)];
-            ++counts.tried;
-            if (refusal == Refusal::committed) {
-                ++counts.committed;
-                continue;
-            }
-            ++counts.refused[static_cast<std::size_t>(refusal)];
-            if (refusal != Refusal::stale && request.tet != mesh::none) queues.fail(request.tet);
+        policy.propose(mesh::RepairRound{complex, dirty, travels.blocked(), last_requests, outcomes, length, policy.flatness, round, settled},
+                       requests);
+        outcomes.resize(requests.size());
+        for (std::size_t i = 0; i < requests.size();) {
+            const std::size_t done = smooth_from(i, report);
+            i += done;
+            if (done > 0) continue;
+            const Refusal refusal = execute(bench, requests[i]);
+            record(static_cast<std::uint32_t>(i), refusal, complex.clock(), report);
+            ++i;
         }
         std::swap(last_requests, requests);
     }
@@ -240,27 +230,28 @@ struct Deformer::State final : EditListener {
         StepReport report;
         apply_limits(policy.flatness);
         begin(vertices, displacements, report);
+        const PassOptions passes{options.free_path, options.audit, workers};
         double best_left = INFINITY;
         unsigned idle_rounds = 0;
         unsigned slow_rounds = 0;
         for (unsigned round = 0; round < options.max_rounds; ++round) {
             auto start = Clock::now();
-            tried = 0;
-            double left = move_all();
-            for (unsigned again = 1; again < move_passes && !active.empty(); ++again) {
+            double left = travels.pass(bench.limits, passes);
+            for (unsigned again = 1; again < move_passes && !travels.done(); ++again) {
                 const double before = left;
-                left = move_all();
+                left = travels.pass(bench.limits, passes);
                 if (left > before * (1.0 - worthwhile_pass)) break;
             }
+            const std::size_t tried = travels.take_tried();
             report.move_seconds += seconds_since(start);
             ++report.rounds;
             if (left < best_left * (1.0 - options.stall_ratio)) {
                 best_left = left;
                 slow_rounds = 0;
-            } else if (!active.empty() && (++slow_rounds >= options.stall_rounds || (tried == 0 && ++idle_rounds > 1))) {
-                give_up(report);
+            } else if (!travels.done() && (++slow_rounds >= options.stall_rounds || (tried == 0 && ++idle_rounds > 1))) {
+                travels.give_up(report);
             }
-            const bool settled = active.empty();
+            const bool settled = travels.done();
             if (!policy.propose) {
                 if (settled) break;
                 continue;
@@ -268,40 +259,28 @@ struct Deformer::State final : EditListener {
             start = Clock::now();
             repair(policy, round, settled, report);
             report.repair_seconds += seconds_since(start);
-            if (settled && active.empty()) break;
+            if (settled && travels.done()) break;
         }
-        give_up(report);
+        travels.give_up(report);
         const auto start = Clock::now();
-        const auto changes = complex.changes();
-        step_changes.insert(step_changes.end(), changes.begin(), changes.end());
-        topology.run(step, step_changes, policy.topology, policy.select, report.events);
+        note_changes(complex.changes());
+        topology.run(step, step_changes, policy.topology, policy.select, report.events, workers);
         if (policy.topology.thickness > 0.0) {
-            topology.remove_small_components(step, near_collapses, policy.topology.min_component, report.events);
+            topology.remove_small_components(step, travels.near_collapses(), policy.topology.min_component, report.events);
         }
         report.repair_seconds += seconds_since(start);
         for (const Event& event : report.events) count(event, report.event_counts);
         report.edit_distance = bench.sums.distance;
         report.edit_volume = bench.sums.volume;
         report.relabelled_volume = bench.sums.relabelled;
-        report.arrived = report.requested > stranded ? report.requested - stranded : 0;
-        stranded = 0;
+        report.arrived = report.requested > travels.stranded() ? report.requested - travels.stranded() : 0;
         return report;
     }
 
-    std::size_t stranded = 0;
-    void give_up(StepReport& report) {
-        for (const VertexId v : active) {
-            if (!complex.vertex_alive(v) || !travels(v)) continue;
-            report.dropped_motion += (way_of(v)->destination - complex.position(v)).norm();
-            way_of(v)->vertex = mesh::none;
-            ++stranded;
-        }
-        active.clear();
-    }
 };
 
-Deformer::Deformer(mesh::Complex complex, const DeformerOptions& options)
-    : state_(std::make_unique<State>(std::move(complex), options)) {}
+Deformer::Deformer(mesh::Complex complex, const DeformerOptions& options, Workers* workers)
+    : state_(std::make_unique<State>(std::move(complex), options, workers)) {}
 Deformer::~Deformer() = default;
 Deformer::Deformer(Deformer&&) noexcept = default;
 Deformer& Deformer::operator=(Deformer&&) noexcept = default;

@@ -44,22 +44,33 @@ bool acceptable(const mesh::Complex& c, std::span<const TetId> star, VertexId v,
 
 }  // namespace
 
-Motion move_towards(Workbench& bench, VertexId v, const Vec3& destination, double free_path) {
-    mesh::Complex& c = bench.complex;
-    const Vec3 p = c.position(v);
+bool has_arrived(const mesh::Complex& complex, const Limits& limits, VertexId v, const Vec3& destination) {
+    return (destination - complex.position(v)).norm() < arrival * limits.length;
+}
+
+Motion plan_move(const mesh::Complex& complex, const Limits& limits, VertexId v, const Vec3& destination, double free_path,
+                 StarScratch& scratch) {
+    const Vec3 p = complex.position(v);
     const double length = (destination - p).norm();
-    const double least_step = arrival * bench.limits.length;
-    if (length < least_step) return Motion::arrived;
-    c.star(v, bench.star_a);
-    double fraction = std::min(1.0, free_path * first_inversion(c, bench.star_a, v, p, destination));
+    const double least_step = arrival * limits.length;
+    double fraction = std::min(1.0, free_path * first_inversion(complex, scratch.star, v, p, destination));
     for (int halving = 0; halving <= 8; ++halving, fraction *= 0.5) {
         if (fraction * length < least_step) break;
-        const Vec3 place = fraction == 1.0 ? destination : Vec3(p + fraction * (destination - p));
-        if (!acceptable(c, bench.star_a, v, place, static_cast<float>(bench.limits.quality_floor), bench.edit.qualities)) continue;
-        c.move(v, place, bench.star_a, bench.edit.qualities);
-        return (destination - place).norm() < least_step ? Motion::arrived : Motion::moved;
+        scratch.place = fraction == 1.0 ? destination : Vec3(p + fraction * (destination - p));
+        if (!acceptable(complex, scratch.star, v, scratch.place, static_cast<float>(limits.quality_floor), scratch.qualities)) continue;
+        return (destination - scratch.place).norm() < least_step ? Motion::arrived : Motion::moved;
     }
     return Motion::blocked;
+}
+
+Motion move_towards(Workbench& bench, VertexId v, const Vec3& destination, double free_path) {
+    mesh::Complex& c = bench.complex;
+    if (has_arrived(c, bench.limits, v, destination)) return Motion::arrived;
+    StarScratch& scratch = bench.scratch;
+    c.star(v, scratch.star, scratch.places);
+    const Motion motion = plan_move(c, bench.limits, v, destination, free_path, scratch);
+    if (motion != Motion::blocked) c.move(v, scratch.place, scratch.star, scratch.qualities);
+    return motion;
 }
 
 }  // namespace dsc::kernel

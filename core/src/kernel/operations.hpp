@@ -20,6 +20,10 @@ Refusal split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point);
 Refusal split_vertex(Workbench& bench, VertexId v, VertexId w);
 /// Edge (a, b) of tet t.
 Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, mesh::CollapseMode mode, float accept_above);
+/// Whether v may be smoothed and is not known to gain nothing by it: `committed`, or why not. [parallel]
+Refusal may_smooth(const Workbench& bench, VertexId v, float accept_above);
+/// Where smooth_laplacian() would put v: from scratch.star to scratch.place and scratch.qualities. [parallel]
+Refusal plan_laplacian(const mesh::Complex& complex, const Limits& limits, VertexId v, float accept_above, StarScratch& scratch);
 /// Interior vertex to the mean of its neighbours.
 Refusal smooth_laplacian(Workbench& bench, VertexId v, float accept_above);
 /// Interior vertex uphill on the least quality of its star.

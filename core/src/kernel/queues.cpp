@@ -25,32 +25,28 @@ bool RepairQueues::awake(VertexId v, std::uint32_t blocked_at) {
 std::span<const TetId> RepairQueues::next_round() {
     const std::uint32_t previous_clock = last_clock_;
     last_clock_ = complex_.clock();
-    dirty_.clear();
-    complex_.take_changes(changes_);
+    complex_.take_changes(dirty_);
+    std::size_t offered = 0;
+    for (const TetId t : dirty_) {
+        if (complex_.tet_alive(t) && !lost()) dirty_[offered++] = t;
+    }
+    dirty_.resize(offered);
     // Of a slot's failures in a round the first one counts.
-    complex_.new_epoch();
+    seen_.clear();
     for (const Failure& failure : failed_now_) {
-        if (complex_.tet_marked(failure.tet)) continue;
-        complex_.mark_tet(failure.tet);
-        failed_.push_back(failure);
+        if (seen_.insert(failure.tet)) failed_.push_back(failure);
     }
     failed_now_.clear();
-    // From here on the marks are the tets on offer.
-    complex_.new_epoch();
-    const auto offer = [this](TetId t) {
-        if (!complex_.tet_alive(t) || complex_.tet_marked(t) || lost()) return;
-        complex_.mark_tet(t);
-        dirty_.push_back(t);
-    };
-    for (const TetId t : changes_) offer(t);
+    seen_.clear();
     std::size_t kept = 0;
     for (const Failure& failure : failed_) {
         if (!complex_.tet_alive(failure.tet) || complex_.birth_date(failure.tet) != failure.birth_date) continue;
-        if (complex_.tet_marked(failure.tet)) continue;
-        if (out_of_date(failure.tet, failure.date)) {
-            offer(failure.tet);
-        } else {
+        // What changed since the last round is on offer already.
+        if (complex_.date(failure.tet) > previous_clock) continue;
+        if (!out_of_date(failure.tet, failure.date)) {
             failed_[kept++] = failure;
+        } else if (seen_.insert(failure.tet) && !lost()) {
+            dirty_.push_back(failure.tet);
         }
     }
     failed_.resize(kept);
@@ -58,9 +54,9 @@ std::span<const TetId> RepairQueues::next_round() {
     return dirty_;
 }
 
-void RepairQueues::fail(TetId t) {
+void RepairQueues::fail(TetId t, std::uint32_t date) {
     if (!failed_now_.empty() && failed_now_.back().tet == t) return;
-    const Failure failure = {t, complex_.birth_date(t), complex_.clock()};
+    const Failure failure = {t, complex_.birth_date(t), date};
     failed_now_.push_back(failure);
     if (!audit_) return;
     memory_.resize(std::max(memory_.size(), complex_.tet_slots()), Failure{mesh::none, 0, 0});
@@ -70,8 +66,10 @@ void RepairQueues::fail(TetId t) {
 // The full scan: whatever changed since the last round, or failed before its neighbourhood changed, must be on offer.
 void RepairQueues::check(std::uint32_t previous_clock) {
     memory_.resize(std::max(memory_.size(), complex_.tet_slots()), Failure{mesh::none, 0, 0});
+    std::vector<char> offered(complex_.tet_slots(), 0);
+    for (const TetId t : dirty_) offered[t] = 1;
     for (TetId t = 0; t < complex_.tet_slots(); ++t) {
-        if (!complex_.tet_alive(t) || complex_.tet_marked(t)) continue;
+        if (!complex_.tet_alive(t) || offered[t] != 0) continue;
         const bool changed = complex_.date(t) > previous_clock;
         const Failure& failure = memory_[t];
         const bool woken = failure.tet == t && failure.birth_date == complex_.birth_date(t) && out_of_date(t, failure.date);

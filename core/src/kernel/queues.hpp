@@ -22,8 +22,8 @@ public:
     /// Collects the round's dirty tets: those changed since the last call, then the failures that are out of date.
     /// Throws GeometryError when the audit finds a tet that was missed. [step]
     std::span<const TetId> next_round();
-    /// Remembers that a request on this tet was refused in the present round.
-    void fail(TetId t);
+    /// Remembers that a request on this tet was refused in the present round, when the change clock was `date`.
+    void fail(TetId t, std::uint32_t date);
     /// Vertices whose motion is blocked sleep until their star changes.
     bool awake(VertexId v, std::uint32_t blocked_at);
 
@@ -42,10 +42,10 @@ private:
     mesh::Complex& complex_;
     bool audit_;
     std::uint64_t drop_;
-    std::vector<TetId> changes_;
     std::vector<TetId> dirty_;
     std::vector<Failure> failed_;
     std::vector<Failure> failed_now_;
+    mesh::TetIndex seen_;
     std::vector<Failure> memory_;          // audit only, per tet: its last failure, kept apart from the queues
     std::uint32_t last_clock_ = 0;
 };

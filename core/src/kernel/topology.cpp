@@ -11,6 +11,7 @@ constexpr std::uint64_t rest_steps = 5;     // steps in which a vertex touched b
 constexpr double longest_edge = 1.0;        // of a candidate, in L
 constexpr double thickest_neck = 0.5;       // area of a neck's cross-section, in L^2
 constexpr double events_per_vertex = 0.02;  // a step
+constexpr std::size_t seed_block = 8192;    // changed tets that one thread looks at in one go
 constexpr std::size_t small_component = 64; // tets that a flood visits at most
 
 // The label at an interface vertex that is not `own`; `own` when there is not exactly one.
@@ -64,20 +65,20 @@ void TopologyStage::mark_event(const Region& region, std::uint64_t step) {
     }
 }
 
-void TopologyStage::add_seed(std::array<VertexId, 3> v) {
+void TopologyStage::add_seed(std::array<VertexId, 3> v, SeedBlock& block) const {
     const mesh::Complex& c = bench_.complex;
     const auto birth = [&c](VertexId x) { return x == mesh::none ? mesh::none : c.birth(x); };
     std::sort(v.begin(), v.end(), [&](VertexId x, VertexId y) { return birth(x) < birth(y); });
-    seeds_.push_back({{birth(v[0]), birth(v[1]), birth(v[2])}, v});
+    block.seeds.push_back({{birth(v[0]), birth(v[1]), birth(v[2])}, v});
 }
 
-bool TopologyStage::interface_edge(TetId t, VertexId a, VertexId b) {
+bool TopologyStage::interface_edge(TetId t, VertexId a, VertexId b, mesh::EdgeRing& ring) const {
     const mesh::Complex& c = bench_.complex;
-    c.ring(t, a, b, bench_.ring);
-    return std::any_of(bench_.ring.tets.begin(), bench_.ring.tets.end(), [&](TetId r) { return c.label(r) != c.label(t); });
+    c.ring(t, a, b, ring);
+    return std::any_of(ring.tets.begin(), ring.tets.end(), [&](TetId r) { return c.label(r) != c.label(t); });
 }
 
-bool TopologyStage::neck_face(TetId t, unsigned face) {
+bool TopologyStage::neck_face(TetId t, unsigned face, mesh::EdgeRing& ring) const {
     const mesh::Complex& c = bench_.complex;
     const std::uint32_t code = c.tet(t).n[face];
     if (code == mesh::none || mesh::neighbour_tet(code) < t || c.label(mesh::neighbour_tet(code)) != c.label(t)) return false;
@@ -86,41 +87,56 @@ bool TopologyStage::neck_face(TetId t, unsigned face) {
     const double area = geometry::triangle_area(c.position(v[f[0]]), c.position(v[f[1]]), c.position(v[f[2]]));
     if (area > thickest_neck * bench_.limits.length * bench_.limits.length) return false;
     for (unsigned k = 0; k < 3; ++k) {
-        if (!interface_edge(t, v[f[k]], v[f[(k + 1) % 3]])) return false;
+        if (!interface_edge(t, v[f[k]], v[f[(k + 1) % 3]], ring)) return false;
     }
     return true;
 }
 
-void TopologyStage::collect_seeds(std::uint64_t step, std::span<const TetId> changed) {
+void TopologyStage::collect_seeds_of(TetId t, std::uint64_t step, SeedBlock& block) const {
     const mesh::Complex& c = bench_.complex;
-    const double limit2 = std::pow(longest_edge * bench_.limits.length, 2);
-    seeds_.clear();
-    for (const TetId t : changed) {
-        if (!c.tet_alive(t)) continue;
-        const auto& v = c.tet(t).v;
-        std::array<bool, 4> ready{};
-        unsigned count = 0;
-        for (unsigned i = 0; i < 4; ++i) {
-            ready[i] = c.movable(v[i]) && !recent(v[i], c.label(t), step);
-            count += ready[i] ? 1 : 0;
-        }
-        if (count < 2) continue;
-        std::array<bool, 4> interface{};
-        for (unsigned f = 0; f < 4; ++f) interface[f] = c.interface_face(t, f);
-        for (const auto& e : mesh::edge_vertices) {
-            if (!ready[e[0]] || !ready[e[1]]) continue;
-            // Most interface edges show it in this tet: one of the two faces at the edge, opposite the other vertices.
-            bool seen = false;
-            for (unsigned f = 0; f < 4; ++f) seen = seen || (interface[f] && f != e[0] && f != e[1]);
-            if (seen) continue;
-            if ((c.position(v[e[0]]) - c.position(v[e[1]])).squaredNorm() > limit2) continue;
-            if (!interface_edge(t, v[e[0]], v[e[1]])) add_seed({v[e[0]], v[e[1]], mesh::none});
-        }
-        for (unsigned f = 0; f < 4 && count > 2; ++f) {
-            const auto& k = mesh::face_vertices[f];
-            if (ready[k[0]] && ready[k[1]] && ready[k[2]] && neck_face(t, f)) add_seed({v[k[0]], v[k[1]], v[k[2]]});
-        }
+    const double limit2 = longest_edge * longest_edge * bench_.limits.length * bench_.limits.length;
+    const auto& v = c.tet(t).v;
+    std::array<bool, 4> ready{};
+    unsigned count = 0;
+    for (unsigned i = 0; i < 4; ++i) {
+        ready[i] = c.movable(v[i]) && !recent(v[i], c.label(t), step);
+        count += ready[i] ? 1 : 0;
     }
+    if (count < 2) return;
+    std::array<bool, 4> interface{};
+    for (unsigned f = 0; f < 4; ++f) interface[f] = c.interface_face(t, f);
+    for (const auto& e : mesh::edge_vertices) {
+        if (!ready[e[0]] || !ready[e[1]]) continue;
+        // Most interface edges show it in this tet: one of the two faces at the edge, opposite the other vertices.
+        bool seen = false;
+        for (unsigned f = 0; f < 4; ++f) seen = seen || (interface[f] && f != e[0] && f != e[1]);
+        if (seen) continue;
+        if ((c.position(v[e[0]]) - c.position(v[e[1]])).squaredNorm() > limit2) continue;
+        if (!interface_edge(t, v[e[0]], v[e[1]], block.ring)) add_seed({v[e[0]], v[e[1]], mesh::none}, block);
+    }
+    for (unsigned f = 0; f < 4 && count > 2; ++f) {
+        const auto& k = mesh::face_vertices[f];
+        if (ready[k[0]] && ready[k[1]] && ready[k[2]] && neck_face(t, f, block.ring)) add_seed({v[k[0]], v[k[1]], v[k[2]]}, block);
+    }
+}
+
+void TopologyStage::collect_seeds(std::uint64_t step, std::span<const TetId> changed, Workers* workers) {
+    struct Job {
+        TopologyStage& stage;
+        std::span<const TetId> changed;
+        std::uint64_t step;
+    } const job{*this, changed, step};
+    seed_blocks_.resize(std::max(seed_blocks_.size(), (changed.size() + seed_block - 1) / seed_block));
+    for (SeedBlock& block : seed_blocks_) block.seeds.clear();
+    const auto body = [&job](std::size_t begin, std::size_t end) {
+        SeedBlock& block = job.stage.seed_blocks_[begin / seed_block];
+        for (const TetId t : job.changed.subspan(begin, end - begin)) {
+            if (job.stage.bench_.complex.tet_alive(t)) job.stage.collect_seeds_of(t, job.step, block);
+        }
+    };
+    for_blocks(workers, changed.size(), seed_block, body);
+    seeds_.clear();
+    for (const SeedBlock& block : seed_blocks_) seeds_.insert(seeds_.end(), block.seeds.begin(), block.seeds.end());
     std::sort(seeds_.begin(), seeds_.end(), [](const Seed& x, const Seed& y) { return x.births < y.births; });
     seeds_.erase(std::unique(seeds_.begin(), seeds_.end(), [](const Seed& x, const Seed& y) { return x.births == y.births; }), seeds_.end());
 }
@@ -218,10 +234,10 @@ Event TopologyStage::commit(const Region& region, std::uint64_t step) {
 }
 
 void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, const mesh::TopologyLimits& limits, const Select& select,
-                        std::vector<Event>& events) {
+                        std::vector<Event>& events, Workers* workers) {
     if (!(limits.thickness > 0.0)) return;
     mesh::Complex& c = bench_.complex;
-    collect_seeds(step, changed);
+    collect_seeds(step, changed, workers);
     found_.clear();
     const double regular_volume = geometry::regular_tet_volume(bench_.limits.length);
     Region& region = region_;

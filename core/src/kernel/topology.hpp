@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <dsc/base/workers.hpp>
 #include <dsc/kernel/step_report.hpp>
 #include <dsc/mesh/repair.hpp>
 
@@ -19,8 +20,9 @@ public:
     using Select = std::function<void(std::span<const mesh::TopologyCandidate>, std::span<std::uint8_t>)>;
 
     /// Finds candidates among the changed tets' edges, lets `select` choose, commits the accepted ones serially.
+    /// `workers`, null for one thread, share the search.
     void run(std::uint64_t step, std::span<const TetId> changed, const mesh::TopologyLimits& limits, const Select& select,
-             std::vector<Event>& events);
+             std::vector<Event>& events, Workers* workers = nullptr);
 
     /// Components near the given vertices below `min_component` regular tets take the label around them.
     void remove_small_components(std::uint64_t step, std::span<const VertexId> near, double min_component, std::vector<Event>& events);
@@ -39,10 +41,16 @@ private:
         Seed seed;
         mesh::TopologyCandidate candidate;
     };
-    void collect_seeds(std::uint64_t step, std::span<const TetId> changed);
-    void add_seed(std::array<VertexId, 3> v);
-    bool interface_edge(TetId t, VertexId a, VertexId b);
-    bool neck_face(TetId t, unsigned face);
+    // The seeds that a block of the changed tets holds.
+    struct SeedBlock {
+        std::vector<Seed> seeds;
+        mesh::EdgeRing ring;
+    };
+    void collect_seeds(std::uint64_t step, std::span<const TetId> changed, Workers* workers);
+    void collect_seeds_of(TetId t, std::uint64_t step, SeedBlock& block) const;
+    void add_seed(std::array<VertexId, 3> v, SeedBlock& block) const;
+    bool interface_edge(TetId t, VertexId a, VertexId b, mesh::EdgeRing& ring) const;
+    bool neck_face(TetId t, unsigned face, mesh::EdgeRing& ring) const;
     RegionFault start(const Seed& seed, Region& region);
     RegionFault region_of(const Seed& seed, Region& region);
     bool usable(const Seed& seed, mesh::Label from, std::uint64_t step) const;
@@ -53,6 +61,7 @@ private:
     bool flood_component(TetId seed, double volume_limit, Region& region);
 
     Workbench& bench_;
+    std::vector<SeedBlock> seed_blocks_;
     std::vector<Seed> seeds_;
     std::vector<Found> found_;
     std::vector<std::uint64_t> event_step_;  // per vertex: 1 + step of the last event that touched it

@@ -62,24 +62,32 @@ Vec3 quality_gradient(const Vec3& v, const Vec3& b, const Vec3& c, const Vec3& d
 
 }  // namespace
 
-Refusal smooth_laplacian(Workbench& bench, VertexId v, float accept_above) {
-    constexpr auto trial = Workbench::Trial::laplacian;
-    mesh::Complex& c = bench.complex;
-    if (const Refusal r = smoothable(c, v); r != Refusal::committed) return r;
-    if (const Refusal known = bench.known_refusal(v, trial, accept_above); known != Refusal::committed) return known;
-    const auto refuse = [&](Refusal r) { return bench.remember(v, trial, accept_above, r); };
-    c.star(v, bench.star_a);
-    bench.neighbours_of(v, bench.star_a, bench.vertices);
+Refusal may_smooth(const Workbench& bench, VertexId v, float accept_above) {
+    const Refusal r = smoothable(bench.complex, v);
+    return r != Refusal::committed ? r : bench.known_refusal(v, Workbench::Trial::laplacian, accept_above);
+}
+
+Refusal plan_laplacian(const mesh::Complex& complex, const Limits& limits, VertexId v, float accept_above, StarScratch& scratch) {
+    find_neighbours(complex, v, scratch);
     Vec3 mean = Vec3::Zero();
-    for (const VertexId w : bench.vertices) mean += c.position(w);
-    mean /= static_cast<double>(bench.vertices.size());
+    for (const VertexId w : scratch.neighbours) mean += complex.position(w);
+    mean /= static_cast<double>(scratch.neighbours.size());
     // A vertex that is there already would only wake its neighbourhood.
-    if ((mean - c.position(v)).norm() < 0.02 * bench.limits.length) return refuse(Refusal::no_gain);
-    const float old = star_old(c, bench.star_a);
-    const float bound = std::min(old, accept_above);
-    if (star_quality(c, bench.star_a, v, mean, bound, bench.edit.qualities) < 0.0F) return refuse(Refusal::quality);
-    if (!star_positive(c, bench.star_a, v, mean)) return refuse(Refusal::quality);
-    c.move(v, mean, bench.star_a, bench.edit.qualities);
+    if ((mean - complex.position(v)).norm() < 0.02 * limits.length) return Refusal::no_gain;
+    const float bound = std::min(star_old(complex, scratch.star), accept_above);
+    if (star_quality(complex, scratch.star, v, mean, bound, scratch.qualities) < 0.0F) return Refusal::quality;
+    if (!star_positive(complex, scratch.star, v, mean)) return Refusal::quality;
+    scratch.place = mean;
+    return Refusal::committed;
+}
+
+Refusal smooth_laplacian(Workbench& bench, VertexId v, float accept_above) {
+    if (const Refusal r = may_smooth(bench, v, accept_above); r != Refusal::committed) return r;
+    StarScratch& scratch = bench.scratch;
+    bench.complex.star(v, scratch.star, scratch.places);
+    const Refusal r = plan_laplacian(bench.complex, bench.limits, v, accept_above, scratch);
+    if (r != Refusal::committed) return bench.remember(v, Workbench::Trial::laplacian, accept_above, r);
+    bench.complex.move(v, scratch.place, scratch.star, scratch.qualities);
     return Refusal::committed;
 }
 

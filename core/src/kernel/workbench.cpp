@@ -101,13 +101,13 @@ std::uint32_t Workbench::new_vertex_epoch() {
 
 void Workbench::shared_interface_vertices(std::vector<VertexId>& out) {
     out.clear();
-    const std::uint32_t near_a = new_vertex_epoch(), listed = new_vertex_epoch();
+    const std::uint32_t first_star = new_vertex_epoch(), listed = new_vertex_epoch();
     for (const TetId t : star_a) {
-        for (const VertexId w : complex.tet(t).v) vertex_marks_[w] = near_a;
+        for (const VertexId w : complex.tet(t).v) vertex_marks_[w] = first_star;
     }
     for (const TetId t : star_b) {
         for (const VertexId w : complex.tet(t).v) {
-            if (vertex_marks_[w] != near_a || !complex.on_interface(w)) continue;
+            if (vertex_marks_[w] != first_star || !complex.on_interface(w)) continue;
             vertex_marks_[w] = listed;
             out.push_back(w);
         }
@@ -115,36 +115,21 @@ void Workbench::shared_interface_vertices(std::vector<VertexId>& out) {
     std::sort(out.begin(), out.end());
 }
 
-void Workbench::neighbours_of(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out) {
-    const std::uint32_t listed = new_vertex_epoch();
-    vertex_marks_[v] = listed;
-    out.clear();
-    for (const TetId t : star) {
-        for (const VertexId w : complex.tet(t).v) {
-            if (vertex_marks_[w] == listed) continue;
-            vertex_marks_[w] = listed;
-            out.push_back(w);
-        }
-    }
-    std::sort(out.begin(), out.end(), [this](VertexId x, VertexId y) { return complex.birth(x) < complex.birth(y); });
-}
-
 Refusal Workbench::known_refusal(VertexId v, Trial trial, float accept_above) const {
     if (v >= memory_.size()) return Refusal::committed;
     const auto i = static_cast<std::size_t>(trial);
     const Memory& m = memory_[v];
-    const bool same = m.birth == complex.birth(v) && m.accept_above[i] == accept_above && complex.vertex_date(v) <= m.date[i];
-    return same ? m.refusal[i] : Refusal::committed;
+    if (complex.vertex_date(v) > m.date[i]) return Refusal::committed;
+    return trial == Trial::laplacian && m.accept_above != accept_above ? Refusal::committed : m.refusal[i];
 }
 
-Refusal Workbench::remember(VertexId v, Trial trial, float accept_above, Refusal refusal) {
+Refusal Workbench::remember(VertexId v, Trial trial, float accept_above, Refusal refusal, std::uint32_t date) {
     if (memory_.size() < complex.vertex_slots()) memory_.resize(complex.vertex_slots());
     const auto i = static_cast<std::size_t>(trial);
     Memory& m = memory_[v];
-    if (m.birth != complex.birth(v)) m = Memory{complex.birth(v), {}, {}, {}};
-    m.date[i] = complex.clock();
-    m.accept_above[i] = accept_above;
+    m.date[i] = date;
     m.refusal[i] = refusal;
+    if (trial == Trial::laplacian) m.accept_above = accept_above;
     return refusal;
 }
 

@@ -10,6 +10,8 @@
 #include <dsc/mesh/local_star.hpp>
 #include <dsc/mesh/repair.hpp>
 
+#include "kernel/star_loop.hpp"
+
 namespace dsc::kernel {
 
 using mesh::Refusal;
@@ -63,7 +65,8 @@ public:
     // Scratch of the operations; whoever needs one fills it.
     mesh::EdgeRing ring, ring2;
     std::vector<TetId> star_a, star_b;
-    std::vector<VertexId> vertices;
+    std::vector<VertexId> vertices, near_a, near_b;
+    StarScratch scratch;
     std::vector<std::array<VertexId, 3>> fan, faces;
 
     /// Position with the edit's changes.
@@ -85,15 +88,16 @@ public:
     /// Links and commits. `distance` and `volume` are what the edit does to the interface.
     VertexId commit(double distance, double volume);
 
-    /// The other vertices of a star, each once, by birth.
-    void neighbours_of(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out);
     /// Interface vertices of both stars, `star_a` and `star_b`, by id.
     void shared_interface_vertices(std::vector<VertexId>& out);
 
     /// A smoothing that was refused is refused again as long as nothing in the vertex' star changed: `known_refusal` says so
     /// without trying, `committed` means that a try is worth it. `trial` tells requests of one vertex apart.
     Refusal known_refusal(VertexId v, Trial trial, float accept_above) const;
-    Refusal remember(VertexId v, Trial trial, float accept_above, Refusal refusal);
+    Refusal remember(VertexId v, Trial trial, float accept_above, Refusal refusal) {
+        return remember(v, trial, accept_above, refusal, complex.clock());
+    }
+    Refusal remember(VertexId v, Trial trial, float accept_above, Refusal refusal, std::uint32_t date);
     /// Forgets all refusals: the limits changed.
     void forget_refusals() { memory_.clear(); }
 
@@ -111,11 +115,11 @@ private:
     std::vector<std::array<VertexId, 3>> fan_;
     std::vector<Vec3> normals_;
 
-    // What was refused at a vertex, by trial: when, by the change clock, and why.
+    // What was refused at a vertex, by trial: when, by the change clock, and why. The star of a vertex that takes the slot of
+    // another is younger than what was remembered of that one.
     struct Memory {
-        std::uint32_t birth = 0;
         std::array<std::uint32_t, 2> date = {0, 0};
-        std::array<float, 2> accept_above = {0.0F, 0.0F};
+        float accept_above = 0.0F;  // of the Laplacian; the other trial has no bound
         std::array<Refusal, 2> refusal = {Refusal::committed, Refusal::committed};
     };
     std::vector<Memory> memory_;  // per vertex

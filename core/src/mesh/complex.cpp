@@ -1,6 +1,7 @@
 #include <dsc/mesh/complex.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <numeric>
 
@@ -34,7 +35,7 @@ VertexId Complex::allocate_vertex(const Vec3& position) {
         free_vertices_.pop_back();
     }
     // Dated before this change, so that touch() lists it.
-    vertices_[v] = {position, none, next_birth_++, clock_ - 1, none, 1, false};
+    vertices_[v] = {position, none, next_birth_++, clock_ - 1, no_slot, 1, 0};
     return v;
 }
 
@@ -50,7 +51,6 @@ TetId Complex::allocate_tet() {
     qualities_.push_back(0);
     dates_.push_back(0);
     birth_dates_.push_back(0);
-    marks_.push_back(0);
     return t;
 }
 
@@ -72,17 +72,17 @@ void Complex::take_changes(std::vector<TetId>& out) {
 
 void Complex::set_phases(VertexId v, unsigned phases) {
     Vertex& vertex = vertices_[v];
-    vertex.phases = static_cast<std::uint8_t>(phases);
-    const bool listed = vertex.interface_slot != none;
+    vertex.phases = phases & 3U;
+    const bool listed = vertex.interface_slot != no_slot;
     if (phases > 1 && !listed) {
-        vertex.interface_slot = static_cast<std::uint32_t>(interface_.size());
+        vertex.interface_slot = static_cast<std::uint32_t>(interface_.size()) & no_slot;
         interface_.push_back(v);
     } else if (phases <= 1 && listed) {
         const VertexId last = interface_.back();
         interface_[vertex.interface_slot] = last;
         vertices_[last].interface_slot = vertex.interface_slot;
         interface_.pop_back();
-        vertex.interface_slot = none;
+        vertex.interface_slot = no_slot;
     }
 }
 
@@ -96,7 +96,7 @@ void Complex::refresh_phases(VertexId v) {
         }
     };
     for (const TetId t : star_scratch_) note(labels_[t]);
-    if (vertices_[v].on_box) note(0);
+    if (on_box(v)) note(0);
     set_phases(v, count);
 }
 
@@ -112,14 +112,34 @@ void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star
     }
 }
 
-void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities) {
+void Complex::place(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities) {
+    vertices_[v].position = position;
+    for (std::size_t i = 0; i < star.size(); ++i) qualities_[star[i]] = qualities[i];
+}
+
+void Complex::note_change(std::span<const TetId> star) {
     ++clock_;
     touched_vertices_.clear();
-    vertices_[v].position = position;
-    for (std::size_t i = 0; i < star.size(); ++i) {
-        qualities_[star[i]] = qualities[i];
-        touch(star[i]);
+    for (const TetId t : star) touch(t);
+}
+
+void Complex::date_star(std::span<const TetId> star, std::uint32_t clock, std::vector<TetId>& changed) {
+    for (const TetId t : star) {
+        if (dates_[t] <= taken_clock_) changed.push_back(t);
+        dates_[t] = clock;
+        for (const VertexId v : tets_[t].v) {
+            // Another star may share the vertex: the latest date stays, whoever comes first.
+            const std::atomic_ref<std::uint32_t> date(vertices_[v].date);
+            std::uint32_t before = date.load(std::memory_order_relaxed);
+            while (before < clock && !date.compare_exchange_weak(before, clock, std::memory_order_relaxed)) {
+            }
+        }
     }
+}
+
+void Complex::note_changes(std::uint32_t clock, std::span<const TetId> changed) {
+    clock_ = clock;
+    changes_.insert(changes_.end(), changed.begin(), changed.end());
 }
 
 void Complex::relabel(std::span<const TetId> tets, Label label) {
@@ -132,13 +152,45 @@ void Complex::relabel(std::span<const TetId> tets, Label label) {
     for (const VertexId v : touched_vertices_) refresh_phases(v);
 }
 
+// Whether the labels round some vertices may become others; then relabelled_ are the existing ones among them. Where a vertex
+// has the same labels in the cavity before and after, as in nearly every edit, its star keeps them, too.
+bool Complex::find_relabelled(const Edit& edit) {
+    relabelled_.clear();
+    const Label first = edit.added.empty() ? 0 : edit.added.front().label;
+    const auto same = [first](Label label) { return label == first; };
+    if (std::all_of(edit.removed.begin(), edit.removed.end(), [&](TetId t) { return same(labels_[t]); }) &&
+        std::all_of(edit.added.begin(), edit.added.end(), [&](const NewTet& t) { return same(t.label); })) {
+        return false;
+    }
+    places_.clear();
+    cavity_labels_.clear();
+    // A set of labels as bits, exact for labels up to 63; beyond, every vertex of the cavity is looked at.
+    const auto bit = [](Label label) { return std::uint64_t{1} << (static_cast<std::uint32_t>(label) & 63U); };
+    const auto note = [&](VertexId v, Label label, std::size_t when) {
+        if (v == created_vertex) return;
+        if (places_.insert(v)) cavity_labels_.push_back({v, {0, 0}});
+        cavity_labels_[places_.find(v)].labels[when] |= bit(label);
+    };
+    const auto small = [](Label label) { return label >= 0 && label < 64; };
+    bool exact = true;
+    for (const TetId t : edit.removed) {
+        exact = exact && small(labels_[t]);
+        for (const VertexId v : tets_[t].v) note(v, labels_[t], 0);
+    }
+    for (const NewTet& tet : edit.added) {
+        exact = exact && small(tet.label);
+        for (const VertexId v : tet.v) note(v, tet.label, 1);
+    }
+    for (const CavityLabels& entry : cavity_labels_) {
+        if (entry.vertex != edit.deleted && (!exact || entry.labels[0] != entry.labels[1])) relabelled_.push_back(entry.vertex);
+    }
+    return true;
+}
+
 VertexId Complex::replace(Edit& edit) {
     ++clock_;
     touched_vertices_.clear();
-    bool one_label = true;
-    const Label first = edit.added.empty() ? 0 : edit.added.front().label;
-    for (const TetId t : edit.removed) one_label = one_label && labels_[t] == first;
-    for (const NewTet& tet : edit.added) one_label = one_label && tet.label == first;
+    const bool several_labels = find_relabelled(edit);
 
     VertexId created = none;
     if (edit.creates) created = allocate_vertex(edit.created_at);
@@ -186,7 +238,6 @@ VertexId Complex::replace(Edit& edit) {
         tets_[t].v[0] = none;
         qualities_[t] = no_quality;
         birth_dates_[t] = clock_;
-        dates_[t] = 0;  // whatever takes the slot is listed again
         free_tets_.push_back(t);
     }
     if (edit.deleted != none) {
@@ -194,9 +245,8 @@ VertexId Complex::replace(Edit& edit) {
         vertices_[edit.deleted].seed = none;
         free_vertices_.push_back(edit.deleted);
     }
-    if (!one_label) {
-        for (const VertexId v : touched_vertices_) refresh_phases(v);
-    }
+    for (const VertexId v : relabelled_) refresh_phases(v);
+    if (several_labels && created != none) refresh_phases(created);
     return created;
 }
 
@@ -204,7 +254,7 @@ Complex Complex::assemble(std::vector<Vec3> points, std::span<const Tet> tets, s
     Complex c;
     c.vertices_.reserve(points.size());
     for (const Vec3& p : points) {
-        c.vertices_.push_back({p, none, c.next_birth_++, 0, none, 1, false});
+        c.vertices_.push_back({p, none, c.next_birth_++, 0, no_slot, 1, 0});
         c.box_.extend(p);
     }
     c.tets_.assign(tets.begin(), tets.end());
@@ -213,7 +263,6 @@ Complex Complex::assemble(std::vector<Vec3> points, std::span<const Tet> tets, s
     c.qualities_.resize(n);
     c.dates_.assign(n, 0);
     c.birth_dates_.assign(n, 1);
-    c.marks_.assign(n, 0);
     c.clock_ = 1;
     for (TetId t = 0; t < n; ++t) {
         const auto& v = c.tets_[t].v;
@@ -222,7 +271,7 @@ Complex Complex::assemble(std::vector<Vec3> points, std::span<const Tet> tets, s
         for (unsigned f = 0; f < 4; ++f) {
             c.vertices_[v[f]].seed = t;
             if (c.tets_[t].n[f] != none) continue;
-            for (const auto i : face_vertices[f]) c.vertices_[v[i]].on_box = true;
+            for (const auto i : face_vertices[f]) c.vertices_[v[i]].on_box = 1;
         }
         c.touch(t);
     }

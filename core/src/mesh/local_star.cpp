@@ -3,23 +3,25 @@
 #include <algorithm>
 
 namespace dsc::mesh {
+namespace {
+
+constexpr std::uint32_t removed_node = none - 1;
+
+}  // namespace
 
 void LocalStar::build(VertexId v) { build(v, std::span<const TetId>(), 0); }
 
 void LocalStar::build(VertexId v, std::span<const TetId> region, Label trial) {
     vertex_ = v;
-    complex_.star(v, tets_);
+    complex_.star(v, tets_, places_);
     labels_.clear();
     corners_.clear();
-    if (local_.size() < complex_.tet_slots()) local_.resize(complex_.tet_slots());
     for (std::size_t i = 0; i < tets_.size(); ++i) {
-        local_[tets_[i]] = static_cast<std::uint32_t>(i);
         labels_.push_back(complex_.label(tets_[i]));
         corners_.push_back(complex_.tet(tets_[i]).v);
     }
-    // The star's marks are still set: exactly its tets are marked.
     for (const TetId t : region) {
-        if (complex_.tet_marked(t)) labels_[local_[t]] = trial;
+        if (const std::uint32_t i = places_.find(t); i != TetIndex::absent) labels_[i] = trial;
     }
     adjacent_.assign(tets_.size(), {none, none, none, none});
     bool outside = false;
@@ -32,7 +34,7 @@ void LocalStar::build(VertexId v, std::span<const TetId> region, Label trial) {
                 adjacent_[i][f] = outside_node;
                 outside = true;
             } else {
-                adjacent_[i][f] = local_[neighbour_tet(tet.n[f])];
+                adjacent_[i][f] = places_.find(neighbour_tet(tet.n[f]));
             }
         }
     }
@@ -50,7 +52,6 @@ void LocalStar::build(VertexId v, const Edit& edit) {
     labels_.clear();
     corners_.clear();
     adjacent_.clear();
-    if (local_.size() < complex_.tet_slots()) local_.resize(complex_.tet_slots());
     // Added tets first: node numbers of virtual codes are then found through added_node.
     stack_.assign(edit.added.size(), none);
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
@@ -64,13 +65,18 @@ void LocalStar::build(VertexId v, const Edit& edit) {
     }
     const std::size_t virtual_nodes = tets_.size();
     if (v != created_vertex) {
-        complex_.star(v, star_);
-        for (const TetId t : star_) {
-            if (std::find(edit.removed.begin(), edit.removed.end(), t) != edit.removed.end()) {
-                local_[t] = none;
+        complex_.star(v, star_, places_);
+        node_of_.assign(star_.size(), none);
+        for (const TetId t : edit.removed) {
+            if (const std::uint32_t place = places_.find(t); place != TetIndex::absent) node_of_[place] = removed_node;
+        }
+        for (std::size_t place = 0; place < star_.size(); ++place) {
+            const TetId t = star_[place];
+            if (node_of_[place] == removed_node) {
+                node_of_[place] = none;
                 continue;
             }
-            local_[t] = static_cast<std::uint32_t>(tets_.size());
+            node_of_[place] = static_cast<std::uint32_t>(tets_.size());
             tets_.push_back(t);
             labels_.push_back(complex_.label(t));
             corners_.push_back(complex_.tet(t).v);
@@ -87,7 +93,7 @@ void LocalStar::build(VertexId v, const Edit& edit) {
                 adjacent_[i][f] = outside_node;
                 outside = true;
             } else {
-                adjacent_[i][f] = local_[neighbour_tet(tet.n[f])];  // none where removed: set from the other side
+                adjacent_[i][f] = node_of_[places_.find(neighbour_tet(tet.n[f]))];  // none where removed: set from the other side
             }
         }
     }
@@ -103,7 +109,7 @@ void LocalStar::build(VertexId v, const Edit& edit) {
             } else if ((code & Edit::virtual_code) != 0) {
                 adjacent_[node][f] = stack_[(code & ~Edit::virtual_code) >> 2U];
             } else {
-                const std::uint32_t other = local_[neighbour_tet(code)];
+                const std::uint32_t other = node_of_[places_.find(neighbour_tet(code))];
                 adjacent_[node][f] = other;
                 adjacent_[other][neighbour_face(code)] = node;
             }

@@ -20,24 +20,20 @@ VertexId fourth(const Tet& tet, VertexId a, VertexId b, VertexId c) {
 
 }  // namespace
 
-void Complex::star(VertexId v, std::vector<TetId>& out) const {
+void Complex::star(VertexId v, std::vector<TetId>& out, TetIndex& places) const {
     out.clear();
-    new_epoch();
-    // Kept in registers: the compiler cannot know that writing a mark changes neither.
-    const std::uint32_t epoch = epoch_;
-    std::uint32_t* const marks = marks_.data();
+    places.clear();
+    // Kept in a register: the compiler cannot know that writing the table does not change it.
     const Tet* const tets = tets_.data();
     const TetId first = vertices_[v].seed;
-    marks[first] = epoch;
+    places.insert(first);
     out.push_back(first);
     for (std::size_t i = 0; i < out.size(); ++i) {
         const Tet& tet = tets[out[i]];
         for (unsigned f = 0; f < 4; ++f) {
             if (tet.v[f] == v || tet.n[f] == none) continue;
             const TetId next = neighbour_tet(tet.n[f]);
-            if (marks[next] == epoch) continue;
-            marks[next] = epoch;
-            out.push_back(next);
+            if (places.insert(next)) out.push_back(next);
         }
     }
 }

@@ -40,7 +40,7 @@ public:
           serial_(1),
           workers_(options.workers != nullptr ? *options.workers : serial_),
           planned_(planned_steps(experiment)),
-          deformer_(initial_complex()) {
+          deformer_(initial_complex(), {}, &workers_) {
         policy_.propose = [this](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
             strategies_.improvement->propose(*context_, round, out);
         };
@@ -83,12 +83,13 @@ private:
                 .to_normalised = cloud_ != nullptr ? cloud_->transform() : cloud::Transform{},
                 .seed = experiment_.seed,
                 .instance = 0,
-                .cancel = options_.cancel};
+                .cancel = options_.cancel,
+                .workers = &workers_};
     }
 
     void refresh_view() {
         const Timed timed(result_.totals.seconds.velocity);
-        surface::build_view(deformer_.complex(), view_);
+        surface::build_view(deformer_.complex(), view_, &workers_);
     }
 
     void begin() {

@@ -25,10 +25,11 @@ public:
     ResultFiles(const RunFolder& folder, const Output& output, Workers& workers)
         : folder_(folder), output_(output), workers_(workers) {}
 
-    void write(const mesh::TetMesh& mesh, RunOutcome& outcome) const {
+    /// Where all vanished, a motion has come to its end, with a volume and no surface; a cloud has got no surface.
+    void write(const mesh::TetMesh& mesh, bool may_vanish, RunOutcome& outcome) const {
         folder_.open_staging();
         const surface::TriangleMesh surface = surface::extract_interface(mesh);
-        if (surface.faces.empty()) {
+        if (surface.faces.empty() && !may_vanish) {
             throw GeometryError(
                 "run.vanished",
                 "the surface vanished: no tet with a label above 0 is left, so there is no result; the "
@@ -36,6 +37,7 @@ public:
                 "earlier");
         }
         for (const std::string& extension : output_.surface) {
+            if (surface.faces.empty()) break;
             io::write_surface(staged("surface.", extension), surface);
             outcome.surfaces.push_back(folder_.file("result") / ("surface." + extension));
         }
@@ -48,12 +50,16 @@ public:
     void measure_files(RunOutcome& outcome) const {
         const mesh::TetMesh volume =
             io::read_volume(staged("volume.", preferred(output_.volume, {"dsc", "vtu"})));
-        const surface::TriangleMesh surface =
-            io::read_surface(staged("surface.", preferred(output_.surface, {"obj", "ply", "off", "stl"})));
-        outcome.surface = measure(surface, &workers_);
         outcome.volume = measure(volume, &workers_, false);
         outcome.volume.interface = surface::extract_interface(volume);
         outcome.conforms = true;
+        if (outcome.surfaces.empty()) {
+            outcome.conforms = outcome.volume.interface.faces.empty();
+            return;
+        }
+        const surface::TriangleMesh surface =
+            io::read_surface(staged("surface.", preferred(output_.surface, {"obj", "ply", "off", "stl"})));
+        outcome.surface = measure(surface, &workers_);
         for (const std::string& extension : output_.surface) {
             if (extension == "stl") continue;  // holds floats
             outcome.conforms = outcome.conforms && identical(io::read_surface(staged("surface.", extension)),
@@ -172,11 +178,13 @@ private:
         outcome.totals = driven.totals;
         const Stopwatch io_watch;
         const ResultFiles files(folder, experiment.output, workers_);
-        files.write(to_input(driven.mesh, to_normalised), outcome);
+        files.write(to_input(driven.mesh, to_normalised), target == nullptr, outcome);
         files.measure_files(outcome);
         require_valid(outcome);
-        draw(folder, outcome.volume.interface, experiment.input && experiment.input->cloud.sample, workers_);
-        outcome.picture = folder.file("preview.png");
+        if (!outcome.surfaces.empty()) {
+            draw(folder, outcome.volume.interface, experiment.input && experiment.input->cloud.sample, workers_);
+            outcome.picture = folder.file("preview.png");
+        }
         std::optional<surface::CloudEvaluation> distances;
         if (target != nullptr)
             distances = surface::evaluate_cloud(driven.surface, target->points(), &workers_);

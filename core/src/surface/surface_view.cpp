@@ -12,9 +12,11 @@ struct RawFace {
     mesh::TetId tet;
 };
 
+constexpr std::size_t walk_block = 1024;  // vertices
+
 // Interface faces round v for which v is the vertex of least birth, each once, oriented out of the larger label.
-void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::TetId>& star, std::vector<RawFace>& out) {
-    c.star(v, star);
+void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::TetId>& star, mesh::TetIndex& places, std::vector<RawFace>& out) {
+    c.star(v, star, places);
     for (const mesh::TetId t : star) {
         const mesh::Tet& tet = c.tet(t);
         for (unsigned f = 0; f < 4; ++f) {
@@ -36,10 +38,10 @@ void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::Te
 
 }  // namespace
 
-void build_view(const mesh::Complex& c, SurfaceView& view) {
-    static thread_local std::vector<mesh::TetId> star;
-    static thread_local std::vector<RawFace> raw;
-    static thread_local std::vector<std::uint32_t> index;
+void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers) {
+    static thread_local std::vector<std::vector<RawFace>> blocks;
+    static thread_local std::vector<std::uint32_t> index_of_vertex;
+    std::vector<std::uint32_t>& index = index_of_vertex;  // of this thread, also in the loop of the workers
     const auto interface = c.interface_vertices();
     view.vertex_ids.assign(interface.begin(), interface.end());
     std::sort(view.vertex_ids.begin(), view.vertex_ids.end(),
@@ -56,15 +58,30 @@ void build_view(const mesh::Complex& c, SurfaceView& view) {
         view.positions[i] = c.position(v);
         view.movable[i] = c.movable(v) ? 1 : 0;
     }
+    blocks.resize(std::max(blocks.size(), (n + walk_block - 1) / walk_block));
+    struct Job {
+        const mesh::Complex& c;
+        const SurfaceView& view;
+        const std::vector<std::uint32_t>& index;
+        std::vector<std::vector<RawFace>>& blocks;
+    } const job{c, view, index, blocks};
+    for_blocks(workers, n, walk_block, [&job](std::size_t begin, std::size_t end) {
+        static thread_local std::vector<mesh::TetId> star;
+        static thread_local mesh::TetIndex places;
+        std::vector<RawFace>& raw = job.blocks[begin / walk_block];
+        raw.clear();
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto first = static_cast<std::ptrdiff_t>(raw.size());
+            faces_led_by(job.c, job.view.vertex_ids[i], star, places, raw);
+            std::sort(raw.begin() + first, raw.end(), [&](const RawFace& a, const RawFace& b) {
+                return std::pair(job.index[a.v[1]], job.index[a.v[2]]) < std::pair(job.index[b.v[1]], job.index[b.v[2]]);
+            });
+        }
+    });
     view.faces.clear();
     view.face_tets.clear();
-    for (std::size_t i = 0; i < n; ++i) {
-        raw.clear();
-        faces_led_by(c, view.vertex_ids[i], star, raw);
-        std::sort(raw.begin(), raw.end(), [&](const RawFace& a, const RawFace& b) {
-            return std::pair(index[a.v[1]], index[a.v[2]]) < std::pair(index[b.v[1]], index[b.v[2]]);
-        });
-        for (const RawFace& face : raw) {
+    for (std::size_t b = 0; b * walk_block < n; ++b) {
+        for (const RawFace& face : blocks[b]) {
             view.faces.push_back({index[face.v[0]], index[face.v[1]], index[face.v[2]]});
             view.face_tets.push_back(face.tet);
         }

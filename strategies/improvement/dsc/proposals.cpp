@@ -48,6 +48,35 @@ bool Proposals::first_visit(mesh::VertexId v) {
     return true;
 }
 
+// What a tet gives cause for: reads only, so that threads may share it.
+std::uint8_t Proposals::look(const mesh::RepairRound& round, mesh::TetId t) const {
+    const mesh::Complex& c = round.complex;
+    const auto length2 = [&c](mesh::VertexId a, mesh::VertexId b) { return (c.position(a) - c.position(b)).squaredNorm(); };
+    const auto square = [](double x) { return x * x; };
+    const auto& v = c.tet(t).v;
+    std::uint8_t found = 0;
+    const auto q = static_cast<double>(c.quality(t));
+    if (q < limits_.min_tet_quality) found |= low_quality;
+    if (q < limits_.smooth_below) found |= to_smooth;
+    if (c.volume(t) < limits_.min_tet_volume * geometry::regular_tet_volume(round.target_length)) found |= small_volume;
+    // A little wider than what is wanted: note_edges() decides.
+    const double shortest2 = square(limits_.min_edge_length * round.target_length) * (1.0 + 1e-9);
+    const double longest2 = square(limits_.max_edge_length * round.target_length) * (1.0 - 1e-9);
+    for (unsigned f = 0; f < 4; ++f) {
+        if (c.label(t) <= c.label_across(t, f)) continue;
+        for (unsigned k = 0; k < 3; ++k) {
+            const double l2 = length2(v[mesh::face_vertices[f][k]], v[mesh::face_vertices[f][(k + 1) % 3]]);
+            if (l2 < shortest2 || l2 > longest2) found |= interface_edges;
+        }
+    }
+    if (!(limits_.max_free_edge > 0.0)) return found;
+    const double free2 = square(limits_.max_free_edge * round.target_length) * (1.0 - 1e-9);
+    for (const auto& ends : mesh::edge_vertices) {
+        if (c.on_interface(v[ends[0]]) != c.on_interface(v[ends[1]]) && length2(v[ends[0]], v[ends[1]]) > free2) found |= free_edges;
+    }
+    return found;
+}
+
 void Proposals::note_edges(const mesh::RepairRound& round, mesh::TetId t) {
     const mesh::Complex& c = round.complex;
     const double shortest = limits_.min_edge_length * round.target_length;
@@ -79,7 +108,7 @@ void Proposals::note_free_edges(const mesh::RepairRound& round, mesh::TetId t) {
     }
 }
 
-void Proposals::sort_out(const mesh::RepairRound& round) {
+void Proposals::sort_out(const mesh::RepairRound& round, Workers* workers) {
     const mesh::Complex& c = round.complex;
     const double small = limits_.min_tet_volume * geometry::regular_tet_volume(round.target_length);
     low_.clear();
@@ -90,20 +119,28 @@ void Proposals::sort_out(const mesh::RepairRound& round) {
     free_.clear();
     free_tets_.clear();
     ++visit_;
-    for (const mesh::TetId t : round.dirty) {
-        const double q = static_cast<double>(c.quality(t));
-        if (q < limits_.min_tet_quality) low_.push_back({quantised(q), t, static_cast<std::uint32_t>(low_.size())});
-        if (q < limits_.smooth_below) {
+    looks_.resize(round.dirty.size());
+    struct Job {
+        Proposals& proposals;
+        const mesh::RepairRound& round;
+    } const job{*this, round};
+    for_blocks(workers, round.dirty.size(), look_block, [&job](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) job.proposals.looks_[i] = job.proposals.look(job.round, job.round.dirty[i]);
+    });
+    for (std::size_t i = 0; i < round.dirty.size(); ++i) {
+        const mesh::TetId t = round.dirty[i];
+        const std::uint8_t found = looks_[i];
+        if ((found & low_quality) != 0) low_.push_back({quantised(static_cast<double>(c.quality(t))), t, static_cast<std::uint32_t>(low_.size())});
+        if ((found & to_smooth) != 0) {
             for (const mesh::VertexId v : c.tet(t).v) {
                 if (c.on_interface(v) || c.on_box(v) || !first_visit(v)) continue;
                 free_.push_back(v);
                 free_tets_.push_back(t);
             }
         }
-        const double volume = c.volume(t);
-        if (volume < small) small_.push_back({quantised(volume / small), t, static_cast<std::uint32_t>(small_.size())});
-        note_edges(round, t);
-        if (limits_.max_free_edge > 0.0) note_free_edges(round, t);
+        if ((found & small_volume) != 0) small_.push_back({quantised(c.volume(t) / small), t, static_cast<std::uint32_t>(small_.size())});
+        if ((found & interface_edges) != 0) note_edges(round, t);
+        if ((found & free_edges) != 0) note_free_edges(round, t);
     }
     // Total orders, so that no stable sort with its buffer is needed.
     const auto by_key = [](const Entry& x, const Entry& y) { return x.key != y.key ? x.key < y.key : x.order < y.order; };
@@ -124,9 +161,9 @@ void Proposals::sort_out(const mesh::RepairRound& round) {
     }
 }
 
-void Proposals::write(const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+void Proposals::write(const mesh::RepairRound& round, Workers* workers, std::vector<mesh::Request>& out) {
     const mesh::Complex& c = round.complex;
-    sort_out(round);
+    sort_out(round, workers);
     const double low = limits_.min_tet_quality, degenerate = limits_.degenerate_tet_quality;
     // 0. Long edges ahead of the interface, longest first: what follows smooths the vertices that they get.
     for (const EdgeEntry& edge : free_long_) {

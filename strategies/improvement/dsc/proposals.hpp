@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <dsc/base/workers.hpp>
 #include <dsc/mesh/repair.hpp>
 
 namespace dsc::improvement {
@@ -24,7 +25,8 @@ struct Thresholds {
 class Proposals {
 public:
     explicit Proposals(const Thresholds& thresholds) : limits_(thresholds) {}
-    void write(const mesh::RepairRound& round, std::vector<mesh::Request>& out);
+    /// `workers`, null for one thread, share the look at the dirty tets.
+    void write(const mesh::RepairRound& round, Workers* workers, std::vector<mesh::Request>& out);
 
 private:
     struct Entry {
@@ -39,12 +41,18 @@ private:
         std::int64_t key;
         std::uint32_t order;  // of discovery
     };
-    void sort_out(const mesh::RepairRound& round);
+    // What look() finds.
+    static constexpr std::uint8_t small_volume = 1, interface_edges = 2, free_edges = 4, low_quality = 8, to_smooth = 16;
+    static constexpr std::size_t look_block = 8192;  // tets
+
+    void sort_out(const mesh::RepairRound& round, Workers* workers);
+    std::uint8_t look(const mesh::RepairRound& round, mesh::TetId t) const;
     void note_edges(const mesh::RepairRound& round, mesh::TetId t);
     void note_free_edges(const mesh::RepairRound& round, mesh::TetId t);
     bool first_visit(mesh::VertexId v);
 
     Thresholds limits_;
+    std::vector<std::uint8_t> looks_;  // one a dirty tet
     std::vector<Entry> low_, small_;
     std::vector<EdgeEntry> short_, long_, free_long_;
     std::vector<mesh::VertexId> free_;

@@ -70,8 +70,8 @@ DscImprovement::DscImprovement(const Params& params, const plugin::Setup&)
       proposals_({params.min_tet_quality, params.degenerate_tet_quality, params.smooth_below, params.min_edge_length,
                   params.max_edge_length, params.min_tet_volume, params.max_free_edge}) {}
 
-void DscImprovement::propose(const hooks::StepContext&, const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
-    proposals_.write(round, out);
+void DscImprovement::propose(const hooks::StepContext& context, const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+    proposals_.write(round, context.workers, out);
 }
 
 mesh::TopologyLimits DscImprovement::topology_limits() const {

@@ -1,5 +1,7 @@
 #include "strategy.hpp"
 
+#include <dsc/mesh/project.hpp>
+
 namespace dsc::strategies {
 namespace {
 
@@ -17,7 +19,7 @@ constexpr Pattern odd_cell = {{{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}}},
                                {{{1, 0, 1}, {1, 0, 0}, {0, 0, 1}, {1, 1, 1}}},
                                {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}}}};
 
-std::vector<Vec3> lattice_points(unsigned cells, double half) {
+std::vector<Vec3> lattice_points(unsigned cells, double half, const Vec3& centre) {
     // Symmetric to the last bit: coordinate i is minus coordinate cells - i.
     const auto coordinate = [&](unsigned i) {
         return half * (2.0 * static_cast<double>(i) - static_cast<double>(cells)) /
@@ -28,7 +30,7 @@ std::vector<Vec3> lattice_points(unsigned cells, double half) {
     for (unsigned k = 0; k <= cells; ++k) {
         for (unsigned j = 0; j <= cells; ++j) {
             for (unsigned i = 0; i <= cells; ++i)
-                points.emplace_back(coordinate(i), coordinate(j), coordinate(k));
+                points.push_back(centre + Vec3(coordinate(i), coordinate(j), coordinate(k)));
         }
     }
     return points;
@@ -38,21 +40,30 @@ std::vector<Vec3> lattice_points(unsigned cells, double half) {
 
 void Grid::declare(config::ParamSchema<Params>& schema) {
     schema.integer("cells", &Params::cells).range(1, 200).unit("1").doc("Cells along each edge of the box.");
-    schema.real("box", &Params::box)
-        .greater(0)
-        .unit("length")
-        .doc("Half the edge of the box, which is centred at 0.");
+    schema.real("box", &Params::box).greater(0).unit("length").doc("Half the edge of the box.");
+    schema.vec3("box_centre", &Params::box_centre).unit("length").doc("Centre of the box.");
     plugin::declare_shapes(schema);
 }
 
 Grid::Grid(const Params& params, const plugin::Setup&)
-    : cells_(params.cells), box_(params.box), shapes_(params.all()) {}
+    : cells_(params.cells),
+      box_(params.box),
+      box_centre_(params.box_centre),
+      project_(params.project),
+      shapes_(params.all()) {}
 
 mesh::TetMesh Grid::build(const hooks::InitialMeshContext& context) {
+    if (!project_) return lattice(context, shapes_);
+    return mesh::make_projected([&](std::span<const mesh::Shape> shapes) { return lattice(context, shapes); },
+                                shapes_, 2 * box_ / cells_, "initial mesh 'grid'");
+}
+
+mesh::TetMesh Grid::lattice(const hooks::InitialMeshContext& context,
+                            std::span<const mesh::Shape> shapes) const {
     const auto cells = static_cast<unsigned>(cells_);
     const unsigned row = cells + 1;
     mesh::TetMesh out;
-    out.points = lattice_points(cells, box_);
+    out.points = lattice_points(cells, box_, box_centre_);
     out.tets.reserve(std::size_t{5} * cells * cells * cells);
     out.labels.reserve(out.tets.capacity());
     for (unsigned k = 0; k < cells; ++k) {
@@ -70,7 +81,7 @@ mesh::TetMesh Grid::build(const hooks::InitialMeshContext& context) {
                         corners[c] = out.points[tet[c]];
                     }
                     out.tets.push_back(tet);
-                    out.labels.push_back(mesh::label_of(shapes_, corners));
+                    out.labels.push_back(mesh::label_of(shapes, corners));
                 }
             }
         }

@@ -203,3 +203,33 @@ TEST_CASE("a shape without a direction is refused") {
     CHECK_THROWS_WITH_AS(build(ConfigNode::map({{"shapes", ConfigNode::list({shape})}})),
                          doctest::Contains("axis must not be the zero vector"), dsc::ConfigError);
 }
+
+TEST_CASE("the box may lie anywhere") {
+    const auto mesh = build(ConfigNode::map({{"cells", 4},
+                                             {"box", 0.5},
+                                             {"box_centre", ConfigNode::list({0.5, 0.5, 0.5})},
+                                             {"shape", "sphere"},
+                                             {"centre", ConfigNode::list({0.5, 0.5, 0.5})},
+                                             {"radius", 0.45}}));
+    check_sound(count(mesh), mesh, 1.0);
+    CHECK(mesh.points.front() == Vec3(0, 0, 0));
+    CHECK(mesh.points.back() == Vec3(1, 1, 1));
+    CHECK(count(mesh).labelled > 0);
+}
+
+TEST_CASE("projected, the sphere's vertices are on the radius and the box is as before") {
+    const ConfigNode shape = ConfigNode::map({{"shape", "sphere"}, {"radius", 0.9}, {"rule", "barycentre"}});
+    for (const ConfigNode& params :
+         {ConfigNode::map({{"cells", 16}, {"shape", "sphere"}, {"radius", 0.9}, {"project", true}}),
+          ConfigNode::map({{"cells", 16},
+                           {"shape", "none"},
+                           {"shapes", ConfigNode::list({shape})},
+                           {"project", true}})}) {
+        const auto mesh = build(params);
+        check_sound(count(mesh), mesh, 27.0);
+        CHECK(mesh.points.size() == 17 * 17 * 17);
+        const auto surface = dsc::surface::extract_interface(mesh);
+        CHECK(surface.points.size() > 200);
+        for (const Vec3& p : surface.points) CHECK(p.norm() == doctest::Approx(0.9).epsilon(1e-11));
+    }
+}

@@ -16,10 +16,13 @@ struct Frame {
     unsigned side = 0;  ///< finest cells along the box, even
     double length = 0;  ///< of `units` halves of a finest cell
     double units = 1;
+    Vec3 centre = Vec3::Zero();  ///< of the box
 
-    /// Symmetric to the last bit: coordinate x is minus coordinate 2 side - x.
+    /// From the centre. Symmetric to the last bit: coordinate x is minus coordinate 2 side - x.
     double at(int x) const { return length * static_cast<double>(x - static_cast<int>(side)) / units; }
-    Vec3 point(const Cell& x) const { return {at(x[0]), at(x[1]), at(x[2])}; }
+    Vec3 point(const Cell& x) const { return centre + Vec3(at(x[0]), at(x[1]), at(x[2])); }
+    /// Edge of a finest cell.
+    double cell() const { return 2 * length / units; }
 };
 
 /// Level 0 has the finest cells, a cell of level l + 1 is eight of level l. Cells that share an edge or a part of

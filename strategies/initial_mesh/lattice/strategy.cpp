@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <dsc/base/error.hpp>
+#include <dsc/mesh/project.hpp>
 #include <string>
 
 namespace dsc::strategies {
@@ -33,10 +34,8 @@ void Lattice::declare(config::ParamSchema<Params>& schema) {
         .greater(0)
         .unit("length")
         .doc("Edge of the finest cells; unset: that of 'cells' in the box.");
-    schema.real("box", &Params::box)
-        .greater(0)
-        .unit("length")
-        .doc("Half the edge of the box, at least; it is centred at 0.");
+    schema.real("box", &Params::box).greater(0).unit("length").doc("Half the edge of the box, at least.");
+    schema.vec3("box_centre", &Params::box_centre).unit("length").doc("Centre of the box.");
     schema.integer("layers", &Params::layers)
         .range(2, 64)
         .unit("1")
@@ -75,12 +74,22 @@ mesh::TetMesh Lattice::build(const hooks::InitialMeshContext& context) {
     }
     // Even, so that the centre of the box is a corner of cells, as half_width expects.
     const unsigned step = std::max(2U, 1U << top);
-    lattice::Frame frame{(cells + step - 1) / step * step, params_.box, static_cast<double>(params_.cells)};
+    lattice::Frame frame{(cells + step - 1) / step * step, params_.box, static_cast<double>(params_.cells),
+                         params_.box_centre};
     if (params_.cell) {
         frame.length = *params_.cell;
         frame.units = 2.0;
     }
-    const lattice::Octree octree(frame, top, shapes_, static_cast<unsigned>(params_.layers),
+    const auto make = [&](std::span<const mesh::Shape> shapes) {
+        return tiled(frame, top, shapes, context.cancel);
+    };
+    if (!params_.project) return make(shapes_);
+    return mesh::make_projected(make, shapes_, frame.cell(), "initial mesh 'lattice'");
+}
+
+mesh::TetMesh Lattice::tiled(const lattice::Frame& frame, unsigned top, std::span<const mesh::Shape> shapes,
+                             const CancelToken* cancel) const {
+    const lattice::Octree octree(frame, top, shapes, static_cast<unsigned>(params_.layers),
                                  top > 0 ? coarse_layers(params_.growth) : 0);
     if (octree.leaves() > most_leaves) {
         throw ConfigError("lattice.size",
@@ -88,7 +97,7 @@ mesh::TetMesh Lattice::build(const hooks::InitialMeshContext& context) {
                               " cells, more than the " + std::to_string(most_leaves) +
                               " that it makes; use fewer `cells` or `layers`, or a larger `growth`");
     }
-    return lattice::tile(octree, frame, shapes_, params_.finest, context.cancel);
+    return lattice::tile(octree, frame, shapes, params_.finest, cancel);
 }
 
 }  // namespace dsc::strategies

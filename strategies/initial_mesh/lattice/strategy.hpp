@@ -20,6 +20,7 @@ public:
         int cells = 30;
         std::optional<double> cell;
         double box = 1.5;
+        Vec3 box_centre = Vec3::Zero();
         int layers = 2;
         double growth = 2.0;
         lattice::Pattern finest = lattice::Pattern::parity;
@@ -33,6 +34,9 @@ public:
     mesh::TetMesh build(const hooks::InitialMeshContext& context) override;
 
 private:
+    mesh::TetMesh tiled(const lattice::Frame& frame, unsigned top, std::span<const mesh::Shape> shapes,
+                        const CancelToken* cancel) const;
+
     Params params_;
     std::vector<mesh::Shape> shapes_;
 };

@@ -355,3 +355,28 @@ TEST_CASE("sets of cells grow and coarsen, across words and up to the walls") {
         }
     }
 }
+
+TEST_CASE("projected, in a box that lies elsewhere: the sphere's vertices are on the radius") {
+    const Vec3 centre(0.35, 0.4, 0.5);
+    const ConfigNode at = ConfigNode::list({centre.x(), centre.y(), centre.z()});
+    const TetMesh mesh = build(ConfigNode::map({{"cells", 32},
+                                                {"box", 0.5},
+                                                {"box_centre", ConfigNode::list({0.5, 0.5, 0.5})},
+                                                {"shape", "sphere"},
+                                                {"centre", at},
+                                                {"radius", 0.2},
+                                                {"layers", 3},
+                                                {"project", true}}));
+    const auto complex = dsc::mesh::adopt(mesh, "lattice");
+    CHECK(dsc::mesh::validate(complex).faults == std::vector<std::string>{});
+    CHECK((complex.box().low - Vec3::Zero()).norm() < 1e-15);
+    CHECK((complex.box().high - Vec3::Ones()).norm() < 1e-15);
+    std::size_t off = 0;
+    for (const dsc::mesh::VertexId v : complex.interface_vertices()) {
+        const double away = std::abs((complex.position(v) - centre).norm() - 0.2);
+        CHECK(away < 0.1 / 32);
+        off += away > 1e-11;
+    }
+    CHECK(complex.interface_vertices().size() > 200);
+    CHECK(off * 50 < complex.interface_vertices().size());
+}

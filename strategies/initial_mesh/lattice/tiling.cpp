@@ -151,8 +151,8 @@ private:
     }
 
     Vec3 point(const Cell& x) const {
-        return {at_[static_cast<std::size_t>(x[0])], at_[static_cast<std::size_t>(x[1])],
-                at_[static_cast<std::size_t>(x[2])]};
+        return frame_.centre + Vec3(at_[static_cast<std::size_t>(x[0])], at_[static_cast<std::size_t>(x[1])],
+                                    at_[static_cast<std::size_t>(x[2])]);
     }
 
     void refuse_on_box(const Cell& x) const {

@@ -52,4 +52,27 @@ inline kernel::RepairPolicy quality_policy() {
     return policy;
 }
 
+/// Smooths every free vertex of the dirty tets, each once a round; no topology change.
+inline kernel::RepairPolicy smoothing_policy() {
+    kernel::RepairPolicy policy;
+    policy.topology.thickness = 0.0;
+    policy.propose = [](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+        const mesh::Complex& c = round.complex;
+        std::vector<char> listed(c.vertex_slots(), 0);
+        for (const mesh::TetId t : round.dirty) {
+            for (const mesh::VertexId v : c.tet(t).v) {
+                if (listed[v] != 0 || c.on_interface(v) || c.on_box(v)) continue;
+                listed[v] = 1;
+                mesh::Request smooth;
+                smooth.operation = mesh::Operation::smooth_laplacian;
+                smooth.tet = t;
+                smooth.birth_date = c.birth_date(t);
+                smooth.vertices[0] = v;
+                out.push_back(smooth);
+            }
+        }
+    };
+    return policy;
+}
+
 }  // namespace dsc::test

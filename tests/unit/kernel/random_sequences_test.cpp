@@ -177,7 +177,7 @@ void run_sequence(mesh::Complex& c, std::uint64_t seed, Tally& tally) {
         if (n % 100 != 99) continue;
         const mesh::ComplexReport report = mesh::validate(c);
         CAPTURE(n);
-        REQUIRE(report.faults == std::vector<std::string>{});
+        for (const std::string& fault : report.faults) FAIL(fault);
         const mesh::InterfaceCounts now = mesh::count_interface(c);
         REQUIRE(now.shells == counts.shells);
         REQUIRE(now.euler() == counts.euler());

@@ -27,4 +27,14 @@ private:
     std::unique_ptr<Pool> pool_;
 };
 
+/// The same loop where there may be no workers: without them it runs on the caller.
+template <class Body>
+void for_blocks(Workers* workers, std::size_t count, std::size_t block, const Body& body) {
+    if (workers != nullptr) {
+        workers->for_blocks(count, block, body);
+        return;
+    }
+    for (std::size_t begin = 0; begin < count; begin += block) body(begin, begin + block < count ? begin + block : count);
+}
+
 }  // namespace dsc

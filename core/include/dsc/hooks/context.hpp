@@ -8,6 +8,7 @@
 
 #include <dsc/base/progress.hpp>
 #include <dsc/base/random.hpp>
+#include <dsc/base/workers.hpp>
 #include <dsc/cloud/normalize.hpp>
 #include <dsc/cloud/target.hpp>
 #include <dsc/geometry/vec.hpp>
@@ -33,6 +34,7 @@ struct StepContext {
     std::uint64_t seed = 0;
     std::uint64_t instance = 0;                 ///< stream id of this strategy's place in the experiment
     const CancelToken* cancel = nullptr;
+    Workers* workers = nullptr;                 ///< for a strategy's own loops outside evaluate() (dsc::for_blocks); null: one thread
 
     /// The random stream of one element (a birth id) in this step. Order and thread count do not matter. [parallel]
     RandomStream random(std::uint64_t element) const { return RandomStream(RandomKey{seed, instance, step, element}); }

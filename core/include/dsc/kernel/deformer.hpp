@@ -46,8 +46,9 @@ struct RefineReport {
 /// Owns a complex and advances it. Results do not depend on the workers' thread count.
 class Deformer {
 public:
-    /// L becomes the mean interface edge of the complex.
-    Deformer(mesh::Complex complex, const DeformerOptions& options = {});
+    /// L becomes the mean interface edge of the complex. `workers`, which must live longer, share the work of a step; null: one
+    /// thread.
+    explicit Deformer(mesh::Complex complex, const DeformerOptions& options = {}, Workers* workers = nullptr);
     ~Deformer();
     Deformer(Deformer&&) noexcept;
     Deformer& operator=(Deformer&&) noexcept;

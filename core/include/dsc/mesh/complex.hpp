@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <dsc/geometry/vec.hpp>
+#include <dsc/mesh/tet_index.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
 
 namespace dsc::mesh {
@@ -82,7 +83,7 @@ struct Edit {
     void clear();
 };
 
-/// See the head of the file. Reading functions that walk (star, ring) use internal marks: one thread at a time. [step]
+/// See the head of the file.
 class Complex {
 public:
     Complex() = default;
@@ -115,12 +116,12 @@ public:
     std::uint32_t birth(VertexId v) const { return vertices_[v].birth; }
 
     Box3 box() const { return box_; }
-    bool on_box(VertexId v) const { return vertices_[v].on_box; }
+    bool on_box(VertexId v) const { return vertices_[v].on_box != 0; }
     /// Number of different labels in the star, the outside of the box counting as 0; capped at 3.
     unsigned phases(VertexId v) const { return vertices_[v].phases; }
     bool on_interface(VertexId v) const { return vertices_[v].phases > 1; }
     /// Interface, not on the box, not where three labels meet.
-    bool movable(VertexId v) const { return vertices_[v].phases == 2 && !vertices_[v].on_box; }
+    bool movable(VertexId v) const { return vertices_[v].phases == 2 && vertices_[v].on_box == 0; }
     /// All interface vertices, in no promised order (sort by birth).
     std::span<const VertexId> interface_vertices() const { return interface_; }
     /// Label behind face i: of the neighbour, or 0 outside the box.
@@ -132,10 +133,12 @@ public:
     double volume(TetId t) const;
 
     // ---- walks ----------------------------------------------------------------------------------------------------
-    /// All tets that contain v, the seed first. [step]
-    void star(VertexId v, std::vector<TetId>& out) const;
+    /// All tets that contain v, the seed first; `places` leads from a tet to its place in `out`. [parallel]
+    void star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
+    /// The same with a table of the complex' own. [step]
+    void star(VertexId v, std::vector<TetId>& out) const { star(v, out, places_); }
     TetId seed(VertexId v) const { return vertices_[v].seed; }
-    /// The ring of edge (a, b), both vertices of tet t. [step]
+    /// The ring of edge (a, b), both vertices of tet t. [parallel]
     void ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const;
     /// A tet that contains both, none if a and b are not joined. [step]
     TetId find_edge(VertexId a, VertexId b) const;
@@ -149,7 +152,16 @@ public:
     /// Moves a vertex; `star` are its tets, all positive at the new position. [step]
     void move(VertexId v, const Vec3& position, std::span<const TetId> star);
     /// The same where the tets' qualities at the new position are known, in the order of the star. [step]
-    void move(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities);
+    void move(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities) {
+        place(v, position, star, qualities);
+        note_change(star);
+    }
+    /// The parts of it, for many vertices without common tets: they may be placed at the same time [parallel], then their
+    /// stars dated at the same time, each with a later value of the clock than it has now, tets that the change list lacks
+    /// going to `changed` [parallel]; at last note_changes() sets the clock and takes the lists, one after the other [step].
+    void place(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities);
+    void date_star(std::span<const TetId> star, std::uint32_t clock, std::vector<TetId>& changed);
+    void note_changes(std::uint32_t clock, std::span<const TetId> changed);
     /// Gives tets another label. [step]
     void relabel(std::span<const TetId> tets, Label label);
 
@@ -170,25 +182,24 @@ public:
     /// same bytes whatever its slots. `ids`, if given, receives the complex' vertex of each point.
     TetMesh to_mesh(std::vector<VertexId>* ids = nullptr) const;
 
-    /// A new epoch for marks on tets: tet_marked(t) is false for all until mark_tet(t). [step]
-    void new_epoch() const { ++epoch_; }
-    void mark_tet(TetId t) const { marks_[t] = epoch_; }
-    bool tet_marked(TetId t) const { return marks_[t] == epoch_; }
-
 private:
     struct Vertex {
         Vec3 position;
         TetId seed;
         std::uint32_t birth;
         std::uint32_t date;
-        std::uint32_t interface_slot;  // index into interface_, none if not there
-        std::uint8_t phases;
-        bool on_box;
+        std::uint32_t interface_slot : 29;  // index into interface_, no_slot if not there
+        std::uint32_t phases : 2;
+        std::uint32_t on_box : 1;
     };
+    static_assert(sizeof(Vertex) == 40);
+    static constexpr std::uint32_t no_slot = (1U << 29U) - 1;
 
     VertexId allocate_vertex(const Vec3& position);
     TetId allocate_tet();
+    void note_change(std::span<const TetId> star);
     void touch(TetId t);
+    bool find_relabelled(const Edit& edit);
     void refresh_phases(VertexId v);
     void set_phases(VertexId v, unsigned phases);
 
@@ -198,15 +209,20 @@ private:
     std::vector<float> qualities_;
     std::vector<std::uint32_t> dates_;
     std::vector<std::uint32_t> birth_dates_;
-    mutable std::vector<std::uint32_t> marks_;
-    mutable std::uint32_t epoch_ = 0;
     std::vector<VertexId> free_vertices_;
     std::vector<TetId> free_tets_;
     std::vector<VertexId> interface_;
     std::vector<TetId> changes_;
     std::vector<TetId> last_added_;
     std::vector<VertexId> touched_vertices_;
+    struct CavityLabels {
+        VertexId vertex;
+        std::array<std::uint64_t, 2> labels;  // before and after
+    };
+    std::vector<CavityLabels> cavity_labels_;
+    std::vector<VertexId> relabelled_;
     mutable std::vector<TetId> star_scratch_;
+    mutable TetIndex places_;
     std::uint32_t taken_clock_ = 0;  // when the change list was taken last: tets of a later date are listed
     std::uint32_t clock_ = 0;
     std::uint32_t next_birth_ = 0;

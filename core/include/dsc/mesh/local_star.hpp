@@ -51,8 +51,9 @@ private:
     std::vector<std::uint32_t> group_;
     std::vector<std::uint32_t> stack_;
     mutable std::vector<VertexId> ends_;
-    std::vector<std::uint32_t> local_;  // node of a tet, valid where the tet is marked
+    TetIndex places_;                     // of the star's tets
     std::vector<TetId> star_;
+    std::vector<std::uint32_t> node_of_;  // by place; none where an edit removes the tet
 };
 
 }  // namespace dsc::mesh

@@ -33,6 +33,17 @@ struct Shape {
 /// to the border.
 double excess(const Shape& shape, const Vec3& point);
 
+/// The point of the shape's border nearest to a point; any of the nearest ones where there are several.
+Vec3 nearest_on_border(const Shape& shape, const Vec3& point);
+
+/// The shape grown outwards by `by`, corners kept; a negative `by` shrinks it.
+Shape grown(Shape shape, double by);
+
+/// A point of the surface between the labels of the shapes near to `point`: the nearest on that border which is not
+/// covered by a later shape; where borders meet, one near the crease, found by going to and fro between them, which
+/// need not be the very nearest. The point itself without such a border. [parallel]
+Vec3 nearest_on_surface(std::span<const Shape> shapes, const Vec3& point);
+
 /// Whether the shape holds a tet, by its rule.
 bool holds(const Shape& shape, const std::array<Vec3, 4>& corners);
 

@@ -17,6 +17,7 @@ struct ShapeParams {
     double radius = 1.0;
     Vec3 centre = Vec3::Zero();
     std::vector<mesh::Shape> shapes;
+    bool project = false;
 
     /// The preset's shape, if any, then the list.
     std::vector<mesh::Shape> all() const;
@@ -25,7 +26,7 @@ struct ShapeParams {
 /// Declares the keys of one shape in a list.
 void declare_shape(config::ParamSchema<mesh::Shape>& schema);
 
-/// Declares `shape`, `half_width`, `radius`, `centre` and `shapes` of a Params derived from ShapeParams.
+/// Declares `shape`, `half_width`, `radius`, `centre`, `shapes` and `project` of a Params derived from ShapeParams.
 template <class Params>
 void declare_shapes(config::ParamSchema<Params>& schema) {
     static_assert(std::is_base_of_v<ShapeParams, Params>);
@@ -52,6 +53,10 @@ void declare_shapes(config::ParamSchema<Params>& schema) {
         .doc(
             "Further shapes, applied in their order: each gives the tets inside it its label or cuts them "
             "away.");
+    schema.boolean("project", static_cast<bool Params::*>(&Params::project))
+        .doc(
+            "Takes the interface's vertices to the shapes' surface, whatever the shapes' rules say; without it "
+            "the interface is made of the lattice's own faces, in steps.");
 }
 
 }  // namespace dsc::plugin

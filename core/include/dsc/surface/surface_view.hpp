@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <dsc/base/workers.hpp>
 #include <dsc/mesh/complex.hpp>
 #include <dsc/surface/triangle_mesh.hpp>
 
@@ -35,8 +36,9 @@ struct SurfaceView {
     }
 };
 
-/// Fills `view`, reusing its memory. The cost grows with the interface, not with the volume. [step]
-void build_view(const mesh::Complex& complex, SurfaceView& view);
+/// Fills `view`, reusing its memory. The cost grows with the interface, not with the volume. `workers`, null for one thread,
+/// share the walks. [step]
+void build_view(const mesh::Complex& complex, SurfaceView& view, Workers* workers = nullptr);
 
 /// The label interface of plain arrays as a triangle mesh, points in the order of the arrays; the judge of results,
 /// independent of Complex. `vertex_of`, if given, receives each point's index in `mesh.points`.

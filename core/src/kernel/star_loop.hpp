@@ -1,0 +1,158 @@
+#pragma once
+// An action at many vertices, each on the vertex' own star: side by side where the stars cannot meet, with a result that
+// depends on the complex and the list only, never on the number of threads.
+//
+// Long lists are split into blocks of space, along the Z-order of a coarse grid. Blocks run at the same time, each its own
+// vertices in the order of the list; a vertex that has one of another block in its star waits and runs after all blocks, in
+// the order of the list. So no two threads ever write to the same tet, or read what another one writes. Short lists run in
+// the order of the list, as they are.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <dsc/base/workers.hpp>
+#include <dsc/mesh/complex.hpp>
+
+namespace dsc::kernel {
+
+/// What looking at one star needs; one a thread.
+struct StarScratch {
+    std::vector<mesh::TetId> star;
+    mesh::TetIndex places;                  // of the star's tets
+    std::vector<mesh::VertexId> neighbours;
+    mesh::TetIndex seen;                    // of vertices, here
+    Vec3 place = Vec3::Zero();              // where the vertex may go,
+    std::vector<float> qualities;           // and the star's qualities there, in its order
+};
+
+/// The other vertices of the star, by birth, to scratch.neighbours. [parallel]
+void find_neighbours(const mesh::Complex& complex, mesh::VertexId v, StarScratch& scratch);
+
+class StarLoop {
+public:
+    /// Shorter lists are not split.
+    static constexpr std::size_t least_split = 16384;
+
+    explicit StarLoop(mesh::Complex& complex) : complex_(complex) {}
+
+    /// For each vertices[i], a live one:
+    ///   action.ready(i)                   [parallel] false: nothing to try; reads nothing that Complex::place() writes
+    ///   action.attempt(i, scratch)        [parallel] scratch.star is there; true: the vertex goes to scratch.place, with
+    ///                                     scratch.qualities
+    ///   action.settle(i, attempted, date) [step] once, after all of that; date: the change clock at its turn
+    template <class Action>
+    void run(std::span<const mesh::VertexId> vertices, Workers* workers, Action& action) {
+        if (vertices.size() < least_split) {
+            for (std::uint32_t i = 0; i < vertices.size(); ++i) run_one(vertices[i], i, action);
+            return;
+        }
+        split(vertices);
+        for (wave_ = 0; wave_ < block_count_; wave_ += blocks_.size()) {
+            const std::size_t count = std::min(blocks_.size(), block_count_ - wave_);
+            struct Job {
+                std::span<const mesh::VertexId> vertices;
+                Action& action;
+            } const job{vertices, action};
+            const auto body = [this, &job](std::size_t begin, std::size_t end) {
+                for (std::size_t b = begin; b < end; ++b) run_block(b, job.vertices, job.action);
+            };
+            for_blocks(workers, count, 1, body);
+            settle_wave(count, workers, action);
+        }
+        join(vertices);
+        for (const std::uint32_t i : waiting_) run_one(vertices[i], i, action);
+    }
+
+private:
+    static constexpr std::size_t most_blocks = 64;
+    static constexpr std::size_t least_block = 2048;  // vertices
+    static constexpr std::uint8_t no_block = 0xff;
+
+    struct Entry {
+        std::uint32_t i;
+        std::uint32_t star_size;  // 0: not moved
+        bool attempted;
+    };
+    struct Block {
+        StarScratch scratch;
+        std::vector<Entry> entries;
+        std::vector<mesh::TetId> stars;  // of the moved vertices, one after the other
+        std::uint32_t moved = 0;
+        std::uint32_t clock = 0;  // before the first of them
+        std::vector<mesh::TetId> changed;
+        std::vector<std::uint32_t> waiting;
+    };
+
+    void split(std::span<const mesh::VertexId> vertices);
+    void join(std::span<const mesh::VertexId> vertices);
+    bool meets_another(std::span<const mesh::TetId> star, std::uint8_t block) const;
+
+    template <class Action>
+    void run_one(mesh::VertexId v, std::uint32_t i, Action& action) {
+        StarScratch& scratch = blocks_.front().scratch;
+        const bool ready = action.ready(i);
+        if (ready) {
+            complex_.star(v, scratch.star, scratch.places);
+            if (action.attempt(i, scratch)) complex_.move(v, scratch.place, scratch.star, scratch.qualities);
+        }
+        action.settle(i, ready, complex_.clock());
+    }
+
+    template <class Action>
+    void run_block(std::size_t slot, std::span<const mesh::VertexId> vertices, Action& action) {
+        Block& block = blocks_[slot];
+        const std::size_t b = wave_ + slot;
+        StarScratch& scratch = block.scratch;
+        block.entries.clear();
+        block.stars.clear();
+        block.moved = 0;
+        for (std::size_t at = begins_[b]; at < begins_[b + 1]; ++at) {
+            const std::uint32_t i = order_[at];
+            const mesh::VertexId v = vertices[i];
+            Entry entry{i, 0, action.ready(i)};
+            if (entry.attempted) {
+                complex_.star(v, scratch.star, scratch.places);
+                if (meets_another(scratch.star, static_cast<std::uint8_t>(b))) {
+                    block.waiting.push_back(i);
+                    continue;
+                }
+                if (action.attempt(i, scratch)) {
+                    complex_.place(v, scratch.place, scratch.star, scratch.qualities);
+                    block.stars.insert(block.stars.end(), scratch.star.begin(), scratch.star.end());
+                    entry.star_size = static_cast<std::uint32_t>(scratch.star.size());
+                    ++block.moved;
+                }
+            }
+            block.entries.push_back(entry);
+        }
+    }
+
+    template <class Action>
+    void settle_wave(std::size_t count, Workers* workers, Action& action) {
+        date_wave(count, workers);
+        for (std::size_t b = 0; b < count; ++b) {
+            std::uint32_t clock = blocks_[b].clock;
+            for (const Entry& entry : blocks_[b].entries) {
+                if (entry.star_size > 0) ++clock;
+                action.settle(entry.i, entry.attempted, clock);
+            }
+        }
+    }
+    void date_wave(std::size_t count, Workers* workers);
+
+    mesh::Complex& complex_;
+    std::array<Block, 8> blocks_;  // a wave of them, so that the stars that they keep stay few
+    std::size_t block_count_ = 0;
+    std::size_t wave_ = 0;                // first block of the wave
+    std::vector<std::uint8_t> block_of_;  // a vertex of the list; no_block for any other
+    std::vector<std::uint32_t> order_;    // the list by block
+    std::array<std::size_t, most_blocks + 1> begins_{};
+    std::vector<std::uint32_t> waiting_;
+    std::vector<std::uint16_t> cells_;    // per entry of the list
+    std::vector<std::uint32_t> cell_sizes_;
+};
+
+}  // namespace dsc::kernel

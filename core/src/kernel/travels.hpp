@@ -1,0 +1,78 @@
+#pragma once
+// The destinations of a step: who is under way, how destinations follow the edits, and the passes that bring vertices there.
+
+#include <utility>
+
+#include <dsc/kernel/step_report.hpp>
+
+#include "kernel/movement.hpp"
+#include "kernel/queues.hpp"
+
+namespace dsc::kernel {
+
+/// How a pass moves vertices.
+struct PassOptions {
+    double free_path = 0.5;      ///< fraction of the way to the first inversion that one move may take
+    bool audit = false;          ///< throw GeometryError for a vertex that sleeps though its star changed
+    Workers* workers = nullptr;  ///< null: one thread
+};
+
+class Travels final : public EditListener {
+public:
+    Travels(mesh::Complex& complex, RepairQueues& queues, StarLoop& loop) : complex_(complex), queues_(queues), loop_(loop) {}
+
+    /// A new step: nobody is under way. [step]
+    void clear();
+    /// v goes to `destination`. [step]
+    void send(VertexId v, const Vec3& destination);
+
+    /// One attempt for every vertex under way; returns the summed distance left. [step]
+    double pass(const Limits& limits, const PassOptions& options);
+    /// Drops the rest of all motion; it is counted in dropped_motion. [step]
+    void give_up(StepReport& report);
+
+    bool done() const { return active_.empty(); }
+    /// Vertices that could not reach their destination in the last pass.
+    std::span<const VertexId> blocked() const { return blocked_; }
+    /// Moves attempted since clear() or the last call. [step]
+    std::size_t take_tried() { return std::exchange(tried_, 0); }
+    /// Vertices given up in this step.
+    std::size_t stranded() const { return stranded_; }
+    /// Vertices that interface edges were collapsed to in this step.
+    std::span<const VertexId> near_collapses() const { return near_collapses_; }
+
+    void on_split(VertexId vertex, VertexId a, VertexId b, double s) override;
+    void on_collapse(VertexId kept, VertexId removed, double s) override;
+    void on_interface_collapse(VertexId kept) override { near_collapses_.push_back(kept); }
+
+private:
+    struct Travel {
+        Vec3 destination;
+        VertexId vertex = mesh::none;  // none: arrived or given up
+        std::uint32_t birth = 0;
+        std::uint32_t blocked_at = 0;  // 0: not blocked
+        std::uint32_t listed = 0;      // pass in which it was handled, against double entries
+    };
+    struct Pass;
+
+    Travel* way_of(VertexId v);
+    bool travels(VertexId v);
+    Vec3 destination_of(VertexId v) { return travels(v) ? way_of(v)->destination : complex_.position(v); }
+    void drop_dead_and_double();
+
+    mesh::Complex& complex_;
+    RepairQueues& queues_;
+    StarLoop& loop_;
+    // One entry a vertex under way; `travel_of_` leads to it, which is the vertex' own where vertex and birth fit.
+    std::vector<Travel> travel_;
+    std::vector<std::uint32_t> travel_of_;
+    std::vector<VertexId> active_;
+    std::vector<VertexId> blocked_;
+    std::vector<VertexId> near_collapses_;
+    std::vector<std::uint8_t> fates_;
+    std::uint32_t pass_ = 0;
+    std::size_t tried_ = 0;
+    std::size_t stranded_ = 0;
+};
+
+}  // namespace dsc::kernel

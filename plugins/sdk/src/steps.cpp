@@ -1,0 +1,25 @@
+#include <dsc/base/workers.hpp>
+#include <dsc/sdk/steps.hpp>
+
+namespace dsc::sdk {
+
+hooks::StepContext step_context(const surface::SurfaceView& view, std::uint64_t step) {
+    return {.step = step,
+            .surface = view,
+            .target_length = view.mean_edge,
+            .box = {Vec3::Constant(-1.5), Vec3::Constant(1.5)},
+            .to_normalised = {}};
+}
+
+std::vector<Vec3> displacements(hooks::VelocityField& field, const hooks::StepContext& context,
+                                unsigned threads, std::size_t block) {
+    field.prepare(context);
+    std::vector<Vec3> out(context.surface.vertex_count());
+    Workers workers(threads);
+    workers.for_blocks(out.size(), block, [&](std::size_t begin, std::size_t end) {
+        field.evaluate({begin, end}, std::span(out).subspan(begin, end - begin));
+    });
+    return out;
+}
+
+}  // namespace dsc::sdk

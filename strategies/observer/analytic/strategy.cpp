@@ -1,0 +1,161 @@
+#include "strategy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dsc/surface/measure.hpp>
+#include <istream>
+#include <limits>
+#include <ostream>
+
+#include "comparison.hpp"
+
+namespace dsc::strategies {
+namespace {
+
+void copy_surface(const surface::SurfaceView& view, surface::TriangleMesh& mesh) {
+    mesh.points = view.positions;
+    mesh.faces = view.faces;
+}
+
+}  // namespace
+
+void Analytic::declare(config::ParamSchema<Params>& schema) {
+    schema
+        .choice("solution", &Params::solution,
+                {{"start", Solution::start},
+                 {"sphere", Solution::sphere},
+                 {"growing_sphere", Solution::growing_sphere},
+                 {"shrinking_sphere", Solution::shrinking_sphere}})
+        .doc(
+            "Where the interface should be: 'start', where it began, for a motion that comes back; 'sphere', "
+            "on "
+            "a sphere that stays; 'growing_sphere', on one whose radius grows with every step; "
+            "'shrinking_sphere', on one whose radius is sqrt(radius^2 - 4 t).");
+    schema.vec3("centre", &Params::centre).unit("length").doc("Centre of the sphere.");
+    schema.real("radius", &Params::radius)
+        .greater(0)
+        .unit("length")
+        .doc("Radius of the sphere at the start.");
+    schema.real("growth", &Params::growth)
+        .unit("length")
+        .doc("By how much the radius of 'growing_sphere' grows in a step.");
+    schema.real("time_step", &Params::time_step)
+        .greater(0)
+        .unit("length^2")
+        .doc("Time of a step of 'shrinking_sphere'; that of the velocity.");
+    schema.real("down_to", &Params::down_to)
+        .range(0, 1)
+        .open_low()
+        .unit("radius")
+        .doc("radius_error judges a sphere that shrinks until its radius is this part of the start's.");
+}
+
+Analytic::Analytic(const Params& params, const plugin::Setup&) : params_(params) {}
+
+double Analytic::true_radius(std::uint64_t step) const {
+    const auto steps = static_cast<double>(step);
+    switch (params_.solution) {
+        case Solution::start:
+        case Solution::sphere:
+            return params_.radius;
+        case Solution::growing_sphere:
+            return std::max(0.0, params_.radius + params_.growth * steps);
+        case Solution::shrinking_sphere:
+            return std::sqrt(std::max(0.0, params_.radius * params_.radius - 4 * params_.time_step * steps));
+    }
+    return params_.radius;
+}
+
+double Analytic::true_volume(std::uint64_t step) const {
+    const double shrunk = true_radius(step) / params_.radius;
+    return start_volume_ * shrunk * shrunk * shrunk;
+}
+
+void Analytic::begin(const hooks::StepContext& context) {
+    copy_surface(context.surface, now_);
+    start_vertices_ = now_.points.size();
+    start_volume_ = surface::volume(now_);
+    if (params_.solution == Solution::start) {
+        start_ = now_;
+        return;
+    }
+    start_distance_ = compare_with_sphere(now_, params_.centre, params_.radius).largest_distance;
+    worst_radius_error_ = 0.0;
+}
+
+void Analytic::add_sphere_figures(const hooks::StepContext& context, hooks::Figures& out) {
+    const double radius = true_radius(context.step);
+    const double least = params_.down_to * params_.radius;
+    const SphereComparison found = compare_with_sphere(now_, params_.centre, radius);
+    // Where nothing is left, the sphere is as far away as it is large.
+    const double distance = now_.faces.empty() ? radius : found.largest_distance;
+    const double mean = now_.faces.empty() ? radius : found.mean_distance;
+    const double error = std::abs(found.radius - radius) / std::max(radius, least);
+    if (radius >= least) worst_radius_error_ = std::max(worst_radius_error_, error);
+    out.emplace_back("distance_ratio", start_distance_ > 0 ? distance / start_distance_ : 0.0);
+    out.emplace_back("radius_error", error);
+    out.emplace_back("surface_error", context.target_length > 0 ? mean / context.target_length : 0.0);
+}
+
+hooks::Figures Analytic::figures_now(const hooks::StepContext& context) {
+    copy_surface(context.surface, now_);
+    const double expected = true_volume(context.step);
+    const double off = std::abs(surface::volume(now_) - expected);
+    const auto vertices = static_cast<double>(now_.points.size());
+    hooks::Figures out;
+    out.emplace_back("volume_drift", expected > 0        ? off / expected
+                                     : start_volume_ > 0 ? off / start_volume_
+                                                         : 0.0);
+    out.emplace_back("vertex_ratio",
+                     start_vertices_ > 0 ? vertices / static_cast<double>(start_vertices_) : 0.0);
+    if (params_.solution != Solution::start) add_sphere_figures(context, out);
+    return out;
+}
+
+hooks::Figures Analytic::step(const hooks::StepContext& context, const hooks::StepFigures&) {
+    return figures_now(context);
+}
+
+hooks::Figures Analytic::end(const hooks::StepContext& context) {
+    hooks::Figures out = figures_now(context);
+    if (params_.solution == Solution::start) {
+        if (!now_.faces.empty() && !start_.faces.empty() && context.target_length > 0)
+            out.emplace_back("surface_error", mean_distance(now_, start_) / context.target_length);
+        return out;
+    }
+    for (auto& [figure, value] : out) {
+        if (figure == "radius_error") value = worst_radius_error_;
+    }
+    return out;
+}
+
+void Analytic::save(std::ostream& out) const {
+    out.precision(std::numeric_limits<double>::max_digits10);
+    out << start_vertices_ << ' ' << start_volume_ << ' ' << start_distance_ << ' ' << worst_radius_error_
+        << ' ' << start_.points.size() << ' ' << start_.faces.size() << '\n';
+    for (const Vec3& p : start_.points) out << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+    for (const auto& [a, b, c] : start_.faces) out << a << ' ' << b << ' ' << c << '\n';
+}
+
+void Analytic::load(std::istream& in) {
+    std::size_t points = 0;
+    std::size_t faces = 0;
+    in >> start_vertices_ >> start_volume_ >> start_distance_ >> worst_radius_error_ >> points >> faces;
+    start_ = {};
+    for (std::size_t i = 0; in && i < points; ++i) {
+        Vec3 p;
+        in >> p.x() >> p.y() >> p.z();
+        start_.points.push_back(p);
+    }
+    for (std::size_t i = 0; in && i < faces; ++i) {
+        std::array<std::uint32_t, 3> face{};
+        in >> face[0] >> face[1] >> face[2];
+        start_.faces.push_back(face);
+    }
+    if (!in)
+        throw StrategyError("observer.state",
+                            "observer 'analytic': the saved state is damaged; start the run anew");
+    surface::require_sound(start_);
+}
+
+}  // namespace dsc::strategies

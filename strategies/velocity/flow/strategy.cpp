@@ -1,0 +1,71 @@
+#include "strategy.hpp"
+
+namespace dsc::strategies {
+
+void Flow::declare(config::ParamSchema<Params>& schema) {
+    schema
+        .choice("field", static_cast<FieldKind Params::*>(&Params::kind),
+                {{"translate", FieldKind::translate},
+                 {"rotate", FieldKind::rotate},
+                 {"shear", FieldKind::shear},
+                 {"part", FieldKind::part},
+                 {"enright", FieldKind::enright}})
+        .doc(
+            "'translate' along axis; 'rotate' about it; 'shear' along it, faster the farther across; 'part', "
+            "two "
+            "sides apart along axis, or together; 'enright', the deformation of the unit cube that comes "
+            "back.");
+    schema.vec3("centre", static_cast<Vec3 Params::*>(&Params::centre))
+        .unit("length")
+        .doc("Where rotate, shear and part have no speed.");
+    schema.vec3("axis", static_cast<Vec3 Params::*>(&Params::axis))
+        .unit("1")
+        .doc("Direction of the field; its length does not matter.");
+    schema.vec3("across", static_cast<Vec3 Params::*>(&Params::across))
+        .unit("1")
+        .doc("Direction in which the speed of 'shear' grows; perpendicular to axis.");
+    schema.real("speed", static_cast<double Params::*>(&Params::speed))
+        .unit("length/time, radians/time or 1/time")
+        .doc(
+            "Of 'translate' and of either side of 'part' (negative: together), angle of 'rotate', growth of "
+            "'shear'.");
+    schema.real("width", static_cast<double Params::*>(&Params::width))
+        .greater(0)
+        .unit("length")
+        .doc("Half the thickness of the layer in which 'part' changes from one side to the other.");
+    schema.real("period", static_cast<double Params::*>(&Params::period))
+        .greater(0)
+        .unit("time")
+        .doc("When 'enright' has brought everything back; it turns at half of this.");
+    schema.real("time_step", &Params::time_step).greater(0).unit("time").doc("Time of a step.");
+    schema.integer("substeps", &Params::substeps)
+        .range(1, 1000)
+        .unit("1")
+        .doc("Runge-Kutta steps that a step is made of.");
+    schema.check([](const Params& p) { return p.axis.norm() > 1e-9; }, "axis must not be the zero vector");
+    schema.check(
+        [](const Params& p) {
+            return p.across.norm() > 1e-9 &&
+                   (p.kind != FieldKind::shear ||
+                    std::abs(p.across.normalized().dot(p.axis.normalized())) < 1e-9);
+        },
+        "across must be perpendicular to axis and not the zero vector");
+}
+
+Flow::Flow(const Params& params, const plugin::Setup&) : params_(params) {}
+
+void Flow::prepare(const hooks::StepContext& context) {
+    surface_ = &context.surface;
+    time_ = context.step == 0 ? 0.0 : static_cast<double>(context.step - 1) * params_.time_step;
+}
+
+void Flow::evaluate(hooks::Range range, std::span<Vec3> out) const {
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = displacement_of(surface_->positions[range.begin + i]);
+}
+
+void Flow::sample(std::span<const Vec3> points, std::span<const Vec3>, std::span<Vec3> out) const {
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = displacement_of(points[i]);
+}
+
+}  // namespace dsc::strategies

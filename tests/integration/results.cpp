@@ -1,0 +1,46 @@
+#include "results.hpp"
+
+#include <doctest/doctest.h>
+
+#include <dsc/io/read.hpp>
+#include <dsc/run/measure.hpp>
+#include <dsc/surface/surface_view.hpp>
+#include <span>
+
+#include "../unit/surface/cgal_judge.hpp"
+
+namespace dsc::test {
+
+void check_result(const std::filesystem::path& folder) {
+    const auto surface = io::read_surface(folder / "result" / "surface.obj");
+    const auto volume = io::read_volume(folder / "result" / "volume.dsc");
+    CHECK(run::identical(surface, dsc::surface::extract_interface(volume)));
+    CHECK(run::identical(surface, io::read_surface(folder / "result" / "surface.ply")));
+    const run::VolumeMeasure measure = run::measure(volume);
+    CHECK(measure.inverted_tets == 0);
+    CHECK(measure.adjacency_valid());
+    CHECK(measure.fills_box());
+    CHECK(measure.interface_measure.solid());
+    CHECK(measure.interface_measure.report.duplicate_points == 0);
+    CHECK(dsc::surface::test::cgal_mesh_intersections(surface).empty());
+    const auto zipped = io::read_volume(folder / "result" / "volume.vtu");
+    CHECK(zipped.points == volume.points);
+    CHECK(zipped.tets == volume.tets);
+    CHECK(zipped.labels == volume.labels);
+}
+
+nlohmann::json summary_of(const Cli& cli, const std::string& folder) {
+    return nlohmann::json::parse(cli.read(folder + "/summary.json"));
+}
+
+void load_strategies(host::Host& host) {
+    const host::SearchEntry folder{std::filesystem::path(DSC_TEST_IMPROVEMENT).parent_path(), "--plugin",
+                                   true};
+    host.load_all(std::span(&folder, 1));
+}
+
+std::string config(const std::string& name) {
+    return (std::filesystem::path(DSC_SOURCE_DIR) / "configs" / name).string();
+}
+
+}  // namespace dsc::test

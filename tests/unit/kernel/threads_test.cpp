@@ -1,0 +1,167 @@
+// Work side by side: the same bits for any number of threads, nothing done twice or left out, dates as one thread gives them.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include <dsc/base/random.hpp>
+#include <dsc/kernel/deformer.hpp>
+#include <dsc/mesh/validate.hpp>
+
+#include "kernel/star_loop.hpp"
+#include "policy.hpp"
+#include "shapes.hpp"
+
+using namespace dsc;
+using namespace dsc::kernel;
+using mesh::TetId;
+using mesh::VertexId;
+
+namespace {
+
+// 29^3 inner vertices: more than the loop needs to split its list.
+mesh::Complex cells() { return mesh::adopt(test::ball_grid(30, 0.8), "ball"); }
+
+std::vector<VertexId> inner_vertices(const mesh::Complex& c) {
+    std::vector<VertexId> out;
+    for (VertexId v = 0; v < c.vertex_slots(); ++v) {
+        if (c.vertex_alive(v) && !c.on_box(v)) out.push_back(v);
+    }
+    return out;
+}
+
+// Ten plates, two cells thick and two apart: a large interface in a small volume.
+mesh::Complex plates() {
+    constexpr int n = 42;
+    return test::by_cells([](int i, int j, int k) { return test::between(2, i, n - 3) && test::between(2, j, n - 3) &&
+                                                                   test::between(2, k, n - 3) && k % 4 >= 2
+                                                               ? 1
+                                                               : 0; }, n);
+}
+
+// Shakes every vertex a little, each third one rests, and counts what the loop does.
+struct Shake {
+    const mesh::Complex& complex;
+    std::span<const VertexId> vertices;
+    std::vector<std::uint8_t> attempts, settled;
+    std::vector<std::uint32_t> dates;
+    std::atomic<int>* busy;  // per tet: how many attempts hold it now
+    std::atomic<int> collisions = 0;
+
+    bool ready(std::size_t i) const { return i % 3 != 0; }
+    bool attempt(std::size_t i, StarScratch& scratch) {
+        ++attempts[i];
+        for (const TetId t : scratch.star) {
+            if (busy[t].fetch_add(1) != 0) ++collisions;
+        }
+        RandomStream random(RandomKey{7, 1, 0, complex.birth(vertices[i])});
+        // Depends on the neighbours, so that the order in which they move shows in the bits.
+        find_neighbours(complex, vertices[i], scratch);
+        const Vec3 p = complex.position(vertices[i]);
+        const Vec3 w = complex.position(scratch.neighbours[random.index(scratch.neighbours.size())]);
+        scratch.place = p + 0.1 * (w - p);
+        scratch.qualities.assign(scratch.star.size(), 0.5F);
+        for (const TetId t : scratch.star) busy[t].fetch_sub(1);
+        return i % 5 != 0;
+    }
+    void settle(std::size_t i, bool attempted, std::uint32_t date) {
+        CHECK(attempted == (i % 3 != 0));
+        ++settled[i];
+        dates[i] = date;
+    }
+};
+
+struct Shaken {
+    mesh::Complex complex;
+    std::vector<std::uint32_t> dates;
+    std::vector<TetId> changes;
+};
+
+Shaken shake(Workers* workers) {
+    Shaken out{cells(), {}, {}};
+    const std::vector<VertexId> vertices = inner_vertices(out.complex);
+    REQUIRE(vertices.size() >= StarLoop::least_split);
+    out.complex.take_changes(out.changes);
+    std::vector<std::atomic<int>> busy(out.complex.tet_slots());
+    Shake action{out.complex, vertices, std::vector<std::uint8_t>(vertices.size(), 0), std::vector<std::uint8_t>(vertices.size(), 0),
+                 std::vector<std::uint32_t>(vertices.size(), 0), busy.data()};
+    const std::uint32_t clock = out.complex.clock();
+    StarLoop loop(out.complex);
+    loop.run(vertices, workers, action);
+    CHECK(action.collisions == 0);
+    std::uint32_t moved = 0;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        CHECK(action.attempts[i] == (i % 3 != 0 ? 1 : 0));
+        CHECK(action.settled[i] == 1);
+        moved += i % 3 != 0 && i % 5 != 0 ? 1 : 0;
+    }
+    CHECK(out.complex.clock() == clock + moved);
+    out.dates = action.dates;
+    out.complex.take_changes(out.changes);
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("star loop: every vertex once, no tet held by two, the same bits and dates for 1, 2 and 4 threads") {
+    const Shaken one = shake(nullptr);
+    // A vertex' date is that of the last move in its neighbourhood, and what moved is on the change list once.
+    std::vector<TetId> sorted = one.changes;
+    std::sort(sorted.begin(), sorted.end());
+    CHECK(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
+    CHECK(sorted.size() > one.complex.tet_count() / 2);
+    std::vector<TetId> star;
+    for (const VertexId v : inner_vertices(one.complex)) {
+        one.complex.star(v, star);
+        std::uint32_t latest = 0;
+        for (const TetId t : star) latest = std::max(latest, one.complex.date(t));
+        REQUIRE(one.complex.vertex_date(v) == latest);
+    }
+    for (const unsigned threads : {2U, 4U}) {
+        CAPTURE(threads);
+        Workers workers(threads);
+        const Shaken other = shake(&workers);
+        CHECK(other.dates == one.dates);
+        CHECK(other.changes == one.changes);
+        for (VertexId v = 0; v < one.complex.vertex_slots(); ++v) {
+            REQUIRE((one.complex.position(v) == other.complex.position(v)));
+            REQUIRE(one.complex.vertex_date(v) == other.complex.vertex_date(v));
+        }
+    }
+}
+
+TEST_CASE("deformer: steps over blocks give the same bits for 1, 2 and 3 threads, and a valid complex") {
+    const auto run = [](Workers* workers) {
+        DeformerOptions options;
+        options.audit = true;
+        Deformer d(plates(), options, workers);
+        CHECK(d.complex().interface_vertices().size() >= StarLoop::least_split);
+        const double length = d.target_length();
+        StepReport last;
+        for (int step = 0; step < 3; ++step) {
+            std::vector<VertexId> vertices(d.complex().interface_vertices().begin(), d.complex().interface_vertices().end());
+            std::sort(vertices.begin(), vertices.end(),
+                      [&d](VertexId a, VertexId b) { return d.complex().birth(a) < d.complex().birth(b); });
+            std::vector<Vec3> displacements;
+            for (const VertexId v : vertices) {
+                RandomStream random(RandomKey{3, 1, static_cast<std::uint64_t>(step), d.complex().birth(v)});
+                displacements.emplace_back(0.3 * length * random.normal(), 0.3 * length * random.normal(), 0.3 * length * random.normal());
+            }
+            last = d.step(vertices, displacements, test::smoothing_policy());
+        }
+        return std::pair(d.complex().to_mesh(), last);
+    };
+    const auto [one, report] = run(nullptr);
+    // The lists were long enough to be split.
+    CHECK(report.operations[static_cast<std::size_t>(mesh::Operation::smooth_laplacian)].tried >= StarLoop::least_split);
+    CHECK(mesh::validate(mesh::adopt(one, "result")).valid());
+    for (const unsigned threads : {2U, 3U}) {
+        CAPTURE(threads);
+        Workers workers(threads);
+        const auto [other, other_report] = run(&workers);
+        CHECK(other.points == one.points);
+        CHECK(other.tets == one.tets);
+        CHECK(other.labels == one.labels);
+        CHECK(other_report.dropped_motion == report.dropped_motion);
+    }
+}
