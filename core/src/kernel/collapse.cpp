@@ -127,16 +127,9 @@ public:
 private:
     // The other ends of v's interface edges, by id.
     void interface_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out) const {
+        bench_.interface_fan(v, star, bench_.fan);
         out.clear();
-        for (const TetId t : star) {
-            const mesh::Tet& tet = c_.tet(t);
-            for (unsigned f = 0; f < 4; ++f) {
-                if (tet.v[f] == v || c_.label(t) <= c_.label_across(t, f)) continue;
-                for (const auto k : mesh::face_vertices[f]) {
-                    if (tet.v[k] != v) out.push_back(tet.v[k]);
-                }
-            }
-        }
+        for (const auto& face : bench_.fan) out.insert(out.end(), {face[1], face[2]});
         std::sort(out.begin(), out.end());
         out.erase(std::unique(out.begin(), out.end()), out.end());
     }

@@ -23,6 +23,10 @@ bool closest_parameters(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
 constexpr double margin = 0.05;  // a split nearer to an end than this is the neighbouring class' business
 bool inside(double s) { return s > margin && s < 1.0 - margin; }
 
+bool same_edge(const mesh::Request& request, VertexId a, VertexId b) {
+    return (request.vertices[0] == a && request.vertices[1] == b) || (request.vertices[0] == b && request.vertices[1] == a);
+}
+
 // Splits the ring's tets round (a, b), except `skip` and those that hold `merged`, at the created vertex.
 void split_ring(Workbench& bench, const mesh::EdgeRing& ring, VertexId a, VertexId b, TetId skip, VertexId merged) {
     const std::size_t n = ring.tets.size();
@@ -37,11 +41,25 @@ void split_ring(Workbench& bench, const mesh::EdgeRing& ring, VertexId a, Vertex
     }
 }
 
+// Length of the created vertex' shortest edge.
+double shortest_new_edge(const Workbench& bench) {
+    double least2 = INFINITY;
+    for (const mesh::NewTet& t : bench.edit.added) {
+        if (std::find(t.v.begin(), t.v.end(), mesh::created_vertex) == t.v.end()) continue;
+        for (const VertexId v : t.v) {
+            if (v == mesh::created_vertex) continue;
+            least2 = std::min(least2, (bench.complex.position(v) - bench.edit.created_at).squaredNorm());
+        }
+    }
+    return std::sqrt(least2);
+}
+
 // Judges and commits the edit in the bench; the created vertex was made on (a, b) at s.
-Refusal finish(Workbench& bench, float accept_above, VertexId a, VertexId b, double s) {
+Refusal finish(Workbench& bench, const mesh::Request& request, VertexId a, VertexId b, double s) {
     mesh::Complex& c = bench.complex;
     const float old = bench.old_quality();
-    const float must_exceed = std::min(old, accept_above);
+    const float must_exceed = std::min(old * request.gain, request.accept_above);
+    if (request.least_edge > 0.0F && shortest_new_edge(bench) < static_cast<double>(request.least_edge)) return Refusal::bound;
     if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
     if (!c.link(bench.edit)) return Refusal::irregular;
     bool several = false;
@@ -69,7 +87,7 @@ Refusal finish(Workbench& bench, float accept_above, VertexId a, VertexId b, dou
 }
 
 // Two opposite edges that pass close to each other get a common vertex half-way between.
-Refusal merge_edges(Workbench& bench, TetId t, float accept_above) {
+Refusal merge_edges(Workbench& bench, TetId t, const mesh::Request& request) {
     mesh::Complex& c = bench.complex;
     const auto v = c.tet(t).v;
     constexpr std::array<std::array<unsigned, 4>, 3> pairs = {{{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}}};
@@ -77,7 +95,12 @@ Refusal merge_edges(Workbench& bench, TetId t, float accept_above) {
     std::array<VertexId, 4> chosen{};
     Vec3 place = Vec3::Zero();
     for (const auto& pair : pairs) {
-        const std::array<VertexId, 4> e = {v[pair[0]], v[pair[1]], v[pair[2]], v[pair[3]]};
+        std::array<VertexId, 4> e = {v[pair[0]], v[pair[1]], v[pair[2]], v[pair[3]]};
+        if (request.vertices[1] != mesh::none) {
+            // The named edge comes first: the new vertex follows the destinations of its ends.
+            if (same_edge(request, e[2], e[3])) e = {e[2], e[3], e[0], e[1]};
+            if (!same_edge(request, e[0], e[1])) continue;
+        }
         double s = 0.0, u = 0.0;
         if (!closest_parameters(c.position(e[0]), c.position(e[1]), c.position(e[2]), c.position(e[3]), s, u)) continue;
         if (!inside(s) || !inside(u)) continue;
@@ -99,12 +122,12 @@ Refusal merge_edges(Workbench& bench, TetId t, float accept_above) {
     bench.edit.removed.push_back(t);
     split_ring(bench, bench.ring, chosen[0], chosen[1], t, mesh::none);
     split_ring(bench, bench.ring2, chosen[2], chosen[3], t, mesh::none);
-    return finish(bench, accept_above, chosen[0], chosen[1], best_s);
+    return finish(bench, request, chosen[0], chosen[1], best_s);
 }
 
 // A free vertex v of the tet that lies close to an edge or a face moves into it: the edge or face is split at v's
 // projection and v collapses there. What v leaves must be of one label.
-Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, float accept_above) {
+Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, const mesh::Request& request) {
     mesh::Complex& c = bench.complex;
     const VertexId v = c.tet(t).v[apex];
     if (c.on_box(v) || c.on_interface(v)) return Refusal::not_applicable;
@@ -143,7 +166,7 @@ Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, float accept_abov
             tet.v[mesh::face_vertices[mesh::neighbour_face(code)][k]] = mesh::created_vertex;
             bench.edit.added.push_back(tet);
         }
-        return finish(bench, accept_above, f[0], f[1], 0.5);
+        return finish(bench, request, f[0], f[1], 0.5);
     }
     double best = INFINITY, best_s = 0.0;
     VertexId a = mesh::none, b = mesh::none;
@@ -168,21 +191,23 @@ Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, float accept_abov
     bench.edit.removed.erase(std::remove_if(bench.edit.removed.begin() + static_cast<std::ptrdiff_t>(star), bench.edit.removed.end(),
                                             [&](TetId s) { return mesh::has_vertex(c.tet(s), v); }),
                              bench.edit.removed.end());
-    return finish(bench, accept_above, a, b, best_s);
+    return finish(bench, request, a, b, best_s);
 }
 
 }  // namespace
 
-Refusal compound(Workbench& bench, TetId t, float accept_above) {
+Refusal compound(Workbench& bench, TetId t, const mesh::Request& request) {
+    if (request.vertices[1] != mesh::none) return merge_edges(bench, t, request);
+    if (request.vertices[0] != mesh::none) return merge_vertex(bench, t, mesh::index_of(bench.complex.tet(t), request.vertices[0]), request);
     Refusal last = Refusal::not_applicable;
     const auto keep = [&last](Refusal r) {
         if (r != Refusal::not_applicable) last = r;
         return r == Refusal::committed;
     };
     for (unsigned apex = 0; apex < 4; ++apex) {
-        if (keep(merge_vertex(bench, t, apex, accept_above))) return Refusal::committed;
+        if (keep(merge_vertex(bench, t, apex, request))) return Refusal::committed;
     }
-    keep(merge_edges(bench, t, accept_above));
+    keep(merge_edges(bench, t, request));
     return last;
 }
 

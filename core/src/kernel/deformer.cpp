@@ -43,6 +43,11 @@ std::string_view name(Event::Kind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
+void OperationCounts::add(mesh::Refusal outcome) {
+    ++tried;
+    ++(outcome == Refusal::committed ? committed : refused[static_cast<std::size_t>(outcome)]);
+}
+
 OperationCounts& OperationCounts::operator+=(const OperationCounts& other) {
     tried += other.tried;
     committed += other.committed;
@@ -155,13 +160,9 @@ struct Deformer::State {
     void record(std::uint32_t i, Refusal refusal, std::uint32_t date, StepReport& report) {
         outcomes[i] = {i, refusal};
         const mesh::Request& request = requests[i];
-        auto& counts = report.operations[static_cast<std::size_t>(request.operation)];
-        ++counts.tried;
-        if (refusal == Refusal::committed) {
-            ++counts.committed;
-            return;
-        }
-        ++counts.refused[static_cast<std::size_t>(refusal)];
+        report.operations[static_cast<std::size_t>(request.operation)].add(refusal);
+        report.repair_classes[std::min<std::size_t>(request.repair_class, mesh::repair_class_limit - 1)].add(refusal);
+        if (refusal == Refusal::committed) return;
         if (refusal != Refusal::stale && request.tet != mesh::none) queues.fail(request.tet, date);
     }
 

@@ -81,6 +81,9 @@ Refusal on_faces(Workbench& bench, const Request& request, TetId t) {
     Refusal result = Refusal::not_applicable;
     const mesh::Complex& c = bench.complex;
     for (unsigned f = 0; f < 4; ++f) {
+        const auto& named = request.vertices;
+        const bool whole_face = named[2] != mesh::none;
+        if (whole_face && std::find(named.begin(), named.end(), c.tet(t).v[f]) != named.end()) continue;
         Refusal r = Refusal::not_applicable;
         if (request.operation == Operation::face_removal) {
             r = remove_faces(bench, t, f, request.accept_above);
@@ -121,9 +124,10 @@ Refusal execute(Workbench& bench, const Request& request) {
         t = tet_of(c, request);
         if (t == mesh::none) return Refusal::stale;
     }
+    for (const VertexId v : request.vertices) {
+        if (v != mesh::none && !mesh::has_vertex(c.tet(t), v)) return Refusal::stale;
+    }
     const VertexId a = request.vertices[0], b = request.vertices[1];
-    if (a != mesh::none && !mesh::has_vertex(c.tet(t), a)) return Refusal::stale;
-    if (b != mesh::none && !mesh::has_vertex(c.tet(t), b)) return Refusal::stale;
     const bool edge = a != mesh::none && b != mesh::none;
     switch (request.operation) {
         case Operation::smooth_laplacian:
@@ -131,7 +135,7 @@ Refusal execute(Workbench& bench, const Request& request) {
         case Operation::smooth_optimise: return a == mesh::none ? Refusal::not_applicable : smooth_optimise(bench, a);
         case Operation::vertex_split: return edge ? split_vertex(bench, a, b) : Refusal::not_applicable;
         case Operation::relabel: return relabel_tet(bench, t);
-        case Operation::compound: return compound(bench, t, request.accept_above);
+        case Operation::compound: return compound(bench, t, request);
         case Operation::face_removal:
         case Operation::face_split: return on_faces(bench, request, t);
         case Operation::edge_removal: return edge ? remove_edge(bench, t, a, b, request.accept_above) : on_edges(bench, request, t);

@@ -30,8 +30,9 @@ Refusal smooth_laplacian(Workbench& bench, VertexId v, float accept_above);
 Refusal smooth_optimise(Workbench& bench, VertexId v);
 /// Tet t takes the label around it if the interface only shifts.
 Refusal relabel_tet(Workbench& bench, TetId t);
-/// Split and collapse as one: the repair that fits the tet's shape (two edges, an edge, a face).
-Refusal compound(Workbench& bench, TetId t, float accept_above);
+/// Split and collapse as one: the repair that fits the tet's shape (two edges, an edge, a face), or that of the named vertex or
+/// edge. The result's least quality must be above min(gain * old least, accept_above).
+Refusal compound(Workbench& bench, TetId t, const mesh::Request& request);
 
 /// Carries out a request, choosing the simplex where it names none.
 Refusal execute(Workbench& bench, const mesh::Request& request);

@@ -34,8 +34,7 @@ VertexId Complex::allocate_vertex(const Vec3& position) {
         v = free_vertices_.back();
         free_vertices_.pop_back();
     }
-    // Dated before this change, so that touch() lists it.
-    vertices_[v] = {position, none, next_birth_++, clock_ - 1, no_slot, 1, 0};
+    vertices_[v] = {position, none, next_birth_++, clock_, no_slot, 1, 0};
     return v;
 }
 
@@ -57,11 +56,7 @@ TetId Complex::allocate_tet() {
 void Complex::touch(TetId t) {
     if (dates_[t] <= taken_clock_) changes_.push_back(t);
     dates_[t] = clock_;
-    for (const VertexId v : tets_[t].v) {
-        if (vertices_[v].date == clock_) continue;
-        vertices_[v].date = clock_;
-        touched_vertices_.push_back(v);
-    }
+    for (const VertexId v : tets_[t].v) vertices_[v].date = clock_;
 }
 
 void Complex::take_changes(std::vector<TetId>& out) {
@@ -102,7 +97,6 @@ void Complex::refresh_phases(VertexId v) {
 
 void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star) {
     ++clock_;
-    touched_vertices_.clear();
     vertices_[v].position = position;
     for (const TetId t : star) {
         const auto& x = tets_[t].v;
@@ -119,7 +113,6 @@ void Complex::place(VertexId v, const Vec3& position, std::span<const TetId> sta
 
 void Complex::note_change(std::span<const TetId> star) {
     ++clock_;
-    touched_vertices_.clear();
     for (const TetId t : star) touch(t);
 }
 
@@ -144,12 +137,16 @@ void Complex::note_changes(std::uint32_t clock, std::span<const TetId> changed) 
 
 void Complex::relabel(std::span<const TetId> tets, Label label) {
     ++clock_;
-    touched_vertices_.clear();
+    places_.clear();
+    relabelled_.clear();
     for (const TetId t : tets) {
         labels_[t] = label;
         touch(t);
+        for (const VertexId v : tets_[t].v) {
+            if (places_.insert(v)) relabelled_.push_back(v);
+        }
     }
-    for (const VertexId v : touched_vertices_) refresh_phases(v);
+    for (const VertexId v : relabelled_) refresh_phases(v);
 }
 
 // Whether the labels round some vertices may become others; then relabelled_ are the existing ones among them. Where a vertex
@@ -189,7 +186,6 @@ bool Complex::find_relabelled(const Edit& edit) {
 
 VertexId Complex::replace(Edit& edit) {
     ++clock_;
-    touched_vertices_.clear();
     const bool several_labels = find_relabelled(edit);
 
     VertexId created = none;

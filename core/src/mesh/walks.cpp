@@ -27,15 +27,17 @@ void Complex::star(VertexId v, std::vector<TetId>& out, TetIndex& places) const 
     const Tet* const tets = tets_.data();
     const TetId first = vertices_[v].seed;
     places.insert(first);
-    out.push_back(first);
+    // Until the end `out` holds codes: the tet and the face through which it was reached, where nothing new lies behind.
+    out.push_back(4 * first + index_of(tets[first], v));
     for (std::size_t i = 0; i < out.size(); ++i) {
-        const Tet& tet = tets[out[i]];
+        const Tet& tet = tets[neighbour_tet(out[i])];
+        const unsigned entry = neighbour_face(out[i]);
         for (unsigned f = 0; f < 4; ++f) {
-            if (tet.v[f] == v || tet.n[f] == none) continue;
-            const TetId next = neighbour_tet(tet.n[f]);
-            if (places.insert(next)) out.push_back(next);
+            if (f == entry || tet.v[f] == v || tet.n[f] == none) continue;
+            if (places.insert(neighbour_tet(tet.n[f]))) out.push_back(tet.n[f]);
         }
     }
+    for (TetId& t : out) t = neighbour_tet(t);
 }
 
 void Complex::ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const {

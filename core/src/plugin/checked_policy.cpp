@@ -14,6 +14,13 @@ std::string at(std::string_view what, std::size_t index) {
     return std::string(what) + " " + std::to_string(index);
 }
 
+// snake_case: what columns, keys and classes may be called.
+bool plain_name(std::string_view name) {
+    return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+    });
+}
+
 class CheckedRefinement final : public Checked<hooks::RefinementPolicy> {
 public:
     using Checked::Checked;
@@ -111,10 +118,31 @@ public:
         const hooks::StepContext step = own(context);
         const Call current = call("propose", step.step);
         const std::size_t before = out.size();
+        if (!class_count_) class_count_ = std::max<std::size_t>(1, repair_classes().size());
         guarded(current, [&] { inner().propose(step, round, out); });
         if (out.size() < before)
             fail(current, "strategy.size", "removed requests that were there before", report);
-        for (std::size_t i = before; i < out.size(); ++i) judge(current, round.complex, out[i], i - before);
+        for (std::size_t i = before; i < out.size(); ++i) judge(current, round.complex, *class_count_, out[i], i - before);
+    }
+
+    std::vector<std::string> repair_classes() const override {
+        const Call current = call("repair_classes");
+        std::vector<std::string> names = guarded(current, [&] { return inner().repair_classes(); });
+        if (names.size() > mesh::repair_class_limit) {
+            fail(current, "strategy.size",
+                 "named " + std::to_string(names.size()) + " classes of requests, " +
+                     std::to_string(mesh::repair_class_limit) + " are the most",
+                 report);
+        }
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            if (plain_name(names[i]) && std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) ==
+                                            names.begin() + static_cast<std::ptrdiff_t>(i)) {
+                continue;
+            }
+            fail(current, "strategy.range", "gave a class of requests the name '" + names[i] + "'",
+                 "names are snake_case and differ; report this to the plugin's authors");
+        }
+        return names;
     }
 
     double flatness() const override {
@@ -155,8 +183,8 @@ public:
     }
 
 private:
-    static void judge(const Call& current, const mesh::Complex& complex, const mesh::Request& request,
-                      std::size_t index) {
+    static void judge(const Call& current, const mesh::Complex& complex, std::size_t classes,
+                      const mesh::Request& request, std::size_t index) {
         const std::string where = "in " + at("request", index);
         if (static_cast<std::size_t>(request.operation) >= mesh::operation_count) {
             fail(current, "strategy.range", "named an operation that does not exist " + where, report);
@@ -170,11 +198,17 @@ private:
             fail(current, "strategy.range",
                  "named vertex " + std::to_string(v) + ", which does not exist, " + where, report);
         }
-        for (const float value : {request.parameter, request.only_below, request.accept_above}) {
+        if (request.repair_class >= classes) {
+            fail(current, "strategy.range",
+                 "named the class " + std::to_string(request.repair_class) + ", which does not exist, " + where, report);
+        }
+        for (const float value : {request.parameter, request.only_below, request.accept_above, request.gain, request.least_edge}) {
             if (std::isnan(value))
                 fail(current, "strategy.not_finite", "gave a number that is NaN " + where, report);
         }
     }
+
+    std::optional<std::size_t> class_count_;  // 1 without names: class 0 is everyone's
 };
 
 class CheckedObserver final : public Checked<hooks::Observer> {
@@ -213,10 +247,7 @@ private:
     static void judge(const Call& current, const hooks::Figures& figures) {
         std::vector<std::string_view> seen;
         for (const auto& [name, value] : figures) {
-            const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-                return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-            });
-            if (!plain || std::find(seen.begin(), seen.end(), name) != seen.end()) {
+            if (!plain_name(name) || std::find(seen.begin(), seen.end(), name) != seen.end()) {
                 fail(current, "strategy.range", "gave a figure the name '" + name + "'",
                      "names are snake_case and differ; report this to the plugin's authors");
             }

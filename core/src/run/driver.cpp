@@ -50,6 +50,7 @@ public:
         };
         policy_.topology = strategies_.improvement->topology_limits();
         policy_.flatness = strategies_.improvement->flatness();
+        result_.totals.repair_class_names = strategies_.improvement->repair_classes();
     }
 
     DriveResult execute() {
@@ -157,6 +158,7 @@ private:
         const double came_about = achieved();
         result_.totals.add(report);
         for (const kernel::Event& event : report.events) tell(event);
+        tell_repairs(report);
         refresh_view();
         row.step = deformer_.step_count();
         row.rounds = report.rounds;
@@ -306,6 +308,16 @@ private:
 
     void tell(const kernel::Event& event) const {
         if (options_.on_event) options_.on_event(event);
+    }
+
+    void tell_repairs(const kernel::StepReport& report) const {
+        if (!options_.on_repairs) return;
+        const std::vector<std::string>& names = result_.totals.repair_class_names;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const kernel::OperationCounts& counts = report.repair_classes[i];
+            if (counts.tried == 0) continue;
+            options_.on_repairs({deformer_.step_count(), names[i], counts.tried, counts.committed});
+        }
     }
 
     bool stop_asked() const {

@@ -83,6 +83,12 @@ std::string event_line(const kernel::Event& event, const cloud::Transform& to_no
     return text + "}\n";
 }
 
+std::string class_line(const ClassFigures& figures) {
+    return "{\"kind\":\"repair\",\"step\":" + std::to_string(figures.step) + ",\"class\":\"" +
+           std::string(figures.repair_class) + "\",\"requested\":" + std::to_string(figures.requested) +
+           ",\"committed\":" + std::to_string(figures.committed) + "}\n";
+}
+
 void RunTotals::add(const kernel::StepReport& report) {
     ++steps;
     rounds += report.rounds;
@@ -94,6 +100,7 @@ void RunTotals::add(const kernel::StepReport& report) {
     edit_volume += report.edit_volume;
     relabelled_volume += report.relabelled_volume;
     for (std::size_t i = 0; i < operations.size(); ++i) operations[i] += report.operations[i];
+    for (std::size_t i = 0; i < repair_classes.size(); ++i) repair_classes[i] += report.repair_classes[i];
     events.merge += report.event_counts.merge;
     events.split += report.event_counts.split;
     events.handle_opened += report.event_counts.handle_opened;

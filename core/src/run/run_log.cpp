@@ -33,6 +33,8 @@ void RunLog::add(const kernel::Event& event) {
     write(events_, events_file_, event_line(event, to_normalised_));
 }
 
+void RunLog::add(const ClassFigures& figures) { write(events_, events_file_, class_line(figures)); }
+
 void RunLog::close() {
     if (waiting_) write(metrics_, metrics_file_, csv_header(*waiting_) + csv_row(*waiting_));
     waiting_.reset();

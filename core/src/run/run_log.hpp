@@ -16,6 +16,7 @@ public:
 
     void add(const StepMetrics& row);
     void add(const kernel::Event& event);
+    void add(const ClassFigures& figures);
     /// Writes what still waits and closes the files.
     void close();
 

@@ -170,6 +170,7 @@ private:
             if (options_.on_step) options_.on_step(row, planned);
         };
         drive_options.on_event = [&](const kernel::Event& event) { run_log.add(event); };
+        drive_options.on_repairs = [&](const ClassFigures& figures) { run_log.add(figures); };
         DriveResult driven = drive(experiment, strategies, target, drive_options);
         run_log.close();
 

@@ -29,16 +29,26 @@ ordered_json events(const RunTotals& totals) {
             {"unpinched", e.unpinched + totals.adopted.unpinched_vertices}};
 }
 
+ordered_json counts_row(const kernel::OperationCounts& counts) {
+    ordered_json row = {{"tried", counts.tried}, {"committed", counts.committed}};
+    for (std::size_t r = 1; r < counts.refused.size(); ++r) {
+        if (counts.refused[r] > 0) row[std::string(mesh::name(static_cast<mesh::Refusal>(r)))] = counts.refused[r];
+    }
+    return row;
+}
+
 ordered_json operations(const RunTotals& totals) {
     ordered_json table = ordered_json::object();
     for (std::size_t i = 0; i < totals.operations.size(); ++i) {
-        const kernel::OperationCounts& counts = totals.operations[i];
-        ordered_json row = {{"tried", counts.tried}, {"committed", counts.committed}};
-        for (std::size_t r = 1; r < counts.refused.size(); ++r) {
-            if (counts.refused[r] > 0)
-                row[std::string(mesh::name(static_cast<mesh::Refusal>(r)))] = counts.refused[r];
-        }
-        table[std::string(mesh::name(static_cast<mesh::Operation>(i)))] = row;
+        table[std::string(mesh::name(static_cast<mesh::Operation>(i)))] = counts_row(totals.operations[i]);
+    }
+    return table;
+}
+
+ordered_json repair_classes(const RunTotals& totals) {
+    ordered_json table = ordered_json::object();
+    for (std::size_t i = 0; i < totals.repair_class_names.size(); ++i) {
+        table[totals.repair_class_names[i]] = counts_row(totals.repair_classes[i]);
     }
     return table;
 }
@@ -121,6 +131,7 @@ std::string summary_json(const SummaryParts& parts) {
           {"requested", totals.refine_requested},
           {"committed", totals.refine_committed}}},
         {"operations", operations(totals)},
+        {"repair_classes", repair_classes(totals)},
         {"observers", observers(totals)},
         {"wall_s", parts.wall_seconds},
         {"cpu_s", parts.usage.cpu_seconds},

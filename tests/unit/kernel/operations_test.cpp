@@ -88,6 +88,116 @@ TEST_CASE("edge removal undoes an edge split of a ring, 3-2 flips undo 2-3 flips
     CHECK(valid(c));
 }
 
+TEST_CASE("face removal takes the named face and no other") {
+    Complex c = test::labelled_meshes().front().complex;
+    Workbench bench(c);
+    prepare(bench);
+    std::size_t done = 0, refused = 0;
+    for (TetId t = 0; t < 400 && done < 20; ++t) {
+        for (unsigned f = 0; f < 4; ++f) {
+            if (!c.tet_alive(t) || c.tet(t).n[f] == mesh::none) continue;
+            mesh::Request request;
+            request.operation = mesh::Operation::face_removal;
+            request.tet = t;
+            request.birth_date = c.birth_date(t);
+            request.accept_above = 0.0F;
+            for (unsigned k = 0; k < 3; ++k) request.vertices[k] = c.tet(t).v[mesh::face_vertices[f][k]];
+            const VertexId a = c.tet(t).v[f], b = c.tet(mesh::neighbour_tet(c.tet(t).n[f])).v[mesh::neighbour_face(c.tet(t).n[f])];
+            if (execute(bench, request) != Refusal::committed) {
+                ++refused;
+                continue;
+            }
+            REQUIRE(c.find_edge(a, b) != mesh::none);
+            REQUIRE(valid(c));
+            ++done;
+        }
+    }
+    CHECK(done >= 10);
+    CHECK(refused > 0);
+    mesh::Request elsewhere;
+    elsewhere.operation = mesh::Operation::face_removal;
+    elsewhere.tet = c.seed(0);
+    elsewhere.birth_date = c.birth_date(elsewhere.tet);
+    const auto far = static_cast<VertexId>(c.vertex_slots() - 1);
+    elsewhere.vertices = {0, far, far};
+    CHECK(execute(bench, elsewhere) == Refusal::stale);
+}
+
+TEST_CASE("a compound with a named vertex or edge repairs that; its gain and least edge are kept") {
+    const Complex start = test::labelled_meshes().front().complex;
+    // A free vertex almost in a face of its link, and two edges of a tet that almost cross.
+    const auto flatten = [](Complex& c, VertexId v, const Vec3& target, double part) {
+        std::vector<TetId> star;
+        c.star(v, star);
+        c.move(v, c.position(v) + part * (target - c.position(v)), star);
+    };
+    const auto request_of = [](const Complex& c, TetId t, std::array<VertexId, 3> vertices) {
+        mesh::Request request;
+        request.operation = mesh::Operation::compound;
+        request.tet = t;
+        request.birth_date = c.birth_date(t);
+        request.vertices = vertices;
+        return request;
+    };
+    std::size_t caps = 0;
+    for (TetId t = 0; t < start.tet_slots() && caps < 10; ++t) {
+        for (unsigned f = 0; f < 4; ++f) {
+            Complex c = start;
+            Workbench bench(c);
+            prepare(bench);
+            const VertexId v = c.tet(t).v[f];
+            if (c.on_interface(v) || c.on_box(v) || c.tet(t).n[f] == mesh::none) continue;
+            Vec3 centroid = Vec3::Zero();
+            for (unsigned k = 0; k < 3; ++k) centroid += c.position(c.tet(t).v[mesh::face_vertices[f][k]]) / 3.0;
+            flatten(c, v, centroid, 0.97);
+            const float old = c.quality(t);
+            mesh::Request request = request_of(c, t, {v, mesh::none, mesh::none});
+            request.gain = 2.0F / old;  // no tet is twice as good as a regular one
+            CHECK(execute(bench, request) == Refusal::quality);
+            request.gain = 2.0F;
+            request.least_edge = 10.0F;
+            CHECK(execute(bench, request) == Refusal::bound);
+            request.least_edge = 0.01F;
+            const std::size_t vertices = c.vertex_count();
+            if (execute(bench, request) != Refusal::committed) continue;
+            ++caps;
+            const bool there = c.vertex_alive(v) && c.birth(v) == start.birth(v);
+            CHECK_FALSE(there);
+            CHECK(c.vertex_count() == vertices);
+            for (const TetId added : c.last_added()) CHECK(c.quality(added) > 2.0F * old);
+            CHECK(valid(c));
+        }
+    }
+    CHECK(caps >= 10);
+
+    std::size_t slivers = 0;
+    for (TetId t = 0; t < start.tet_slots() && slivers < 10; ++t) {
+        Complex c = start;
+        Workbench bench(c);
+        prepare(bench);
+        const auto v = c.tet(t).v;
+        if (std::any_of(v.begin(), v.end(), [&](VertexId x) { return c.on_box(x); }) || c.quality(t) < 0.9F) continue;
+        // The regular tet: its first two vertices towards the others, so that the two edges almost meet.
+        const Vec3 across = 0.5 * (c.position(v[2]) + c.position(v[3]) - c.position(v[0]) - c.position(v[1]));
+        flatten(c, v[0], c.position(v[0]) + across, 0.48);
+        flatten(c, v[1], c.position(v[1]) + across, 0.48);
+        flatten(c, v[2], c.position(v[2]) - across, 0.48);
+        flatten(c, v[3], c.position(v[3]) - across, 0.48);
+        REQUIRE(valid(c));
+        // Another pair of opposite edges is as far apart as before: its common vertex would invert tets.
+        CHECK(execute(bench, request_of(c, t, {v[0], v[2], mesh::none})) == Refusal::quality);
+        mesh::Request request = request_of(c, t, {v[2], v[3], mesh::none});
+        const std::size_t vertices = c.vertex_count();
+        if (execute(bench, request) != Refusal::committed) continue;
+        ++slivers;
+        CHECK(c.vertex_count() == vertices + 1);
+        CHECK(c.find_edge(v[0], v[1]) == mesh::none);
+        CHECK(c.find_edge(v[2], v[3]) == mesh::none);
+        CHECK(valid(c));
+    }
+    CHECK(slivers >= 10);
+}
+
 TEST_CASE("the box never changes: its edges and faces are refused") {
     Complex c = test::labelled_meshes().front().complex;
     Workbench bench(c);

@@ -78,6 +78,7 @@ struct Improvement final : Base<hooks::Improvement> {
     using Select = Behaviour<std::span<std::uint8_t>>;
     static inline double cosine = 0.99;
     static inline mesh::TopologyLimits limits;
+    static inline std::vector<std::string> classes;
     Improvement(const Params&, const dsc::plugin::Setup&) {}
     void propose(const hooks::StepContext&, const mesh::RepairRound&,
                  std::vector<mesh::Request>& out) override {
@@ -85,6 +86,7 @@ struct Improvement final : Base<hooks::Improvement> {
     }
     double flatness() const override { return cosine; }
     mesh::TopologyLimits topology_limits() const override { return limits; }
+    std::vector<std::string> repair_classes() const override { return classes; }
     void select(const hooks::StepContext&, std::span<const mesh::TopologyCandidate>,
                 std::span<std::uint8_t> accept) override {
         Select::act(accept);
@@ -317,6 +319,38 @@ TEST_CASE("initial mesh: arrays that do not fit together") {
     CHECK_THROWS_WITH_AS(generator->build({}), "a.dsc: cannot be read", dsc::IoError);
 }
 
+TEST_CASE("improvement: classes of requests have good names, and a request names one of them") {
+    const Bench bench;
+    const mesh::Complex complex;
+    const mesh::RepairRound round{complex, {}, {}, {}, {}, 0.1, 0.99, 0, false};
+    const auto propose = [&](unsigned repair_class) {
+        const auto improvement = bench.make<hooks::Improvement>();
+        Improvement::Act::act = [&](std::vector<mesh::Request>& out) {
+            out.emplace_back().repair_class = static_cast<std::uint8_t>(repair_class);
+        };
+        std::vector<mesh::Request> out;
+        return caught([&] { improvement->propose(bench.context(), round, out); });
+    };
+    const auto naming = [&](std::vector<std::string> names) {
+        Improvement::classes = std::move(names);
+        const Caught fault = caught([&] { bench.make<hooks::Improvement>()->repair_classes(); });
+        Improvement::classes.clear();
+        return fault;
+    };
+    // Without names there is one class.
+    CHECK(propose(0).text.empty());
+    CHECK(propose(1).text == who("improvement") + "propose at step 5 named the class 1, which does not exist, in request 0" + report);
+    Improvement::classes = {"wedge", "tee"};
+    CHECK(propose(1).text.empty());
+    CHECK(propose(2).code == "strategy.range");
+    CHECK(naming({"wedge", "tee_2"}).text.empty());
+    CHECK(naming({"wedge", "Tee"}).text ==
+          who("improvement") + "repair_classes gave a class of requests the name 'Tee'; names are snake_case and differ" + report);
+    CHECK(naming({"tee", "wedge", "tee"}).code == "strategy.range");
+    CHECK(naming({""}).code == "strategy.range");
+    CHECK(naming(std::vector<std::string>(17, "a")).code == "strategy.size");
+}
+
 TEST_CASE("improvement: requests, limits and answers out of range") {
     const Bench bench;
     const auto improvement = bench.make<hooks::Improvement>();
@@ -341,8 +375,11 @@ TEST_CASE("improvement: requests, limits and answers out of range") {
     request.operation = static_cast<mesh::Operation>(200);
     CHECK(propose(request).code == "strategy.range");
     request = {};
-    request.accept_above = std::numeric_limits<float>::quiet_NaN();
-    CHECK(propose(request).code == "strategy.not_finite");
+    for (float mesh::Request::*number : {&mesh::Request::accept_above, &mesh::Request::gain, &mesh::Request::least_edge}) {
+        request = {};
+        request.*number = std::numeric_limits<float>::quiet_NaN();
+        CHECK(propose(request).code == "strategy.not_finite");
+    }
     Improvement::Act::act = [](std::vector<mesh::Request>& out) { out.clear(); };
     std::vector<mesh::Request> earlier(2);
     CHECK(caught([&] { improvement->propose(bench.context(), round, earlier); }).code == "strategy.size");

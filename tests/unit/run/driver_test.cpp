@@ -6,6 +6,7 @@
 #include <dsc/run/driver.hpp>
 #include <dsc/run/measure.hpp>
 #include <dsc/run/runner.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "fakes.hpp"
@@ -188,6 +189,42 @@ TEST_CASE("a whole run: the folder holds what it should, a second run the same b
     const auto provenance = nlohmann::json::parse(folder.read("one/provenance.json"));
     CHECK(provenance["plugins"][0]["sha256"].get<std::string>().size() == 64);
     CHECK_FALSE(provenance["finished"].is_null());
+}
+
+TEST_CASE("an improvement's requests are counted by its classes, in events.jsonl and in the summary") {
+    const Folder folder;
+    const dsc::test::Strategies catalogue;
+    const fs::path here = fs::current_path();
+    fs::current_path(folder.path());
+    folder.write("libdsc_fake.so", "stands for a plugin");
+    run::RunOptions options;
+    options.folder = folder.path() / "out";
+    const run::RunOutcome outcome =
+        run::run_experiment(load_text(minimal, {"improvement.type=counted", "velocity.factor=-0.05"}), catalogue, options);
+    fs::current_path(here);
+
+    std::map<std::string, std::array<std::uint64_t, 2>> lines;
+    std::istringstream events(folder.read("out/events.jsonl"));
+    std::size_t count = 0;
+    for (std::string line; std::getline(events, line); ++count) {
+        const auto json = nlohmann::json::parse(line);
+        CHECK(json["kind"] == "repair");
+        CHECK(json["step"] == 1 + count / 2);
+        CHECK(json["class"] == (count % 2 == 0 ? "inside" : "surface"));
+        lines[json["class"]][0] += json["requested"].get<std::uint64_t>();
+        lines[json["class"]][1] += json["committed"].get<std::uint64_t>();
+    }
+    // A class that was not asked for has no line; a request a round of each of the others.
+    CHECK(count == 4);
+    CHECK(lines["inside"][0] == outcome.totals.rounds);
+    CHECK(lines["surface"][0] == outcome.totals.rounds);
+    CHECK(lines["surface"][1] == 0);
+    const auto classes = nlohmann::json::parse(folder.read("out/summary.json"))["repair_classes"];
+    CHECK(classes.size() == 3);
+    CHECK(classes["never"]["tried"] == 0);
+    CHECK(classes["inside"]["tried"] == lines["inside"][0]);
+    CHECK(classes["inside"]["committed"] == lines["inside"][1]);
+    CHECK(classes["surface"]["not_applicable"] == lines["surface"][0]);
 }
 
 TEST_CASE("a run that fails leaves no result and says why") {

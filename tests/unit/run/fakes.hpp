@@ -152,6 +152,32 @@ public:
     mesh::TopologyLimits topology_limits() const override { return {.thickness = 0.0, .min_component = 0.0}; }
 };
 
+/// Asks every round for two Laplacian smoothings, of a class each: the second, of an interface vertex, is never granted.
+class Counted final : public hooks::Improvement {
+public:
+    struct Params {};
+    static void declare(config::ParamSchema<Params>&) {}
+    Counted(const Params&, const plugin::Setup&) {}
+    void propose(const hooks::StepContext&, const mesh::RepairRound& round, std::vector<mesh::Request>& out) override {
+        const mesh::Complex& c = round.complex;
+        ask(c, out, 1, [&c](mesh::VertexId v) { return !c.on_interface(v) && !c.on_box(v); });
+        ask(c, out, 2, [&c](mesh::VertexId v) { return c.on_interface(v); });
+    }
+    mesh::TopologyLimits topology_limits() const override { return {.thickness = 0.0, .min_component = 0.0}; }
+    std::vector<std::string> repair_classes() const override { return {"never", "inside", "surface"}; }
+
+private:
+    template <class Wanted>
+    static void ask(const mesh::Complex& c, std::vector<mesh::Request>& out, std::uint8_t repair_class, const Wanted& wanted) {
+        mesh::VertexId v = 0;
+        while (!c.vertex_alive(v) || !wanted(v)) ++v;
+        mesh::Request& request = out.emplace_back();
+        request.operation = mesh::Operation::smooth_laplacian;
+        request.vertices[0] = v;
+        request.repair_class = repair_class;
+    }
+};
+
 /// Splits every face; may ask for sampling or relabel the tet with the given id.
 class SplitAll final : public hooks::RefinementPolicy {
 public:
@@ -206,6 +232,7 @@ public:
         registrar.add<BoxMesh>("box", "a box");
         registrar.add<Linear>("linear", "a linear field");
         registrar.add<NoRepair>("none", "no repair");
+        registrar.add<Counted>("counted", "counts its requests");
         registrar.add<SplitAll>("all", "splits all");
         registrar.add<Counter>("counter", "counts");
     }

@@ -2,6 +2,7 @@
 // Hook `improvement`: which repairs a step tries, in which order, on which tets.
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include <dsc/hooks/context.hpp>
@@ -24,6 +25,10 @@ public:
     /// All candidates of a step as one batch; sets accept[i] to 1 for those that may happen. Sizes are equal.
     virtual void select(const StepContext& context, std::span<const mesh::TopologyCandidate> candidates,
                         std::span<std::uint8_t> accept);
+
+    /// Names of the classes that Request::repair_class counts by: differing, snake_case, at most repair_class_limit. Where there
+    /// are any, events.jsonl and summary.json tell how many requests of each were made and committed. [setup]
+    virtual std::vector<std::string> repair_classes() const { return {}; }
 };
 
 }  // namespace dsc::hooks

@@ -17,9 +17,12 @@ struct OperationCounts {
     std::uint64_t committed = 0;
     std::array<std::uint64_t, mesh::refusal_count> refused{};
 
+    void add(mesh::Refusal outcome);
     OperationCounts& operator+=(const OperationCounts& other);
 };
 using OperationTable = std::array<OperationCounts, mesh::operation_count>;
+/// The same by Request::repair_class.
+using RepairClassTable = std::array<OperationCounts, mesh::repair_class_limit>;
 
 /// A topology change, a row of events.jsonl.
 struct Event {
@@ -45,6 +48,7 @@ struct StepReport {
     double edit_volume = 0.0;        ///< summed volume by which edits changed phases
     double relabelled_volume = 0.0;  ///< summed volume of relabelled tets, topology changes included
     OperationTable operations{};
+    RepairClassTable repair_classes{};
     std::vector<Event> events;
     mesh::EventCounts event_counts;
     double move_seconds = 0.0;       ///< wall time, for phase_s only

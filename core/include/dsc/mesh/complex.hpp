@@ -214,7 +214,6 @@ private:
     std::vector<VertexId> interface_;
     std::vector<TetId> changes_;
     std::vector<TetId> last_added_;
-    std::vector<VertexId> touched_vertices_;
     struct CavityLabels {
         VertexId vertex;
         std::array<std::uint64_t, 2> labels;  // before and after

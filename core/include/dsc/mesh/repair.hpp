@@ -17,13 +17,15 @@ enum class Operation : std::uint8_t {
     smooth_optimise,   ///< vertex uphill on the worst quality of its star
     edge_removal,      ///< re-triangulate the ring of one of the tet's edges (2-3, 3-2, 4-4 and up to rings of 7)
     interface_flip,    ///< other diagonal of two interface faces, both labels' fans re-triangulated
-    face_removal,      ///< multi-face removal, the inverse of edge removal
+    face_removal,      ///< multi-face removal, the inverse of edge removal, from any of the tet's faces or face (a, b, c)
     edge_split,        ///< split of the tet's longest edge, or of edge (a, b), at parameter t
     face_split,        ///< split of face (a, b, c) at a point: the projection of the tet's fourth vertex
     vertex_split,      ///< split of a vertex with too many tets
     edge_collapse,     ///< collapse of the tet's edges, shortest first, or of edge (a, b)
     relabel,           ///< the tet takes the label around it (interface shift)
-    compound,          ///< split an edge or face and collapse the new vertex, as one transaction
+    compound,          ///< split an edge or face and collapse the new vertex, as one transaction. One vertex named: it moves into
+                       ///< the edge or face next to it; edge (a, b) named: it and the tet's opposite edge get a common vertex,
+                       ///< whose destination follows those of a and b
 };
 inline constexpr std::size_t operation_count = 11;
 /// "edge_collapse", ...
@@ -46,7 +48,12 @@ struct Request {
     float parameter = 0.5F;                   ///< place of a split along (a, b)
     float only_below = 2.0F;                  ///< skip when the tet's quality is not below this by then
     float accept_above = 2.0F;                ///< accept when the new least quality is above this, or above the old one
+    float gain = 1.0F;                        ///< of a compound: above so many times the old one
+    float least_edge = 0.0F;                  ///< of a compound: its vertex gets no shorter edge; normalised units
+    std::uint8_t repair_class = 0;            ///< index into what hooks::Improvement::repair_classes() names; counted
 };
+/// How many classes of requests can be told apart.
+inline constexpr std::size_t repair_class_limit = 16;
 
 /// What became of a request: `committed`, or why it did not change anything.
 enum class Refusal : std::uint8_t { committed, stale, irregular, quality, bound, box, not_applicable, no_gain };

@@ -36,6 +36,7 @@ struct DriveOptions {
     std::function<bool()> out_of_time;    ///< checked between steps; true ends the run like a cancellation
     std::function<void(const StepMetrics&, std::uint64_t planned)> on_step;  ///< also for row 0
     std::function<void(const kernel::Event&)> on_event;
+    std::function<void(const ClassFigures&)> on_repairs;  ///< after the step's events, each class asked for
 };
 
 /// Where a run ended, normalised units.

@@ -56,6 +56,16 @@ std::string csv_row(const StepMetrics& row, std::size_t observer_columns = 0);
 /// A line of events.jsonl: place and volume in the input's units, with its newline.
 std::string event_line(const kernel::Event& event, const cloud::Transform& to_normalised);
 
+/// Requests of one class in one step; see hooks::Improvement::repair_classes().
+struct ClassFigures {
+    std::uint64_t step = 0;
+    std::string_view repair_class;
+    std::uint64_t requested = 0;
+    std::uint64_t committed = 0;
+};
+/// A line of events.jsonl, with its newline.
+std::string class_line(const ClassFigures& figures);
+
 /// Wall time by phase.
 struct PhaseSeconds {
     double velocity = 0.0;
@@ -84,6 +94,8 @@ struct RunTotals {
     std::uint64_t refine_requested = 0;
     std::uint64_t refine_committed = 0;
     kernel::OperationTable operations{};
+    kernel::RepairClassTable repair_classes{};
+    std::vector<std::string> repair_class_names;  ///< of the first entries of repair_classes
     mesh::EventCounts events;
     mesh::AdoptReport adopted;
     PhaseSeconds seconds;

@@ -1,0 +1,90 @@
+#pragma once
+// The requests of a repair round of the Illinois DSC: which tets, which repairs, in which order.
+
+#include <dsc/mesh/repair.hpp>
+#include <string>
+#include <vector>
+
+#include "tet_shape.hpp"
+
+namespace dsc::improvement {
+
+/// What a request is counted as: the four classes, then the fall-backs.
+enum class RepairClass : std::uint8_t { wedge, tee, cap, sliver, edge_removal, face_removal, smoothing, collapse, spoke };
+/// Names of RepairClass, in its order.
+std::vector<std::string> repair_class_names();
+
+/// Altitudes are least distances of a vertex from the plane of a tet's others, in min(longest edge, L).
+struct RepairLimits {
+    ShapeLimits shape;
+    double flat = 0.05;          ///< altitude below which a tet is repaired by its class
+    double flip_below = 0.1;     ///< altitude below which flips and smoothing are tried
+    double smooth_below = 0.2;   ///< altitude below which free vertices go to the mean of their neighbours
+    double degenerate = 0.05;    ///< a collapse leaves no tet below this quality, or below what there was
+    double least_edge = 0.25;    ///< in L: no insertion makes a shorter edge or splits one of less than twice this
+    double insertions = 0.2;     ///< new vertices a step, in interface vertices
+    double longest_spoke = 0.0;  ///< in L, of edges from the interface into a phase; 0: any
+    bool fallbacks = true;
+};
+
+/// Writes the requests of a round. What it remembers does not outlive a step.
+class Repairs {
+public:
+    explicit Repairs(const RepairLimits& limits) : limits_(limits) {}
+    void write(const mesh::RepairRound& round, std::vector<mesh::Request>& out);
+
+private:
+    struct Entry {
+        std::int64_t altitude;  // quantised
+        mesh::TetId tet;
+        std::uint32_t order;  // of discovery
+        bool by_class;        // flat, or in the way of a vertex
+        TetShape shape;
+    };
+    struct Spoke {
+        std::int64_t length;  // quantised, negative
+        std::uint32_t low, high;  // births of its ends
+        std::array<mesh::VertexId, 3> ends;
+    };
+    /// Slots seen in this round.
+    class Visits {
+    public:
+        void begin_round() { ++round_; }
+        bool first(std::uint32_t slot);
+
+    private:
+        std::vector<std::uint32_t> seen_;
+        std::uint32_t round_ = 0;
+    };
+
+    bool interface_edge(const mesh::Complex& c, mesh::TetId t, mesh::VertexId a, mesh::VertexId b);
+    std::array<std::array<mesh::VertexId, 2>, 2> crossing_edges(const mesh::Complex& c, const Entry& entry);
+    bool inserts_on_interface(const mesh::Complex& c, const Entry& entry);
+    void begin_step(const mesh::RepairRound& round);
+    void count_insertions(const mesh::RepairRound& round);
+    void collect(const mesh::RepairRound& round);
+    void note(const mesh::RepairRound& round, mesh::TetId t, bool blocking);
+    void note_blocking(const mesh::RepairRound& round, mesh::VertexId v);
+
+    void note_spokes(const mesh::RepairRound& round, mesh::TetId t);
+
+    void split_spokes(std::vector<mesh::Request>& out);
+    void smooth(const mesh::RepairRound& round, std::vector<mesh::Request>& out) const;
+    void repair_by_class(const mesh::RepairRound& round, const Entry& entry, std::vector<mesh::Request>& out);
+    void flip_or_smooth(const mesh::RepairRound& round, const Entry& entry, std::vector<mesh::Request>& out) const;
+    void collapse(const mesh::RepairRound& round, const Entry& entry, std::vector<mesh::Request>& out) const;
+
+    RepairLimits limits_;
+    std::vector<Entry> queue_;
+    std::vector<mesh::VertexId> free_;    // vertices to smooth, and a tet of each
+    std::vector<mesh::TetId> free_tets_;
+    std::vector<Spoke> spokes_;
+    std::vector<mesh::TetId> star_;
+    mesh::EdgeRing ring_;
+    Visits tets_seen_, vertices_seen_;
+    std::vector<std::uint32_t> searched_;  // per vertex slot: change clock of the last search of its star, 0: not in this step
+    std::size_t insertions_left_ = 0;      // of the step
+    std::size_t insertions_open_ = 0;      // the same less what the round has asked for
+};
+
+}  // namespace dsc::improvement

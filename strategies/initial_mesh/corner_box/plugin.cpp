@@ -1,0 +1,8 @@
+#include <dsc/base/version.hpp>
+#include <dsc/plugin/plugin.hpp>
+
+#include "strategy.hpp"
+
+DSC_PLUGIN("corner_box", DSC_VERSION, "BSD-3-Clause", "A sphere or box joined to the corners of the box round it") {
+    registrar.add<dsc::strategies::CornerBox>("corner_box", "a sphere or box joined to the eight corners of the box, no vertex between");
+}

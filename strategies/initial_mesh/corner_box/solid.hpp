@@ -1,0 +1,35 @@
+#pragma once
+// A sphere or a box cut into tets, octant by octant, so that the borders of the octants are edges of its surface.
+
+#include <array>
+#include <cstdint>
+#include <dsc/geometry/vec.hpp>
+#include <vector>
+
+namespace dsc::corner_box {
+
+/// Which of the eight octants about a solid's centre: bit a is set where coordinate a is positive.
+using Octant = std::uint8_t;
+
+struct SurfaceFace {
+    std::array<std::uint32_t, 3> corners;
+    Octant octant;
+};
+
+/// Tets, not oriented, and their surface.
+struct Solid {
+    std::vector<Vec3> points;
+    std::vector<std::array<std::uint32_t, 4>> tets;
+    std::vector<SurfaceFace> faces;
+    /// Where the surface meets the axes: the vertex at the positive and at the negative end of each.
+    std::array<std::array<std::uint32_t, 2>, 3> poles{};
+};
+
+/// `divisions` edges lead from the centre to each pole, as many along a quarter of each great circle: 4 n^2 + 2 vertices on
+/// the surface, all at `radius`, 8 n^3 tets.
+Solid sphere(const Vec3& centre, double radius, unsigned divisions);
+
+/// 2n x 2n x 2n cells of five tets each: 24 n^2 + 2 vertices on the surface, 40 n^3 tets.
+Solid box(const Vec3& centre, const Vec3& half_size, unsigned divisions);
+
+}  // namespace dsc::corner_box
