@@ -42,6 +42,7 @@ enum class CollapseMode : std::uint8_t {
 struct Request {
     Operation operation = Operation::smooth_laplacian;
     CollapseMode mode = CollapseMode::safe;
+    std::uint8_t repair_class = 0;            ///< index into what hooks::Improvement::repair_classes() names; counted
     TetId tet = none;
     std::uint32_t birth_date = 0;             ///< of the tet when the request was made; ignored without a tet
     std::array<VertexId, 3> vertices = {none, none, none};  ///< vertex, edge or face; none: the kernel chooses
@@ -50,7 +51,6 @@ struct Request {
     float accept_above = 2.0F;                ///< accept when the new least quality is above this, or above the old one
     float gain = 1.0F;                        ///< of a compound: above so many times the old one
     float least_edge = 0.0F;                  ///< of a compound: its vertex gets no shorter edge; normalised units
-    std::uint8_t repair_class = 0;            ///< index into what hooks::Improvement::repair_classes() names; counted
 };
 /// How many classes of requests can be told apart.
 inline constexpr std::size_t repair_class_limit = 16;
