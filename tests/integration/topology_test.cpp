@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include <dsc/base/random.hpp>
 #include <dsc/cloud/normalize.hpp>
 #include <dsc/cloud/shapes.hpp>
 #include <dsc/cloud/target.hpp>
@@ -17,18 +16,11 @@
 #include <dsc/surface/surface_view.hpp>
 
 #include "../unit/mesh/meshes.hpp"
+#include "poses.hpp"
 
 namespace {
 
 using namespace dsc;
-
-Eigen::Matrix3d random_rotation(std::uint64_t seed) {
-    RandomStream random(RandomKey{seed, stream_id("rotation"), 0, 0});
-    Eigen::Vector4d q;
-    for (int i = 0; i < 4; ++i) q[i] = random.normal();
-    q.normalize();
-    return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
-}
 
 struct Outcome {
     mesh::InterfaceCounts counts;
@@ -96,7 +88,7 @@ void check_poses(const char* shape) {
     const cloud::Cloud sampled = cloud::sample_shape(shape, 5000, 1, 0.0, 0.0);
     for (int pose = 0; pose < 4; ++pose) {
         CAPTURE(pose);
-        Eigen::Matrix3d turn = random_rotation(pose < 3 ? static_cast<std::uint64_t>(pose) + 1 : 1);
+        Eigen::Matrix3d turn = test::random_rotation(pose < 3 ? static_cast<std::uint64_t>(pose) + 1 : 1);
         if (pose == 3) turn.row(0) *= -1.0;
         cloud::Cloud posed = sampled;
         for (Vec3& p : posed.points) p = turn * p;

@@ -8,53 +8,15 @@
 #include <numeric>
 #include <tuple>
 
-#include <dsc/base/error.hpp>
 #include <dsc/cloud/search.hpp>
 
-#include "checks.hpp"
+#include "filtering.hpp"
 #include "pcl_filters.hpp"
 #include "text.hpp"
 
 namespace dsc::cloud {
 
 namespace {
-
-/// Box of the cloud; refuses a cloud that no filter can work on.
-Box3 checked_box(const Cloud& cloud, const std::string& filter) {
-    if (cloud.points.empty())
-        throw GeometryError("cloud.empty", named(cloud.source) + ": filter " + filter +
-                                               ": the cloud has no points; read another file");
-    return require_finite(cloud.points, cloud.source);
-}
-
-void require_option(bool valid, const Cloud& cloud, const std::string& filter, const std::string& cause) {
-    if (!valid)
-        throw GeometryError("cloud.option", named(cloud.source) + ": filter " + filter + ": " + cause);
-}
-
-Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<bool>& keep) {
-    Filtered result;
-    const bool coloured = cloud.colours.size() == cloud.points.size();
-    for (std::size_t i = 0; i < keep.size(); ++i) {
-        if (!keep[i]) continue;
-        result.cloud.points.push_back(cloud.points[i]);
-        if (coloured) result.cloud.colours.push_back(cloud.colours[i]);
-    }
-    result.cloud.source = cloud.source;
-    result.report = {filter, result.cloud.points.size(), cloud.points.size() - result.cloud.points.size()};
-    if (result.cloud.points.empty())
-        throw GeometryError("cloud.filtered_out", named(cloud.source) + ": filter " + filter +
-                                                      " removes all " +
-                                                      counted(cloud.points.size(), "point") +
-                                                      "; relax its options or leave it out");
-    return result;
-}
-
-Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<std::size_t>& kept) {
-    std::vector<bool> keep(cloud.points.size(), false);
-    for (const std::size_t i : kept) keep[i] = true;
-    return take(cloud, filter, keep);
-}
 
 /// The points moved to the origin and scaled to a diagonal of 1, for PCL's floats. All zero if all points are
 /// equal.
@@ -81,14 +43,19 @@ void mark_exact_duplicates(const std::vector<Vec3>& points, std::vector<bool>& k
         if (points[order[n]] == points[order[n - 1]]) keep[order[n]] = false;
 }
 
+/// Drops the neighbours that come after point i.
+void drop_later(const std::vector<Neighbour>& neighbours, std::size_t i, std::vector<bool>& keep) {
+    for (const Neighbour& n : neighbours)
+        if (n.index > i) keep[n.index] = false;
+}
+
 void mark_close(const std::vector<Vec3>& points, double distance, std::vector<bool>& keep) {
     const NearestSearch search(points);
     std::vector<Neighbour> close;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!keep[i]) continue;
         search.neighbours_within(points[i], distance, close);
-        for (const Neighbour& n : close)
-            if (n.index > i) keep[n.index] = false;
+        drop_later(close, i, keep);
     }
 }
 
@@ -102,6 +69,28 @@ Filtered remove_duplicates(const Cloud& cloud, const DuplicatesOptions& options)
     std::vector<bool> keep(cloud.points.size(), true);
     mark_exact_duplicates(cloud.points, keep);
     if (options.tolerance > 0.0) mark_close(cloud.points, options.tolerance * box.diagonal(), keep);
+    return take(cloud, filter, keep);
+}
+
+// The distance at which points that are spread evenly over a surface would lie comes from so many neighbours that a
+// cluster is few among them: each of k points in a disc of radius r has the area pi r^2 / k.
+Filtered remove_clusters(const Cloud& cloud, const ClustersOptions& options) {
+    constexpr std::size_t around = 24;
+    const std::string filter = "clusters";
+    checked_box(cloud, filter);
+    require_option(options.closer > 0.0 && options.closer < 1.0, cloud, filter,
+                   "closer is " + short_number(options.closer) + "; it must lie between 0 and 1");
+    const double even = std::sqrt(std::acos(-1.0) / around);
+    const NearestSearch search(cloud.points);
+    std::vector<bool> keep(cloud.points.size(), true);
+    std::vector<Neighbour> found;
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+        if (!keep[i]) continue;
+        search.k_nearest(cloud.points[i], around + 1, found);
+        if (found.size() <= around) break;  // too few points to say what is even
+        search.neighbours_within(cloud.points[i], options.closer * even * found.back().distance, found);
+        drop_later(found, i, keep);
+    }
     return take(cloud, filter, keep);
 }
 

@@ -25,7 +25,9 @@ Filter make_filter(Declare declare, Apply apply) {
 }
 
 const std::map<std::string, Filter>& filters() {
+    using cloud::ClustersOptions;
     using cloud::DuplicatesOptions;
+    using cloud::HiddenOptions;
     using cloud::RadiusOutliersOptions;
     using cloud::StatisticalOutliersOptions;
     using cloud::VoxelGridOptions;
@@ -40,6 +42,41 @@ const std::map<std::string, Filter>& filters() {
                                        "repetitions only.");
                            },
                            cloud::remove_duplicates)},
+        {"clusters", make_filter<ClustersOptions>(
+                         [](config::ParamSchema<ClustersOptions>& s) {
+                             s.real("closer", &ClustersOptions::closer)
+                                 .range(0, 1)
+                                 .open_low()
+                                 .open_high()
+                                 .unit("point distances")
+                                 .doc(
+                                     "A point this close to an earlier one is removed; 1 is how far apart the 24 "
+                                     "nearest points would lie if they were spread evenly.");
+                         },
+                         cloud::remove_clusters)},
+        {"hidden", make_filter<HiddenOptions>(
+                       [](config::ParamSchema<HiddenOptions>& s) {
+                           s.integer("views", &HiddenOptions::views)
+                               .range(1, 10000)
+                               .unit("directions")
+                               .doc("From so many directions all round the cloud is looked at.");
+                           s.real("radius", &HiddenOptions::radius)
+                               .range(0, 10)
+                               .open_low()
+                               .unit("point spacings")
+                               .doc("Radius of the disc that stands for the surface round a point.");
+                           s.real("depth", &HiddenOptions::depth)
+                               .range(0, 10)
+                               .open_low()
+                               .unit("point spacings")
+                               .doc("A point this far behind a disc is hidden by it.");
+                           s.real("share", &HiddenOptions::share)
+                               .range(0, 1)
+                               .open_high()
+                               .unit("1")
+                               .doc("A point that this part of the views or fewer see is removed.");
+                       },
+                       cloud::remove_hidden)},
         {"voxel_grid", make_filter<VoxelGridOptions>(
                            [](config::ParamSchema<VoxelGridOptions>& s) {
                                s.real("size", &VoxelGridOptions::size)
@@ -117,7 +154,7 @@ cloud::Filtered apply_filter(const cloud::Cloud& cloud, const config::StrategyCo
     if (found == filters().end()) {
         throw ConfigError("config.unknown_strategy",
                           "there is no cloud filter '" + filter.type + "'; accepted: " +
-                              "duplicates, radius_outliers, statistical_outliers, voxel_grid");
+                              "clusters, duplicates, hidden, radius_outliers, statistical_outliers, voxel_grid");
     }
     return found->second.apply(cloud, filter.params);
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <vector>
 
 namespace dsc::strategies {
 namespace {
@@ -9,6 +11,8 @@ namespace {
 /// A vertex whose nearest point lies less than this part of its distance outwards has stalled: it is not on its way to
 /// points that lie ahead of it.
 constexpr double stalled_below = 0.5;
+/// Vertices that are worked on together: so many fit on the stack, and nothing is allocated.
+constexpr std::size_t piece = 128;
 
 }  // namespace
 
@@ -19,11 +23,22 @@ void PointCloud::Unsupported::declare(config::ParamSchema<Unsupported>& schema) 
         .doc(
             "A vertex is unsupported when no point lies within this many spacings of the cloud there (the distance from "
             "the nearest point to its sixth neighbour). Openings of the cloud wider than twice this are entered: "
-            "take more than the radius of holes in the data. 0 switches carving off.");
+            "take more than the radius of holes in the data. 0: all is supported.");
     schema.real("carve", &Unsupported::carve)
         .range(0, 1)
         .unit("mean edges")
         .doc("How far an unsupported vertex whose data term stalls goes inwards in a step, at least.");
+}
+
+void PointCloud::Target::declare(config::ParamSchema<Target>& schema) {
+    schema.integer("neighbours", &Target::neighbours)
+        .range(1, 1000)
+        .unit("points")
+        .doc("A vertex goes to the weighted mean of so many nearest points; 1: to the nearest one, as in the thesis.");
+    schema.real("width", &Target::width)
+        .greater(0)
+        .unit("point spacings")
+        .doc("Standard deviation of the Gaussian by whose values at their distances the points are weighed.");
 }
 
 void PointCloud::declare(config::ParamSchema<Params>& schema) {
@@ -41,15 +56,24 @@ void PointCloud::declare(config::ParamSchema<Params>& schema) {
     schema.strategy("curvature", &Params::curvature, "curvature")
         .optional()
         .doc("Estimator of the curvature that beta weighs.");
+    schema.choice("curvature_at", &Params::curvature_at,
+                  {{"everywhere", CurvatureAt::everywhere}, {"unsupported", CurvatureAt::unsupported}})
+        .doc("Where the curvature acts: everywhere, as in the thesis, or only where the surface is unsupported and the data "
+             "term stalls, so that webs and leftover clumps shrink and supported horns, ears and tips keep their shape.");
+    schema.object("target", &Params::target, Target::declare).doc("Which point of the cloud a vertex goes to.");
     schema.object("unsupported", &Params::unsupported, Unsupported::declare)
         .doc("What happens where no point speaks for the surface.");
     schema.check([](const Params& p) { return p.beta == 0 || !p.curvature.empty(); },
                  "beta above 0 needs a curvature, for instance curvature: {type: implicit_fairing}");
+    schema.check([](const Params& p) { return p.curvature_at == CurvatureAt::everywhere || p.unsupported.beyond > 0; },
+                 "curvature_at: unsupported needs unsupported: {beyond: ...} above 0");
 }
 
 PointCloud::PointCloud(const Params& params, const plugin::Setup& setup)
     : alpha_(params.alpha),
       beta_(params.beta),
+      curvature_at_(params.curvature_at),
+      target_(params.target),
       unsupported_(params.unsupported),
       curvature_(setup.create<hooks::CurvatureEstimator>("curvature", params.curvature)) {}
 
@@ -65,45 +89,70 @@ void PointCloud::prepare(const hooks::StepContext& context) {
     if (curvature_ && beta_ > 0) curvature_->prepare(context);
 }
 
-double PointCloud::speed(const Vec3& point, const Vec3& unit_normal) const {
+Vec3 PointCloud::mean_target(const Vec3& point, const cloud::Neighbour& nearest) const {
+    thread_local std::vector<cloud::Neighbour> around;  // keeps its memory from call to call
+    cloud_->search().k_nearest(point, target_.neighbours, around);
+    const double width = target_.width * cloud_->spacing(nearest.index);
+    if (!(width > 0)) return (*cloud_)[nearest.index];
+    Vec3 sum = Vec3::Zero();
+    double weights = 0;
+    for (const cloud::Neighbour& n : around) {
+        const double excess = (n.distance - nearest.distance) * (n.distance + nearest.distance);
+        const double weight = std::exp(-excess / (2 * width * width));
+        sum += weight * (*cloud_)[n.index];
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+PointCloud::DataTerm PointCloud::data_term(const Vec3& point, const Vec3& unit_normal) const {
     const cloud::Neighbour nearest = cloud_->search().nearest(point);
-    const double ahead = unit_normal.dot((*cloud_)[nearest.index] - point);
+    const Vec3 target = target_.neighbours > 1 ? mean_target(point, nearest) : (*cloud_)[nearest.index];
+    const double ahead = unit_normal.dot(target - point);
     const double attraction = alpha_ * ahead;
-    if (!(unsupported_.beyond > 0) || !(nearest.distance > 0)) return attraction;
+    if (!(unsupported_.beyond > 0) || !(nearest.distance > 0)) return {attraction, true};
     const bool stalled = ahead < stalled_below * nearest.distance;
     const bool alone = nearest.distance > unsupported_.beyond * cloud_->spacing(nearest.index);
-    return stalled && alone ? std::min(attraction, -carving_speed_) : attraction;
+    if (!stalled || !alone) return {attraction, true};
+    return {std::min(attraction, -carving_speed_), false};
 }
 
 void PointCloud::evaluate(hooks::Range range, std::span<Vec3> out) const {
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const std::size_t v = range.begin + i;
-        const Vec3& normal = surface_->normals[v];
-        out[i] = surface_->movable[v] ? Vec3(speed(surface_->positions[v], normal) * normal) : Vec3(Vec3::Zero());
-    }
-    if (curvature_ && beta_ > 0) subtract_curvature(range, out);
-}
-
-// In pieces that fit on the stack, so that nothing is allocated.
-void PointCloud::subtract_curvature(hooks::Range range, std::span<Vec3> out) const {
-    constexpr std::size_t piece = 128;
-    std::array<double, piece> scalar{};
-    std::array<Vec3, piece> vector;
     for (std::size_t done = 0; done < range.size(); done += piece) {
         const std::size_t count = std::min(piece, range.size() - done);
         const std::size_t first = range.begin + done;
-        curvature_->evaluate({first, first + count}, std::span(scalar).first(count),
-                             std::span(vector).first(count));
-        for (std::size_t i = 0; i < count; ++i) {
-            if (surface_->movable[first + i])
-                out[done + i] -= beta_ * scalar[i] * surface_->normals[first + i];
-        }
+        evaluate_piece({first, first + count}, out.subspan(done, count));
+    }
+}
+
+void PointCloud::evaluate_piece(hooks::Range range, std::span<Vec3> out) const {
+    std::array<std::uint8_t, piece> acts{};
+    bool any = false;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const std::size_t v = range.begin + i;
+        out[i] = Vec3::Zero();
+        if (!surface_->movable[v]) continue;
+        const DataTerm term = data_term(surface_->positions[v], surface_->normals[v]);
+        out[i] = term.speed * surface_->normals[v];
+        const bool curved = curvature_at_ == CurvatureAt::everywhere || !term.supported;
+        acts[i] = curved ? 1 : 0;
+        any = any || curved;
+    }
+    if (any && curvature_ && beta_ > 0) subtract_curvature(range, std::span(acts).first(out.size()), out);
+}
+
+void PointCloud::subtract_curvature(hooks::Range range, std::span<const std::uint8_t> acts, std::span<Vec3> out) const {
+    std::array<double, piece> scalar{};
+    std::array<Vec3, piece> vector;
+    curvature_->evaluate(range, std::span(scalar).first(out.size()), std::span(vector).first(out.size()));
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        if (acts[i] != 0) out[i] -= beta_ * scalar[i] * surface_->normals[range.begin + i];
     }
 }
 
 void PointCloud::sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals,
                         std::span<Vec3> out) const {
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = speed(points[i], unit_normals[i]) * unit_normals[i];
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = data_term(points[i], unit_normals[i]).speed * unit_normals[i];
 }
 
 }  // namespace dsc::strategies

@@ -9,7 +9,8 @@
 namespace dsc::strategies {
 
 /// Displacement (alpha N.(p - x) - beta * curvature) N: x the vertex, N its outward unit normal, p the point
-/// of the cloud nearest to x [Saul2015, eq. 1-4].
+/// of the cloud nearest to x [Saul2015, eq. 1-4], or a mean of several near ones. The curvature acts everywhere or only
+/// where no point supports the surface [Saul2015, ch. 7].
 class PointCloud final : public hooks::VelocityField {
 public:
     /// Surface that no point speaks for: there the data term may stall, because the nearest point lies in the surface's
@@ -20,10 +21,21 @@ public:
 
         static void declare(config::ParamSchema<Unsupported>& schema);
     };
+    /// What p is: the nearest point, or the mean of the k nearest with the weights exp((d_1^2 - d_i^2) / (2 w^2)), d_i
+    /// their distances in ascending order and w the width.
+    struct Target {
+        unsigned neighbours = 1;
+        double width = 0.5;
+
+        static void declare(config::ParamSchema<Target>& schema);
+    };
+    enum class CurvatureAt { everywhere, unsupported };
     struct Params {
         double alpha = 0.2;
         double beta = 0.0;
         config::StrategyConfig curvature;
+        CurvatureAt curvature_at = CurvatureAt::everywhere;
+        Target target;
         Unsupported unsupported;
     };
     static void declare(config::ParamSchema<Params>& schema);
@@ -35,16 +47,25 @@ public:
     void evaluate(hooks::Range range, std::span<Vec3> out) const override;
 
     bool can_sample() const override { return true; }
-    /// The attraction alone: a curvature belongs to vertices and has no value between them.
+    /// Attraction and carving: a curvature belongs to vertices and has no value between them.
     void sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals,
                 std::span<Vec3> out) const override;
 
 private:
-    double speed(const Vec3& point, const Vec3& unit_normal) const;
-    void subtract_curvature(hooks::Range range, std::span<Vec3> out) const;
+    /// What the cloud says about a point of the surface.
+    struct DataTerm {
+        double speed = 0.0;      ///< along the normal
+        bool supported = true;  ///< a point is near, or the surface is on its way to one
+    };
+    DataTerm data_term(const Vec3& point, const Vec3& unit_normal) const;
+    Vec3 mean_target(const Vec3& point, const cloud::Neighbour& nearest) const;
+    void evaluate_piece(hooks::Range range, std::span<Vec3> out) const;
+    void subtract_curvature(hooks::Range range, std::span<const std::uint8_t> acts, std::span<Vec3> out) const;
 
     double alpha_;
     double beta_;
+    CurvatureAt curvature_at_;
+    Target target_;
     Unsupported unsupported_;
     std::unique_ptr<hooks::CurvatureEstimator> curvature_;
     const surface::SurfaceView* surface_ = nullptr;

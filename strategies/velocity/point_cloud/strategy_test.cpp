@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <dsc/base/workers.hpp>
 #include <dsc/host/host.hpp>
@@ -139,6 +140,14 @@ TEST_CASE("threads and blocks do not change a bit") {
             CHECK(bench.displacements(*field, &cloud, threads, block) == reference);
         }
     }
+    const auto full = bench.make(ConfigNode::map({{"beta", 0.01},
+                                                  {"curvature", fairing},
+                                                  {"curvature_at", "unsupported"},
+                                                  {"target", ConfigNode::map({{"neighbours", 8}})},
+                                                  {"unsupported", ConfigNode::map({{"beyond", 2.0}})}}));
+    const auto all = bench.displacements(*full, &cloud, 1, 100000);
+    CHECK(all != reference);
+    for (const std::size_t block : {1U, 37U, 129U}) CHECK(bench.displacements(*full, &cloud, 3, block) == all);
 }
 
 namespace {
@@ -187,6 +196,106 @@ TEST_CASE("surface on its way to points ahead of it is not carved, however far t
     for (const Vec3& d : bench.displacements(*field, &behind)) CHECK((d - Vec3(0, 0, -0.2 * 0.9)).norm() < 1e-12);
 }
 
+namespace {
+
+ConfigNode selective(double beyond, double carve, double beta) {
+    return ConfigNode::map({{"beta", beta},
+                            {"curvature", ConfigNode::map({{"type", "implicit_fairing"}})},
+                            {"curvature_at", "unsupported"},
+                            {"unsupported", ConfigNode::map({{"beyond", beyond}, {"carve", carve}})}});
+}
+
+}  // namespace
+
+TEST_CASE("a curvature at unsupported places leaves supported ones alone, to the bit") {
+    // A ball whose points are known below the equator only.
+    const double radius = 0.8, beta = 0.01;
+    const Bench bench(dsc::sdk::icosphere(4, radius));
+    dsc::cloud::Normalized half;
+    for (const Vec3& p : dsc::sdk::icosphere(5, radius).points) {
+        if (p.z() <= 0) half.points.push_back(p);
+    }
+    const dsc::cloud::TargetCloud cloud(half);
+    const auto plain = bench.displacements(*bench.make(ConfigNode::map()), &cloud);
+    const auto out = bench.displacements(*bench.make(selective(2.0, 0.1, beta)), &cloud);
+    std::size_t curved = 0;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const dsc::cloud::Neighbour nearest = cloud.search().nearest(bench.view.positions[i]);
+        if (nearest.distance <= 2.0 * cloud.spacing(nearest.index)) {
+            CHECK(out[i] == plain[i]);
+            continue;
+        }
+        ++curved;
+        const double speed = std::min(plain[i].dot(bench.view.normals[i]), -0.1 * 0.1);  // carving, target length 0.1
+        CHECK(out[i].dot(bench.view.normals[i]) == doctest::Approx(speed - beta / radius).epsilon(0.01));
+    }
+    CHECK(curved > out.size() / 4);
+    CHECK(curved < out.size() / 2);
+}
+
+TEST_CASE("surface tension holds a lid over a hole narrower than beta / carving, a wider one is entered") {
+    // A dent of radius r: the wall of a ball, seen from inside, its mean curvature -1 / r. The rim of the hole is a ring.
+    const double beta = 2e-3, carving = 0.2 * 0.1;  // 0.1 the target length: they balance at r = 0.1
+    for (const double radius : {0.07, 0.09, 0.11, 0.2}) {
+        dsc::surface::TriangleMesh dent = dsc::sdk::icosphere(4, radius);
+        for (auto& face : dent.faces) std::swap(face[1], face[2]);
+        const Bench bench(dent);
+        const auto rim = ring_cloud(radius, 0.0, 200);
+        const auto out = bench.displacements(*bench.make(selective(2.0, 0.2, beta)), &rim);
+        std::size_t lid = 0;
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            const double height = bench.view.positions[i].z() / radius;
+            if (height < 0.3 || height > 0.8) continue;  // near the rim there is support, at the pole the rim lies ahead
+            ++lid;
+            const double speed = out[i].dot(bench.view.normals[i]);
+            CHECK(speed == doctest::Approx(beta / radius - carving).epsilon(0.02));
+            CHECK((speed > 0) == (radius < 0.1));
+        }
+        CHECK(lid > 100);
+    }
+}
+
+TEST_CASE("several near points weigh by a Gaussian of their distances") {
+    const Bench bench(dsc::sdk::square(1, 0.5));
+    dsc::cloud::Normalized two;
+    two.points = {Vec3(0.5, 0.5, 0.3), Vec3(0.5, 0.5, 0.7)};  // spacing 0.4
+    const dsc::cloud::TargetCloud cloud(two);
+    const auto params = [](unsigned neighbours, double width) {
+        const ConfigNode target = ConfigNode::map({{"neighbours", static_cast<int>(neighbours)}, {"width", width}});
+        return ConfigNode::map({{"alpha", 1.0}, {"target", target}});
+    };
+    const auto height = [&](unsigned neighbours, double width) {
+        const auto out = bench.displacements(*bench.make(params(neighbours, width)), &cloud);
+        return out.back().z();  // of the corner (0.5, 0.5, 0)
+    };
+    REQUIRE(bench.view.positions.back() == Vec3(0.5, 0.5, 0));
+    for (const double width : {0.5, 1.0, 2.0}) {
+        const double sigma = 0.4 * width;
+        const double w = std::exp(-(0.7 * 0.7 - 0.3 * 0.3) / (2 * sigma * sigma));
+        CHECK(height(2, width) == doctest::Approx((0.3 + w * 0.7) / (1 + w)).epsilon(1e-12));
+        CHECK(height(1, width) == doctest::Approx(0.3).epsilon(1e-12));
+    }
+    CHECK(height(5, 0.5) == height(2, 0.5));  // more than there are
+}
+
+TEST_CASE("the mean of near points follows a noisy plane more closely than the nearest point does") {
+    dsc::cloud::Normalized noisy;
+    for (int j = -30; j <= 30; ++j) {
+        for (int i = -30; i <= 30; ++i) noisy.points.emplace_back(0.05 * i, 0.05 * j, (i + j) % 2 == 0 ? 0.02 : -0.02);
+    }
+    const dsc::cloud::TargetCloud cloud(noisy);
+    const Bench bench(dsc::sdk::moved(dsc::sdk::square(15, 0.5), [](const Vec3& p) { return Vec3(p.x() + 0.011, p.y() + 0.007, 0); }));
+    const auto worst = [&](const ConfigNode& params) {
+        double largest = 0;
+        for (const Vec3& d : bench.displacements(*bench.make(params), &cloud)) largest = std::max(largest, d.norm());
+        return largest;
+    };
+    const ConfigNode nearest = ConfigNode::map({{"alpha", 1.0}});
+    const ConfigNode mean = ConfigNode::map({{"alpha", 1.0}, {"target", ConfigNode::map({{"neighbours", 24}, {"width", 0.8}})}});
+    CHECK(worst(nearest) == doctest::Approx(0.02).epsilon(1e-9));
+    CHECK(worst(mean) < 0.004);
+}
+
 TEST_CASE("an experiment without a cloud is told so") {
     const Bench bench(dsc::sdk::square(1, 0.5));
     const auto field = bench.make(ConfigNode::map());
@@ -200,4 +309,11 @@ TEST_CASE("beta without an estimator is refused") {
     const Bench bench(dsc::sdk::square(1, 0.5));
     CHECK_THROWS_WITH_AS(bench.make(ConfigNode::map({{"beta", 0.1}})),
                          doctest::Contains("beta above 0 needs a curvature"), dsc::ConfigError);
+}
+
+TEST_CASE("a curvature at unsupported places needs to know which are") {
+    const Bench bench(dsc::sdk::square(1, 0.5));
+    CHECK_THROWS_WITH_AS(bench.make(ConfigNode::map({{"curvature_at", "unsupported"}})),
+                         doctest::Contains("curvature_at: unsupported needs unsupported: {beyond: ...} above 0"),
+                         dsc::ConfigError);
 }

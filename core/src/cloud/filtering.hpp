@@ -1,0 +1,22 @@
+#pragma once
+// What all filters do alike: refuse what they cannot work on, take the points that stay, count the others.
+
+#include <string>
+#include <vector>
+
+#include <dsc/cloud/filter.hpp>
+
+namespace dsc::cloud {
+
+/// Box of the cloud; refuses a cloud that no filter can work on.
+Box3 checked_box(const Cloud& cloud, const std::string& filter);
+
+/// Throws GeometryError "cloud.option" with the cause unless `valid`.
+void require_option(bool valid, const Cloud& cloud, const std::string& filter, const std::string& cause);
+
+/// The points that stay, in the order of the cloud, by flag or by index. Throws GeometryError "cloud.filtered_out" if
+/// there are none.
+Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<bool>& keep);
+Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<std::size_t>& kept);
+
+}  // namespace dsc::cloud

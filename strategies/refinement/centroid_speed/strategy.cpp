@@ -1,0 +1,72 @@
+#include "strategy.hpp"
+
+#include <algorithm>
+
+namespace dsc::strategies {
+
+void CentroidSpeed::declare(config::ParamSchema<Params>& schema) {
+    schema.real("rest", &Params::rest)
+        .at_least(0)
+        .unit("mean edges")
+        .doc("A vertex that would go less than this in a step is at rest.");
+    schema.real("moving", &Params::moving)
+        .at_least(0)
+        .unit("mean edges")
+        .doc("A face is split when its vertices are at rest and its centroid would go further than this in a step.");
+    schema.real("absolute", &Params::absolute)
+        .at_least(0)
+        .unit("length")
+        .doc("Above 0: takes the place of both thresholds, whatever the mean edge; 0.0015 in the thesis' program.");
+    schema.real("finest", &Params::finest)
+        .at_least(0)
+        .unit("point spacings")
+        .doc("Faces whose longest edge is shorter than this many spacings of the cloud (distance from the point nearest to the "
+             "centroid to its sixth neighbour) are not split: the points say nothing about what lies between them. 0: no bound.");
+}
+
+CentroidSpeed::CentroidSpeed(const Params& params, const plugin::Setup&) : params_(params) {}
+
+void CentroidSpeed::mark_resting(const hooks::RefinementContext& context) {
+    const surface::SurfaceView& surface = context.step.surface;
+    const double rest = params_.absolute > 0 ? params_.absolute : params_.rest * surface.mean_edge;
+    displacements_.resize(surface.vertex_count());
+    context.velocity->sample(surface.positions, surface.normals, displacements_);
+    resting_.resize(surface.vertex_count());
+    for (std::size_t v = 0; v < resting_.size(); ++v) resting_[v] = displacements_[v].norm() < rest ? 1 : 0;
+}
+
+bool CentroidSpeed::too_fine(const hooks::StepContext& step, std::uint32_t face) const {
+    if (!(params_.finest > 0) || step.cloud == nullptr) return false;
+    const auto& [a, b, c] = step.surface.faces[face];
+    const auto& x = step.surface.positions;
+    const double longest = std::max({(x[a] - x[b]).norm(), (x[b] - x[c]).norm(), (x[c] - x[a]).norm()});
+    const cloud::Neighbour nearest = step.cloud->search().nearest((x[a] + x[b] + x[c]) / 3);
+    return longest < params_.finest * step.cloud->spacing(nearest.index);
+}
+
+void CentroidSpeed::collect_faces(const hooks::StepContext& step) {
+    const surface::SurfaceView& surface = step.surface;
+    candidates_.clear();
+    points_.clear();
+    normals_.clear();
+    for (std::uint32_t face = 0; face < surface.face_count(); ++face) {
+        const auto& [a, b, c] = surface.faces[face];
+        if (resting_[a] == 0 || resting_[b] == 0 || resting_[c] == 0 || too_fine(step, face)) continue;
+        candidates_.push_back(face);
+        points_.push_back((surface.positions[a] + surface.positions[b] + surface.positions[c]) / 3);
+        normals_.push_back(surface.face_normals[face]);
+    }
+}
+
+void CentroidSpeed::refine(const hooks::RefinementContext& context, hooks::RefinementRequests& out) {
+    mark_resting(context);
+    collect_faces(context.step);
+    const double moving = params_.absolute > 0 ? params_.absolute : params_.moving * context.step.surface.mean_edge;
+    displacements_.resize(candidates_.size());
+    context.velocity->sample(points_, normals_, displacements_);
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        if (displacements_[i].norm() > moving) out.split_faces.push_back(candidates_[i]);
+    }
+}
+
+}  // namespace dsc::strategies
