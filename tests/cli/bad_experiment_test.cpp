@@ -65,7 +65,7 @@ TEST_CASE("unknown key") {
           R"(a.yaml:5:31: error: unknown key 'alhpa' in velocity 'point_cloud'
     5 | velocity: {type: point_cloud, alhpa: 0.2}
       |                               ^~~~~  did you mean 'alpha'? (real, [0, 2], default 0.2)
-      note: accepted keys: type, alpha, beta, curvature, unsupported
+      note: accepted keys: type, alpha, beta, curvature, curvature_at, target, unsupported
 1 error; nothing was run
 )");
     CHECK(fault(good, 3, {"velocty.alpha=1"}) ==
@@ -111,7 +111,7 @@ TEST_CASE("several faults at once") {
 a.yaml:5:44: error: unknown key 'gamma' in velocity 'point_cloud'
     5 | velocity: {type: point_cloud, alpha: fast, gamma: 1}
       |                                            ^~~~~
-      note: accepted keys: type, alpha, beta, curvature, unsupported
+      note: accepted keys: type, alpha, beta, curvature, curvature_at, target, unsupported
 a.yaml:8:1: error: unknown key 'speed' in the experiment
     8 | speed: 3
       | ^~~~~  did you mean 'seed'? (integer, at least 0, default 1)

@@ -214,6 +214,8 @@ void Proposals::write(const mesh::RepairRound& round, Workers* workers, std::vec
         out.push_back(request);
     }
     for (const Entry& entry : small_) out.push_back(on_tet(c, entry.tet, Operation::edge_collapse, 2.0, low));
+    // 5. Shapes and sizes of single edges, faces and tets, where there are thresholds for them.
+    shapes_.write(round, {static_cast<float>(degenerate), static_cast<float>(low)}, out);
 }
 
 }  // namespace dsc::improvement

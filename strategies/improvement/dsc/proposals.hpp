@@ -7,6 +7,8 @@
 #include <dsc/base/workers.hpp>
 #include <dsc/mesh/repair.hpp>
 
+#include "shapes.hpp"
+
 namespace dsc::improvement {
 
 /// Thresholds of the pipeline. Lengths are in target lengths L, volumes in regular tets of edge L, qualities are
@@ -19,12 +21,13 @@ struct Thresholds {
     double max_edge_length = 2.0;
     double min_tet_volume = 0.2;
     double max_free_edge = 0.0;  ///< of edges from the interface into a phase; 0: any
+    ShapeLimits shapes;
 };
 
 /// Writes the requests of a round. Keeps scratch memory only: the result depends on the round alone.
 class Proposals {
 public:
-    explicit Proposals(const Thresholds& thresholds) : limits_(thresholds) {}
+    explicit Proposals(const Thresholds& thresholds) : limits_(thresholds), shapes_(thresholds.shapes) {}
     /// `workers`, null for one thread, share the look at the dirty tets.
     void write(const mesh::RepairRound& round, Workers* workers, std::vector<mesh::Request>& out);
 
@@ -52,6 +55,7 @@ private:
     bool first_visit(mesh::VertexId v);
 
     Thresholds limits_;
+    ShapeProposals shapes_;
     std::vector<std::uint8_t> looks_;  // one a dirty tet
     std::vector<Entry> low_, small_;
     std::vector<EdgeEntry> short_, long_, free_long_;

@@ -23,7 +23,7 @@ public:
 
         static void declare(config::ParamSchema<Topology>& schema);
     };
-    struct Params {
+    struct Params : improvement::ShapeLimits {
         double flatness = 0.995;
         Topology topology;
 

@@ -1,0 +1,61 @@
+#pragma once
+// Repairs by the shape and size of single edges, faces and tets: those of the thesis' twelve thresholds ([Saul2015], ch. 4)
+// that the quality of tets does not stand for. All of them are off by default.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <dsc/mesh/repair.hpp>
+
+namespace dsc::improvement {
+
+/// A lower bound of 0 and an upper bound of 0 are off. Lengths are in target lengths L, areas in regular triangles and
+/// volumes in regular tets of edge L. The quality of an edge is its length, that of a face 1 - max |cos| over its corners:
+/// 0.5 for a regular triangle, 0 for a needle or cap.
+struct ShapeLimits {
+    double degenerate_edge_quality = 0.0;
+    double min_edge_quality = 0.0;
+    double degenerate_face_quality = 0.0;
+    double min_face_quality = 0.0;
+    double min_face_area = 0.0;
+    double max_face_area = 0.0;
+    double max_tet_volume = 0.0;
+
+    bool any() const;
+};
+
+/// Accepted qualities of the tets that come about.
+struct ShapeBounds {
+    float degenerate = 0.0F;  ///< where shape is paid for a repair, within the kernel's bounds
+    float low = 0.0F;         ///< where the repair must do no harm
+};
+
+/// Writes the requests of a round. Keeps scratch memory only: the result depends on the round alone.
+class ShapeProposals {
+public:
+    explicit ShapeProposals(const ShapeLimits& limits) : limits_(limits) {}
+    void write(const mesh::RepairRound& round, const ShapeBounds& bounds, std::vector<mesh::Request>& out);
+
+private:
+    // In the order in which they are asked for.
+    enum class Kind : std::uint8_t { degenerate_edge, degenerate_face, low_edge, low_face, small_face, large_face, large_tet };
+    struct Entry {
+        Kind kind;
+        std::int64_t key;                      // least first
+        std::array<std::uint32_t, 3> births;   // ascending: an edge, a face, or a tet's longest edge
+        mesh::TetId tet;
+        std::array<mesh::VertexId, 2> edge;    // to collapse or split
+        mesh::VertexId opposite;               // a cap's blunt corner; none: no cap
+    };
+
+    void note_edges(const mesh::RepairRound& round, mesh::TetId t);
+    void note_faces(const mesh::RepairRound& round, mesh::TetId t);
+    void note_tet(const mesh::RepairRound& round, mesh::TetId t);
+    static void request(const mesh::RepairRound& round, const Entry& entry, const ShapeBounds& bounds, std::vector<mesh::Request>& out);
+
+    ShapeLimits limits_;
+    std::vector<Entry> entries_;
+};
+
+}  // namespace dsc::improvement
