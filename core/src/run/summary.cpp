@@ -65,6 +65,14 @@ ordered_json input(const LoadedInput* loaded) {
             {"diagonal", report.diagonal}};
 }
 
+/// Of all labels above 0; where there are several, the interface as a whole does not enclose it.
+double volume_of(const SummaryParts& parts) {
+    if (parts.label_surfaces.empty()) return parts.surface.report.volume;
+    double sum = 0.0;
+    for (const auto& [label, surface] : parts.label_surfaces) sum += surface.report.volume;
+    return sum;
+}
+
 ordered_json labels(const SummaryParts& parts) {
     ordered_json all = ordered_json::object();
     for (const auto& [label, tets] : parts.volume.label_tets) {
@@ -125,7 +133,7 @@ std::string summary_json(const SummaryParts& parts) {
         {"nonmanifold_edges", s.nonmanifold_edges},
         {"nonmanifold_vertices", s.nonmanifold_vertices},
         {"self_intersections", parts.surface.intersections.count},
-        {"volume", s.volume},
+        {"volume", volume_of(parts)},
         {"volume_initial", totals.volume_initial / (scale * scale * scale)},
         {"shells", s.shells},
         {"cavities", s.cavities},
