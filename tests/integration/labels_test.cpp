@@ -156,6 +156,29 @@ TEST_CASE("one label above 0 has no surface of its own beside that of all") {
     CHECK(dsc::test::summary_of(cli, "out")["junction_vertices"] == 0);
 }
 
+TEST_CASE("convert: a .dsc with tets of both orientations, as the original's, becomes a .vtu of positive tets") {
+    const Cli cli;
+    TetMesh mixed = labelled(6, [](const Vec3& p) { return p.norm() > 1 ? 0 : p.x() < 0 ? 1 : 2; });
+    dsc::io::write_volume(cli.folder() / "start.dsc", mixed);
+    std::istringstream lines(cli.read("start.dsc"));
+    std::string line, text;
+    for (std::size_t n = 0; std::getline(lines, line); ++n) {
+        std::array<std::string, 6> f;
+        std::istringstream fields(line);
+        for (std::string& field : f) fields >> field;
+        if (f[0] == "t" && n % 2 == 0) line = "t " + f[2] + " " + f[1] + " " + f[3] + " " + f[4] + " " + f[5];
+        text += line + "\n";
+    }
+    cli.write("mixed.dsc", text);
+    CHECK(json::parse(cli.dsc({"info", "mixed.dsc", "--json"}).out)["inverted_tets"] == mixed.tets.size() / 2);
+    REQUIRE(cli.dsc({"convert", "mixed.dsc", "mixed.vtu"}).code == 0);
+    const auto info = json::parse(cli.dsc({"info", "mixed.vtu", "--json"}).out);
+    CHECK(info["inverted_tets"] == 0);
+    CHECK(info["tets"] == mixed.tets.size());
+    CHECK(info["fills_box"] == true);
+    CHECK(info["junction_vertices"] == junctions(mixed).size());
+}
+
 TEST_CASE("a run goes on from the result of another: the same file, to the last bit") {
     const Cli cli;
     const TetMesh start = labelled(16, [](const Vec3& p) { return p.norm() > 0.9 ? 0 : p.x() < 0 ? 1 : 2; });
