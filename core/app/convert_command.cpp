@@ -1,8 +1,10 @@
 // dsc convert
 #include <dsc/base/error.hpp>
+#include <dsc/base/log.hpp>
 #include <dsc/cloud/write.hpp>
 #include <dsc/io/formats.hpp>
 #include <dsc/io/write.hpp>
+#include <dsc/mesh/adopt.hpp>
 #include <dsc/surface/surface_view.hpp>
 #include <iostream>
 #include <memory>
@@ -44,6 +46,10 @@ int execute(const ConvertArguments& arguments) {
             throw UsageError("convert.no_volume", arguments.input +
                                                       " holds no tets, so no volume can be written; make one "
                                                       "with dsc reconstruct");
+        }
+        if (const std::size_t turned = mesh::orient(*content.volume); turned > 0) {
+            log(LogLevel::info, std::to_string(turned) + " tets of " + arguments.input +
+                                    " have their vertices in negative order; written in positive order");
         }
         io::write_volume(arguments.output, *content.volume);
     } else if (content.cloud) {

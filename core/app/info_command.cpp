@@ -80,6 +80,7 @@ ordered_json volume_figures(const std::filesystem::path& file, const run::Volume
                             {"box", box_figures(m.box)},
                             {"fills_box", m.fills_box()},
                             {"labels", labels},
+                            {"junction_vertices", m.junction_vertices},
                             {"interface", surface_figures(m.interface_measure)}};
     if (ordered_json same = conformity(file, m.interface); !same.empty())
         figures["interface_is_surface"] = same;

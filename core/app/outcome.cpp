@@ -6,6 +6,17 @@
 #include <dsc/base/log.hpp>
 
 namespace dsc::app {
+namespace {
+
+/// Where more than two labels meet, the interface as a whole is no manifold; the surface of each label is one.
+void report_phase(mesh::Label label, const run::SurfaceMeasure& surface) {
+    const bool solid = surface.solid();
+    log(solid ? LogLevel::info : LogLevel::warning,
+        fmt::format("the surface of label {} is {}closed, manifold and free of self-intersections, volume {:.6g}", label,
+                    solid ? "" : "not ", surface.report.volume));
+}
+
+}  // namespace
 
 void report(const run::RunOutcome& outcome) {
     const surface::SurfaceReport& s = outcome.surface.report;
@@ -17,6 +28,8 @@ void report(const run::RunOutcome& outcome) {
                     s.components == 1 ? "" : "s", s.genus, outcome.volume.tets, outcome.volume.min_quality));
     if (outcome.surfaces.empty()) {
         log(LogLevel::warning, "the surface vanished: no tet with a label above 0 is left");
+    } else if (!outcome.label_surfaces.empty()) {
+        for (const auto& [label, surface] : outcome.label_surfaces) report_phase(label, surface);
     } else if (outcome.surface.solid()) {
         log(LogLevel::info, "the surface as written is closed, manifold and free of self-intersections");
     } else {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <dsc/io/read.hpp>
 #include <set>
 #include <sstream>
@@ -15,9 +16,9 @@ using nlohmann::json;
 
 namespace {
 
-/// Runs configs/demos/NAME.yaml and returns the summary of a valid result.
-json run_demo(const Cli& cli, const std::string& name, std::vector<std::string> overrides = {},
-              const std::string& folder = "out") {
+/// Runs configs/demos/NAME.yaml and returns the summary of a result without intersections and inverted tets.
+json run_config(const Cli& cli, const std::string& name, const std::vector<std::string>& overrides,
+                const std::string& folder) {
     std::vector<std::string> arguments = {"run", dsc::test::config("demos/" + name + ".yaml"), "-o", folder,
                                           "-q"};
     arguments.insert(arguments.end(), overrides.begin(), overrides.end());
@@ -25,6 +26,13 @@ json run_demo(const Cli& cli, const std::string& name, std::vector<std::string> 
     const json summary = dsc::test::summary_of(cli, folder);
     CHECK(summary["self_intersections"] == 0);
     CHECK(summary["inverted_tets"] == 0);
+    return summary;
+}
+
+/// The same where the result has a surface that must be a solid, or none.
+json run_demo(const Cli& cli, const std::string& name, const std::vector<std::string>& overrides = {},
+              const std::string& folder = "out") {
+    json summary = run_config(cli, name, overrides, folder);
     if (!summary["interface_faces"].get<std::size_t>()) return summary;
     dsc::test::check_result(cli.folder() / folder);
     return summary;
@@ -175,6 +183,37 @@ TEST_CASE("zalesak: once round, and the notch is still there") {
     CHECK(eventless(summary));
     CHECK(figure(summary, "volume_drift") <= 0.02);
     CHECK(figure(summary, "surface_error") <= 0.5);
+}
+
+TEST_CASE("from_surface: a torus from a file, its tube grown to radius 0.5, one handle all the time") {
+    const Cli cli;
+    const json summary = run_demo(cli, "from_surface", {"initial_mesh.cells=32"});
+    CHECK(summary["genus"] == 1);
+    CHECK(summary["shells"] == 1);
+    CHECK(eventless(summary));
+    const json& start = summary["initial_mesh"];
+    CHECK(start["interface_genus"] == 1);
+    CHECK(start["interface_to_surface"].get<double>() <= 0.25);
+    CHECK(start["surface_to_interface"].get<double>() <= 0.25);
+    const auto surface = dsc::io::read_surface(cli.folder() / "out/result/surface.obj");
+    const double edge = summary["target_length"].get<double>();
+    double sum = 0;
+    for (const Vec3& p : surface.points) {
+        const double away = std::abs(std::hypot(std::hypot(p.x(), p.y()) - 0.75, p.z()) - 0.5);
+        CHECK(away < 0.3 * edge);
+        sum += away;
+    }
+    CHECK(sum / static_cast<double>(surface.points.size()) < 0.05 * edge);
+    CHECK(summary["volume"].get<double>() == doctest::Approx(2 * 9.8696044 * 0.75 * 0.25).epsilon(0.04));
+}
+
+TEST_CASE("three_labels: worn round but for the rims, a surface for each label") {
+    const Cli cli;
+    const json summary = run_config(cli, "three_labels", {}, "out");
+    dsc::test::check_phases(cli.folder() / "out", {1, 2, 3});
+    CHECK(summary["junction_vertices"] == 48);
+    for (const char* label : {"1", "2", "3"}) CHECK(summary["labels"][label]["surface"]["genus"] == 0);
+    CHECK(summary["volume"].get<double>() < 0.9 * summary["volume_initial"].get<double>());
 }
 
 TEST_CASE("average: a cube becomes round") {

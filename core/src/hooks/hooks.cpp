@@ -24,6 +24,7 @@ void VelocityField::sample(std::span<const Vec3>, std::span<const Vec3>, std::sp
 CurvatureEstimator::~CurvatureEstimator() = default;
 RefinementPolicy::~RefinementPolicy() = default;
 InitialMesh::~InitialMesh() = default;
+MeshFiles::~MeshFiles() = default;
 
 Improvement::~Improvement() = default;
 void Improvement::select(const StepContext&, std::span<const mesh::TopologyCandidate>, std::span<std::uint8_t> accept) {

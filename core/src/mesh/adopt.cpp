@@ -208,6 +208,16 @@ std::size_t remove_small_components(Complex& c, double volume) {
 
 }  // namespace
 
+std::size_t orient(TetMesh& mesh) {
+    std::size_t turned = 0;
+    for (auto& [a, b, c, d] : mesh.tets) {
+        if (geometry::orient3d(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) >= 0) continue;
+        std::swap(c, d);
+        ++turned;
+    }
+    return turned;
+}
+
 Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report, double min_component) {
     AdoptReport local;
     AdoptReport& out = report != nullptr ? *report : local;

@@ -23,7 +23,10 @@ class Projection {
 public:
     Projection(Complex& complex, const std::function<Vec3(const Vec3&)>& nearest,
                const ProjectOptions& options)
-        : complex_(complex), nearest_(nearest), options_(options), local_(complex), floor_(options.quality) {}
+        : complex_(complex), nearest_(nearest), options_(options), local_(complex), floor_(options.quality) {
+        fixed_.resize(complex.vertex_slots(), false);
+        for (const VertexId v : options.fixed) fixed_[v] = true;
+    }
 
     ProjectReport run() {
         collect();
@@ -49,7 +52,7 @@ private:
     void collect() {
         interface_.clear();
         for (const VertexId v : complex_.interface_vertices()) {
-            if (complex_.movable(v)) interface_.push_back(v);
+            if (complex_.movable(v) && !fixed_[v]) interface_.push_back(v);
         }
         sort_by_birth(interface_);
         free_.clear();
@@ -65,7 +68,7 @@ private:
             complex_.star(v, star_);
             for (const TetId t : star_) {
                 for (const VertexId w : complex_.tet(t).v) {
-                    if (seen[w] || complex_.on_box(w) || complex_.on_interface(w)) continue;
+                    if (seen[w] || fixed_[w] || complex_.on_box(w) || complex_.on_interface(w)) continue;
                     seen[w] = true;
                     found.push_back(w);
                     free_.push_back(w);
@@ -313,6 +316,7 @@ private:
     double scale_ = 0.0;
     bool stuck_ = false;  // nothing has moved although the floor is as low as it may get
     ProjectReport report_;
+    std::vector<bool> fixed_;
     std::vector<VertexId> interface_;
     std::vector<VertexId> free_;
     std::vector<VertexId> pushed_;

@@ -3,6 +3,7 @@
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/run/driver.hpp>
+#include <dsc/run/mesh_files.hpp>
 
 #include "step_figures.hpp"
 #include "stopwatch.hpp"
@@ -66,7 +67,11 @@ private:
         context.cloud = cloud_;
         context.seed = experiment_.seed;
         context.cancel = options_.cancel;
+        const MeshFiles files;
+        context.files = &files;
+        context.workers = &workers_;
         const mesh::TetMesh mesh = strategies_.initial_mesh->build(context);
+        result_.totals.initial_mesh = strategies_.initial_mesh->figures();
         mesh::Complex complex =
             mesh::adopt(mesh, "initial mesh '" + experiment_.initial_mesh.type + "'", &result_.totals.adopted,
                         strategies_.improvement->topology_limits().min_component);

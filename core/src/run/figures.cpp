@@ -31,7 +31,7 @@ std::string_view name(Status status) {
 
 std::string csv_header(const StepMetrics& row) {
     std::string text =
-        "step,interface_vertices,interface_faces,tets,mean_edge,mean_speed,max_speed,vertex_to_cloud_mean,"
+        "step,interface_vertices,interface_faces,junction_vertices,tets,mean_edge,mean_speed,max_speed,vertex_to_cloud_mean,"
         "vertex_to_cloud_max,cloud_to_surface_mean,volume,min_tet_quality,rounds,requested,arrived,clamped,"
         "dropped_motion,edit_volume,relabelled_volume,committed,events";
     for (const auto& [figure, value] : row.observers) text += "," + figure;
@@ -47,6 +47,7 @@ std::string csv_row(const StepMetrics& row, std::size_t observer_columns) {
     integer(row.step);
     integer(row.interface_vertices);
     integer(row.interface_faces);
+    integer(row.junction_vertices);
     integer(row.tets);
     real(row.mean_edge);
     real(row.mean_speed);

@@ -23,6 +23,41 @@ bool sound(const mesh::TetMesh& mesh, const TetCorners& tet) {
     return true;
 }
 
+/// Up to two labels that a vertex has met, and whether there was a third.
+class LabelsAt {
+public:
+    void meet(mesh::Label label) {
+        for (mesh::Label& known : known_) {
+            if (known == unknown) known = label;
+            if (known == label) return;
+        }
+        third_ = true;
+    }
+    bool junction() const { return third_; }
+
+private:
+    static constexpr mesh::Label unknown = -1;
+    std::array<mesh::Label, 2> known_ = {unknown, unknown};
+    bool third_ = false;
+};
+
+void count_junctions(const mesh::TetMesh& mesh, const std::vector<char>& valid, VolumeMeasure& measure) {
+    if (measure.label_tets.size() < 2) return;
+    std::vector<LabelsAt> at(mesh.points.size());
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        if (valid[t] == 0) continue;
+        for (const std::uint32_t v : mesh.tets[t]) at[v].meet(mesh.labels[t]);
+    }
+    const auto corners = [&](std::size_t t) { return valid[t] != 0 ? &mesh.tets[t] : nullptr; };
+    mesh::for_each_face(mesh.points.size(), mesh.tets.size(), corners,
+                        [&](const mesh::FaceKey& key, std::span<const mesh::FaceUse> uses) {
+                            if (uses.size() > 1) return;
+                            for (const std::uint32_t v : key) at[v].meet(0);
+                        });
+    measure.junction_vertices = static_cast<std::size_t>(
+        std::count_if(at.begin(), at.end(), [](const LabelsAt& labels) { return labels.junction(); }));
+}
+
 /// Counts faces by the number and the sides of their tets.
 void count_faces(const mesh::TetMesh& mesh, const std::vector<char>& valid, VolumeMeasure& measure) {
     const auto corners = [&](std::size_t t) { return valid[t] ? &mesh.tets[t] : nullptr; };
@@ -93,6 +128,7 @@ VolumeMeasure measure(const mesh::TetMesh& mesh, Workers* workers, bool with_int
     result.mean_quality = counted == 0 ? 0.0 : quality_sum / static_cast<double>(counted);
     result.box_volume = result.box.empty() ? 0.0 : result.box.size().prod();
     count_faces(mesh, valid, result);
+    if (mesh.labels.size() == mesh.tets.size()) count_junctions(mesh, valid, result);
     if (with_interface && result.adjacency_valid() && mesh.labels.size() == mesh.tets.size()) {
         result.interface = surface::extract_interface(mesh);
         result.interface_measure = measure(result.interface, workers);

@@ -41,6 +41,13 @@ public:
             io::write_surface(staged("surface.", extension), surface);
             outcome.surfaces.push_back(folder_.file("result") / ("surface." + extension));
         }
+        for (const mesh::Label label : several_phases(mesh)) {
+            const surface::TriangleMesh phase = surface::extract_phase(mesh, label);
+            for (const std::string& extension : output_.surface) {
+                io::write_surface(staged(label_stem(label), extension), phase);
+                outcome.surfaces.push_back(folder_.file("result") / (label_stem(label) + extension));
+            }
+        }
         for (const std::string& extension : output_.volume) {
             io::write_volume(staged("volume.", extension), mesh);
             outcome.volumes.push_back(folder_.file("result") / ("volume." + extension));
@@ -57,19 +64,38 @@ public:
             outcome.conforms = outcome.volume.interface.faces.empty();
             return;
         }
-        const surface::TriangleMesh surface =
-            io::read_surface(staged("surface.", preferred(output_.surface, {"obj", "ply", "off", "stl"})));
-        outcome.surface = measure(surface, &workers_);
-        for (const std::string& extension : output_.surface) {
-            if (extension == "stl") continue;  // holds floats
-            outcome.conforms = outcome.conforms && identical(io::read_surface(staged("surface.", extension)),
-                                                             outcome.volume.interface);
+        outcome.surface = measure_surface("surface.", outcome.volume.interface, outcome.conforms);
+        for (const mesh::Label label : several_phases(volume)) {
+            outcome.label_surfaces[label] =
+                measure_surface(label_stem(label), surface::extract_phase(volume, label), outcome.conforms);
         }
         outcome.volume.interface_measure = outcome.surface;
     }
 
 private:
-    fs::path staged(const char* stem, const std::string& extension) const {
+    /// Of a surface as written; `conforms` becomes false where one of its files differs from what the volume says.
+    SurfaceMeasure measure_surface(const std::string& stem, const surface::TriangleMesh& of_volume, bool& conforms) const {
+        for (const std::string& extension : output_.surface) {
+            if (extension == "stl") continue;  // holds floats
+            conforms = conforms && identical(io::read_surface(staged(stem, extension)), of_volume);
+        }
+        return measure(io::read_surface(staged(stem, preferred(output_.surface, {"obj", "ply", "off", "stl"}))), &workers_);
+    }
+
+    /// The labels above 0 where there is more than one: each has a surface of its own, and the interface is no manifold where
+    /// they meet.
+    static std::vector<mesh::Label> several_phases(const mesh::TetMesh& mesh) {
+        std::vector<mesh::Label> labels(mesh.labels);
+        std::sort(labels.begin(), labels.end());
+        labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+        labels.erase(labels.begin(), std::upper_bound(labels.begin(), labels.end(), 0));
+        if (labels.size() < 2) labels.clear();
+        return labels;
+    }
+
+    static std::string label_stem(mesh::Label label) { return "surface_" + std::to_string(label) + "."; }
+
+    fs::path staged(const std::string& stem, const std::string& extension) const {
         return folder_.staging() / (stem + extension);
     }
 
@@ -193,7 +219,7 @@ private:
         folder.publish_results();
         folder.write("summary.json",
                      summary_json({loaded_, state_.hash, outcome.totals, input ? &*input : nullptr, distances,
-                                   outcome.surface, outcome.volume, outcome.conforms, to_normalised,
+                                   outcome.surface, outcome.label_surfaces, outcome.volume, outcome.conforms, to_normalised,
                                    watch_.seconds(), process_usage()}));
         return outcome;
     }

@@ -48,6 +48,9 @@ void measure_state(const mesh::Complex& complex, const surface::SurfaceView& vie
                    const cloud::TargetCloud* cloud, Workers& workers, StepMetrics& row) {
     row.interface_vertices = view.vertex_count();
     row.interface_faces = view.face_count();
+    row.junction_vertices = static_cast<std::size_t>(
+        std::count_if(view.vertex_ids.begin(), view.vertex_ids.end(),
+                      [&](mesh::VertexId v) { return complex.phases(v) > 2; }));
     row.tets = complex.tet_count();
     row.mean_edge = view.mean_edge;
     row.volume = enclosed_volume(complex, view);

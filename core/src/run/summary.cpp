@@ -65,6 +65,42 @@ ordered_json input(const LoadedInput* loaded) {
             {"diagonal", report.diagonal}};
 }
 
+/// Of all labels above 0; where there are several, the interface as a whole does not enclose it.
+double volume_of(const SummaryParts& parts) {
+    if (parts.label_surfaces.empty()) return parts.surface.report.volume;
+    double sum = 0.0;
+    for (const auto& [label, surface] : parts.label_surfaces) sum += surface.report.volume;
+    return sum;
+}
+
+ordered_json labels(const SummaryParts& parts) {
+    ordered_json all = ordered_json::object();
+    for (const auto& [label, tets] : parts.volume.label_tets) {
+        ordered_json row = {{"tets", tets}, {"volume", parts.volume.label_volumes.at(label)}};
+        const auto found = parts.label_surfaces.find(label);
+        if (found != parts.label_surfaces.end()) {
+            const surface::SurfaceReport& s = found->second.report;
+            row["surface"] = {{"vertices", s.vertices},
+                              {"faces", s.faces},
+                              {"components", s.components},
+                              {"cavities", s.cavities},
+                              {"shells", s.shells},
+                              {"genus", s.genus},
+                              {"closed_manifold", s.closed_manifold()},
+                              {"self_intersections", found->second.intersections.count},
+                              {"volume", s.volume}};
+        }
+        all[std::to_string(label)] = std::move(row);
+    }
+    return all;
+}
+
+ordered_json initial_mesh(const RunTotals& totals) {
+    ordered_json figures = ordered_json::object();
+    for (const auto& [figure, value] : totals.initial_mesh) figures[figure] = value;
+    return figures;
+}
+
 ordered_json observers(const RunTotals& totals) {
     ordered_json all = ordered_json::object();
     for (const auto& [id, figures] : totals.observers) {
@@ -87,6 +123,7 @@ std::string summary_json(const SummaryParts& parts) {
         {"steps", totals.steps},
         {"interface_vertices", s.vertices},
         {"interface_faces", s.faces},
+        {"junction_vertices", parts.volume.junction_vertices},
         {"tets", parts.volume.tets},
         {"min_tet_quality", parts.volume.min_quality},
         {"inverted_tets", parts.volume.inverted_tets},
@@ -96,10 +133,11 @@ std::string summary_json(const SummaryParts& parts) {
         {"nonmanifold_edges", s.nonmanifold_edges},
         {"nonmanifold_vertices", s.nonmanifold_vertices},
         {"self_intersections", parts.surface.intersections.count},
-        {"volume", s.volume},
+        {"volume", volume_of(parts)},
         {"volume_initial", totals.volume_initial / (scale * scale * scale)},
         {"shells", s.shells},
         {"cavities", s.cavities},
+        {"labels", labels(parts)},
         {"surface_is_interface_of_volume", parts.conforms},
         {"events", events(totals)},
         {"target_length", totals.target_length},
@@ -126,6 +164,7 @@ std::string summary_json(const SummaryParts& parts) {
           {"dropped_vertices", totals.adopted.dropped_vertices},
           {"unpinched_vertices", totals.adopted.unpinched_vertices},
           {"vanished_components", totals.adopted.vanished_components}}},
+        {"initial_mesh", initial_mesh(totals)},
         {"refinements",
          {{"calls", totals.refinements},
           {"requested", totals.refine_requested},

@@ -19,6 +19,7 @@ struct SummaryParts {
     const LoadedInput* input;                                  ///< null without a cloud
     const std::optional<surface::CloudEvaluation>& distances;  ///< normalised units
     const SurfaceMeasure& surface;
+    const std::map<mesh::Label, SurfaceMeasure>& label_surfaces;  ///< of surface_LABEL files
     const VolumeMeasure& volume;
     bool conforms;
     cloud::Transform to_normalised;

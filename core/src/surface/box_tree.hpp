@@ -1,5 +1,5 @@
 #pragma once
-// A binary tree of boxes over items, for nearest-item queries in double precision.
+// A binary tree of boxes over items, for queries in double precision.
 
 #include <algorithm>
 #include <cmath>
@@ -61,6 +61,26 @@ public:
             stack[size++] = near;
         }
         return best;
+    }
+
+    /// item(i) for all items below nodes whose boxes meet(box); in a fixed order.
+    template <class Meets, class Item>
+    void visit(Meets&& meets, Item&& item) const {
+        if (nodes_.empty()) return;
+        std::uint32_t stack[max_depth];
+        std::size_t size = 0;
+        stack[size++] = 0;
+        while (size > 0) {
+            const std::uint32_t at = stack[--size];
+            const Node& node = nodes_[at];
+            if (!meets(node.box)) continue;
+            if (node.count > 0) {
+                for (std::uint32_t k = node.first; k < node.first + node.count; ++k) item(items_[k]);
+                continue;
+            }
+            stack[size++] = node.first;
+            stack[size++] = at + 1;
+        }
     }
 
 private:

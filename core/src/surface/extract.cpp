@@ -21,20 +21,14 @@ std::array<std::uint32_t, 3> outward(const mesh::TetMesh& mesh, std::uint32_t co
     return face;
 }
 
-}  // namespace
-
-TriangleMesh extract_interface(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vertex_of) {
+// The faces that `inner` chooses, each counter-clockwise seen from outside the tet that it returns, null for none; the points
+// that they use, in the order of the arrays.
+template <class Inner>
+TriangleMesh extract(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vertex_of, const Inner& inner) {
     TriangleMesh surface;
     const auto corners = [&](std::size_t t) { return &mesh.tets[t]; };
     mesh::for_each_face(mesh.points.size(), mesh.tets.size(), corners, [&](const mesh::FaceKey&, std::span<const mesh::FaceUse> uses) {
-        const auto label = [&](const mesh::FaceUse& use) { return mesh.labels[use.code >> 2U]; };
-        const mesh::FaceUse* inner = &uses[0];
-        mesh::Label across = 0;  // outside the box
-        if (uses.size() > 1) {
-            if (label(uses[1]) > label(uses[0])) inner = &uses[1];
-            across = std::min(label(uses[0]), label(uses[1]));
-        }
-        if (label(*inner) > across) surface.faces.push_back(outward(mesh, inner->code));
+        if (const mesh::FaceUse* use = inner(uses); use != nullptr) surface.faces.push_back(outward(mesh, use->code));
     });
     std::vector<std::uint32_t> index(mesh.points.size(), mesh::none);
     for (const auto& face : surface.faces) {
@@ -51,6 +45,34 @@ TriangleMesh extract_interface(const mesh::TetMesh& mesh, std::vector<std::uint3
         for (auto& v : face) v = index[v];
     }
     return surface;
+}
+
+}  // namespace
+
+TriangleMesh extract_interface(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vertex_of) {
+    const auto label = [&](const mesh::FaceUse& use) { return mesh.labels[use.code >> 2U]; };
+    return extract(mesh, vertex_of, [&](std::span<const mesh::FaceUse> uses) -> const mesh::FaceUse* {
+        const mesh::FaceUse* inner = &uses[0];
+        mesh::Label across = 0;  // outside the box
+        if (uses.size() > 1) {
+            if (label(uses[1]) > label(uses[0])) inner = &uses[1];
+            across = std::min(label(uses[0]), label(uses[1]));
+        }
+        return label(*inner) > across ? inner : nullptr;
+    });
+}
+
+TriangleMesh extract_phase(const mesh::TetMesh& mesh, mesh::Label phase) {
+    const auto label = [&](const mesh::FaceUse& use) { return mesh.labels[use.code >> 2U]; };
+    return extract(mesh, nullptr, [&](std::span<const mesh::FaceUse> uses) -> const mesh::FaceUse* {
+        const mesh::FaceUse* inner = nullptr;
+        for (const mesh::FaceUse& use : uses) {
+            if (label(use) != phase) continue;
+            if (inner != nullptr) return nullptr;
+            inner = &use;
+        }
+        return inner;
+    });
 }
 
 }  // namespace dsc::surface

@@ -71,6 +71,8 @@ struct InitialMesh final : Base<hooks::InitialMesh> {
         Act::act(one);
         return one;
     }
+    static inline hooks::Figures told;
+    hooks::Figures figures() const override { return told; }
 };
 
 struct Improvement final : Base<hooks::Improvement> {
@@ -401,6 +403,21 @@ TEST_CASE("improvement: requests, limits and answers out of range") {
     CHECK(caught([&] { improvement->topology_limits(); }).code == "strategy.range");
     Improvement::limits = {};
     CHECK(improvement->topology_limits().thickness == 1.0);
+}
+
+TEST_CASE("initial mesh: figures of bad or repeated names and without a value") {
+    const Bench bench;
+    const auto mesh = bench.make<hooks::InitialMesh>();
+    const auto told = [&](const hooks::Figures& figures) {
+        InitialMesh::told = figures;
+        return caught([&] { mesh->figures(); });
+    };
+    CHECK(told({}).text.empty());
+    CHECK(told({{"distance", 1.0}, {"relabelled", 2.0}}).text.empty());
+    CHECK(mesh->figures().size() == 2);
+    CHECK(told({{"Distance", 1.0}}).code == "strategy.range");
+    CHECK(told({{"a", 1.0}, {"a", 2.0}}).code == "strategy.range");
+    CHECK(told({{"a", no_number}}).code == "strategy.not_finite");
 }
 
 TEST_CASE("observer: figures of changing, bad or repeated names and without a value") {

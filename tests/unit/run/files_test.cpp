@@ -111,9 +111,9 @@ TEST_CASE("metrics: empty cells without a cloud, columns of observers") {
     const std::string header = run::csv_header(row);
     CHECK(header.substr(0, 24) == "step,interface_vertices,");
     CHECK(header.find(",observers.a.error\n") != std::string::npos);
-    CHECK(run::csv_row(row) == "3,0,0,0,0.1,0,0,,,,0,0,0,0,0,0,0,0,0,0,0,0.5\n");
+    CHECK(run::csv_row(row) == "3,0,0,0,0,0.1,0,0,,,,0,0,0,0,0,0,0,0,0,0,0,0.5\n");
     row.observers.clear();
-    CHECK(run::csv_row(row, 1) == "3,0,0,0,0.1,0,0,,,,0,0,0,0,0,0,0,0,0,0,0,\n");
+    CHECK(run::csv_row(row, 1) == "3,0,0,0,0,0.1,0,0,,,,0,0,0,0,0,0,0,0,0,0,0,\n");
     const auto commas = [](const std::string& text) { return std::count(text.begin(), text.end(), ','); };
     CHECK(commas(header) == commas(run::csv_row(row, 1)));
 }

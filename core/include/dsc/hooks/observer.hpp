@@ -1,16 +1,10 @@
 #pragma once
 // Hook `observer`: reads reports, adds figures to metrics.csv and summary.json, changes nothing.
 
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <dsc/hooks/context.hpp>
+#include <dsc/hooks/figures.hpp>
 
 namespace dsc::hooks {
-
-/// Name and value; names are snake_case, the same in every step.
-using Figures = std::vector<std::pair<std::string, double>>;
 
 /// Figures of the run so far, handed to observers after each step.
 struct StepFigures {

@@ -21,4 +21,8 @@ struct AdoptReport {
 /// (relative 1e-9), a vertex that cannot be unpinched. `name` is the file or generator named in messages. [setup]
 Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report = nullptr, double min_component = 2.0);
 
+/// Makes the tets of negative volume positive, as some programs' files need; returns their number. Indices must be in range.
+/// [setup]
+std::size_t orient(TetMesh& mesh);
+
 }  // namespace dsc::mesh

@@ -5,6 +5,7 @@
 #include <dsc/mesh/shapes.hpp>
 #include <functional>
 #include <string_view>
+#include <vector>
 
 namespace dsc::mesh {
 
@@ -12,6 +13,7 @@ struct ProjectOptions {
     unsigned rounds = 100;        ///< at most
     double quality = 0.25;        ///< wanted of all tets
     double least_quality = 0.02;  ///< no tet is taken below this, unless it was there before
+    std::vector<VertexId> fixed = {};  ///< vertices that stay where they are
 };
 
 struct ProjectReport {

@@ -2,7 +2,8 @@
 // The figures of a run: one row of metrics.csv a step, and the sums that summary.json reports.
 
 #include <cstdint>
-#include <dsc/hooks/observer.hpp>
+#include <dsc/cloud/normalize.hpp>
+#include <dsc/hooks/figures.hpp>
 #include <dsc/kernel/step_report.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <optional>
@@ -22,6 +23,7 @@ struct StepMetrics {
     std::uint64_t step = 0;
     std::size_t interface_vertices = 0;
     std::size_t interface_faces = 0;
+    std::size_t junction_vertices = 0;  ///< of the interface vertices, those where three labels or more meet: they stay
     std::size_t tets = 0;
     double mean_edge = 0.0;   ///< of the interface
     double mean_speed = 0.0;  ///< length of the displacements of the movable vertices
@@ -98,6 +100,7 @@ struct RunTotals {
     std::vector<std::string> repair_class_names;  ///< of the first entries of repair_classes
     mesh::EventCounts events;
     mesh::AdoptReport adopted;
+    hooks::Figures initial_mesh;  ///< what its generator told
     PhaseSeconds seconds;
     std::vector<std::pair<std::string, hooks::Figures>> observers;  ///< by observer id, from its end()
 

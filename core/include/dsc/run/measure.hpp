@@ -32,6 +32,7 @@ struct VolumeMeasure {
     std::size_t overused_faces = 0;  ///< with more than two tets
     std::size_t folded_faces = 0;    ///< whose two tets lie on the same side
     std::size_t boundary_faces = 0;  ///< with one tet
+    std::size_t junction_vertices = 0;  ///< in tets of three labels or more, the outside of the box counting as 0
     double min_quality = 0.0;
     double mean_quality = 0.0;
     double volume = 0.0;  ///< sum over all tets

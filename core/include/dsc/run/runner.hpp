@@ -7,6 +7,7 @@
 #include <dsc/run/measure.hpp>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct RunOutcome {
     std::filesystem::path picture;
     RunTotals totals;
     SurfaceMeasure surface;
+    std::map<mesh::Label, SurfaceMeasure> label_surfaces;  ///< of surface_LABEL.*, where there are two labels above 0 or more
     VolumeMeasure volume;
     bool conforms = false;  ///< the surface is, bit for bit, the label interface of the volume
 };

@@ -44,4 +44,8 @@ void build_view(const mesh::Complex& complex, SurfaceView& view, Workers* worker
 /// independent of Complex. `vertex_of`, if given, receives each point's index in `mesh.points`.
 TriangleMesh extract_interface(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vertex_of = nullptr);
 
+/// The surface of one label, above 0: all faces between its tets and others, or the outside of the box, counter-clockwise seen
+/// from outside. Where more than two labels meet, the interface is no manifold and this still is.
+TriangleMesh extract_phase(const mesh::TetMesh& mesh, mesh::Label phase);
+
 }  // namespace dsc::surface

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "cell_set.hpp"
+#include "mesh/cell_set.hpp"
 
-namespace dsc::strategies::lattice {
+namespace dsc::mesh::lattice {
 
 /// Open addressing; grows by doubling. Points asked for a short while ago are found in a small table that stays in
 /// the processor's cache. Coordinates are in [0, 2^21).
@@ -62,4 +62,4 @@ private:
     std::vector<Cell> points_;
 };
 
-}  // namespace dsc::strategies::lattice
+}  // namespace dsc::mesh::lattice

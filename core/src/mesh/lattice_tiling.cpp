@@ -1,11 +1,11 @@
-#include "tiling.hpp"
+#include "mesh/lattice_tiling.hpp"
 
 #include <array>
 #include <dsc/base/error.hpp>
 
-#include "vertex_table.hpp"
+#include "mesh/vertex_table.hpp"
 
-namespace dsc::strategies::lattice {
+namespace dsc::mesh::lattice {
 namespace {
 
 Cell moved(Cell x, std::size_t axis, int by) {
@@ -15,15 +15,13 @@ Cell moved(Cell x, std::size_t axis, int by) {
 
 class Tiling {
 public:
-    Tiling(const Octree& octree, const Frame& frame, std::span<const mesh::Shape> shapes, Pattern finest,
-           const CancelToken* cancel)
-        : octree_(octree), frame_(frame), shapes_(shapes), finest_(finest), cancel_(cancel) {}
+    Tiling(const Octree& octree, const Frame& frame, LatticePattern finest, const CancelToken* cancel)
+        : octree_(octree), frame_(frame), finest_(finest), cancel_(cancel) {}
 
-    mesh::TetMesh fill() {
+    TetMesh fill() {
         const unsigned top = octree_.top();
         // Five to twelve of a cell, more where sizes change.
         out_.tets.reserve(10 * octree_.leaves());
-        out_.labels.reserve(10 * octree_.leaves());
         for (int x = 0; x <= 2 * static_cast<int>(frame_.side); ++x) at_.push_back(frame_.at(x));
         const auto roots = static_cast<int>(octree_.side(top));
         for (int k = 0; k < roots; ++k) {
@@ -38,6 +36,7 @@ public:
         }
         out_.points.reserve(table_.points().size());
         for (const Cell& x : table_.points()) out_.points.push_back(point(x));
+        out_.labels.assign(out_.tets.size(), 0);
         return std::move(out_);
     }
 
@@ -47,7 +46,7 @@ private:
             for (int n = 0; n < 8; ++n) {
                 visit(level - 1, {2 * cell[0] + (n & 1), 2 * cell[1] + (n >> 1 & 1), 2 * cell[2] + (n >> 2)});
             }
-        } else if (level == 0 && finest_ == Pattern::parity) {
+        } else if (level == 0 && finest_ == LatticePattern::parity) {
             tile_by_parity(cell);
         } else {
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -144,10 +143,6 @@ private:
         }
         if (sign < 0) std::swap(c, d);
         out_.tets.push_back({table_.number(a), table_.number(b), table_.number(c), table_.number(d)});
-        const mesh::Label label = mesh::label_of(shapes_, {point(a), point(b), point(c), point(d)});
-        out_.labels.push_back(label);
-        if (label == 0) return;
-        for (const Cell& x : {a, b, c, d}) refuse_on_box(x);
     }
 
     Vec3 point(const Cell& x) const {
@@ -155,30 +150,19 @@ private:
                                     at_[static_cast<std::size_t>(x[2])]);
     }
 
-    void refuse_on_box(const Cell& x) const {
-        const auto end = static_cast<int>(2 * frame_.side);
-        if (x[0] > 0 && x[1] > 0 && x[2] > 0 && x[0] < end && x[1] < end && x[2] < end) return;
-        throw ConfigError(
-            "lattice.box",
-            "initial mesh 'lattice': a shape reaches the faces of the box; make the shape smaller or "
-            "`box` larger");
-    }
-
     const Octree& octree_;
     const Frame& frame_;
-    std::span<const mesh::Shape> shapes_;
-    Pattern finest_;
+    LatticePattern finest_;
     const CancelToken* cancel_;
     std::vector<double> at_;  // the frame's coordinates in space
     VertexTable table_;
-    mesh::TetMesh out_;
+    TetMesh out_;
 };
 
 }  // namespace
 
-mesh::TetMesh tile(const Octree& octree, const Frame& frame, std::span<const mesh::Shape> shapes,
-                   Pattern finest, const CancelToken* cancel) {
-    return Tiling(octree, frame, shapes, finest, cancel).fill();
+TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, const CancelToken* cancel) {
+    return Tiling(octree, frame, finest, cancel).fill();
 }
 
-}  // namespace dsc::strategies::lattice
+}  // namespace dsc::mesh::lattice

@@ -1,8 +1,8 @@
-#include "cell_set.hpp"
+#include "mesh/cell_set.hpp"
 
 #include <bit>
 
-namespace dsc::strategies::lattice {
+namespace dsc::mesh::lattice {
 namespace {
 
 // Bits 0, 2, 4, ... of a word, moved together into its lower half.
@@ -77,4 +77,4 @@ CellSet CellSet::parents() const {
     return out;
 }
 
-}  // namespace dsc::strategies::lattice
+}  // namespace dsc::mesh::lattice

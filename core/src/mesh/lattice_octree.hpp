@@ -1,14 +1,13 @@
 #pragma once
-// Which cells of the octree are divided: all at the shapes' surface, fewer away from it.
+// Which cells of the octree are divided: all where labels may differ, fewer away from there.
 
 #include <dsc/geometry/vec.hpp>
-#include <dsc/mesh/shapes.hpp>
-#include <span>
+#include <dsc/mesh/lattice.hpp>
 #include <vector>
 
-#include "cell_set.hpp"
+#include "mesh/cell_set.hpp"
 
-namespace dsc::strategies::lattice {
+namespace dsc::mesh::lattice {
 
 /// How the integer coordinates of the octree lie in space: from 0 to 2 side along each axis, in halves of a
 /// finest cell, so that centres of cells have coordinates too.
@@ -29,10 +28,9 @@ struct Frame {
 /// one differ by at most one level.
 class Octree {
 public:
-    /// Of level 0 are all cells less than `layers` - 1 of their edges away from a surface; then come at least
-    /// `coarse_layers` of each further level up to `top`. The side must be a multiple of 2^top.
-    Octree(const Frame& frame, unsigned top, std::span<const mesh::Shape> shapes, unsigned layers,
-           unsigned coarse_layers);
+    /// Of level 0 are all cells less than `layers` - 1 of their edges away from places where labels differ; then come at
+    /// least `coarse_layers` of each further level up to `top`. The side must be a multiple of 2^top.
+    Octree(const Frame& frame, unsigned top, const SameWithin& same, unsigned layers, unsigned coarse_layers);
 
     unsigned top() const { return static_cast<unsigned>(divided_.size()) - 1; }
     unsigned side(unsigned level) const { return divided_[level].side(); }
@@ -53,4 +51,4 @@ inline Cell corner_of(unsigned level, const Cell& c) {
 }
 inline int edge_of(unsigned level) { return 2 << level; }
 
-}  // namespace dsc::strategies::lattice
+}  // namespace dsc::mesh::lattice

@@ -1,6 +1,6 @@
-#include "octree.hpp"
+#include "mesh/lattice_octree.hpp"
 
-namespace dsc::strategies::lattice {
+namespace dsc::mesh::lattice {
 namespace {
 
 // Of a cell, in its edges; a little more, so that a surface through a corner counts.
@@ -9,8 +9,8 @@ constexpr double half_diagonal = 0.8660254037844387 * (1 + 1e-9);
 // The finest cells within a distance of places where tets may have different labels, found from the top down.
 class Near {
 public:
-    Near(const Frame& frame, std::span<const mesh::Shape> shapes, double distance)
-        : frame_(frame), shapes_(shapes), distance_(distance), cells_(frame.side) {}
+    Near(const Frame& frame, const SameWithin& same, double distance)
+        : frame_(frame), same_(same), distance_(distance), cells_(frame.side) {}
 
     void search(unsigned level, const Cell& cell) {
         const Cell low = corner_of(level, cell);
@@ -18,7 +18,7 @@ public:
         const Vec3 centre = frame_.point({low[0] + half, low[1] + half, low[2] + half});
         const double edge = 2 * half * frame_.length / frame_.units;
         const double radius = distance_ + half_diagonal * edge;
-        if (mesh::same_label_within(shapes_, centre, radius)) return;
+        if (same_(centre, radius)) return;
         if (level == 0) return cells_.add(cell);
         for (int n = 0; n < 8; ++n)
             search(level - 1, {2 * cell[0] + (n & 1), 2 * cell[1] + (n >> 1 & 1), 2 * cell[2] + (n >> 2)});
@@ -27,20 +27,19 @@ public:
 
 private:
     const Frame& frame_;
-    std::span<const mesh::Shape> shapes_;
+    const SameWithin& same_;
     double distance_;
     CellSet cells_;
 };
 
 }  // namespace
 
-Octree::Octree(const Frame& frame, unsigned top, std::span<const mesh::Shape> shapes, unsigned layers,
-               unsigned coarse_layers) {
+Octree::Octree(const Frame& frame, unsigned top, const SameWithin& same, unsigned layers, unsigned coarse_layers) {
     divided_.emplace_back(frame.side);
     if (top == 0) return;
     // One layer is crossed by the surface itself.
     const double distance = (layers - 1) * 2 * frame.length / frame.units;
-    Near near(frame, shapes, distance);
+    Near near(frame, same, distance);
     const auto roots = static_cast<int>(frame.side >> top);
     for (int k = 0; k < roots; ++k) {
         for (int j = 0; j < roots; ++j) {
@@ -63,4 +62,4 @@ std::size_t Octree::leaves() const {
     return sum;
 }
 
-}  // namespace dsc::strategies::lattice
+}  // namespace dsc::mesh::lattice

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace dsc::strategies::lattice {
+namespace dsc::mesh::lattice {
 
 /// Indices x, y, z of a cell; -1 and `side` name the cells beyond the box.
 using Cell = std::array<int, 3>;
@@ -50,4 +50,4 @@ private:
     std::vector<std::uint64_t> words_;
 };
 
-}  // namespace dsc::strategies::lattice
+}  // namespace dsc::mesh::lattice

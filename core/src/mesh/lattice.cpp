@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <cmath>
+#include <dsc/base/error.hpp>
+#include <dsc/mesh/lattice.hpp>
+#include <string>
+
+#include "mesh/lattice_octree.hpp"
+#include "mesh/lattice_tiling.hpp"
+
+namespace dsc::mesh {
+namespace {
+
+constexpr unsigned cells_of_top = 6;             // largest cells along the box, at least
+constexpr std::size_t most_leaves = 12'000'000;  // some 60 to 150 million tets
+
+// Layers of equal cells, so many that their size grows by `growth` from layer to layer on average.
+unsigned coarse_layers(double growth) {
+    return static_cast<unsigned>(std::ceil(std::log(2.0) / std::log(growth) - 1e-9));
+}
+
+// Level of the largest cells.
+unsigned top_level(const LatticeOptions& options) {
+    unsigned top = 0;
+    if (options.growth > 1.0) {
+        while (static_cast<unsigned>(options.wanted_cells()) >> (top + 1) >= cells_of_top) ++top;
+    }
+    return top;
+}
+
+lattice::Frame frame_of(const LatticeOptions& options) {
+    // Even, so that the centre of the box is a corner of cells, as a cube's half_width expects.
+    const auto cells = static_cast<unsigned>(options.wanted_cells());
+    const unsigned step = std::max(2U, 1U << top_level(options));
+    lattice::Frame frame{(cells + step - 1) / step * step, options.box, static_cast<double>(options.cells),
+                         options.box_centre};
+    if (options.cell) {
+        frame.length = *options.cell;
+        frame.units = 2.0;
+    }
+    return frame;
+}
+
+}  // namespace
+
+double LatticeOptions::wanted_cells() const {
+    return cell ? std::ceil(2 * box / *cell - 1e-9) : static_cast<double>(cells);
+}
+
+double finest_cell(const LatticeOptions& options) { return frame_of(options).cell(); }
+
+Box3 box_of(const LatticeOptions& options) {
+    const lattice::Frame frame = frame_of(options);
+    const auto end = static_cast<int>(2 * frame.side);
+    return {frame.point({0, 0, 0}), frame.point({end, end, end})};
+}
+
+TetMesh make_lattice(const LatticeOptions& options, const SameWithin& same, std::string_view name,
+                     const CancelToken* cancel) {
+    const unsigned top = top_level(options);
+    const lattice::Frame frame = frame_of(options);
+    const lattice::Octree octree(frame, top, same, static_cast<unsigned>(options.layers),
+                                 top > 0 ? coarse_layers(options.growth) : 0);
+    if (octree.leaves() > most_leaves) {
+        throw ConfigError("lattice.size", std::string(name) + ": " + std::to_string(octree.leaves()) +
+                                              " cells, more than the " + std::to_string(most_leaves) +
+                                              " that it makes; use fewer `cells` or `layers`, or a larger `growth`");
+    }
+    return lattice::tile(octree, frame, options.finest, cancel);
+}
+
+bool labels_touch_box(const TetMesh& mesh) {
+    const Box3 box = bounding_box(mesh.points);
+    const auto on_box = [&](std::uint32_t v) {
+        const Vec3& p = mesh.points[v];
+        return (p.array() <= box.low.array()).any() || (p.array() >= box.high.array()).any();
+    };
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        if (mesh.labels[t] != 0 && std::any_of(mesh.tets[t].begin(), mesh.tets[t].end(), on_box)) return true;
+    }
+    return false;
+}
+
+}  // namespace dsc::mesh

@@ -1,0 +1,19 @@
+#pragma once
+// From the octree's cells to tets [LabelleShewchuk2007].
+
+#include <dsc/base/progress.hpp>
+#include <dsc/mesh/tet_mesh.hpp>
+
+#include "mesh/lattice_octree.hpp"
+
+namespace dsc::mesh::lattice {
+
+/// Fills the box with positive tets, cells in Morton order, vertices in the order of their first use.
+///
+/// A tet of a larger cell joins its centre, an edge of one of its faces and, across that face, the centre of the
+/// neighbour of equal size or else the centre of the face. Where a smaller cell halves the edge, the tet is
+/// halved. A face that is a quarter of a larger cell's is joined to the centre as two triangles. All labels are 0.
+/// Throws CancelledError.
+TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, const CancelToken* cancel);
+
+}  // namespace dsc::mesh::lattice

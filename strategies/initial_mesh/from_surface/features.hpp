@@ -1,0 +1,28 @@
+#pragma once
+// Sharp edges and corners of a surface.
+
+#include <dsc/surface/distance.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
+#include <optional>
+#include <vector>
+
+namespace dsc::strategies::from_surface {
+
+/// Edges whose two faces turn by more than an angle, and the points where other than two of them meet, or two at an angle.
+class Features {
+public:
+    /// `mesh` must be closed and manifold; the angle in radians. [setup]
+    Features(const surface::TriangleMesh& mesh, double angle);
+
+    const std::vector<Vec3>& corners() const { return corners_; }
+    bool empty() const { return !edges_; }
+    bool corner(const Vec3& p) const;
+    /// Nearest point of the sharp edges; not for empty ones. [parallel]
+    surface::NearestHit nearest(const Vec3& p) const { return edges_->nearest(p); }
+
+private:
+    std::vector<Vec3> corners_;
+    std::optional<surface::TriangleTree> edges_;
+};
+
+}  // namespace dsc::strategies::from_surface

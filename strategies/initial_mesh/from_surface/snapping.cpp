@@ -1,0 +1,81 @@
+#include "snapping.hpp"
+
+#include <algorithm>
+#include <dsc/geometry/predicates.hpp>
+#include <dsc/geometry/quality.hpp>
+
+namespace dsc::strategies::from_surface {
+namespace {
+
+/// Beyond some forty rounds vertices that are stuck take to sliding about and stretch the triangles round them.
+constexpr unsigned rounds = 40;
+/// What is not there by then goes on at the cost of shape.
+constexpr unsigned last_rounds = 20;
+constexpr double last_quality = 0.08;
+/// Parts of a finest cell: what is nearer to a sharp edge goes onto it; each corner takes the nearest vertex within its reach.
+constexpr double edge_reach = 0.35, corner_reach = 1.5;
+constexpr double least_quality = 0.05;
+
+/// Least quality of the star of v with v at `position`, 0 where a tet would not be positive.
+double star_quality(const mesh::Complex& c, mesh::VertexId v, const Vec3& position, const std::vector<mesh::TetId>& star) {
+    double least = 1.0;
+    for (const mesh::TetId t : star) {
+        std::array<Vec3, 4> p;
+        for (unsigned i = 0; i < 4; ++i) p[i] = c.tet(t).v[i] == v ? position : c.position(c.tet(t).v[i]);
+        if (geometry::orient3d(p[0], p[1], p[2], p[3]) != 1) return 0.0;
+        least = std::min(least, geometry::tet_quality(p[0], p[1], p[2], p[3]));
+    }
+    return least;
+}
+
+/// The movable interface vertex within reach of the corner whose tets keep the best shape when it goes there; none if all would
+/// be bad.
+mesh::VertexId best_for(const mesh::Complex& c, const Vec3& corner, double reach, std::vector<mesh::TetId>& star) {
+    mesh::VertexId best = mesh::none;
+    double best_quality = least_quality;
+    for (const mesh::VertexId v : c.interface_vertices()) {
+        if (!c.movable(v) || (c.position(v) - corner).norm() > reach) continue;
+        c.star(v, star);
+        const double quality = star_quality(c, v, corner, star);
+        const bool older = best != mesh::none && c.birth(v) < c.birth(best);
+        if (quality < best_quality || (quality == best_quality && !older)) continue;
+        best = v;
+        best_quality = quality;
+    }
+    return best;
+}
+
+/// Brings a vertex to each corner where one can come; returns these.
+std::vector<mesh::VertexId> take_corners(mesh::Complex& c, const std::vector<Vec3>& corners, double reach) {
+    std::vector<mesh::VertexId> taken;
+    std::vector<mesh::TetId> star;
+    for (const Vec3& corner : corners) {
+        const mesh::VertexId v = best_for(c, corner, reach, star);
+        if (v == mesh::none || std::find(taken.begin(), taken.end(), v) != taken.end()) continue;
+        c.star(v, star);
+        c.move(v, corner, star);
+        taken.push_back(v);
+    }
+    return taken;
+}
+
+}  // namespace
+
+mesh::ProjectReport snap(mesh::Complex& complex, const Solid& solid, const Features& features, double cell) {
+    const auto nearest = [&](const Vec3& p) {
+        if (!features.empty()) {
+            const surface::NearestHit edge = features.nearest(p);
+            if (edge.distance <= edge_reach * cell) return edge.point;
+        }
+        return solid.nearest(p).point;
+    };
+    mesh::ProjectOptions options;
+    options.rounds = rounds;
+    mesh::project_interface(complex, nearest, options);
+    options.fixed = take_corners(complex, features.corners(), corner_reach * cell);
+    options.quality = last_quality;
+    options.rounds = last_rounds;
+    return mesh::project_interface(complex, nearest, options);
+}
+
+}  // namespace dsc::strategies::from_surface

@@ -1,0 +1,89 @@
+#include "solid.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <dsc/base/error.hpp>
+#include <dsc/surface/analysis.hpp>
+#include <dsc/surface/intersections.hpp>
+#include <dsc/surface/measure.hpp>
+
+namespace dsc::strategies::from_surface {
+namespace {
+
+[[noreturn]] void refuse(const std::string& file, const char* code, const std::string& cause, const std::string& remedy) {
+    throw GeometryError(std::string("surface.") + code, file + ": " + cause + "; " + remedy);
+}
+
+std::string place(const Vec3& p) {
+    char text[96];
+    std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", p.x(), p.y(), p.z());
+    return text;
+}
+
+/// A directed side of a face, by its points in ascending order.
+struct Side {
+    std::uint32_t low, high;
+    bool ascending;
+};
+
+/// Midpoint of the first edge, by its points, whose sides are not one in each direction.
+Vec3 first_bad_edge(const surface::TriangleMesh& mesh) {
+    std::vector<Side> sides;
+    for (const auto& f : mesh.faces) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = f[k], b = f[(k + 1) % 3];
+            sides.push_back({std::min(a, b), std::max(a, b), a < b});
+        }
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+        return x.low != y.low ? x.low < y.low : x.high != y.high ? x.high < y.high : x.ascending < y.ascending;
+    });
+    for (std::size_t i = 0; i < sides.size();) {
+        std::size_t end = i;
+        while (end < sides.size() && sides[end].low == sides[i].low && sides[end].high == sides[i].high) ++end;
+        if (end - i != 2 || sides[i].ascending == sides[i + 1].ascending)
+            return 0.5 * (mesh.points[sides[i].low] + mesh.points[sides[i].high]);
+        i = end;
+    }
+    return Vec3::Zero();
+}
+
+std::string edges(std::size_t count) { return std::to_string(count) + (count == 1 ? " edge" : " edges"); }
+
+}  // namespace
+
+surface::TriangleMesh require_solid(const surface::TriangleMesh& given, const std::string& file, std::size_t intersections,
+                                    Workers* workers) {
+    surface::TriangleMesh mesh = surface::weld(given);
+    const surface::SurfaceReport report = surface::analyse(mesh);
+    if (report.faces == 0) refuse(file, "empty", "no face has three different corners", "export the surface again");
+    if (report.boundary_edges > 0) {
+        refuse(file, "open",
+               "the surface is open: " + edges(report.boundary_edges) + " with one face, the first at " +
+                   place(first_bad_edge(mesh)),
+               "close its holes, or take its points as a cloud and reconstruct");
+    }
+    if (report.nonmanifold_edges > 0) {
+        refuse(file, "not_manifold",
+               edges(report.nonmanifold_edges) + " with more than two faces, the first at " + place(first_bad_edge(mesh)),
+               "separate the parts that touch there");
+    }
+    if (report.misoriented_edges > 0) {
+        refuse(file, "misoriented",
+               edges(report.misoriented_edges) + " whose faces look to opposite sides, the first at " +
+                   place(first_bad_edge(mesh)),
+               "orient all faces outwards");
+    }
+    const surface::IntersectionReport crossed = surface::self_intersections(mesh, 1, workers);
+    if (crossed.count > intersections) {
+        const auto& first = mesh.faces[crossed.pairs.front()[0]];
+        refuse(file, "self_intersecting",
+               std::to_string(crossed.count) + (crossed.count == 1 ? " pair" : " pairs") +
+                   " of faces intersect, the first at " + place(mesh.points[first[0]]) + ", and " +
+                   std::to_string(intersections) + " may",
+               "mend them, or raise `intersections`: the solid is then what the surface winds round");
+    }
+    return mesh;
+}
+
+}  // namespace dsc::strategies::from_surface

@@ -1,0 +1,32 @@
+#pragma once
+// A closed surface as a solid: which points are inside, how far away it is.
+
+#include <dsc/surface/distance.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
+#include <dsc/surface/winding.hpp>
+#include <string>
+
+namespace dsc::strategies::from_surface {
+
+/// The mesh with equal points joined, once it is known to bound a solid: throws GeometryError "surface.empty",
+/// "surface.open", "surface.not_manifold", "surface.misoriented", "surface.self_intersecting" naming `file`, the number of
+/// faults and where the first one is. At most `intersections` pairs of faces may intersect. [setup]
+surface::TriangleMesh require_solid(const surface::TriangleMesh& mesh, const std::string& file, std::size_t intersections,
+                                    Workers* workers);
+
+/// What a surface encloses: all points that it winds round, whichever way its faces look.
+class Solid {
+public:
+    explicit Solid(surface::TriangleMesh mesh) : mesh_(std::move(mesh)), nearest_(mesh_), winding_(mesh_) {}
+
+    const surface::TriangleMesh& surface() const { return mesh_; }
+    surface::NearestHit nearest(const Vec3& p) const { return nearest_.nearest(p); }
+    bool holds(const Vec3& p) const { return winding_.at(p) != 0; }
+
+private:
+    surface::TriangleMesh mesh_;
+    surface::TriangleTree nearest_;
+    surface::WindingNumber winding_;
+};
+
+}  // namespace dsc::strategies::from_surface
