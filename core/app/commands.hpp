@@ -22,5 +22,8 @@ void add_evaluate(CLI::App& app, Context& context);
 void add_render(CLI::App& app, Context& context);
 void add_convert(CLI::App& app, Context& context);
 void add_plugin(CLI::App& app, Context& context);
+/// Below `dsc plugin`.
+void add_plugin_check(CLI::App& plugin, Context& context);
+void add_plugin_doctor(CLI::App& plugin, Context& context);
 
 }  // namespace dsc::app

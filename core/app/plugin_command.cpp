@@ -38,17 +38,39 @@ std::vector<Described> all_strategies(const host::Host& host) {
     return all;
 }
 
+/// Why a library is not among the plugins: refused by the gate, or it does harm when it is loaded.
+std::string_view state(const host::Fault& fault) {
+    const bool broken = fault.code == "plugin.crash" || fault.code == "plugin.hang" || fault.code == "plugin.enroll" ||
+                        fault.code == "plugin.load";
+    return broken ? "broken" : "rejected";
+}
+
+void print_json(const std::vector<Described>& all, const std::vector<host::Fault>& faults) {
+    ordered_json array = ordered_json::array();
+    for (const Described& d : all) {
+        array.push_back(summary_json(d));
+        array.back()["state"] = "ok";
+    }
+    for (const host::Fault& fault : faults) {
+        array.push_back({{"file", fault.file.string()},
+                         {"state", std::string(state(fault))},
+                         {"code", fault.code},
+                         {"reason", fault.message}});
+    }
+    std::cout << array.dump(2) << "\n";
+}
+
 int list(const PluginArguments& arguments) {
     Plugins plugins(arguments.plugins);
-    const std::vector<Described> all = all_strategies(plugins.load());
+    const host::Host& host = plugins.load_what_works();
+    const std::vector<Described> all = all_strategies(host);
     if (arguments.json) {
-        ordered_json array = ordered_json::array();
-        for (const Described& d : all) array.push_back(summary_json(d));
-        std::cout << array.dump(2) << "\n";
-        return 0;
+        print_json(all, host.faults());
+    } else {
+        std::cout << list_text(all);
+        for (const host::Fault& fault : host.faults()) std::cout << state(fault) << "  " << fault.message << "\n";
     }
-    std::cout << list_text(all);
-    return 0;
+    return host.faults().empty() ? 0 : static_cast<int>(ExitCode::plugin);
 }
 
 int describe(const PluginArguments& arguments) {
@@ -103,7 +125,7 @@ void add_plugin(CLI::App& app, Context& context) {
         });
         return sub;
     };
-    add("list", "All strategies", list)->add_flag("--json", arguments->json, "JSON instead of text");
+    add("list", "All strategies, and the libraries that are no working plugins", list)->add_flag("--json", arguments->json, "JSON instead of text");
     CLI::App* describing = add("describe", "The parameters of a strategy", describe);
     describing->add_option("ID", arguments->id, "Its id")->required();
     describing->add_option("--kind", arguments->kind, "Its kind, where two kinds have the id");
@@ -111,6 +133,8 @@ void add_plugin(CLI::App& app, Context& context) {
         ->check(CLI::IsMember({"text", "json", "yaml"}))
         ->capture_default_str();
     add("path", "Where plugins are looked for, in order", path);
+    add_plugin_check(*command, context);
+    add_plugin_doctor(*command, context);
 }
 
 }  // namespace dsc::app

@@ -16,6 +16,11 @@ const host::Host& Plugins::load(const std::vector<std::string>& experiment) {
     return host_;
 }
 
+const host::Host& Plugins::load_what_works() {
+    host_.load_all(search_path(), host::OnFault::collect);
+    return host_;
+}
+
 run::PluginLoader Plugins::loader() {
     return [this](const std::vector<std::string>& experiment) -> const config::StrategyLookup& {
         return load(experiment);

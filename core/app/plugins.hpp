@@ -17,6 +17,8 @@ public:
 
     /// Loads everything on the search path and what an experiment names. Throws PluginError.
     const host::Host& load(const std::vector<std::string>& experiment = {});
+    /// The same, but what is refused is collected (Host::faults) and stops nothing.
+    const host::Host& load_what_works();
     /// load() in the form that run::load_experiment takes; this object must outlive it.
     run::PluginLoader loader();
     const host::Host& host() const { return host_; }

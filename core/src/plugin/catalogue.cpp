@@ -31,6 +31,10 @@ std::unique_ptr<hooks::Strategy> check(std::unique_ptr<hooks::Strategy> made, At
     throw Error(ExitCode::internal, "plugin.kind", "a strategy of no kind");
 }
 
+std::string place_of(const config::ConfigNode& params) {
+    return params.position().known() ? params.position().describe() : std::string();
+}
+
 [[noreturn]] void unknown_strategy(const Catalogue& catalogue, Kind kind, const std::string& id,
                                    const std::string& path) {
     const std::string name(kind_name(kind));
@@ -75,7 +79,8 @@ std::unique_ptr<hooks::Strategy> Catalogue::create(Kind kind, const config::Stra
 
     const Setup setup(*this, path);
     Attribution attribution{
-        {kind, config.type, path, found->plugin->name, found->plugin->version, found->plugin->file.string()},
+        {kind, config.type, path, found->plugin->name, found->plugin->version, found->plugin->file.string(),
+         place_of(config.params)},
         setup.instance()};
     const Call call = attribution.call("constructor");
     auto made = guarded(call, [&] { return found->strategy->make(resolved, setup); });

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "plugin/checked.hpp"
+#include "plugin/fenced.hpp"
 
 namespace dsc::plugin {
 namespace {
@@ -30,6 +31,16 @@ std::string vertex_text(const hooks::StepContext& context, std::size_t vertex) {
     if (vertex < view.births.size()) text += "birth id " + std::to_string(view.births[vertex]) + ", ";
     if (vertex < view.positions.size()) text += "at " + vector_text(view.positions[vertex]);
     return text + ")";
+}
+
+[[noreturn]] void wrote_outside(const Call& current, const std::string& whose, std::size_t entries) {
+    fail(current, "strategy.outside",
+         "wrote outside of the " + std::to_string(entries) + " entries of its output" + whose,
+         "an output ends where its span ends; report this to the plugin's authors");
+}
+
+std::string range_text(const hooks::StepContext& context, hooks::Range range) {
+    return ", for the block that begins with " + vertex_text(context, range.begin);
 }
 
 // The context that evaluate() calls refer to until the next prepare().
@@ -60,14 +71,18 @@ public:
     void evaluate(hooks::Range range, std::span<Vec3> out) const override {
         const hooks::StepContext& context = step_.get(call("evaluate"));
         const Call current = call("evaluate", context.step);
-        std::fill(out.begin(), out.end(), Vec3::Constant(unset));
-        guarded(current, [&] { inner().evaluate(range, out); });
+        Fenced<Vec3> fenced(out.size(), Vec3::Constant(unset));
+        const std::span<Vec3> given = fenced.entries();
+        guarded(current, [&] { inner().evaluate(range, given); });
+        if (!fenced.intact()) wrote_outside(current, range_text(context, range), out.size());
         for (std::size_t i = 0; i < out.size(); ++i) {
-            if (out[i].allFinite()) continue;
-            fail(current, "strategy.not_finite",
-                 "gave the displacement " + vector_text(out[i]) + " to " +
-                     vertex_text(context, range.begin + i),
-                 values_remedy);
+            if (!given[i].allFinite()) {
+                fail(current, "strategy.not_finite",
+                     "gave the displacement " + vector_text(given[i]) + " to " +
+                         vertex_text(context, range.begin + i),
+                     values_remedy);
+            }
+            out[i] = given[i];
         }
     }
 
@@ -78,14 +93,18 @@ public:
     void sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals,
                 std::span<Vec3> out) const override {
         const Call current = call("sample", step_.get(call("sample")).step);
-        std::fill(out.begin(), out.end(), Vec3::Constant(unset));
-        guarded(current, [&] { inner().sample(points, unit_normals, out); });
+        Fenced<Vec3> fenced(out.size(), Vec3::Constant(unset));
+        const std::span<Vec3> given = fenced.entries();
+        guarded(current, [&] { inner().sample(points, unit_normals, given); });
+        if (!fenced.intact()) wrote_outside(current, "", out.size());
         for (std::size_t i = 0; i < out.size(); ++i) {
-            if (out[i].allFinite()) continue;
-            fail(current, "strategy.not_finite",
-                 "gave the displacement " + vector_text(out[i]) + " to point " + std::to_string(i) + " at " +
-                     vector_text(points[i]),
-                 values_remedy);
+            if (!given[i].allFinite()) {
+                fail(current, "strategy.not_finite",
+                     "gave the displacement " + vector_text(given[i]) + " to point " + std::to_string(i) + " at " +
+                         vector_text(points[i]),
+                     values_remedy);
+            }
+            out[i] = given[i];
         }
     }
 
@@ -105,15 +124,23 @@ public:
     void evaluate(hooks::Range range, std::span<double> scalar, std::span<Vec3> vector) const override {
         const hooks::StepContext& context = step_.get(call("evaluate"));
         const Call current = call("evaluate", context.step);
-        std::fill(scalar.begin(), scalar.end(), unset);
-        std::fill(vector.begin(), vector.end(), Vec3::Constant(unset));
-        guarded(current, [&] { inner().evaluate(range, scalar, vector); });
-        for (std::size_t i = 0; i < scalar.size(); ++i) {
-            if (std::isfinite(scalar[i]) && vector[i].allFinite()) continue;
-            fail(current, "strategy.not_finite",
-                 "gave the curvature " + number(scalar[i]) + " and the vector " + vector_text(vector[i]) +
-                     " to " + vertex_text(context, range.begin + i),
-                 values_remedy);
+        Fenced<double> scalars(scalar.size(), unset);
+        Fenced<Vec3> vectors(vector.size(), Vec3::Constant(unset));
+        const std::span<double> s = scalars.entries();
+        const std::span<Vec3> v = vectors.entries();
+        guarded(current, [&] { inner().evaluate(range, s, v); });
+        if (!scalars.intact() || !vectors.intact()) {
+            wrote_outside(current, range_text(context, range), scalar.size());
+        }
+        for (std::size_t i = 0; i < s.size(); ++i) {
+            if (!std::isfinite(s[i]) || !v[i].allFinite()) {
+                fail(current, "strategy.not_finite",
+                     "gave the curvature " + number(s[i]) + " and the vector " + vector_text(v[i]) + " to " +
+                         vertex_text(context, range.begin + i),
+                     values_remedy);
+            }
+            scalar[i] = s[i];
+            vector[i] = v[i];
         }
     }
 

@@ -8,8 +8,9 @@ StrategyFailure::~StrategyFailure() = default;
 std::string Identity::describe() const {
     std::string text(kind_name(kind));
     text.append(" '").append(id).append("' (plugin ").append(plugin).append(" ").append(version);
-    text.append(", ").append(file).append(", at '").append(path).append("' in the experiment)");
-    return text;
+    text.append(", ").append(file).append(", at '").append(path).append("' in the experiment");
+    if (!place.empty()) text.append(", ").append(place);
+    return text + ")";
 }
 
 void fail(const Call& call, std::string code, std::string_view cause, std::string_view remedy) {

@@ -55,9 +55,15 @@ public:
     }
 
     DriveResult execute() {
-        begin();
-        for (std::size_t i = 0; i < experiment_.schedule.size() && !over_; ++i) series(i);
-        finish();
+        try {
+            begin();
+            for (std::size_t i = 0; i < experiment_.schedule.size() && !over_; ++i) series(i);
+            finish();
+        } catch (const StrategyError&) {
+            if (options_.on_strategy_failure)
+                options_.on_strategy_failure(deformer_.complex().to_mesh(), deformer_.step_count());
+            throw;
+        }
         return std::move(result_);
     }
 

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 constexpr std::array result_names = {"result",      ".result.part", "summary.json",
                                      "preview.png", "report.html",  "series"};
 constexpr std::array other_names = {"metrics.csv", "events.jsonl", "config.resolved.yaml", "provenance.json",
-                                    "checkpoint"};
+                                    "checkpoint", "last_good"};
 
 [[noreturn]] void cannot(const fs::path& folder, const char* what, const std::error_code& error) {
     throw IoError("run.folder", folder.string(), "", std::string(what) + ": " + error.message(),
@@ -59,6 +59,15 @@ RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
 
 void RunFolder::write(std::string_view name, std::string_view content) const {
     io::write_file(file(name), content);
+}
+
+fs::path RunFolder::make(std::string_view name) const {
+    const fs::path folder = file(name);
+    discard(folder);
+    std::error_code error;
+    fs::create_directory(folder, error);
+    if (error) cannot(folder, "cannot be made", error);
+    return folder;
 }
 
 void RunFolder::open_staging() const {

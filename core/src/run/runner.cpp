@@ -197,6 +197,9 @@ private:
         };
         drive_options.on_event = [&](const kernel::Event& event) { run_log.add(event); };
         drive_options.on_repairs = [&](const ClassFigures& figures) { run_log.add(figures); };
+        drive_options.on_strategy_failure = [&](const mesh::TetMesh& mesh, std::uint64_t steps) {
+            save_last_good(folder, to_input(mesh, to_normalised), steps);
+        };
         DriveResult driven = drive(experiment, strategies, target, drive_options);
         run_log.close();
 
@@ -222,6 +225,19 @@ private:
                                    outcome.surface, outcome.label_surfaces, outcome.volume, outcome.conforms, to_normalised,
                                    watch_.seconds(), process_usage()}));
         return outcome;
+    }
+
+    /// What was reached before a strategy failed. What goes wrong here must not hide the strategy's error.
+    void save_last_good(const RunFolder& folder, const mesh::TetMesh& mesh, std::uint64_t steps) {
+        try {
+            const fs::path place = folder.make("last_good");
+            io::write_volume(place / "volume.dsc", mesh);
+            const surface::TriangleMesh surface = surface::extract_interface(mesh);
+            if (!surface.faces.empty()) io::write_surface(place / "surface.obj", surface);
+            log(LogLevel::warning, "the state after step " + std::to_string(steps) + " is kept in " + place.string());
+        } catch (const std::exception& error) {
+            log(LogLevel::warning, std::string("the last good state could not be kept: ") + error.what());
+        }
     }
 
     std::string provenance(const std::string& finished) const {

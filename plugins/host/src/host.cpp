@@ -1,115 +1,23 @@
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/host/host.hpp>
-#include <dsc/plugin/entry.hpp>
 #include <set>
 
+#include "admission.hpp"
 #include "entry_file.hpp"
+#include "library.hpp"
 
 namespace dsc::host {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool is_plain_name(std::string_view name) {
-    return !name.empty() && name[0] >= 'a' && name[0] <= 'z' &&
-           std::all_of(name.begin(), name.end(),
-                       [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
-}
-
 bool is_library_name(const std::string& name) {
     constexpr std::string_view head = "libdsc_";
     constexpr std::string_view tail = ".so";
     return name.size() > head.size() + tail.size() && name.compare(0, head.size(), head) == 0 &&
            name.compare(name.size() - tail.size(), tail.size(), tail) == 0;
-}
-
-// Loading a library is running it: nobody else may be able to put one there. A sticky folder (as /tmp)
-// protects a file that the user names, but not what a scan of it would find.
-void require_unwritable(const fs::path& path, bool sticky_will_do) {
-    std::error_code error;
-    const fs::perms permissions = fs::status(path, error).permissions();
-    if (error || (permissions & fs::perms::others_write) == fs::perms::none) return;
-    if (sticky_will_do && (permissions & fs::perms::sticky_bit) != fs::perms::none) return;
-    refuse(path, "plugin.writable", "may be written by everyone, and loading a plugin runs it",
-           "take the permission away (chmod o-w) or move the plugin to a folder of your own");
-}
-
-// The folder beside the core library: whoever may write there may as well replace the program, so a judgement
-// of it would only stop builds made with a permissive umask.
-bool as_trusted_as_the_program(const fs::path& folder) {
-    std::error_code error;
-    return fs::equivalent(folder, installed_folder(), error);
-}
-
-fs::path real_path(const fs::path& file) {
-    std::error_code error;
-    fs::path real = fs::canonical(file, error);
-    if (error)
-        refuse(file, "plugin.open", "cannot be opened (" + error.message() + ")",
-               "check the name and the permissions");
-    return real;
-}
-
-const plugin::PluginEntry* open_library(const fs::path& file) {
-    // NODELETE, and no dlclose anywhere: virtual tables, exceptions and statics of a plugin stay valid to the
-    // end.
-    void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-    const char* reason = library == nullptr ? dlerror() : nullptr;
-    if (library == nullptr) {
-        refuse(file, "plugin.load",
-               std::string("does not load: ") + (reason == nullptr ? "no reason given" : reason),
-               "a symbol or library that it needs is missing; link with -Wl,-z,defs to see it when building");
-    }
-    const void* entry = dlsym(library, plugin::entry_symbol);
-    if (entry == nullptr)
-        refuse(file, "plugin.no_entry", "lost its entry while it was loaded", "load it again");
-    return static_cast<const plugin::PluginEntry*>(entry);
-}
-
-// Holds what enroll() registers until all of it is known to be sound.
-class Staging : public plugin::Registrar {
-public:
-    std::vector<plugin::StrategyRecord> records;
-
-protected:
-    void enroll(plugin::StrategyRecord record) override {
-        const std::string name = std::string(plugin::kind_name(record.kind)) + " '" + record.id + "'";
-        if (!is_plain_name(record.id)) {
-            throw PluginError("plugin.enroll", "the id of " + name + " is not of the form [a-z][a-z0-9_]*");
-        }
-        if (record.summary.empty()) throw PluginError("plugin.enroll", name + " has no summary");
-        const bool repeated = std::any_of(records.begin(), records.end(), [&record](const auto& other) {
-            return other.kind == record.kind && other.id == record.id;
-        });
-        if (repeated) throw PluginError("plugin.enroll", name + " is registered twice");
-        records.push_back(std::move(record));
-    }
-};
-
-std::vector<plugin::StrategyRecord> enroll(const plugin::PluginEntry& entry, const fs::path& file) {
-    const std::string remedy = "report this to the plugin's authors";
-    const std::string name = text_of(entry.name);
-    if (!is_plain_name(name)) {
-        refuse(file, "plugin.enroll", "names itself '" + name + "', which is not of the form [a-z][a-z0-9_]*",
-               remedy);
-    }
-    if (entry.enroll == nullptr) refuse(file, "plugin.enroll", "has no enroll function", remedy);
-    Staging staging;
-    try {
-        entry.enroll(staging);
-    } catch (const std::exception& error) {
-        refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: " + error.what(), remedy);
-    } catch (...) {
-        refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: it threw no std::exception",
-               remedy);
-    }
-    if (staging.records.empty())
-        refuse(file, "plugin.enroll", "plugin '" + name + "' registers no strategy", remedy);
-    return std::move(staging.records);
 }
 
 plugin::PluginInfo info_of(const plugin::PluginEntry& entry, const fs::path& file) {
@@ -139,18 +47,40 @@ struct Host::Loaded {
 Host::Host() = default;
 Host::~Host() = default;
 
+void Host::rehearse(std::span<const fs::path> files) {
+    const auto faults = scan(files);
+    for (std::size_t i = 0; i < files.size(); ++i) rehearsed_[files[i]] = faults[i];
+}
+
+// One child process for a whole folder. What does not pass the gate is refused again, and reported, when its turn comes.
+void Host::rehearse_folder(const std::set<fs::path>& files) {
+    std::vector<fs::path> admissible;
+    for (const fs::path& file : files) {
+        try {
+            const fs::path real = real_path(file);
+            if (is_loaded(real) || rehearsed_.count(real) != 0) continue;
+            require_admissible(real);
+            admissible.push_back(real);
+        } catch (const PluginError&) {
+            continue;
+        }
+    }
+    if (!admissible.empty()) rehearse(admissible);
+}
+
+bool Host::is_loaded(const fs::path& real) const {
+    return std::any_of(loaded_.begin(), loaded_.end(),
+                       [&real](const auto& loaded) { return loaded->info.file == real; });
+}
+
 void Host::load(const fs::path& file) {
     const fs::path real = real_path(file);
-    for (const auto& loaded : loaded_) {
-        if (loaded->info.file == real) return;
-    }
-    if (!as_trusted_as_the_program(real.parent_path())) {
-        require_unwritable(real, false);
-        require_unwritable(real.parent_path(), true);
-    }
-    require_fitting(read_entry(real), real);
+    if (is_loaded(real)) return;
+    require_admissible(real);
+    if (rehearsed_.count(real) == 0) rehearse({&real, 1});
+    if (const std::optional<Fault>& fault = rehearsed_.at(real)) throw PluginError(fault->code, fault->message);
 
-    const plugin::PluginEntry& entry = *open_library(real);
+    const plugin::PluginEntry& entry = open_library(real);
     auto loaded = std::make_unique<Loaded>(Loaded{info_of(entry, real), enroll(entry, real)});
     for (const plugin::StrategyRecord& record : loaded->strategies) {
         const auto taken = strategies_.find({record.kind, record.id});
@@ -188,7 +118,7 @@ void Host::attempt(const SearchEntry& entry, const fs::path& file, OnFault on_fa
 void Host::load_folder(const SearchEntry& entry, OnFault on_fault) {
     std::set<fs::path> files;  // sorted, so that no order of the file system matters
     attempt(entry, entry.path, on_fault, [&] {
-        if (!as_trusted_as_the_program(entry.path)) require_unwritable(entry.path, false);
+        require_safe_folder(entry.path);
         std::error_code error;
         for (const auto& item : fs::directory_iterator(entry.path, error)) {
             if (is_library_name(item.path().filename().string())) files.insert(item.path());
@@ -198,6 +128,7 @@ void Host::load_folder(const SearchEntry& entry, OnFault on_fault) {
                    "check its permissions");
         }
     });
+    rehearse_folder(files);
     std::error_code error;
     for (const fs::path& file : files) {
         const auto earlier = std::find_if(loaded_.begin(), loaded_.end(), [&file](const auto& loaded) {

@@ -7,7 +7,7 @@ namespace {
 
 class Faulty final : public dsc::hooks::VelocityField {
 public:
-    enum class Fault { none, throws, nan };
+    enum class Fault { none, throws, nan, outside };
     struct Params {
         Fault fault = Fault::none;
         int step = 1;
@@ -15,7 +15,7 @@ public:
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema
             .choice("fault", &Params::fault,
-                    {{"none", Fault::none}, {"throws", Fault::throws}, {"nan", Fault::nan}})
+                    {{"none", Fault::none}, {"throws", Fault::throws}, {"nan", Fault::nan}, {"outside", Fault::outside}})
             .doc("What goes wrong.");
         schema.integer("step", &Params::step).at_least(0).unit("steps").doc("In which step.");
     }
@@ -31,6 +31,8 @@ public:
             const bool bad = now_ && params_.fault == Fault::nan && range.begin + i == 7;
             if (bad) out[i].y() = std::numeric_limits<double>::quiet_NaN();
         }
+        // One entry behind its last: the memory of whoever calls, if nobody takes care.
+        if (now_ && params_.fault == Fault::outside) out.data()[out.size()] = dsc::Vec3::Zero();
     }
 
 private:

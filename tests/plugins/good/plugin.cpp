@@ -3,6 +3,7 @@
 #include <dsc/plugin/plugin.hpp>
 #include <istream>
 #include <ostream>
+#include <stdexcept>
 
 namespace {
 
@@ -27,6 +28,7 @@ private:
 
 class Upwards final : public dsc::hooks::VelocityField {
 public:
+    static constexpr dsc::hooks::Traits traits = {.rigid = false};
     struct Params {
         double speed = 0.5;
         dsc::config::StrategyConfig curvature;
@@ -55,7 +57,9 @@ public:
         }
     }
     void save(std::ostream& out) const override { out << speed_; }
-    void load(std::istream& in) override { in >> speed_; }
+    void load(std::istream& in) override {
+        if (!(in >> speed_)) throw std::runtime_error("no speed in the saved state");
+    }
 
 private:
     double speed_;

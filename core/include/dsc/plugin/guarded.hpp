@@ -19,8 +19,9 @@ struct Identity {
     std::string plugin;   ///< name
     std::string version;  ///< of the plugin
     std::string file;     ///< of the plugin
+    std::string place;    ///< "a.yaml:6:11" where its parameters stand; empty for parameters made by code
 
-    /// "velocity 'point_cloud' (plugin point_cloud 0.1.0, FILE, at 'velocity' in the experiment)".
+    /// "velocity 'point_cloud' (plugin point_cloud 0.1.0, FILE, at 'velocity' in the experiment, a.yaml:6:11)".
     std::string describe() const;
 };
 
@@ -39,7 +40,7 @@ public:
 };
 
 /// Throws StrategyFailure "DESCRIPTION HOOK at step N CAUSE; REMEDY". Codes: "strategy.threw",
-/// "strategy.not_finite", "strategy.size", "strategy.range".
+/// "strategy.not_finite", "strategy.size", "strategy.range", "strategy.outside".
 [[noreturn]] void fail(const Call& call, std::string code, std::string_view cause, std::string_view remedy);
 
 /// To be called in a catch block. CancelledError, ConfigError and StrategyFailure go on unchanged, outside of

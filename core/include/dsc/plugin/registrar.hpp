@@ -2,6 +2,7 @@
 // Registrar: a plugin's enroll function tells it which strategies the library holds.
 
 #include <dsc/config/params.hpp>
+#include <dsc/hooks/traits.hpp>
 #include <dsc/plugin/kind.hpp>
 #include <memory>
 #include <string>
@@ -21,6 +22,7 @@ struct StrategyRecord {
     std::string summary;  ///< one line
     std::shared_ptr<const config::Schema> schema;
     Factory make = nullptr;
+    hooks::Traits traits{};
 };
 
 /// Belongs to a host; nothing is registered behind its back.
@@ -30,13 +32,13 @@ public:
 
     /// Registers `T`: a class derived from one hook, with a struct `T::Params`, a function
     /// `static void T::declare(config::ParamSchema<Params>&)` and a constructor
-    /// `T(const Params&, const Setup&)`.
+    /// `T(const Params&, const Setup&)`; it may have a member `static constexpr hooks::Traits traits`.
     /// Throws PluginError for a malformed or repeated id and for a faulty declaration. [setup]
     template <class T>
     void add(std::string id, std::string summary) {
         config::ParamSchema<typename T::Params> params;
         T::declare(params);
-        enroll({kind_of<T>(), std::move(id), std::move(summary), params.shared_schema(), &make<T>});
+        enroll({kind_of<T>(), std::move(id), std::move(summary), params.shared_schema(), &make<T>, traits_of<T>()});
     }
 
 protected:
@@ -44,6 +46,15 @@ protected:
     virtual void enroll(StrategyRecord record) = 0;
 
 private:
+    template <class T>
+    static constexpr hooks::Traits traits_of() {
+        if constexpr (requires { T::traits; }) {
+            return T::traits;
+        } else {
+            return {};
+        }
+    }
+
     template <class T>
     static std::unique_ptr<hooks::Strategy> make(const config::ConfigNode& resolved, const Setup& setup) {
         config::ParamSchema<typename T::Params> params;

@@ -37,6 +37,9 @@ struct DriveOptions {
     std::function<void(const StepMetrics&, std::uint64_t planned)> on_step;  ///< also for row 0
     std::function<void(const kernel::Event&)> on_event;
     std::function<void(const ClassFigures&)> on_repairs;  ///< after the step's events, each class asked for
+    /// A strategy failed: the complex as it stands, which is valid, and the number of whole steps behind it. The error goes
+    /// on afterwards.
+    std::function<void(const mesh::TetMesh&, std::uint64_t steps)> on_strategy_failure;
 };
 
 /// Where a run ended, normalised units.

@@ -27,6 +27,9 @@ public:
     /// Writes a file of the folder atomically. Throws IoError. [step]
     void write(std::string_view name, std::string_view content) const;
 
+    /// Makes an empty folder in it and returns its path. Throws IoError. [step]
+    std::filesystem::path make(std::string_view name) const;
+
     /// The folder in which results are written before publish_results() renames it to result/.
     std::filesystem::path staging() const { return folder_ / ".result.part"; }
     /// Makes an empty staging folder. [step]

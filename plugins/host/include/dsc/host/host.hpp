@@ -1,23 +1,18 @@
 #pragma once
 // Host: opens plugins, refuses those that do not fit, and owns the registry of their strategies.
 
+#include <dsc/host/scan.hpp>
 #include <dsc/host/search_path.hpp>
 #include <dsc/plugin/catalogue.hpp>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace dsc::host {
-
-/// A library that was passed over.
-struct Fault {
-    std::filesystem::path file;
-    std::string code;
-    std::string message;
-};
 
 /// What load_all does with a library that is refused.
 enum class OnFault {
@@ -45,11 +40,13 @@ public:
     /// | plugin.no_entry | a library without the entry of a dsc plugin |
     /// | plugin.magic, plugin.size, plugin.abi | an entry of another layout or version |
     /// | plugin.fingerprint | built in another way; both fingerprints are printed |
+    /// | plugin.crash, plugin.hang | it crashes or does not end when it is loaded |
     /// | plugin.load | the dynamic linker refused it |
     /// | plugin.enroll | enroll threw, registered nothing or something malformed |
     /// | plugin.duplicate | a strategy's id is taken; both files are named |
     ///
-    /// Up to plugin.load nothing of the library has run: all that is read from the file itself.
+    /// Up to plugin.fingerprint nothing of the library has run: all that is read from the file itself. Then it is tried in
+    /// a child process (scan.hpp), and only a library that survives that is loaded into this one.
     void load(const std::filesystem::path& file);
 
     /// Loads the entries in order. In folders every libdsc_*.so is loaded, by name; a name that an earlier
@@ -66,12 +63,16 @@ public:
 
 private:
     struct Loaded;
+    bool is_loaded(const std::filesystem::path& real) const;
+    void rehearse(std::span<const std::filesystem::path> files);
+    void rehearse_folder(const std::set<std::filesystem::path>& files);
     void load_folder(const SearchEntry& entry, OnFault on_fault);
     template <class Load>
     void attempt(const SearchEntry& entry, const std::filesystem::path& file, OnFault on_fault, Load&& load);
 
     std::vector<std::unique_ptr<Loaded>> loaded_;
     std::map<std::pair<plugin::Kind, std::string>, plugin::StrategyInfo> strategies_;
+    std::map<std::filesystem::path, std::optional<Fault>> rehearsed_;  ///< by real path; nothing: it survived
     std::vector<Fault> faults_;
 };
 

@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <dsc/base/error.hpp>
+#include <dsc/config/spelling.hpp>
+#include <dsc/conformance/check.hpp>
+#include <dsc/plugin/fingerprint.hpp>
+#include <sstream>
+
+#include "process.hpp"
+#include "test_table.hpp"
+
+namespace dsc::conformance {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string described(const StrategyName& strategy) {
+    return std::string(plugin::kind_name(strategy.kind)) + " '" + strategy.id + "'";
+}
+
+Verdict run_here(const Test& test, const fs::path& file, const StrategyName* strategy, const Notes& notes,
+                 const CheckOptions& options) {
+    try {
+        test.run(Subject(file, strategy, notes, options));
+        return {Status::pass, ""};
+    } catch (const Skipped& skipped) {
+        return {Status::skip, skipped.what()};
+    } catch (const Warned& warned) {
+        return {Status::warn, warned.what()};
+    } catch (const std::exception& error) {
+        return {Status::fail, error.what()};
+    } catch (...) {
+        return {Status::fail, "it throws something that is no std::exception"};
+    }
+}
+
+class Check {
+public:
+    Check(const fs::path& file, const CheckOptions& options)
+        : options_(options), file_(real(file)), notes_(read_notes(file_)) {
+        for (const std::string& id : options.only) require_test(id);
+        report_.file = file_;
+        report_.level = options.level;
+        report_.seed = options.seed;
+    }
+
+    Report run() {
+        for (const Test& test : test_table()) {
+            if (test.info.of_library) run(test, nullptr);
+        }
+        const bool loads = std::none_of(report_.outcomes.begin(), report_.outcomes.end(), [](const Outcome& o) {
+            return (o.test == "lib.entry" || o.test == "lib.bind") && is_failure(o.status);
+        });
+        if (!loads) return std::move(report_);
+        for (const StrategyName& strategy : strategies()) {
+            for (const Test& test : test_table()) {
+                if (!test.info.of_library) run(test, &strategy);
+            }
+        }
+        return std::move(report_);
+    }
+
+private:
+    static fs::path real(const fs::path& file) {
+        std::error_code error;
+        fs::path path = fs::canonical(file, error);
+        if (error)
+            throw PluginError("plugin.open", file.string() + ": cannot be opened (" + error.message() +
+                                                 "); check the name and the permissions");
+        return path;
+    }
+
+    static void require_test(const std::string& id) {
+        std::vector<std::string> ids;
+        for (const Test& test : test_table()) ids.push_back(test.info.id);
+        if (std::find(ids.begin(), ids.end(), id) != ids.end()) return;
+        const auto near = config::closest(id, ids);
+        throw UsageError("usage.test", "there is no test '" + id + "'" + (near ? "; did you mean '" + *near + "'?" : "") +
+                                           "; dsc plugin check --list shows all");
+    }
+
+    bool wanted(const Test& test) const {
+        if (options_.only.empty()) return test.info.level <= options_.level;
+        return std::find(options_.only.begin(), options_.only.end(), test.info.id) != options_.only.end();
+    }
+
+    std::chrono::milliseconds limit() const {
+        const bool slow = plugin::core_fingerprint().find("san=none") == std::string_view::npos;
+        return slow ? 10 * options_.limit : options_.limit;
+    }
+
+    Verdict verdict(const Test& test, const StrategyName* strategy) const {
+        if (strategy != nullptr) {
+            const StrategyNotes* notes = find(notes_, strategy->kind, strategy->id);
+            if (notes != nullptr && notes->waive.count(test.info.id) != 0)
+                return {Status::skip, "waived: " + notes->waive.at(test.info.id)};
+        }
+        const auto body = [&] { return run_here(test, file_, strategy, notes_, options_); };
+        return options_.in_process ? body() : run_in_child(body, limit());
+    }
+
+    void run(const Test& test, const StrategyName* strategy) {
+        if (!wanted(test)) return;
+        const auto begin = std::chrono::steady_clock::now();
+        const Verdict verdict = this->verdict(test, strategy);
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+        report_.outcomes.push_back({test.info.id, strategy == nullptr ? "" : described(*strategy), verdict.status,
+                                    verdict.message, seconds.count()});
+        if (options_.on_outcome) options_.on_outcome(report_.outcomes.back());
+    }
+
+    // Asked of a child, so that the plugin never comes into this process.
+    std::vector<StrategyName> strategies() {
+        const Verdict listed = run_in_child(
+            [this] {
+                try {
+                    host::Host host;
+                    host.load(file_);
+                    std::string text = host.plugins().front().name + " " + host.plugins().front().version + "\n";
+                    for (const plugin::StrategyInfo& info : host.list())
+                        text += std::string(plugin::kind_name(info.strategy->kind)) + " " + info.strategy->id + "\n";
+                    return Verdict{Status::pass, text};
+                } catch (const std::exception& error) {
+                    return Verdict{Status::fail, error.what()};
+                }
+            },
+            limit());
+        if (listed.status != Status::pass) throw PluginError("check.list", listed.message);
+        std::istringstream lines(listed.message);
+        std::getline(lines, report_.plugin);
+        std::vector<StrategyName> found;
+        for (std::string kind, id; lines >> kind >> id;) found.push_back({plugin::find_kind(kind).value(), id});
+        return chosen(found);
+    }
+
+    std::vector<StrategyName> chosen(const std::vector<StrategyName>& found) const {
+        if (options_.strategies.empty()) return found;
+        for (const StrategyName& wanted : options_.strategies) {
+            const bool there = std::any_of(found.begin(), found.end(), [&](const StrategyName& name) {
+                return name.kind == wanted.kind && name.id == wanted.id;
+            });
+            if (!there)
+                throw UsageError("usage.strategy", file_.string() + " has no " + described(wanted) +
+                                                       "; dsc plugin list --plugin shows what it has");
+        }
+        return options_.strategies;
+    }
+
+    const CheckOptions& options_;
+    fs::path file_;
+    Notes notes_;
+    Report report_;
+};
+
+}  // namespace
+
+std::string_view name(Level level) {
+    switch (level) {
+        case Level::smoke:
+            return "smoke";
+        case Level::standard:
+            return "standard";
+        case Level::strict:
+            return "strict";
+    }
+    return "?";
+}
+
+std::optional<Level> find_level(std::string_view text) {
+    for (const Level level : {Level::smoke, Level::standard, Level::strict}) {
+        if (name(level) == text) return level;
+    }
+    return std::nullopt;
+}
+
+std::string_view name(Status status) {
+    switch (status) {
+        case Status::pass:
+            return "pass";
+        case Status::warn:
+            return "warn";
+        case Status::skip:
+            return "skip";
+        case Status::fail:
+            return "FAIL";
+        case Status::crash:
+            return "CRASH";
+        case Status::timeout:
+            return "TIMEOUT";
+    }
+    return "?";
+}
+
+bool is_failure(Status status) {
+    return status == Status::fail || status == Status::crash || status == Status::timeout;
+}
+
+bool Report::passed() const {
+    return std::none_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return is_failure(o.status); });
+}
+
+std::size_t Report::count(Status status) const {
+    return static_cast<std::size_t>(
+        std::count_if(outcomes.begin(), outcomes.end(), [status](const Outcome& o) { return o.status == status; }));
+}
+
+Report check(const fs::path& file, const CheckOptions& options) { return Check(file, options).run(); }
+
+}  // namespace dsc::conformance

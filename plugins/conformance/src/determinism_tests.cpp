@@ -1,0 +1,161 @@
+// det.*, seed.*: the same question gets the same answer, bit by bit.
+#include <locale.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <dsc/base/random.hpp>
+#include <locale>
+#include <memory>
+#include <numeric>
+
+#include "test_table.hpp"
+
+namespace dsc::conformance {
+namespace {
+
+void require_same(const Trace& a, const Trace& b, const std::string& otherwise) {
+    if (const auto difference = Trace::difference(a, b)) throw Failed(otherwise + ": " + *difference);
+}
+
+void repeat(const Subject& subject) {
+    const Exercise how{.seed = subject.seed()};
+    const Trace first = subject.answers(how).trace;
+    // Other memory, other addresses: whatever hangs on them differs.
+    const std::vector<std::unique_ptr<char[]>> shift = [] {
+        std::vector<std::unique_ptr<char[]>> blocks;
+        for (std::size_t i = 1; i < 200; ++i) blocks.push_back(std::make_unique<char[]>(37 * i));
+        return blocks;
+    }();
+    require_same(first, subject.answers(how).trace, "the same question twice gives two answers");
+}
+
+void threads(const Subject& subject) {
+    subject.require_repeatable();
+    const Trace one = subject.answers().trace;
+    struct Split {
+        unsigned threads;
+        std::size_t block;
+    };
+    for (const Split& split : {Split{2, 64}, Split{7, 17}, Split{1, 1}, Split{3, 100000}}) {
+        const Trace other = subject.answers({.threads = split.threads, .block = split.block}).trace;
+        require_same(one, other, std::to_string(split.threads) + " threads and blocks of " + std::to_string(split.block) +
+                                     " vertices against one thread and blocks of 64");
+    }
+}
+
+// One instance's steps between those of another must not show.
+void instances(const Subject& subject) {
+    subject.require_repeatable();
+    const Fixture other = triangles(2);
+    const auto alone = [&](const Fixture& fixture) {
+        const auto strategy = subject.make();
+        Trace all;
+        for (std::uint64_t step = 1; step <= 3; ++step)
+            all.add(std::span<const double>(
+                exercise(subject.kind(), *strategy, fixture, {.first_step = step, .steps = 1}).trace.values()));
+        return all;
+    };
+    const Trace first = alone(subject.fixture());
+    const Trace second = alone(other);
+    const auto a = subject.make();
+    const auto b = subject.make();
+    Trace first_mixed;
+    Trace second_mixed;
+    for (std::uint64_t step = 1; step <= 3; ++step) {
+        const Exercise how{.first_step = step, .steps = 1};
+        first_mixed.add(std::span<const double>(exercise(subject.kind(), *a, subject.fixture(), how).trace.values()));
+        second_mixed.add(std::span<const double>(exercise(subject.kind(), *b, other, how).trace.values()));
+    }
+    require_same(first, first_mixed, "two instances disturb each other");
+    require_same(second, second_mixed, "two instances disturb each other");
+}
+
+// The values of vertex i of the reordered fixture against those of order[i].
+void require_permuted(const Trace& plain, const Trace& permuted, const std::vector<std::uint32_t>& order,
+                      std::size_t width) {
+    const std::size_t count = order.size() * width;
+    require(plain.values().size() == permuted.values().size(), "another order gives another number of answers");
+    double largest = 0;
+    for (const double v : plain.values()) largest = std::max(largest, std::abs(v));
+    for (std::size_t i = 0; i < count; ++i) {
+        const double expected = plain.values()[order[i / width] * width + i % width];
+        const double found = permuted.values()[i];
+        if (std::abs(expected - found) <= 1e-9 * largest) continue;
+        throw Failed("vertex " + std::to_string(order[i / width]) + " gets " + std::to_string(found) + " instead of " +
+                     std::to_string(expected) + " when the vertices come in another order");
+    }
+}
+
+void order(const Subject& subject) {
+    subject.require_kind({plugin::Kind::velocity, plugin::Kind::curvature});
+    subject.require_repeatable();
+    std::vector<std::uint32_t> order(subject.fixture().view.vertex_count());
+    std::iota(order.begin(), order.end(), 0U);
+    RandomStream random(RandomKey{subject.seed(), stream_id("order"), 0, 0});
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.index(i)]);
+    const Exercise how{.steps = 1};
+    const Trace plain = subject.answers(how).trace;
+    const Trace permuted = subject.answers_on(reordered(subject.fixture(), order), how).trace;
+    require_permuted(plain, permuted, order, subject.kind() == plugin::Kind::velocity ? 3 : 1);
+}
+
+// A decimal comma, as in half of the world.
+class Comma : public std::numpunct<char> {
+protected:
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+};
+
+void environment(const Subject& subject) {
+    subject.require_repeatable();
+    const Trace before = subject.answers().trace;
+    const std::locale locale = std::locale::global(std::locale(std::locale::classic(), new Comma));
+    for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "C.UTF-8"}) {
+        if (setlocale(LC_ALL, name) != nullptr) break;
+    }
+    setenv("LC_ALL", "de_DE.UTF-8", 1);
+    setenv("LANG", "de_DE.UTF-8", 1);
+    setenv("TZ", "Pacific/Kiritimati", 1);
+    setenv("HOME", "/nonexistent", 1);
+    if (chdir("/") != 0) throw Skipped("cannot change to another folder");
+    const Trace after = subject.answers().trace;
+    std::locale::global(locale);
+    require_same(before, after, "another locale, time zone, home and working folder change the answers");
+}
+
+void seed(const Subject& subject) {
+    subject.require_repeatable();
+    const Trace one = subject.answers({.seed = 1}).trace;
+    const Trace two = subject.answers({.seed = 2}).trace;
+    const auto difference = Trace::difference(one, two);
+    if (subject.record().traits.stochastic) {
+        require(difference.has_value(), "it is declared stochastic, and two seeds give the same answers");
+    } else if (difference) {
+        throw Failed("two seeds give different answers, and it is not declared stochastic: " + *difference);
+    }
+}
+
+}  // namespace
+
+void add_determinism_tests(std::vector<Test>& table) {
+    table.push_back({{"det.repeat", Level::smoke, false, "The same question twice gives the same answer."}, repeat});
+    table.push_back({{"det.threads", Level::standard, false,
+                      "Neither the number of threads nor the split into blocks changes an answer."},
+                     threads});
+    table.push_back({{"det.instances", Level::standard, false, "Two instances in turn do not disturb each other."},
+                     instances});
+    table.push_back({{"det.order", Level::strict, false,
+                      "Vertices in another order get the same values, up to rounding."},
+                     order});
+    table.push_back({{"det.env", Level::strict, false,
+                      "Locale, time zone, home and working folder change no answer."},
+                     environment});
+    table.push_back({{"seed.used", Level::standard, false,
+                      "The seed changes the answers of strategies that are declared stochastic, and of no other."},
+                     seed});
+}
+
+}  // namespace dsc::conformance

@@ -1,0 +1,307 @@
+#include "exercise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <dsc/run/mesh_files.hpp>
+#include <dsc/surface/surface_view.hpp>
+
+namespace dsc::conformance {
+namespace {
+
+constexpr std::size_t margin = 32;
+
+// An output with entries before and behind it that nobody may write.
+template <class T>
+class Output {
+public:
+    Output(std::size_t size, const T& fill) : memory_(size + 2 * margin, fill) {}
+    std::span<T> entries() { return std::span(memory_).subspan(margin, memory_.size() - 2 * margin); }
+    // "2 entries behind its end", or nothing.
+    std::string touched() const {
+        for (std::size_t i = 0; i < margin; ++i) {
+            if (!untouched(memory_[margin - 1 - i])) return std::to_string(i + 1) + " entries before its begin";
+            if (!untouched(memory_[memory_.size() - margin + i])) return std::to_string(i + 1) + " entries behind its end";
+        }
+        return {};
+    }
+
+private:
+    static bool untouched(double value) { return is_unwritten(value); }
+    static bool untouched(const Vec3& value) {
+        return is_unwritten(value.x()) && is_unwritten(value.y()) && is_unwritten(value.z());
+    }
+    std::vector<T> memory_;
+};
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+// Which part of the input differs; empty: none.
+std::string difference(const Fixture& before, const Fixture& after) {
+    const surface::SurfaceView& a = before.view;
+    const surface::SurfaceView& b = after.view;
+    if (!same_bytes(a.positions, b.positions)) return "the positions of the surface";
+    if (!same_bytes(a.normals, b.normals) || !same_bytes(a.face_normals, b.face_normals)) return "the surface's normals";
+    if (!same_bytes(a.faces, b.faces) || !same_bytes(a.vertex_faces, b.vertex_faces)) return "the surface's faces";
+    if (!same_bytes(a.face_areas, b.face_areas)) return "the areas of the faces";
+    if (!same_bytes(a.births, b.births) || !same_bytes(a.movable, b.movable)) return "the ids of the vertices";
+    return {};
+}
+
+// Goes along the normals, less where it is far from the middle: what refinements look at.
+class Breathing final : public hooks::VelocityField {
+public:
+    void prepare(const hooks::StepContext& context) override { surface_ = &context.surface; }
+    void evaluate(hooks::Range range, std::span<Vec3> out) const override {
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            const bool rests = surface_->births[range.begin + i] % 3 != 0;
+            out[i] = rests ? Vec3::Zero() : Vec3(0.01 * surface_->normals[range.begin + i]);
+        }
+    }
+    bool can_sample() const override { return true; }
+    void sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals, std::span<Vec3> out) const override {
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = (0.05 * std::abs(points[i].x())) * unit_normals[i];
+    }
+
+private:
+    const surface::SurfaceView* surface_ = nullptr;
+};
+
+class Trial {
+public:
+    Trial(const Fixture& fixture, const Exercise& how) : fixture_(fixture), how_(how), workers_(how.threads) {}
+
+    Answers run(plugin::Kind kind, hooks::Strategy& strategy) {
+        if (kind == plugin::Kind::initial_mesh) {
+            build(static_cast<hooks::InitialMesh&>(strategy));
+            return std::move(answers_);
+        }
+        for (std::uint64_t step = how_.first_step; step < how_.first_step + how_.steps; ++step) {
+            const Fixture before = at_step(fixture_, step);
+            const Fixture now = before;
+            const hooks::StepContext context = context_of(now, step, how_, &workers_);
+            at_ = " at step " + std::to_string(step);
+            one_step(kind, strategy, now, context);
+            if (answers_.changed.empty()) answers_.changed = difference(before, now);
+        }
+        return std::move(answers_);
+    }
+
+private:
+    void one_step(plugin::Kind kind, hooks::Strategy& strategy, const Fixture& now, const hooks::StepContext& context) {
+        switch (kind) {
+            case plugin::Kind::velocity:
+                return velocity(static_cast<hooks::VelocityField&>(strategy), context);
+            case plugin::Kind::curvature:
+                return curvature(static_cast<hooks::CurvatureEstimator&>(strategy), context);
+            case plugin::Kind::refinement:
+                return refinement(static_cast<hooks::RefinementPolicy&>(strategy), context);
+            case plugin::Kind::improvement:
+                return improvement(static_cast<hooks::Improvement&>(strategy), now, context);
+            case plugin::Kind::observer:
+                return observer(static_cast<hooks::Observer&>(strategy), context);
+            case plugin::Kind::initial_mesh:
+                return;
+        }
+    }
+
+    template <class T>
+    void judge(const Output<T>& output, const std::string& what) {
+        const std::string touched = output.touched();
+        if (!touched.empty() && answers_.outside.empty()) answers_.outside = what + at_ + ": " + touched;
+    }
+
+    void velocity(hooks::VelocityField& field, const hooks::StepContext& context) {
+        field.prepare(context);
+        const std::size_t count = context.surface.vertex_count();
+        std::vector<Vec3> all(count);
+        std::vector<std::string> touched((count + how_.block - 1) / how_.block);
+        workers_.for_blocks(count, how_.block, [&](std::size_t begin, std::size_t end) {
+            Output<Vec3> out(end - begin, Vec3::Constant(unwritten()));
+            field.evaluate({begin, end}, out.entries());
+            std::copy(out.entries().begin(), out.entries().end(), all.begin() + static_cast<std::ptrdiff_t>(begin));
+            touched[begin / how_.block] = out.touched();
+        });
+        note_touched(touched, "displacements");
+        record("displacements", std::span<const Vec3>(all), 3);
+        if (field.can_sample()) sample(field, context);
+    }
+
+    void sample(hooks::VelocityField& field, const hooks::StepContext& context) {
+        const surface::SurfaceView& view = context.surface;
+        std::vector<Vec3> points;
+        for (const auto& [a, b, c] : view.faces)
+            points.push_back((view.positions[a] + view.positions[b] + view.positions[c]) / 3.0);
+        Output<Vec3> out(points.size(), Vec3::Constant(unwritten()));
+        field.sample(points, view.face_normals, out.entries());
+        judge(out, "sampled displacements");
+        record("sampled displacements", std::span<const Vec3>(out.entries()), 3);
+    }
+
+    void curvature(hooks::CurvatureEstimator& estimator, const hooks::StepContext& context) {
+        estimator.prepare(context);
+        const std::size_t count = context.surface.vertex_count();
+        std::vector<double> scalars(count);
+        std::vector<Vec3> vectors(count);
+        std::vector<std::string> touched((count + how_.block - 1) / how_.block);
+        workers_.for_blocks(count, how_.block, [&](std::size_t begin, std::size_t end) {
+            Output<double> scalar(end - begin, unwritten());
+            Output<Vec3> vector(end - begin, Vec3::Constant(unwritten()));
+            estimator.evaluate({begin, end}, scalar.entries(), vector.entries());
+            const auto to = static_cast<std::ptrdiff_t>(begin);
+            std::copy(scalar.entries().begin(), scalar.entries().end(), scalars.begin() + to);
+            std::copy(vector.entries().begin(), vector.entries().end(), vectors.begin() + to);
+            touched[begin / how_.block] = scalar.touched() + vector.touched();
+        });
+        note_touched(touched, "curvatures");
+        record("curvatures", std::span<const double>(scalars), 1);
+        record("curvature vectors", std::span<const Vec3>(vectors), 3);
+    }
+
+    void note_touched(const std::vector<std::string>& blocks, const std::string& what) {
+        for (std::size_t i = 0; i < blocks.size(); ++i) {
+            if (blocks[i].empty() || !answers_.outside.empty()) continue;
+            answers_.outside = what + " of the block that begins with vertex " + std::to_string(i * how_.block) + at_ + ": " +
+                               blocks[i];
+        }
+    }
+
+    void refinement(hooks::RefinementPolicy& policy, const hooks::StepContext& context) {
+        Breathing velocity;
+        velocity.prepare(context);
+        hooks::RefinementRequests requests;
+        policy.refine({context, &velocity}, requests);
+        part("faces to split", 1);
+        for (const std::uint32_t face : requests.split_faces) answers_.trace.add(face);
+        part("edges to split", 2);
+        for (const auto& [a, b] : requests.split_edges) add_pair(a, b);
+        record("sizing", std::span<const double>(requests.sizing), 1);
+        part("labels", 2);
+        for (const auto& [tet, label] : requests.relabel) add_pair(tet, label);
+    }
+
+    // One repair round on a mesh whose worst tets are called dirty.
+    void improvement(hooks::Improvement& policy, const Fixture& now, const hooks::StepContext& context) {
+        if (!now.complex) return;
+        const mesh::Complex& complex = *now.complex;
+        std::vector<mesh::TetId> dirty;
+        for (mesh::TetId t = 0; t < complex.tet_slots(); ++t) {
+            if (complex.tet_alive(t) && complex.quality(t) < 0.6F) dirty.push_back(t);
+        }
+        std::sort(dirty.begin(), dirty.end(), [&](mesh::TetId a, mesh::TetId b) {
+            return std::pair(complex.quality(a), a) < std::pair(complex.quality(b), b);
+        });
+        std::vector<mesh::VertexId> blocked(now.view.vertex_ids.begin(), now.view.vertex_ids.begin() + 8);
+        std::vector<mesh::Request> requests;
+        const mesh::RepairRound round{complex, dirty,          blocked, {}, {}, context.target_length, policy.flatness(),
+                                      0,       how_.steps == 1};
+        policy.propose(context, round, requests);
+        part("requests", 10);
+        for (const mesh::Request& r : requests) add(r);
+        select(policy, context);
+    }
+
+    void select(hooks::Improvement& policy, const hooks::StepContext& context) {
+        std::vector<mesh::TopologyCandidate> candidates(6);
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            candidates[i].kind = static_cast<mesh::TopologyCandidate::Kind>(i % 4);
+            candidates[i].centroid = Vec3(0.1 * static_cast<double>(i), 0, 0);
+            candidates[i].thickness = 0.2 * static_cast<double>(i);
+            candidates[i].volume = 1.0;
+        }
+        std::vector<std::uint8_t> accept(candidates.size(), 0);
+        policy.select(context, candidates, accept);
+        part("accepted candidates", 1);
+        for (const std::uint8_t a : accept) answers_.trace.add(a);
+    }
+
+    void add(const mesh::Request& r) {
+        Trace& t = answers_.trace;
+        t.add(static_cast<double>(r.operation));
+        t.add(static_cast<double>(r.mode) + 10.0 * r.repair_class);
+        t.add(r.tet);
+        for (const mesh::VertexId v : r.vertices) t.add(v);
+        for (const float f : {r.parameter, r.only_below, r.accept_above, r.gain}) t.add(static_cast<double>(f));
+    }
+
+    void observer(hooks::Observer& observer, const hooks::StepContext& context) {
+        if (context.step == 1) observer.begin(context);
+        hooks::StepFigures figures;
+        figures.step = context.step;
+        figures.interface_vertices = context.surface.vertex_count();
+        figures.tets = 1000;
+        figures.volume = 3.0;
+        figures.min_tet_quality = 0.2;
+        add("figures of the step", observer.step(context, figures));
+        add("figures of the end", observer.end(context));
+    }
+
+    void add(const std::string& what, const hooks::Figures& figures) {
+        std::string name = what;
+        for (const auto& figure : figures) name += " " + figure.first;
+        part(name, 1);
+        for (const auto& figure : figures) {
+            answers_.trace.add(static_cast<double>(stream_id(figure.first) >> 12U));
+            answers_.trace.add(figure.second);
+        }
+    }
+
+    void build(hooks::InitialMesh& generator) {
+        const run::MeshFiles files;
+        hooks::InitialMeshContext context;
+        context.cloud = fixture_.cloud ? &*fixture_.cloud : nullptr;
+        context.seed = how_.seed;
+        context.cancel = how_.cancel;
+        context.files = &files;
+        context.workers = &workers_;
+        const mesh::TetMesh mesh = generator.build(context);
+        record("points", std::span<const Vec3>(mesh.points), 3);
+        part("tets", 4);
+        for (const auto& tet : mesh.tets) {
+            for (const std::uint32_t v : tet) answers_.trace.add(v);
+        }
+        part("labels", 1);
+        for (const mesh::Label label : mesh.labels) answers_.trace.add(label);
+    }
+
+    void part(const std::string& name, std::size_t width) { answers_.trace.part(name + at_, width); }
+    void add_pair(std::uint32_t a, std::uint32_t b) {
+        answers_.trace.add(a);
+        answers_.trace.add(b);
+    }
+    template <class T>
+    void record(const std::string& name, std::span<const T> values, std::size_t width) {
+        part(name, width);
+        answers_.trace.add(values);
+    }
+
+    const Fixture& fixture_;
+    const Exercise& how_;
+    Workers workers_;
+    Answers answers_;
+    std::string at_;
+};
+
+}  // namespace
+
+hooks::StepContext context_of(const Fixture& fixture, std::uint64_t step, const Exercise& how, Workers* workers) {
+    return {.step = step,
+            .surface = fixture.view,
+            .cloud = fixture.cloud ? &*fixture.cloud : nullptr,
+            .target_length = fixture.view.mean_edge,
+            .box = cloud::simulation_box(),
+            .to_normalised = {},
+            .seed = how.seed,
+            .instance = stream_id("conformance"),
+            .cancel = how.cancel,
+            .workers = workers};
+}
+
+Answers exercise(plugin::Kind kind, hooks::Strategy& strategy, const Fixture& fixture, const Exercise& how) {
+    return Trial(fixture, how).run(kind, strategy);
+}
+
+}  // namespace dsc::conformance

@@ -1,0 +1,36 @@
+#pragma once
+// Calls a strategy of any kind as a run would, and keeps all that it answers.
+
+#include <dsc/base/progress.hpp>
+#include <dsc/plugin/kind.hpp>
+
+#include "fixtures.hpp"
+#include "trace.hpp"
+
+namespace dsc::conformance {
+
+/// How the calls are made; none of it but the seed may change an answer.
+struct Exercise {
+    std::uint64_t first_step = 1;
+    unsigned steps = 2;
+    std::uint64_t seed = 1;
+    unsigned threads = 1;
+    std::size_t block = 64;                ///< vertices of one evaluate()
+    const CancelToken* cancel = nullptr;
+};
+
+/// What came of it.
+struct Answers {
+    Trace trace;
+    std::string outside;  ///< where it wrote outside of an output; empty: nowhere
+    std::string changed;  ///< which input it changed; empty: none
+};
+
+/// Steps first_step, first_step + 1, ... of a run on the fixture. `strategy` is the plugin's own object, not a checked one:
+/// what it throws comes out of here. A strategy whose first step is not 1 goes on (observers get no begin()).
+Answers exercise(plugin::Kind kind, hooks::Strategy& strategy, const Fixture& fixture, const Exercise& how = {});
+
+/// The context of a step on the fixture.
+hooks::StepContext context_of(const Fixture& fixture, std::uint64_t step, const Exercise& how, Workers* workers);
+
+}  // namespace dsc::conformance

@@ -1,0 +1,46 @@
+#pragma once
+// What strategies are tried on: ordinary surfaces and clouds, and hostile ones.
+
+#include <dsc/cloud/target.hpp>
+#include <dsc/mesh/complex.hpp>
+#include <dsc/surface/surface_view.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dsc::conformance {
+
+/// An interface, and what lies round it.
+struct Fixture {
+    std::string name;
+    surface::SurfaceView view;
+    std::shared_ptr<const mesh::Complex> complex;  ///< that the view is of; null where there are only triangles
+    std::optional<cloud::TargetCloud> cloud;
+};
+
+/// A sphere in a box of tets, and 1,500 points of an ellipsoid that is its target.
+Fixture ordinary();
+/// The unit sphere as 20 * 4^level triangles with an ellipsoid of points, without tets.
+Fixture triangles(unsigned level);
+
+/// Surfaces as a bad run may have them: none at all, one tet, slivers, faces without area, coinciding points, tiny and far
+/// off, many pieces, vertices that may not move.
+std::vector<Fixture> hostile_surfaces();
+/// The ordinary surface with no cloud, one point, points on a line, all in one place, few and far.
+std::vector<Fixture> hostile_clouds();
+
+/// The fixture as it is at a step: the surface drawn a little towards its centroid.
+Fixture at_step(const Fixture& fixture, std::uint64_t step);
+
+/// Moved as a rigid body: x goes to rotation * x + shift.
+struct Motion {
+    Eigen::Matrix3d rotation;
+    Vec3 shift;
+};
+Fixture moved(const Fixture& fixture, const Motion& motion);
+
+/// Vertex i of the result is vertex order[i] of the fixture; birth ids go with the vertices.
+Fixture reordered(const Fixture& fixture, const std::vector<std::uint32_t>& order);
+
+}  // namespace dsc::conformance

@@ -1,0 +1,75 @@
+// *.hostile, err.*: input that no one would wish for.
+#include "test_table.hpp"
+
+namespace dsc::conformance {
+namespace {
+
+// Finite answers, or an exception. A crash or an endless loop ends the process, and the test with it.
+void survive(const Subject& subject, const std::vector<Fixture>& fixtures) {
+    for (const Fixture& fixture : fixtures) {
+        const auto strategy = subject.make();
+        Answers answers;
+        try {
+            answers = exercise(subject.kind(), *strategy, fixture);
+        } catch (const std::exception&) {
+            continue;
+        } catch (...) {
+            throw Failed("on " + fixture.name + " it throws something that is no std::exception");
+        }
+        if (const auto bad = answers.trace.first_not_finite())
+            throw Failed("on " + fixture.name + " it gives " + std::to_string(answers.trace.values()[*bad]) + " as " +
+                         answers.trace.place(*bad));
+    }
+}
+
+void surfaces(const Subject& subject) {
+    if (subject.kind() == plugin::Kind::initial_mesh || subject.kind() == plugin::Kind::improvement)
+        throw Skipped("it reads no surface");
+    survive(subject, hostile_surfaces());
+}
+
+void clouds(const Subject& subject) {
+    if (subject.kind() == plugin::Kind::improvement) throw Skipped("it reads no cloud");
+    survive(subject, hostile_clouds());
+}
+
+// After a failure a strategy is as good as new.
+void throws(const Subject& subject) {
+    subject.require_repeatable();
+    const Trace fresh = subject.answers().trace;
+    const auto strategy = subject.make();
+    std::vector<Fixture> fixtures = hostile_surfaces();
+    for (Fixture& fixture : hostile_clouds()) fixtures.push_back(std::move(fixture));
+    bool thrown = false;
+    for (const Fixture& fixture : fixtures) {
+        try {
+            exercise(subject.kind(), *strategy, fixture, {.steps = 1});
+        } catch (const std::exception&) {
+            thrown = true;
+            break;
+        }
+    }
+    if (!thrown) throw Skipped("nothing makes it throw");
+    Trace after;
+    try {
+        after = exercise(subject.kind(), *strategy, subject.fixture(), {}).trace;
+    } catch (const std::exception& error) {
+        throw Failed(std::string("after an exception it cannot be used any more: ") + error.what());
+    }
+    if (const auto difference = Trace::difference(fresh, after))
+        throw Failed("after an exception it gives other answers: " + *difference);
+}
+
+}  // namespace
+
+void add_hostile_tests(std::vector<Test>& table) {
+    table.push_back({{"mesh.hostile", Level::standard, false,
+                      "Empty, flat, tiny and open surfaces give finite answers or an exception."},
+                     surfaces});
+    table.push_back({{"cloud.hostile", Level::standard, false,
+                      "No cloud, one point, points on a line or in one place give finite answers or an exception."},
+                     clouds});
+    table.push_back({{"err.throw", Level::standard, false, "After an exception it is as good as new."}, throws});
+}
+
+}  // namespace dsc::conformance

@@ -1,0 +1,111 @@
+// lib.*: the file, its door, and what loading it leaves behind.
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <dsc/base/error.hpp>
+#include <dsc/host/doctor.hpp>
+#include <regex>
+
+#include "process.hpp"
+#include "test_table.hpp"
+
+namespace dsc::conformance {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The step of the doctor that failed, with its text; skips where the library does not get as far as `from`.
+void require_steps(const Subject& subject, std::initializer_list<std::string_view> mine, std::string_view before) {
+    for (const host::Examination& e : host::examine(subject.file(), {})) {
+        if (e.result != host::Examination::Result::failed) continue;
+        for (const std::string_view step : mine) {
+            if (e.step == step) throw Failed(e.text);
+        }
+        throw Skipped("the library fails " + std::string(before) + ": " + e.text);
+    }
+}
+
+plugin::PluginInfo info_of(const fs::path& file) {
+    host::Host host;
+    host.load(file);
+    return host.plugins().front();
+}
+
+void entry(const Subject& subject) {
+    require_steps(subject, {"file", "permissions", "library", "build", "register"}, "lib.bind");
+    const plugin::PluginInfo info = info_of(subject.file());
+    require(subject.file().filename() == "libdsc_" + info.name + ".so",
+            "the file of plugin '" + info.name + "' must be libdsc_" + info.name + ".so");
+    static const std::regex semver(R"((0|[1-9]\d*)\.(0|[1-9]\d*)\.(0|[1-9]\d*)([-+][0-9A-Za-z.+-]+)?)");
+    require(std::regex_match(info.version, semver),
+            "the version '" + info.version + "' is no semantic version, MAJOR.MINOR.PATCH");
+    static const std::regex spdx(R"([A-Za-z0-9][A-Za-z0-9.+ ()-]*)");
+    require(std::regex_match(info.license, spdx),
+            "the licence '" + info.license + "' is no SPDX expression, as MIT or BSD-3-Clause");
+    require(!info.summary.empty(), "the plugin has no summary");
+}
+
+void bind(const Subject& subject) { require_steps(subject, {"load"}, "lib.entry"); }
+
+std::size_t count_entries(const char* folder) {
+    std::size_t count = 0;
+    std::error_code error;
+    for (auto i = fs::directory_iterator(folder, error); i != fs::directory_iterator(); ++i) ++count;
+    return count;
+}
+
+// Loading is listing: it must be quick, and leave nothing but the strategies.
+void scan(const Subject& subject) {
+    require_steps(subject, {}, "lib.entry or lib.bind");
+    dlopen(nullptr, RTLD_NOW);  // whatever the linker opens by itself is open now
+    const std::size_t files = count_entries("/proc/self/fd");
+    const std::size_t threads = count_entries("/proc/self/task");
+    const std::size_t printed = printed_so_far();
+    const double begin = cpu_seconds();
+    host::Host host;
+    host.load(subject.file());
+    const double seconds = cpu_seconds() - begin;
+    require(count_entries("/proc/self/task") == threads, "it starts a thread when it is loaded");
+    require(count_entries("/proc/self/fd") == files, "it leaves a file or socket open when it is loaded");
+    require(printed_so_far() == printed, "it prints when it is loaded: " + printed_since(printed));
+    if (seconds > 5) throw Failed("it takes " + std::to_string(seconds) + " s to load");
+    if (seconds > 0.5) throw Warned("it takes " + std::to_string(seconds) + " s to load; a list of plugins should be quick");
+}
+
+std::string names(const host::Host& host) {
+    std::string text;
+    for (const plugin::StrategyInfo& info : host.list()) {
+        text += std::string(plugin::kind_name(info.strategy->kind)) + " " + info.strategy->id + ": ";
+        for (const std::string& name : info.strategy->schema->names()) text += name + " ";
+        text += "\n";
+    }
+    return text;
+}
+
+void twice(const Subject& subject) {
+    require_steps(subject, {}, "lib.entry or lib.bind");
+    host::Host first;
+    first.load(subject.file());
+    host::Host second;
+    try {
+        second.load(subject.file());
+    } catch (const Error& error) {
+        throw Failed(std::string("a second host cannot load it: ") + error.what());
+    }
+    require(names(first) == names(second), "a second host gets other strategies or parameters than the first");
+}
+
+}  // namespace
+
+void add_library_tests(std::vector<Test>& table) {
+    table.push_back({{"lib.entry", Level::smoke, true,
+                      "The file passes the gate; its name, version, licence and ids are well-formed."},
+                     entry});
+    table.push_back({{"lib.bind", Level::smoke, true, "It loads by itself: no symbol or library is missing."}, bind});
+    table.push_back({{"lib.scan", Level::smoke, true,
+                      "It loads quickly and starts no thread, opens no file and prints nothing."},
+                     scan});
+    table.push_back({{"lib.twice", Level::standard, true, "Two hosts in one process get the same strategies."}, twice});
+}
+
+}  // namespace dsc::conformance

@@ -1,0 +1,34 @@
+#pragma once
+// The notes beside a plugin, libdsc_NAME.check.yaml: what the tests cannot guess, and what need not hold.
+//
+//     strategies:
+//       - kind: initial_mesh
+//         id: my_reader
+//         parameters: {file: cube.dsc}             # file names are relative to the notes
+//         waive: {param.fuzz: any other file is refused}
+
+#include <dsc/config/node.hpp>
+#include <dsc/plugin/kind.hpp>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dsc::conformance {
+
+struct StrategyNotes {
+    plugin::Kind kind{};
+    std::string id;
+    config::ConfigNode parameters;             ///< a map, or null
+    std::map<std::string, std::string> waive;  ///< test and reason
+};
+
+using Notes = std::vector<StrategyNotes>;
+
+/// Of the plugin in this file; empty where there are none. Throws ConfigError.
+Notes read_notes(const std::filesystem::path& library);
+
+/// Null where the strategy has none.
+const StrategyNotes* find(const Notes& notes, plugin::Kind kind, const std::string& id);
+
+}  // namespace dsc::conformance

@@ -1,0 +1,50 @@
+// out.*: what is written, where, and what is left alone.
+#include "process.hpp"
+#include "test_table.hpp"
+
+namespace dsc::conformance {
+namespace {
+
+void finite(const Subject& subject) {
+    const Answers answers = subject.answers();
+    if (const auto bad = answers.trace.first_not_finite())
+        throw Failed(std::to_string(answers.trace.values()[*bad]) + " as " + answers.trace.place(*bad));
+}
+
+void complete(const Subject& subject) {
+    subject.require_kind({plugin::Kind::velocity, plugin::Kind::curvature});
+    const Answers answers = subject.answers();
+    if (const auto bad = answers.trace.first_unwritten()) throw Failed("it does not write " + answers.trace.place(*bad));
+}
+
+void bounds(const Subject& subject) {
+    subject.require_kind({plugin::Kind::velocity, plugin::Kind::curvature});
+    for (const std::size_t block : {std::size_t{64}, std::size_t{1}}) {
+        const Answers answers = subject.answers({.block = block});
+        require(answers.outside.empty(), "it writes outside of its output, in " + answers.outside);
+    }
+}
+
+void inputs(const Subject& subject) {
+    const Answers answers = subject.answers();
+    require(answers.changed.empty(), "it changes its input: " + answers.changed);
+}
+
+void quiet(const Subject& subject) {
+    const std::size_t before = printed_so_far();
+    subject.answers();
+    require(printed_so_far() == before,
+            "it prints; strategies say what they have to say through dsc::log: " + printed_since(before));
+}
+
+}  // namespace
+
+void add_output_tests(std::vector<Test>& table) {
+    table.push_back({{"out.finite", Level::smoke, false, "No answer is NaN or infinite."}, finite});
+    table.push_back({{"out.complete", Level::smoke, false, "Every entry of an output is written."}, complete});
+    table.push_back({{"out.bounds", Level::standard, false, "Nothing outside of an output is written."}, bounds});
+    table.push_back({{"out.const", Level::standard, false, "The input is as it was before, bit by bit."}, inputs});
+    table.push_back({{"out.quiet", Level::strict, false, "Nothing is printed."}, quiet});
+}
+
+}  // namespace dsc::conformance

@@ -1,0 +1,139 @@
+// mesh.topology, policy.*: what generators make and what policies ask for.
+#include <algorithm>
+#include <dsc/kernel/deformer.hpp>
+#include <dsc/mesh/adopt.hpp>
+#include <dsc/mesh/validate.hpp>
+#include <dsc/run/mesh_files.hpp>
+
+#include "test_table.hpp"
+
+namespace dsc::conformance {
+namespace {
+
+constexpr unsigned rounds_of_refinement = 4;
+constexpr unsigned steps_of_improvement = 4;
+
+// The kernel takes the mesh, and a full scan finds no fault in it.
+void topology(const Subject& subject) {
+    subject.require_kind({plugin::Kind::initial_mesh});
+    const auto strategy = subject.make();
+    const run::MeshFiles files;
+    hooks::InitialMeshContext context;
+    context.cloud = &*subject.fixture().cloud;
+    context.seed = subject.seed();
+    context.files = &files;
+    const mesh::TetMesh mesh = static_cast<hooks::InitialMesh&>(*strategy).build(context);
+    const mesh::Complex complex = mesh::adopt(mesh, "the mesh", nullptr);
+    const mesh::ComplexReport report = mesh::validate(complex);
+    require(report.valid(), report.faults.empty() ? "" : report.faults.front());
+    require(report.irregular_vertices == 0, "the interface is no 2-manifold at " +
+                                                std::to_string(report.irregular_vertices) + " vertices");
+    require(std::any_of(mesh.labels.begin(), mesh.labels.end(), [](mesh::Label l) { return l > 0; }),
+            "no tet has a label above 0: there is nothing to deform");
+    require(std::any_of(mesh.labels.begin(), mesh.labels.end(), [](mesh::Label l) { return l == 0; }),
+            "no tet has the label 0: the body fills the box");
+}
+
+// Goes along x: the velocity that refinements are shown.
+class Drift final : public hooks::VelocityField {
+public:
+    void prepare(const hooks::StepContext&) override {}
+    void evaluate(hooks::Range, std::span<Vec3> out) const override { std::fill(out.begin(), out.end(), Vec3(0.01, 0, 0)); }
+    bool can_sample() const override { return true; }
+    void sample(std::span<const Vec3>, std::span<const Vec3>, std::span<Vec3> out) const override {
+        std::fill(out.begin(), out.end(), Vec3(0.01, 0, 0));
+    }
+};
+
+hooks::RefinementRequests ask(hooks::RefinementPolicy& policy, const Fixture& fixture, std::uint64_t step) {
+    Drift velocity;
+    const hooks::StepContext context = context_of(fixture, step, {}, nullptr);
+    hooks::RefinementRequests requests;
+    policy.refine({context, &velocity}, requests);
+    return requests;
+}
+
+// Requests name each simplex once, asking again on the same mesh asks for no more, and a few rounds end.
+void refinement(const Subject& subject) {
+    const auto strategy = subject.make();
+    auto& policy = static_cast<hooks::RefinementPolicy&>(*strategy);
+    kernel::Deformer deformer(*subject.fixture().complex);
+    Fixture fixture = subject.fixture();
+    for (unsigned round = 0; round < rounds_of_refinement; ++round) {
+        surface::build_view(deformer.complex(), fixture.view);
+        hooks::RefinementRequests requests = ask(policy, fixture, round + 1);
+        std::sort(requests.split_faces.begin(), requests.split_faces.end());
+        require(std::adjacent_find(requests.split_faces.begin(), requests.split_faces.end()) == requests.split_faces.end(),
+                "it asks twice for the split of one face");
+        const hooks::RefinementRequests again = ask(policy, fixture, round + 1);
+        require(again.split_faces.size() <= requests.split_faces.size() &&
+                    again.split_edges.size() <= requests.split_edges.size(),
+                "asked again about the same mesh it wants more: " + std::to_string(again.split_faces.size()) + " faces and " +
+                    std::to_string(again.split_edges.size()) + " edges after " + std::to_string(requests.split_faces.size()) +
+                    " and " + std::to_string(requests.split_edges.size()));
+        std::vector<std::array<mesh::VertexId, 3>> faces;
+        for (const std::uint32_t f : requests.split_faces) {
+            require(f < fixture.view.face_count(), "it asks for face " + std::to_string(f) + ", which does not exist");
+            const auto& [a, b, c] = fixture.view.faces[f];
+            faces.push_back({fixture.view.vertex_ids[a], fixture.view.vertex_ids[b], fixture.view.vertex_ids[c]});
+        }
+        deformer.refine(faces, {});
+    }
+    require(mesh::validate(deformer.complex()).valid(), "its refinement left an invalid mesh");
+}
+
+// Displacements that spoil the tets: a twist that grows along z.
+std::vector<Vec3> twist(const surface::SurfaceView& view) {
+    std::vector<Vec3> out;
+    for (const Vec3& p : view.positions) out.push_back(0.08 * p.z() * Vec3(-p.y(), p.x(), 0));
+    return out;
+}
+
+// A few steps with it as the policy end within their rounds, with a valid mesh.
+void improvement(const Subject& subject) {
+    const auto strategy = subject.make();
+    auto& policy = static_cast<hooks::Improvement&>(*strategy);
+    kernel::Deformer deformer(*subject.fixture().complex);
+    Fixture fixture = subject.fixture();
+    const hooks::StepContext* current = nullptr;
+    kernel::RepairPolicy repair;
+    repair.propose = [&](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+        policy.propose(*current, round, out);
+    };
+    repair.select = [&](std::span<const mesh::TopologyCandidate> candidates, std::span<std::uint8_t> accept) {
+        policy.select(*current, candidates, accept);
+    };
+    repair.topology = policy.topology_limits();
+    repair.flatness = policy.flatness();
+    for (std::uint64_t step = 1; step <= steps_of_improvement; ++step) {
+        surface::build_view(deformer.complex(), fixture.view);
+        const hooks::StepContext context = context_of(fixture, step, {}, nullptr);
+        current = &context;
+        deformer.step(fixture.view.vertex_ids, twist(fixture.view), repair);
+        const mesh::ComplexReport report = mesh::validate(deformer.complex());
+        require(report.valid(), "step " + std::to_string(step) + " left an invalid mesh: " +
+                                    (report.faults.empty() ? "" : report.faults.front()));
+    }
+}
+
+void progress(const Subject& subject) {
+    subject.require_kind({plugin::Kind::refinement, plugin::Kind::improvement});
+    if (subject.kind() == plugin::Kind::refinement) {
+        refinement(subject);
+    } else {
+        improvement(subject);
+    }
+}
+
+}  // namespace
+
+void add_policy_tests(std::vector<Test>& table) {
+    table.push_back({{"mesh.topology", Level::standard, false,
+                      "A generated mesh is conforming, fills its box and has a manifold interface."},
+                     topology});
+    table.push_back({{"policy.progress", Level::standard, false,
+                      "Requests end: refinement asks for nothing twice, improvement leaves valid meshes."},
+                     progress});
+}
+
+}  // namespace dsc::conformance

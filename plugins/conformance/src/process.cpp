@@ -1,0 +1,191 @@
+#include "process.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <dsc/base/error.hpp>
+#include <filesystem>
+#include <iostream>
+#include <vector>
+
+namespace dsc::conformance {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+int printed = -1;  // in a child: the memory file behind its standard output and error
+
+std::string read_file(int file, std::size_t begin, std::size_t most) {
+    std::string text(most, '\0');
+    const ssize_t count = pread(file, text.data(), most, static_cast<off_t>(begin));
+    text.resize(count < 0 ? 0 : static_cast<std::size_t>(count));
+    return text;
+}
+
+std::size_t size_of(int file) {
+    const off_t end = lseek(file, 0, SEEK_END);
+    return end < 0 ? 0 : static_cast<std::size_t>(end);
+}
+
+// An empty folder, gone with its owner.
+class Scratch {
+public:
+    Scratch() {
+        std::string pattern = (fs::temp_directory_path() / "dsc-check-XXXXXX").string();
+        if (mkdtemp(pattern.data()) == nullptr)
+            throw IoError("check.scratch", pattern, "", strerror(errno), "set TMPDIR to a folder that can be written");
+        path_ = pattern;
+    }
+    ~Scratch() {
+        std::error_code error;
+        fs::remove_all(path_, error);
+    }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+[[noreturn]] void live(const std::function<Verdict()>& body, int to, int output, const fs::path& folder) {
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) signal(number, SIG_DFL);
+    const int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    dup2(null, STDIN_FILENO);
+    dup2(output, STDOUT_FILENO);
+    dup2(output, STDERR_FILENO);
+    printed = output;
+    if (chdir(folder.c_str()) != 0) _exit(1);
+    const Verdict verdict = body();
+    std::cout.flush();
+    std::fflush(nullptr);
+    const std::string bytes = std::string(1, static_cast<char>(verdict.status)) + verdict.message;
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t count = write(to, bytes.data() + done, bytes.size() - done);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) break;
+        done += static_cast<std::size_t>(count);
+    }
+    _exit(0);
+}
+
+// All that the child writes until it closes its end; false where the time is over first.
+bool read_until(int from, Clock::time_point until, std::string& bytes) {
+    std::array<char, 4096> buffer{};
+    for (;;) {
+        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now());
+        pollfd waiting{from, POLLIN, 0};
+        const int ready = poll(&waiting, 1, static_cast<int>(std::max<std::int64_t>(0, left.count())));
+        if (ready < 0 && errno == EINTR) continue;
+        if (ready == 0) return false;
+        const ssize_t count = read(from, buffer.data(), buffer.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return true;
+        bytes.append(buffer.data(), static_cast<std::size_t>(count));
+    }
+}
+
+std::string last_line(const std::string& text) {
+    std::size_t end = text.find_last_not_of("\n ");
+    if (end == std::string::npos) return {};
+    const std::size_t begin = text.find_last_of('\n', end);
+    return text.substr(begin == std::string::npos ? 0 : begin + 1, end - (begin == std::string::npos ? 0 : begin + 1) + 1);
+}
+
+// The line of a sanitizer's report that says what it is; empty without one.
+std::string sanitizer_report(const std::string& output) {
+    for (const char* sign : {"ERROR: AddressSanitizer", "ERROR: LeakSanitizer", "WARNING: ThreadSanitizer", "runtime error:"}) {
+        const std::size_t at = output.find(sign);
+        if (at == std::string::npos) continue;
+        const std::size_t begin = output.rfind('\n', at);
+        return output.substr(begin == std::string::npos ? 0 : begin + 1, output.find('\n', at) - at + 1);
+    }
+    return {};
+}
+
+Verdict judge(int status, bool in_time, const std::string& bytes, const std::string& output,
+              std::chrono::milliseconds limit) {
+    if (!in_time)
+        return {Status::timeout, "it did not end within " + std::to_string(limit.count() / 1000) + " s"};
+    if (const std::string report = sanitizer_report(output); !report.empty()) return {Status::fail, report};
+    const std::string said = last_line(output);
+    const std::string last_words = said.empty() ? "" : ", its last words: " + said;
+    if (WIFSIGNALED(status)) {
+        const int number = WTERMSIG(status);
+        return {Status::crash, "signal " + std::to_string(number) + " (" + strsignal(number) + ")" + last_words};
+    }
+    if (bytes.empty() || WEXITSTATUS(status) != 0)
+        return {Status::crash, "it ended the process with exit code " + std::to_string(WEXITSTATUS(status)) + last_words};
+    return {static_cast<Status>(bytes[0]), bytes.substr(1)};
+}
+
+}  // namespace
+
+std::size_t printed_so_far() {
+    if (printed < 0) return 0;
+    std::cout.flush();
+    std::cerr.flush();
+    std::fflush(nullptr);
+    return size_of(printed);
+}
+
+std::string printed_since(std::size_t begin) { return printed < 0 ? std::string() : read_file(printed, begin, 200); }
+
+double cpu_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::milliseconds limit) {
+    const Scratch scratch;
+    std::array<int, 2> ends{};
+    const int output = memfd_create("output", MFD_CLOEXEC);
+    if (output < 0 || pipe2(ends.data(), O_CLOEXEC) != 0)
+        throw PluginError("check.process", std::string("cannot make a pipe for a test (") + strerror(errno) +
+                                               "); close other programs");
+    std::cout.flush();
+    std::fflush(nullptr);
+    const pid_t child = fork();
+    if (child == 0) {
+        close(ends[0]);
+        live(body, ends[1], output, scratch.path());
+    }
+    close(ends[1]);
+    std::string bytes;
+    const bool in_time = child > 0 && read_until(ends[0], Clock::now() + limit, bytes);
+    int status = 0;
+    if (child > 0) {
+        if (!in_time) kill(child, SIGKILL);
+        while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+        }
+        kill(-child, SIGKILL);  // whatever it has started
+    }
+    const std::string said = read_file(output, 0, std::size_t{1} << 20U);
+    close(ends[0]);
+    close(output);
+    if (child < 0)
+        throw PluginError("check.process",
+                          std::string("cannot make a process for a test (") + strerror(errno) + "); close other programs");
+    return judge(status, in_time, bytes, said, limit);
+}
+
+}  // namespace dsc::conformance

@@ -1,0 +1,103 @@
+// cancel, leak, thr.*, perf.*: what a strategy uses.
+#include <malloc.h>
+
+#include <dsc/base/error.hpp>
+#include <dsc/plugin/fingerprint.hpp>
+
+#include "process.hpp"
+#include "test_table.hpp"
+
+extern "C" __attribute__((weak)) int __lsan_do_recoverable_leak_check();
+
+namespace dsc::conformance {
+namespace {
+
+constexpr double cancel_seconds = 2.0;
+
+bool sanitized(std::string_view by) {
+    return plugin::core_fingerprint().find("san=" + std::string(by)) != std::string_view::npos;
+}
+
+// Cancelled before it begins, it comes back soon, with or without an answer.
+void cancel(const Subject& subject) {
+    CancelToken token;
+    token.cancel();
+    const auto strategy = subject.make();
+    const double begin = cpu_seconds();
+    try {
+        exercise(subject.kind(), *strategy, subject.fixture(), {.steps = 1, .cancel = &token});
+    } catch (const std::exception&) {
+        // a CancelledError, most likely
+    }
+    const double seconds = cpu_seconds() - begin;
+    if (seconds > cancel_seconds && !sanitized("address") && !sanitized("thread"))
+        throw Failed("cancelled, it works on for " + std::to_string(seconds) + " s");
+}
+
+void use_once(const Subject& subject, const Fixture& fixture) {
+    const auto strategy = subject.make();
+    try {
+        exercise(subject.kind(), *strategy, fixture, {.steps = 1});
+    } catch (const std::exception& error) {
+        throw Skipped(std::string("it throws, see param.default: ") + error.what());
+    }
+}
+
+// Made, used and destroyed many times, it holds no more memory than after a few times.
+void leak(const Subject& subject) {
+    const bool costly = subject.kind() == plugin::Kind::initial_mesh || subject.kind() == plugin::Kind::improvement;
+    const unsigned repeats = costly ? 5 : 100;
+    const Fixture small = costly ? subject.fixture() : triangles(2);
+    for (unsigned i = 0; i < 3; ++i) use_once(subject, small);
+    if (sanitized("address") && __lsan_do_recoverable_leak_check != nullptr) {
+        for (unsigned i = 0; i < 3; ++i) use_once(subject, small);
+        require(__lsan_do_recoverable_leak_check() == 0, "memory is lost");
+        return;
+    }
+    if (sanitized("thread")) throw Skipped("memory is not counted under ThreadSanitizer");
+    const std::size_t before = mallinfo2().uordblks + mallinfo2().hblkhd;
+    for (unsigned i = 0; i < repeats; ++i) use_once(subject, small);
+    const std::size_t after = mallinfo2().uordblks + mallinfo2().hblkhd;
+    const std::size_t lost = after > before ? (after - before) / repeats : 0;
+    require(lost < 256, std::to_string(lost) + " bytes are lost each time it is made, used and destroyed");
+}
+
+// The report of the sanitizer is the verdict; the process that runs the test reads it.
+void race(const Subject& subject) {
+    if (!sanitized("thread")) throw Skipped("races show in a build with ThreadSanitizer only");
+    for (unsigned i = 0; i < 3; ++i) subject.answers({.threads = 4, .block = 8});
+}
+
+// Four times the surface takes about four times as long.
+void scale(const Subject& subject) {
+    subject.require_kind({plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement});
+    const auto time = [&](unsigned level) {
+        const Fixture fixture = triangles(level);
+        double best = 1e9;
+        for (int i = 0; i < 3; ++i) {
+            const auto strategy = subject.make();
+            const double begin = cpu_seconds();
+            exercise(subject.kind(), *strategy, fixture, {.steps = 1});
+            best = std::min(best, cpu_seconds() - begin);
+        }
+        return best;
+    };
+    const double small = time(4);
+    const double large = time(5);
+    const double ratio = large / std::max(small, 1e-6);
+    if (large > 0.02 && ratio > 9)
+        throw Warned("four times the surface takes " + std::to_string(ratio) + " times as long: it grows faster than the surface");
+}
+
+}  // namespace
+
+void add_resource_tests(std::vector<Test>& table) {
+    table.push_back({{"cancel", Level::standard, false, "Cancelled, it comes back within 2 s."}, cancel});
+    table.push_back({{"leak", Level::standard, false, "Made, used and destroyed, it leaves no memory behind."}, leak});
+    table.push_back({{"thr.race", Level::strict, false,
+                      "Concurrent calls have no data race (in a build with ThreadSanitizer)."},
+                     race});
+    table.push_back({{"perf.scale", Level::strict, false, "The time grows with the surface, not faster."}, scale});
+}
+
+}  // namespace dsc::conformance

@@ -1,0 +1,130 @@
+// schema.*: the declaration of the parameters.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <dsc/base/error.hpp>
+#include <dsc/config/spelling.hpp>
+#include <dsc/config/yaml.hpp>
+
+#include "test_table.hpp"
+
+namespace dsc::conformance {
+namespace {
+
+using config::ConfigNode;
+using config::Field;
+using config::FieldType;
+
+// Words that units are made of, joined by / or ^.
+constexpr std::array unit_words = {
+    "1",       "length",  "curvature", "time",      "radians",   "degrees", "mean edges", "steps", "seconds", "vertices",
+    "faces",   "tets",    "points",    "diagonals", "radius",    "cells",   "finest cells", "directions", "levels",
+    "point distances", "point spacings", "2", "3", "threads", "rounds",
+};
+
+bool is_unit(const std::string& unit) {
+    std::string word;
+    const auto known = [&word] {
+        return std::find(unit_words.begin(), unit_words.end(), word) != unit_words.end();
+    };
+    // "length/time, radians/time or 1/time": alternatives where it depends on another parameter.
+    std::string all = unit;
+    for (std::size_t at; (at = all.find(" or ")) != std::string::npos;) all.replace(at, 4, "/");
+    for (std::size_t at; (at = all.find(", ")) != std::string::npos;) all.replace(at, 2, "/");
+    for (const char c : all) {
+        if (c != '/' && c != '^') {
+            word += c;
+            continue;
+        }
+        if (!known()) return false;
+        word.clear();
+    }
+    return known();
+}
+
+void lint_field(const Field& field, std::vector<std::string>& problems) {
+    const std::string subject = "parameter '" + field.name + "' ";
+    const bool snake = !field.name.empty() && std::all_of(field.name.begin(), field.name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+    });
+    if (!snake) problems.push_back(subject + "is not named in snake_case");
+    if (field.doc.empty() || field.doc.back() != '.') problems.push_back(subject + "has a doc that is no sentence");
+    if (!field.unit.empty() && !is_unit(field.unit)) problems.push_back(subject + "has the unknown unit '" + field.unit + "'");
+    const bool number = field.type == FieldType::real || field.type == FieldType::real_list || field.type == FieldType::vec3;
+    if (number && field.unit.empty()) problems.push_back(subject + "is a real number without a unit (\"1\" for a pure number)");
+    if (!field.object) return;
+    for (const Field& inner : field.object->fields()) lint_field(inner, problems);
+}
+
+void lint(const Subject& subject) {
+    std::vector<std::string> problems = subject.schema().problems(true);
+    for (const Field& field : subject.schema().fields()) lint_field(field, problems);
+    require(problems.empty(), config::join(problems, "; "));
+}
+
+// What has a default resolves, is written as YAML and read back as the same.
+void roundtrip(const Subject& subject) {
+    for (const Field& field : subject.schema().fields()) {
+        if (field.required) {
+            subject.defaults();  // from the notes, or a skip
+            break;
+        }
+    }
+    ConfigNode resolved;
+    try {
+        const bool needs_notes = std::any_of(subject.schema().fields().begin(), subject.schema().fields().end(),
+                                             [](const Field& field) { return field.required; });
+        resolved = needs_notes ? subject.defaults() : subject.resolve(ConfigNode::map());
+    } catch (const StrategyError& error) {
+        throw Failed(std::string("its defaults cannot be judged: ") + error.what());
+    } catch (const Failed& failed) {
+        throw Failed(std::string("its own defaults are refused: ") + failed.what());
+    }
+    const ConfigNode again = subject.resolve(config::parse_yaml(config::to_yaml(resolved), "defaults"));
+    require(again == resolved, "the defaults, written and read back, are others:\n" + config::to_yaml(again));
+    for (const Field& field : subject.schema().fields()) {
+        std::vector<std::string> choices = field.choices;
+        std::sort(choices.begin(), choices.end());
+        require(std::adjacent_find(choices.begin(), choices.end()) == choices.end(),
+                "parameter '" + field.name + "' has a choice twice");
+    }
+}
+
+// The schema says clearly what is wrong and what is not: a bound is in or out, and judging throws nothing else.
+void reject(const Subject& subject) {
+    const ConfigNode& base = subject.defaults();
+    for (const Variation& v : wrong(subject.schema(), base)) {
+        bool refused = false;
+        try {
+            subject.resolve(v.parameters);
+        } catch (const Failed&) {
+            refused = true;
+        }
+        require(refused, "accepted " + v.name);
+    }
+    for (const Variation& v : extremes(subject.schema(), base)) {
+        try {
+            subject.resolve(v.parameters);
+        } catch (const Failed&) {
+            continue;  // a cross check may refuse it
+        } catch (const std::exception& error) {
+            throw Failed("judging " + v.name + " throws: " + error.what());
+        }
+    }
+}
+
+}  // namespace
+
+void add_schema_tests(std::vector<Test>& table) {
+    table.push_back({{"schema.lint", Level::smoke, false,
+                      "Parameters are named in snake_case, documented in sentences, and numbers have known units."},
+                     lint});
+    table.push_back({{"schema.roundtrip", Level::smoke, false,
+                      "The defaults are accepted, and written as YAML and read back they are the same."},
+                     roundtrip});
+    table.push_back({{"schema.reject", Level::standard, false,
+                      "Values outside of a range, of another type, and unknown keys are refused; judging never throws."},
+                     reject});
+}
+
+}  // namespace dsc::conformance

@@ -1,0 +1,63 @@
+#pragma once
+// What a test works on: a library, loaded into this process, and one of its strategies.
+
+#include <dsc/conformance/check.hpp>
+#include <dsc/host/host.hpp>
+#include <memory>
+
+#include "exercise.hpp"
+#include "fixtures.hpp"
+#include "notes.hpp"
+#include "parameters.hpp"
+#include "verdict.hpp"
+
+namespace dsc::conformance {
+
+class Subject {
+public:
+    /// `strategy` null: the test is of the library, which is not loaded here.
+    Subject(std::filesystem::path file, const StrategyName* strategy, const Notes& notes, const CheckOptions& options);
+
+    const std::filesystem::path& file() const { return file_; }
+    const CheckOptions& options() const { return options_; }
+    std::uint64_t seed() const { return options_.seed; }
+
+    // ---- of one strategy
+
+    plugin::Kind kind() const { return record().kind; }
+    const plugin::StrategyRecord& record() const;
+    const config::Schema& schema() const { return *record().schema; }
+
+    /// The parameters as the schema resolves them. Throws Failed where it refuses them, StrategyError where judging them
+    /// throws.
+    config::ConfigNode resolve(const config::ConfigNode& given) const;
+    /// The defaults, with the notes' values for what has none. Skips where a parameter has no value, or where they are
+    /// refused, which schema.roundtrip tells.
+    const config::ConfigNode& defaults() const;
+    /// The plugin's own object, without the wrapper that checks it.
+    std::unique_ptr<hooks::Strategy> make(const config::ConfigNode& resolved) const;
+    std::unique_ptr<hooks::Strategy> make() const { return make(defaults()); }
+
+    /// A new instance with the default parameters, exercised on the ordinary fixture. What it throws is a skip: param.default
+    /// tells of it.
+    Answers answers(const Exercise& how = {}) const;
+    Answers answers_on(const Fixture& fixture, const Exercise& how = {}) const;
+    /// Skips unless two instances give the same answers one after the other, which det.repeat tells.
+    void require_repeatable() const;
+    /// For tests of some kinds only.
+    void require_kind(std::initializer_list<plugin::Kind> kinds) const;
+
+    /// The fixture that most tests use; made once.
+    const Fixture& fixture() const;
+
+private:
+    std::filesystem::path file_;
+    const CheckOptions& options_;
+    const StrategyNotes* notes_ = nullptr;
+    host::Host host_;
+    std::optional<plugin::StrategyInfo> strategy_;
+    mutable std::optional<config::ConfigNode> defaults_;
+    mutable std::optional<Fixture> fixture_;
+};
+
+}  // namespace dsc::conformance

@@ -1,0 +1,52 @@
+#pragma once
+// Trace: all that a strategy answered in an exercise, to be compared bit by bit.
+
+#include <cstdint>
+#include <dsc/geometry/vec.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dsc::conformance {
+
+/// Numbers in the order in which they came, in named parts.
+class Trace {
+public:
+    /// Opens a part: "displacements at step 2", with so many numbers an entry.
+    void part(std::string name, std::size_t width = 1);
+    void add(double value) { values_.push_back(value); }
+    void add(const Vec3& value) {
+        for (int i = 0; i < 3; ++i) values_.push_back(value[i]);
+    }
+    template <class T>
+    void add(std::span<const T> values) {
+        for (const T& value : values) add(value);
+    }
+
+    const std::vector<double>& values() const { return values_; }
+    /// "entry 12 of displacements at step 2" for the value at `index`.
+    std::string place(std::size_t index) const;
+
+    /// Where two traces differ first, in words; nothing where all bits agree.
+    static std::optional<std::string> difference(const Trace& a, const Trace& b);
+    /// The first value that is neither finite nor, bit for bit, `unwritten`.
+    std::optional<std::size_t> first_not_finite() const;
+    /// The first value that is `unwritten`.
+    std::optional<std::size_t> first_unwritten() const;
+
+private:
+    struct Part {
+        std::string name;
+        std::size_t begin;
+        std::size_t width;
+    };
+    std::vector<Part> parts_;
+    std::vector<double> values_;
+};
+
+/// A NaN that no computation gives: what outputs hold before a strategy writes them.
+double unwritten();
+bool is_unwritten(double value);
+
+}  // namespace dsc::conformance

@@ -1,0 +1,27 @@
+#pragma once
+// Step by step, what stands between a file and being a working plugin.
+
+#include <dsc/host/search_path.hpp>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dsc::host {
+
+/// One step of the way in. `text` says what was found; where the step failed, cause and remedy.
+struct Examination {
+    enum class Result { ok, note, failed, not_reached };
+    std::string step;
+    Result result = Result::not_reached;
+    std::string text;
+};
+
+/// Goes the way of Host::load, in its order, and stops at the first step that fails: the file, who may write it, the
+/// entry, the build, loading, registering, and that no plugin on `search` has one of its ids. [setup]
+std::vector<Examination> examine(const std::filesystem::path& file, std::span<const SearchEntry> search);
+
+/// Whether no step failed. [setup]
+bool healthy(const std::vector<Examination>& examinations);
+
+}  // namespace dsc::host

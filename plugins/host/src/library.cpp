@@ -1,0 +1,79 @@
+#include "library.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <dsc/base/error.hpp>
+#include <string>
+#include <string_view>
+
+#include "entry_file.hpp"
+
+namespace dsc::host {
+namespace {
+
+bool is_plain_name(std::string_view name) {
+    return !name.empty() && name[0] >= 'a' && name[0] <= 'z' &&
+           std::all_of(name.begin(), name.end(),
+                       [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
+}
+
+// Holds what enroll() registers until all of it is known to be sound.
+class Staging : public plugin::Registrar {
+public:
+    std::vector<plugin::StrategyRecord> records;
+
+protected:
+    void enroll(plugin::StrategyRecord record) override {
+        const std::string name = std::string(plugin::kind_name(record.kind)) + " '" + record.id + "'";
+        if (!is_plain_name(record.id)) {
+            throw PluginError("plugin.enroll", "the id of " + name + " is not of the form [a-z][a-z0-9_]*");
+        }
+        if (record.summary.empty()) throw PluginError("plugin.enroll", name + " has no summary");
+        const bool repeated = std::any_of(records.begin(), records.end(), [&record](const auto& other) {
+            return other.kind == record.kind && other.id == record.id;
+        });
+        if (repeated) throw PluginError("plugin.enroll", name + " is registered twice");
+        records.push_back(std::move(record));
+    }
+};
+
+}  // namespace
+
+const plugin::PluginEntry& open_library(const std::filesystem::path& file) {
+    void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    const char* reason = library == nullptr ? dlerror() : nullptr;
+    if (library == nullptr) {
+        refuse(file, "plugin.load",
+               std::string("does not load: ") + (reason == nullptr ? "no reason given" : reason),
+               "a symbol or library that it needs is missing; link with -Wl,-z,defs to see it when building");
+    }
+    const void* entry = dlsym(library, plugin::entry_symbol);
+    if (entry == nullptr)
+        refuse(file, "plugin.no_entry", "lost its entry while it was loaded", "load it again");
+    return *static_cast<const plugin::PluginEntry*>(entry);
+}
+
+std::vector<plugin::StrategyRecord> enroll(const plugin::PluginEntry& entry, const std::filesystem::path& file) {
+    const std::string remedy = "report this to the plugin's authors";
+    const std::string name = text_of(entry.name);
+    if (!is_plain_name(name)) {
+        refuse(file, "plugin.enroll", "names itself '" + name + "', which is not of the form [a-z][a-z0-9_]*",
+               remedy);
+    }
+    if (entry.enroll == nullptr) refuse(file, "plugin.enroll", "has no enroll function", remedy);
+    Staging staging;
+    try {
+        entry.enroll(staging);
+    } catch (const std::exception& error) {
+        refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: " + error.what(), remedy);
+    } catch (...) {
+        refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: it threw no std::exception",
+               remedy);
+    }
+    if (staging.records.empty())
+        refuse(file, "plugin.enroll", "plugin '" + name + "' registers no strategy", remedy);
+    return std::move(staging.records);
+}
+
+}  // namespace dsc::host
