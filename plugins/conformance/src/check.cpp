@@ -53,7 +53,7 @@ public:
         if (!loads) return std::move(report_);
         for (const StrategyName& strategy : strategies()) {
             for (const Test& test : test_table()) {
-                if (!test.info.of_library) run(test, &strategy);
+                if (!test.info.of_library && test.is_for(strategy.kind)) run(test, &strategy);
             }
         }
         return std::move(report_);

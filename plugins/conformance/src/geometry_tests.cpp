@@ -13,10 +13,10 @@ Motion some_motion() {
 
 // Scalars stay, vectors turn along.
 void rigid(const Subject& subject) {
-    subject.require_kind({plugin::Kind::velocity, plugin::Kind::curvature});
     if (!subject.record().traits.rigid) throw Skipped("it is declared to know a place or a direction");
     if (subject.record().traits.stochastic) throw Skipped("it is declared stochastic");
     subject.require_repeatable();
+    subject.require_finite();
     const Motion motion = some_motion();
     const std::vector<double> plain = subject.answers({.steps = 1}).trace.values();
     const std::vector<double> there =
@@ -44,9 +44,7 @@ void rigid(const Subject& subject) {
 }  // namespace
 
 void add_geometry_tests(std::vector<Test>& table) {
-    table.push_back({{"geo.rigid", Level::standard, false,
-                      "Surface and cloud moved as a rigid body move the answers with them."},
-                     rigid});
+    add(table, {"geo.rigid", Level::standard, false, "Surface and cloud moved as a rigid body move the answers with them."}, rigid, per_vertex);
 }
 
 }  // namespace dsc::conformance

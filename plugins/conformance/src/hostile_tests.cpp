@@ -23,13 +23,10 @@ void survive(const Subject& subject, const std::vector<Fixture>& fixtures) {
 }
 
 void surfaces(const Subject& subject) {
-    if (subject.kind() == plugin::Kind::initial_mesh || subject.kind() == plugin::Kind::improvement)
-        throw Skipped("it reads no surface");
     survive(subject, hostile_surfaces());
 }
 
 void clouds(const Subject& subject) {
-    if (subject.kind() == plugin::Kind::improvement) throw Skipped("it reads no cloud");
     survive(subject, hostile_clouds());
 }
 
@@ -63,13 +60,9 @@ void throws(const Subject& subject) {
 }  // namespace
 
 void add_hostile_tests(std::vector<Test>& table) {
-    table.push_back({{"mesh.hostile", Level::standard, false,
-                      "Empty, flat, tiny and open surfaces give finite answers or an exception."},
-                     surfaces});
-    table.push_back({{"cloud.hostile", Level::standard, false,
-                      "No cloud, one point, points on a line or in one place give finite answers or an exception."},
-                     clouds});
-    table.push_back({{"err.throw", Level::standard, false, "After an exception it is as good as new."}, throws});
+    add(table, {"mesh.hostile", Level::standard, false, "Empty, flat, tiny and open surfaces give finite answers or an exception."}, surfaces, {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement, plugin::Kind::observer});
+    add(table, {"cloud.hostile", Level::standard, false, "No cloud, one point, points on a line or in one place give finite answers or an exception."}, clouds, {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement, plugin::Kind::observer, plugin::Kind::initial_mesh});
+    add(table, {"err.throw", Level::standard, false, "After an exception it is as good as new."}, throws);
 }
 
 }  // namespace dsc::conformance

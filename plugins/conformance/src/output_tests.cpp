@@ -12,13 +12,11 @@ void finite(const Subject& subject) {
 }
 
 void complete(const Subject& subject) {
-    subject.require_kind({plugin::Kind::velocity, plugin::Kind::curvature});
     const Answers answers = subject.answers();
     if (const auto bad = answers.trace.first_unwritten()) throw Failed("it does not write " + answers.trace.place(*bad));
 }
 
 void bounds(const Subject& subject) {
-    subject.require_kind({plugin::Kind::velocity, plugin::Kind::curvature});
     for (const std::size_t block : {std::size_t{64}, std::size_t{1}}) {
         const Answers answers = subject.answers({.block = block});
         require(answers.outside.empty(), "it writes outside of its output, in " + answers.outside);
@@ -33,18 +31,19 @@ void inputs(const Subject& subject) {
 void quiet(const Subject& subject) {
     const std::size_t before = printed_so_far();
     subject.answers();
-    require(printed_so_far() == before,
+    const bool silent = printed_so_far() == before;
+    require(silent,
             "it prints; strategies say what they have to say through dsc::log: " + printed_since(before));
 }
 
 }  // namespace
 
 void add_output_tests(std::vector<Test>& table) {
-    table.push_back({{"out.finite", Level::smoke, false, "No answer is NaN or infinite."}, finite});
-    table.push_back({{"out.complete", Level::smoke, false, "Every entry of an output is written."}, complete});
-    table.push_back({{"out.bounds", Level::standard, false, "Nothing outside of an output is written."}, bounds});
-    table.push_back({{"out.const", Level::standard, false, "The input is as it was before, bit by bit."}, inputs});
-    table.push_back({{"out.quiet", Level::strict, false, "Nothing is printed."}, quiet});
+    add(table, {"out.finite", Level::smoke, false, "No answer is NaN or infinite."}, finite);
+    add(table, {"out.complete", Level::smoke, false, "Every entry of an output is written."}, complete, per_vertex);
+    add(table, {"out.bounds", Level::standard, false, "Nothing outside of an output is written."}, bounds, per_vertex);
+    add(table, {"out.const", Level::standard, false, "The input is as it was before, bit by bit."}, inputs);
+    add(table, {"out.quiet", Level::strict, false, "Nothing is printed."}, quiet);
 }
 
 }  // namespace dsc::conformance

@@ -52,10 +52,12 @@ void defaults(const Subject& subject) {
 }
 
 void bounds(const Subject& subject) {
+    subject.require_finite();
     for (const Variation& v : extremes(subject.schema(), subject.defaults())) try_out(subject, v);
 }
 
 void fuzz(const Subject& subject) {
+    subject.require_finite();
     for (unsigned i = 0; i < subject.options().fuzz; ++i)
         try_out(subject, random_variation(subject.schema(), subject.defaults(), subject.seed() + i));
 }
@@ -63,15 +65,9 @@ void fuzz(const Subject& subject) {
 }  // namespace
 
 void add_parameter_tests(std::vector<Test>& table) {
-    table.push_back({{"param.default", Level::smoke, false,
-                      "It works with its defaults, and the same whether they are written out or left out."},
-                     defaults});
-    table.push_back({{"param.bounds", Level::standard, false,
-                      "It works, or refuses by an exception, with every parameter at the ends of its range."},
-                     bounds});
-    table.push_back({{"param.fuzz", Level::standard, false,
-                      "It works, or refuses by an exception, with random parameters within their ranges."},
-                     fuzz});
+    add(table, {"param.default", Level::smoke, false, "It works with its defaults, and the same whether they are written out or left out."}, defaults);
+    add(table, {"param.bounds", Level::standard, false, "It works, or refuses by an exception, with every parameter at the ends of its range."}, bounds);
+    add(table, {"param.fuzz", Level::standard, false, "It works, or refuses by an exception, with random parameters within their ranges."}, fuzz);
 }
 
 }  // namespace dsc::conformance

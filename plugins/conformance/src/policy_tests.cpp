@@ -15,7 +15,6 @@ constexpr unsigned steps_of_improvement = 4;
 
 // The kernel takes the mesh, and a full scan finds no fault in it.
 void topology(const Subject& subject) {
-    subject.require_kind({plugin::Kind::initial_mesh});
     const auto strategy = subject.make();
     const run::MeshFiles files;
     hooks::InitialMeshContext context;
@@ -117,7 +116,6 @@ void improvement(const Subject& subject) {
 }
 
 void progress(const Subject& subject) {
-    subject.require_kind({plugin::Kind::refinement, plugin::Kind::improvement});
     if (subject.kind() == plugin::Kind::refinement) {
         refinement(subject);
     } else {
@@ -128,12 +126,8 @@ void progress(const Subject& subject) {
 }  // namespace
 
 void add_policy_tests(std::vector<Test>& table) {
-    table.push_back({{"mesh.topology", Level::standard, false,
-                      "A generated mesh is conforming, fills its box and has a manifold interface."},
-                     topology});
-    table.push_back({{"policy.progress", Level::standard, false,
-                      "Requests end: refinement asks for nothing twice, improvement leaves valid meshes."},
-                     progress});
+    add(table, {"mesh.topology", Level::standard, false, "A generated mesh is conforming, fills its box and has a manifold interface."}, topology, {plugin::Kind::initial_mesh});
+    add(table, {"policy.progress", Level::standard, false, "Requests end: refinement asks for nothing twice, improvement leaves valid meshes."}, progress, {plugin::Kind::refinement, plugin::Kind::improvement});
 }
 
 }  // namespace dsc::conformance

@@ -70,7 +70,6 @@ void race(const Subject& subject) {
 
 // Four times the surface takes about four times as long.
 void scale(const Subject& subject) {
-    subject.require_kind({plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement});
     const auto time = [&](unsigned level) {
         const Fixture fixture = triangles(level);
         double best = 1e9;
@@ -92,12 +91,10 @@ void scale(const Subject& subject) {
 }  // namespace
 
 void add_resource_tests(std::vector<Test>& table) {
-    table.push_back({{"cancel", Level::standard, false, "Cancelled, it comes back within 2 s."}, cancel});
-    table.push_back({{"leak", Level::standard, false, "Made, used and destroyed, it leaves no memory behind."}, leak});
-    table.push_back({{"thr.race", Level::strict, false,
-                      "Concurrent calls have no data race (in a build with ThreadSanitizer)."},
-                     race});
-    table.push_back({{"perf.scale", Level::strict, false, "The time grows with the surface, not faster."}, scale});
+    add(table, {"cancel", Level::standard, false, "Cancelled, it comes back within 2 s."}, cancel);
+    add(table, {"leak", Level::standard, false, "Made, used and destroyed, it leaves no memory behind."}, leak);
+    add(table, {"thr.race", Level::strict, false, "Concurrent calls have no data race (in a build with ThreadSanitizer)."}, race);
+    add(table, {"perf.scale", Level::strict, false, "The time grows with the surface, not faster."}, scale, {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement});
 }
 
 }  // namespace dsc::conformance

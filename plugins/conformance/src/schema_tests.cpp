@@ -116,15 +116,9 @@ void reject(const Subject& subject) {
 }  // namespace
 
 void add_schema_tests(std::vector<Test>& table) {
-    table.push_back({{"schema.lint", Level::smoke, false,
-                      "Parameters are named in snake_case, documented in sentences, and numbers have known units."},
-                     lint});
-    table.push_back({{"schema.roundtrip", Level::smoke, false,
-                      "The defaults are accepted, and written as YAML and read back they are the same."},
-                     roundtrip});
-    table.push_back({{"schema.reject", Level::standard, false,
-                      "Values outside of a range, of another type, and unknown keys are refused; judging never throws."},
-                     reject});
+    add(table, {"schema.lint", Level::smoke, false, "Parameters are named in snake_case, documented in sentences, and numbers have known units."}, lint);
+    add(table, {"schema.roundtrip", Level::smoke, false, "The defaults are accepted, and written as YAML and read back they are the same."}, roundtrip);
+    add(table, {"schema.reject", Level::standard, false, "Values outside of a range, of another type, and unknown keys are refused; judging never throws."}, reject);
 }
 
 }  // namespace dsc::conformance

@@ -80,9 +80,10 @@ void Subject::require_repeatable() const {
         throw Skipped("two runs with the same seed differ, see det.repeat");
 }
 
-void Subject::require_kind(std::initializer_list<plugin::Kind> kinds) const {
-    if (std::find(kinds.begin(), kinds.end(), kind()) == kinds.end())
-        throw Skipped("not for strategies of kind " + std::string(plugin::kind_name(kind())));
+void Subject::require_finite() const {
+    const Answers given = answers();
+    if (given.trace.first_not_finite() || given.trace.first_unwritten())
+        throw Skipped("not all answers are numbers, see out.finite and out.complete");
 }
 
 const Fixture& Subject::fixture() const {

@@ -44,8 +44,8 @@ public:
     Answers answers_on(const Fixture& fixture, const Exercise& how = {}) const;
     /// Skips unless two instances give the same answers one after the other, which det.repeat tells.
     void require_repeatable() const;
-    /// For tests of some kinds only.
-    void require_kind(std::initializer_list<plugin::Kind> kinds) const;
+    /// Skips unless all answers are written and finite, which out.* tell.
+    void require_finite() const;
 
     /// The fixture that most tests use; made once.
     const Fixture& fixture() const;

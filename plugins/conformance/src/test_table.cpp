@@ -2,6 +2,13 @@
 
 namespace dsc::conformance {
 
+void add(std::vector<Test>& table, TestInfo info, void (*run)(const Subject&), std::vector<plugin::Kind> kinds) {
+    Test& test = table.emplace_back();
+    test.info = std::move(info);
+    test.run = run;
+    test.kinds = std::move(kinds);
+}
+
 const std::vector<Test>& test_table() {
     static const std::vector<Test> table = [] {
         std::vector<Test> all;
