@@ -18,6 +18,7 @@ struct CheckArguments {
     std::string level = "standard";
     std::vector<std::string> only;
     std::vector<std::string> plugins;
+    std::string notes;
     std::string format = "text";
     std::string output;
     std::uint64_t seed = 1;
@@ -45,11 +46,13 @@ std::filesystem::path find_strategy(const CheckArguments& arguments, const host:
     std::filesystem::path file;
     for (const plugin::StrategyInfo& info : host.list()) {
         ids.push_back(info.strategy->id);
-        const bool wanted = info.strategy->id == arguments.target &&
-                            (arguments.kind.empty() || plugin::kind_name(info.strategy->kind) == arguments.kind);
+        const bool wanted =
+            info.strategy->id == arguments.target &&
+            (arguments.kind.empty() || plugin::kind_name(info.strategy->kind) == arguments.kind);
         if (!wanted) continue;
         if (!file.empty() && file != info.plugin->file)
-            throw UsageError("usage.strategy", "two kinds have a strategy '" + arguments.target + "'; add --kind");
+            throw UsageError("usage.strategy",
+                             "two kinds have a strategy '" + arguments.target + "'; add --kind");
         file = info.plugin->file;
         strategies.push_back({info.strategy->kind, info.strategy->id});
     }
@@ -75,13 +78,18 @@ int execute(const CheckArguments& arguments) {
     options.fuzz = arguments.fuzz;
     options.limit = std::chrono::milliseconds(static_cast<std::int64_t>(arguments.limit * 1000));
     options.only = arguments.only;
+    options.notes = arguments.notes;
     options.in_process = arguments.in_process;
     Plugins plugins(arguments.plugins);
     options.search = plugins.search_path();
     std::filesystem::path file = arguments.target;
-    if (!std::filesystem::exists(file)) file = find_strategy(arguments, plugins.load_what_works(), options.strategies);
+    if (!std::filesystem::exists(file))
+        file = find_strategy(arguments, plugins.load_what_works(), options.strategies);
     const bool live = arguments.output.empty() && arguments.format == "text";
-    if (live) options.on_outcome = [](const conformance::Outcome& o) { std::cout << conformance::text(o) << std::flush; };
+    if (live)
+        options.on_outcome = [](const conformance::Outcome& o) {
+            std::cout << conformance::text(o) << std::flush;
+        };
     const conformance::Report report = conformance::check(file, options);
     if (!arguments.output.empty()) {
         io::write_file(arguments.output, formatted(report, arguments.format));
@@ -98,7 +106,8 @@ int execute(const CheckArguments& arguments) {
 void add_plugin_check(CLI::App& plugin, Context& context) {
     CLI::App* command = plugin.add_subcommand("check", "Whether a plugin keeps what a plugin promises");
     const auto arguments = std::make_shared<CheckArguments>();
-    command->add_option("FILE|ID", arguments->target, "A library, or a strategy that is found on the search path");
+    command->add_option("FILE|ID", arguments->target,
+                        "A library, or a strategy that is found on the search path");
     command->add_option("--kind", arguments->kind, "The strategy's kind, where two kinds have the id");
     command->add_option("--level", arguments->level, "smoke, standard or strict")
         ->check(CLI::IsMember({"smoke", "standard", "strict"}))
@@ -107,19 +116,27 @@ void add_plugin_check(CLI::App& plugin, Context& context) {
     command->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option(
+        "--notes", arguments->notes,
+        "Parameters without a default and tests waived with a reason; default libdsc_NAME.check.yaml beside");
     command->add_option("--format", arguments->format, "text, json or junit")
         ->check(CLI::IsMember({"text", "json", "junit"}))
         ->capture_default_str();
     command->add_option("-o,--output", arguments->output, "File for the report instead of stdout");
-    command->add_option("--seed", arguments->seed, "Of all that is random in the tests; the same seed is the same check")
+    command
+        ->add_option("--seed", arguments->seed,
+                     "Of all that is random in the tests; the same seed is the same check")
         ->capture_default_str();
     command->add_option("--fuzz", arguments->fuzz, "Random parameter sets a strategy")->capture_default_str();
-    command->add_option("--timeout", arguments->limit, "Seconds a test may take; ten times as much under a sanitizer")
+    command
+        ->add_option("--timeout", arguments->limit,
+                     "Seconds a test may take; ten times as much under a sanitizer")
         ->check(CLI::Range(0.1, 1e5))
         ->capture_default_str();
     command->add_flag("--in-process", arguments->in_process, "No process of its own a test, for a debugger");
     command->add_flag("--list", arguments->list, "Only list the tests");
-    command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    command->callback(
+        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }
 
 }  // namespace dsc::app

@@ -47,7 +47,8 @@ std::string json(const std::string& file, const std::vector<host::Examination>& 
     for (const host::Examination& e : examinations) {
         steps.push_back({{"step", e.step}, {"result", std::string(name(e.result))}, {"text", e.text}});
     }
-    return nlohmann::ordered_json{{"file", file}, {"healthy", host::healthy(examinations)}, {"steps", steps}}.dump(2) +
+    return nlohmann::ordered_json{{"file", file}, {"healthy", host::healthy(examinations)}, {"steps", steps}}
+               .dump(2) +
            "\n";
 }
 
@@ -65,7 +66,8 @@ void add_plugin_doctor(CLI::App& plugin, Context& context) {
     const auto arguments = std::make_shared<DoctorArguments>();
     command->add_option("FILE", arguments->file, "The library, libdsc_NAME.so")->required();
     command->add_flag("--json", arguments->json, "JSON instead of text");
-    command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    command->callback(
+        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }
 
 }  // namespace dsc::app

@@ -20,7 +20,9 @@ public:
     }
 
 protected:
-    virtual dsc::Vec3 displacement(std::size_t vertex) const { return 0.01 * context().surface.normals[vertex]; }
+    virtual dsc::Vec3 displacement(std::size_t vertex) const {
+        return 0.01 * context().surface.normals[vertex];
+    }
     const dsc::hooks::StepContext& context() const { return *context_; }
     /// True on the surface and cloud that most tests use, and on no hostile one.
     bool ordinary() const { return context().cloud != nullptr && context().cloud->size() > 1200; }
@@ -41,7 +43,9 @@ public:
     Gained(const Params& params, const dsc::plugin::Setup&) : gain_(params.gain) {}
 
 protected:
-    dsc::Vec3 displacement(std::size_t vertex) const override { return gain_ * Velocity::displacement(vertex); }
+    dsc::Vec3 displacement(std::size_t vertex) const override {
+        return gain_ * Velocity::displacement(vertex);
+    }
     double gain() const { return gain_; }
 
 private:

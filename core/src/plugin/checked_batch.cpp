@@ -100,8 +100,8 @@ public:
         for (std::size_t i = 0; i < out.size(); ++i) {
             if (!given[i].allFinite()) {
                 fail(current, "strategy.not_finite",
-                     "gave the displacement " + vector_text(given[i]) + " to point " + std::to_string(i) + " at " +
-                         vector_text(points[i]),
+                     "gave the displacement " + vector_text(given[i]) + " to point " + std::to_string(i) +
+                         " at " + vector_text(points[i]),
                      values_remedy);
             }
             out[i] = given[i];

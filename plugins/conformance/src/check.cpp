@@ -36,7 +36,9 @@ Verdict run_here(const Test& test, const fs::path& file, const StrategyName* str
 class Check {
 public:
     Check(const fs::path& file, const CheckOptions& options)
-        : options_(options), file_(real(file)), notes_(read_notes(file_)) {
+        : options_(options),
+          file_(real(file)),
+          notes_(options.notes.empty() ? notes_beside(file_) : read_notes(fs::absolute(options.notes))) {
         for (const std::string& id : options.only) require_test(id);
         report_.file = file_;
         report_.level = options.level;
@@ -47,9 +49,10 @@ public:
         for (const Test& test : test_table()) {
             if (test.info.of_library) run(test, nullptr);
         }
-        const bool loads = std::none_of(report_.outcomes.begin(), report_.outcomes.end(), [](const Outcome& o) {
-            return (o.test == "lib.entry" || o.test == "lib.bind") && is_failure(o.status);
-        });
+        const bool loads =
+            std::none_of(report_.outcomes.begin(), report_.outcomes.end(), [](const Outcome& o) {
+                return (o.test == "lib.entry" || o.test == "lib.bind") && is_failure(o.status);
+            });
         if (!loads) return std::move(report_);
         for (const StrategyName& strategy : strategies()) {
             for (const Test& test : test_table()) {
@@ -74,7 +77,8 @@ private:
         for (const Test& test : test_table()) ids.push_back(test.info.id);
         if (std::find(ids.begin(), ids.end(), id) != ids.end()) return;
         const auto near = config::closest(id, ids);
-        throw UsageError("usage.test", "there is no test '" + id + "'" + (near ? "; did you mean '" + *near + "'?" : "") +
+        throw UsageError("usage.test", "there is no test '" + id + "'" +
+                                           (near ? "; did you mean '" + *near + "'?" : "") +
                                            "; dsc plugin check --list shows all");
     }
 
@@ -103,8 +107,8 @@ private:
         const auto begin = std::chrono::steady_clock::now();
         const Verdict verdict = this->verdict(test, strategy);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-        report_.outcomes.push_back({test.info.id, strategy == nullptr ? "" : described(*strategy), verdict.status,
-                                    verdict.message, seconds.count()});
+        report_.outcomes.push_back({test.info.id, strategy == nullptr ? "" : described(*strategy),
+                                    verdict.status, verdict.message, seconds.count()});
         if (options_.on_outcome) options_.on_outcome(report_.outcomes.back());
     }
 
@@ -115,9 +119,11 @@ private:
                 try {
                     host::Host host;
                     host.load(file_);
-                    std::string text = host.plugins().front().name + " " + host.plugins().front().version + "\n";
+                    std::string text =
+                        host.plugins().front().name + " " + host.plugins().front().version + "\n";
                     for (const plugin::StrategyInfo& info : host.list())
-                        text += std::string(plugin::kind_name(info.strategy->kind)) + " " + info.strategy->id + "\n";
+                        text += std::string(plugin::kind_name(info.strategy->kind)) + " " +
+                                info.strategy->id + "\n";
                     return Verdict{Status::pass, text};
                 } catch (const std::exception& error) {
                     return Verdict{Status::fail, error.what()};
@@ -128,7 +134,8 @@ private:
         std::istringstream lines(listed.message);
         std::getline(lines, report_.plugin);
         std::vector<StrategyName> found;
-        for (std::string kind, id; lines >> kind >> id;) found.push_back({plugin::find_kind(kind).value(), id});
+        for (std::string kind, id; lines >> kind >> id;)
+            found.push_back({plugin::find_kind(kind).value(), id});
         return chosen(found);
     }
 
@@ -195,12 +202,13 @@ bool is_failure(Status status) {
 }
 
 bool Report::passed() const {
-    return std::none_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return is_failure(o.status); });
+    return std::none_of(outcomes.begin(), outcomes.end(),
+                        [](const Outcome& o) { return is_failure(o.status); });
 }
 
 std::size_t Report::count(Status status) const {
-    return static_cast<std::size_t>(
-        std::count_if(outcomes.begin(), outcomes.end(), [status](const Outcome& o) { return o.status == status; }));
+    return static_cast<std::size_t>(std::count_if(outcomes.begin(), outcomes.end(),
+                                                  [status](const Outcome& o) { return o.status == status; }));
 }
 
 Report check(const fs::path& file, const CheckOptions& options) { return Check(file, options).run(); }

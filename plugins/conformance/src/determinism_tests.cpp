@@ -40,8 +40,9 @@ void threads(const Subject& subject) {
     };
     for (const Split& split : {Split{2, 64}, Split{7, 17}, Split{1, 1}, Split{3, 100000}}) {
         const Trace other = subject.answers({.threads = split.threads, .block = split.block}).trace;
-        require_same(one, other, std::to_string(split.threads) + " threads and blocks of " + std::to_string(split.block) +
-                                     " vertices against one thread and blocks of 64");
+        require_same(one, other,
+                     std::to_string(split.threads) + " threads and blocks of " + std::to_string(split.block) +
+                         " vertices against one thread and blocks of 64");
     }
 }
 
@@ -54,7 +55,8 @@ void instances(const Subject& subject) {
         Trace all;
         for (std::uint64_t step = 1; step <= 3; ++step)
             all.add(std::span<const double>(
-                exercise(subject.kind(), *strategy, fixture, {.first_step = step, .steps = 1}).trace.values()));
+                exercise(subject.kind(), *strategy, fixture, {.first_step = step, .steps = 1})
+                    .trace.values()));
         return all;
     };
     const Trace first = alone(subject.fixture());
@@ -65,7 +67,8 @@ void instances(const Subject& subject) {
     Trace second_mixed;
     for (std::uint64_t step = 1; step <= 3; ++step) {
         const Exercise how{.first_step = step, .steps = 1};
-        first_mixed.add(std::span<const double>(exercise(subject.kind(), *a, subject.fixture(), how).trace.values()));
+        first_mixed.add(
+            std::span<const double>(exercise(subject.kind(), *a, subject.fixture(), how).trace.values()));
         second_mixed.add(std::span<const double>(exercise(subject.kind(), *b, other, how).trace.values()));
     }
     require_same(first, first_mixed, "two instances disturb each other");
@@ -76,15 +79,16 @@ void instances(const Subject& subject) {
 void require_permuted(const Trace& plain, const Trace& permuted, const std::vector<std::uint32_t>& order,
                       std::size_t width) {
     const std::size_t count = order.size() * width;
-    require(plain.values().size() == permuted.values().size(), "another order gives another number of answers");
+    require(plain.values().size() == permuted.values().size(),
+            "another order gives another number of answers");
     double largest = 0;
     for (const double v : plain.values()) largest = std::max(largest, std::abs(v));
     for (std::size_t i = 0; i < count; ++i) {
         const double expected = plain.values()[order[i / width] * width + i % width];
         const double found = permuted.values()[i];
         if (std::abs(expected - found) <= 1e-9 * largest) continue;
-        throw Failed("vertex " + std::to_string(order[i / width]) + " gets " + std::to_string(found) + " instead of " +
-                     std::to_string(expected) + " when the vertices come in another order");
+        throw Failed("vertex " + std::to_string(order[i / width]) + " gets " + std::to_string(found) +
+                     " instead of " + std::to_string(expected) + " when the vertices come in another order");
     }
 }
 
@@ -144,11 +148,22 @@ void seed(const Subject& subject) {
 
 void add_determinism_tests(std::vector<Test>& table) {
     add(table, {"det.repeat", Level::smoke, false, "The same question twice gives the same answer."}, repeat);
-    add(table, {"det.threads", Level::standard, false, "Neither the number of threads nor the split into blocks changes an answer."}, threads);
-    add(table, {"det.instances", Level::standard, false, "Two instances in turn do not disturb each other."}, instances);
-    add(table, {"det.order", Level::strict, false, "Vertices in another order get the same values, up to rounding."}, order, per_vertex);
-    add(table, {"det.env", Level::strict, false, "Locale, time zone, home and working folder change no answer."}, environment);
-    add(table, {"seed.used", Level::standard, false, "The seed changes the answers of strategies that are declared stochastic, and of no other."}, seed);
+    add(table,
+        {"det.threads", Level::standard, false,
+         "Neither the number of threads nor the split into blocks changes an answer."},
+        threads);
+    add(table, {"det.instances", Level::standard, false, "Two instances in turn do not disturb each other."},
+        instances);
+    add(table,
+        {"det.order", Level::strict, false, "Vertices in another order get the same values, up to rounding."},
+        order, per_vertex);
+    add(table,
+        {"det.env", Level::strict, false, "Locale, time zone, home and working folder change no answer."},
+        environment);
+    add(table,
+        {"seed.used", Level::standard, false,
+         "The seed changes the answers of strategies that are declared stochastic, and of no other."},
+        seed);
 }
 
 }  // namespace dsc::conformance

@@ -20,8 +20,10 @@ public:
     // "2 entries behind its end", or nothing.
     std::string touched() const {
         for (std::size_t i = 0; i < margin; ++i) {
-            if (!untouched(memory_[margin - 1 - i])) return std::to_string(i + 1) + " entries before its begin";
-            if (!untouched(memory_[memory_.size() - margin + i])) return std::to_string(i + 1) + " entries behind its end";
+            if (!untouched(memory_[margin - 1 - i]))
+                return std::to_string(i + 1) + " entries before its begin";
+            if (!untouched(memory_[memory_.size() - margin + i]))
+                return std::to_string(i + 1) + " entries behind its end";
         }
         return {};
     }
@@ -44,10 +46,13 @@ std::string difference(const Fixture& before, const Fixture& after) {
     const surface::SurfaceView& a = before.view;
     const surface::SurfaceView& b = after.view;
     if (!same_bytes(a.positions, b.positions)) return "the positions of the surface";
-    if (!same_bytes(a.normals, b.normals) || !same_bytes(a.face_normals, b.face_normals)) return "the surface's normals";
-    if (!same_bytes(a.faces, b.faces) || !same_bytes(a.vertex_faces, b.vertex_faces)) return "the surface's faces";
+    if (!same_bytes(a.normals, b.normals) || !same_bytes(a.face_normals, b.face_normals))
+        return "the surface's normals";
+    if (!same_bytes(a.faces, b.faces) || !same_bytes(a.vertex_faces, b.vertex_faces))
+        return "the surface's faces";
     if (!same_bytes(a.face_areas, b.face_areas)) return "the areas of the faces";
-    if (!same_bytes(a.births, b.births) || !same_bytes(a.movable, b.movable)) return "the ids of the vertices";
+    if (!same_bytes(a.births, b.births) || !same_bytes(a.movable, b.movable))
+        return "the ids of the vertices";
     return {};
 }
 
@@ -62,8 +67,10 @@ public:
         }
     }
     bool can_sample() const override { return true; }
-    void sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals, std::span<Vec3> out) const override {
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = (0.05 * std::abs(points[i].x())) * unit_normals[i];
+    void sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals,
+                std::span<Vec3> out) const override {
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = (0.05 * std::abs(points[i].x())) * unit_normals[i];
     }
 
 private:
@@ -72,7 +79,8 @@ private:
 
 class Trial {
 public:
-    Trial(const Fixture& fixture, const Exercise& how) : fixture_(fixture), how_(how), workers_(how.threads) {}
+    Trial(const Fixture& fixture, const Exercise& how)
+        : fixture_(fixture), how_(how), workers_(how.threads) {}
 
     Answers run(plugin::Kind kind, hooks::Strategy& strategy) {
         if (kind == plugin::Kind::initial_mesh) {
@@ -91,7 +99,8 @@ public:
     }
 
 private:
-    void one_step(plugin::Kind kind, hooks::Strategy& strategy, const Fixture& now, const hooks::StepContext& context) {
+    void one_step(plugin::Kind kind, hooks::Strategy& strategy, const Fixture& now,
+                  const hooks::StepContext& context) {
         switch (kind) {
             case plugin::Kind::velocity:
                 return velocity(static_cast<hooks::VelocityField&>(strategy), context);
@@ -122,7 +131,8 @@ private:
         workers_.for_blocks(count, how_.block, [&](std::size_t begin, std::size_t end) {
             Output<Vec3> out(end - begin, Vec3::Constant(unwritten()));
             field.evaluate({begin, end}, out.entries());
-            std::copy(out.entries().begin(), out.entries().end(), all.begin() + static_cast<std::ptrdiff_t>(begin));
+            std::copy(out.entries().begin(), out.entries().end(),
+                      all.begin() + static_cast<std::ptrdiff_t>(begin));
             touched[begin / how_.block] = out.touched();
         });
         note_touched(touched, "displacements");
@@ -164,8 +174,8 @@ private:
     void note_touched(const std::vector<std::string>& blocks, const std::string& what) {
         for (std::size_t i = 0; i < blocks.size(); ++i) {
             if (blocks[i].empty() || !answers_.outside.empty()) continue;
-            answers_.outside = what + " of the block that begins with vertex " + std::to_string(i * how_.block) + at_ + ": " +
-                               blocks[i];
+            answers_.outside = what + " of the block that begins with vertex " +
+                               std::to_string(i * how_.block) + at_ + ": " + blocks[i];
         }
     }
 
@@ -196,8 +206,8 @@ private:
         });
         std::vector<mesh::VertexId> blocked(now.view.vertex_ids.begin(), now.view.vertex_ids.begin() + 8);
         std::vector<mesh::Request> requests;
-        const mesh::RepairRound round{complex, dirty,          blocked, {}, {}, context.target_length, policy.flatness(),
-                                      0,       how_.steps == 1};
+        const mesh::RepairRound round{complex,           dirty, blocked,        {}, {}, context.target_length,
+                                      policy.flatness(), 0,     how_.steps == 1};
         policy.propose(context, round, requests);
         part("requests", 10);
         for (const mesh::Request& r : requests) add(r);
@@ -224,7 +234,8 @@ private:
         t.add(static_cast<double>(r.mode) + 10.0 * r.repair_class);
         t.add(r.tet);
         for (const mesh::VertexId v : r.vertices) t.add(v);
-        for (const float f : {r.parameter, r.only_below, r.accept_above, r.gain}) t.add(static_cast<double>(f));
+        for (const float f : {r.parameter, r.only_below, r.accept_above, r.gain})
+            t.add(static_cast<double>(f));
     }
 
     void observer(hooks::Observer& observer, const hooks::StepContext& context) {
@@ -287,7 +298,8 @@ private:
 
 }  // namespace
 
-hooks::StepContext context_of(const Fixture& fixture, std::uint64_t step, const Exercise& how, Workers* workers) {
+hooks::StepContext context_of(const Fixture& fixture, std::uint64_t step, const Exercise& how,
+                              Workers* workers) {
     return {.step = step,
             .surface = fixture.view,
             .cloud = fixture.cloud ? &*fixture.cloud : nullptr,

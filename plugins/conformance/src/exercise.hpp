@@ -15,7 +15,7 @@ struct Exercise {
     unsigned steps = 2;
     std::uint64_t seed = 1;
     unsigned threads = 1;
-    std::size_t block = 64;                ///< vertices of one evaluate()
+    std::size_t block = 64;  ///< vertices of one evaluate()
     const CancelToken* cancel = nullptr;
 };
 
@@ -28,9 +28,11 @@ struct Answers {
 
 /// Steps first_step, first_step + 1, ... of a run on the fixture. `strategy` is the plugin's own object, not a checked one:
 /// what it throws comes out of here. A strategy whose first step is not 1 goes on (observers get no begin()).
-Answers exercise(plugin::Kind kind, hooks::Strategy& strategy, const Fixture& fixture, const Exercise& how = {});
+Answers exercise(plugin::Kind kind, hooks::Strategy& strategy, const Fixture& fixture,
+                 const Exercise& how = {});
 
 /// The context of a step on the fixture.
-hooks::StepContext context_of(const Fixture& fixture, std::uint64_t step, const Exercise& how, Workers* workers);
+hooks::StepContext context_of(const Fixture& fixture, std::uint64_t step, const Exercise& how,
+                              Workers* workers);
 
 }  // namespace dsc::conformance

@@ -42,11 +42,13 @@ mesh::Complex sphere_complex() {
         mesh::TetMesh mesh = mesh::make_lattice(options, same, "the fixture");
         for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
             const auto& [a, b, c, d] = mesh.tets[i];
-            mesh.labels[i] = mesh::label_of(labelling, {mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
+            mesh.labels[i] =
+                mesh::label_of(labelling, {mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
         }
         return mesh;
     };
-    return mesh::adopt(mesh::make_projected(make, shapes, mesh::finest_cell(options), "the fixture"), "the fixture");
+    return mesh::adopt(mesh::make_projected(make, shapes, mesh::finest_cell(options), "the fixture"),
+                       "the fixture");
 }
 
 Fixture of_triangles(std::string name, const surface::TriangleMesh& mesh) {
@@ -68,7 +70,8 @@ surface::TriangleMesh tetrahedron(const Vec3& at, double size) {
 surface::TriangleMesh pieces(int count) {
     surface::TriangleMesh all;
     for (int i = 0; i < count; ++i) {
-        const surface::TriangleMesh piece = tetrahedron(Vec3(0.1 * (i % 10) - 0.5, 0.1 * (i / 10) - 0.5, 0.3), 0.02);
+        const surface::TriangleMesh piece =
+            tetrahedron(Vec3(0.1 * (i % 10) - 0.5, 0.1 * (i / 10) - 0.5, 0.3), 0.02);
         const auto first = static_cast<std::uint32_t>(all.points.size());
         all.points.insert(all.points.end(), piece.points.begin(), piece.points.end());
         for (const auto& [a, b, c] : piece.faces) all.faces.push_back({first + a, first + b, first + c});
@@ -118,7 +121,8 @@ std::vector<Fixture> hostile_surfaces() {
     all.push_back(of_triangles("faces without area", with_flat_faces()));
     all.push_back(of_triangles("all vertices in one place", stretched(Vec3::Zero())));
     all.push_back(of_triangles("a tiny sphere", stretched(Vec3::Constant(1e-9))));
-    all.push_back(of_triangles("a tiny sphere in a corner", stretched(Vec3::Constant(1e-9), Vec3::Constant(1.4))));
+    all.push_back(
+        of_triangles("a tiny sphere in a corner", stretched(Vec3::Constant(1e-9), Vec3::Constant(1.4))));
     all.push_back(of_triangles("100 pieces", pieces(100)));
     all.push_back(of_triangles("an open surface", sdk::square(4, 0.5)));
     all.push_back(of_triangles("no movable vertex", sdk::icosphere(1, 1.0)));

@@ -15,7 +15,8 @@ namespace dsc::conformance {
 struct Fixture {
     std::string name;
     surface::SurfaceView view;
-    std::shared_ptr<const mesh::Complex> complex;  ///< that the view is of; null where there are only triangles
+    std::shared_ptr<const mesh::Complex>
+        complex;  ///< that the view is of; null where there are only triangles
     std::optional<cloud::TargetCloud> cloud;
 };
 

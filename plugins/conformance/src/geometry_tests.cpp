@@ -29,14 +29,16 @@ void rigid(const Subject& subject) {
     const double tolerance = 1e-7 * largest;
     for (std::size_t i = 0; i < scalars; ++i) {
         require(std::abs(plain[i] - there[i]) <= tolerance,
-                "vertex " + std::to_string(i) + " has the curvature " + std::to_string(there[i]) + " instead of " +
-                    std::to_string(plain[i]) + " when all is moved and turned");
+                "vertex " + std::to_string(i) + " has the curvature " + std::to_string(there[i]) +
+                    " instead of " + std::to_string(plain[i]) + " when all is moved and turned");
     }
     for (std::size_t i = scalars; i + 2 < plain.size(); i += 3) {
         const Vec3 turned = motion.rotation * Vec3(plain[i], plain[i + 1], plain[i + 2]);
         const Vec3 found(there[i], there[i + 1], there[i + 2]);
-        require((turned - found).norm() <= tolerance,
-                "the vector of entry " + std::to_string((i - scalars) / 3) + " does not turn along when all is moved and "
+        require(
+            (turned - found).norm() <= tolerance,
+            "the vector of entry " + std::to_string((i - scalars) / 3) +
+                " does not turn along when all is moved and "
                 "turned; a strategy that knows a place or a direction says so: traits = {.rigid = false}");
     }
 }
@@ -44,7 +46,10 @@ void rigid(const Subject& subject) {
 }  // namespace
 
 void add_geometry_tests(std::vector<Test>& table) {
-    add(table, {"geo.rigid", Level::standard, false, "Surface and cloud moved as a rigid body move the answers with them."}, rigid, per_vertex);
+    add(table,
+        {"geo.rigid", Level::standard, false,
+         "Surface and cloud moved as a rigid body move the answers with them."},
+        rigid, per_vertex);
 }
 
 }  // namespace dsc::conformance

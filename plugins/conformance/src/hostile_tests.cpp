@@ -17,18 +17,14 @@ void survive(const Subject& subject, const std::vector<Fixture>& fixtures) {
             throw Failed("on " + fixture.name + " it throws something that is no std::exception");
         }
         if (const auto bad = answers.trace.first_not_finite())
-            throw Failed("on " + fixture.name + " it gives " + std::to_string(answers.trace.values()[*bad]) + " as " +
-                         answers.trace.place(*bad));
+            throw Failed("on " + fixture.name + " it gives " + std::to_string(answers.trace.values()[*bad]) +
+                         " as " + answers.trace.place(*bad));
     }
 }
 
-void surfaces(const Subject& subject) {
-    survive(subject, hostile_surfaces());
-}
+void surfaces(const Subject& subject) { survive(subject, hostile_surfaces()); }
 
-void clouds(const Subject& subject) {
-    survive(subject, hostile_clouds());
-}
+void clouds(const Subject& subject) { survive(subject, hostile_clouds()); }
 
 // After a failure a strategy is as good as new.
 void throws(const Subject& subject) {
@@ -60,8 +56,17 @@ void throws(const Subject& subject) {
 }  // namespace
 
 void add_hostile_tests(std::vector<Test>& table) {
-    add(table, {"mesh.hostile", Level::standard, false, "Empty, flat, tiny and open surfaces give finite answers or an exception."}, surfaces, {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement, plugin::Kind::observer});
-    add(table, {"cloud.hostile", Level::standard, false, "No cloud, one point, points on a line or in one place give finite answers or an exception."}, clouds, {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement, plugin::Kind::observer, plugin::Kind::initial_mesh});
+    add(table,
+        {"mesh.hostile", Level::standard, false,
+         "Empty, flat, tiny and open surfaces give finite answers or an exception."},
+        surfaces,
+        {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement, plugin::Kind::observer});
+    add(table,
+        {"cloud.hostile", Level::standard, false,
+         "No cloud, one point, points on a line or in one place give finite answers or an exception."},
+        clouds,
+        {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement, plugin::Kind::observer,
+         plugin::Kind::initial_mesh});
     add(table, {"err.throw", Level::standard, false, "After an exception it is as good as new."}, throws);
 }
 

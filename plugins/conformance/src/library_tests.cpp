@@ -1,5 +1,4 @@
 // lib.*: the file, its door, and what loading it leaves behind.
-#include <dlfcn.h>
 #include <unistd.h>
 
 #include <dsc/base/error.hpp>
@@ -15,7 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Fails with what the doctor says where one of these steps fails; skips where another one does, of the test `before`.
-void require_steps(const Subject& subject, std::initializer_list<std::string_view> mine, std::string_view before) {
+void require_steps(const Subject& subject, std::initializer_list<std::string_view> mine,
+                   std::string_view before) {
     for (const host::Examination& e : host::examine(subject.file(), {})) {
         if (e.result != host::Examination::Result::failed) continue;
         for (const std::string_view step : mine) {
@@ -65,7 +65,6 @@ std::size_t count_entries(const char* folder) {
 
 // Loading is listing: it must be quick, and leave nothing but the strategies.
 void scan(const Subject& subject) {
-    dlopen(nullptr, RTLD_NOW);  // whatever the linker opens by itself is open now
     const std::size_t files = count_entries("/proc/self/fd");
     const std::size_t threads = count_entries("/proc/self/task");
     const std::size_t printed = printed_so_far();
@@ -78,7 +77,8 @@ void scan(const Subject& subject) {
     const bool silent = printed_so_far() == printed;
     require(silent, "it prints when it is loaded: " + printed_since(printed));
     if (seconds > 5) throw Failed("it takes " + std::to_string(seconds) + " s to load");
-    if (seconds > 0.5) throw Warned("it takes " + std::to_string(seconds) + " s to load; a list of plugins should be quick");
+    if (seconds > 0.5)
+        throw Warned("it takes " + std::to_string(seconds) + " s to load; a list of plugins should be quick");
 }
 
 std::string names(const host::Host& host) {
@@ -100,16 +100,25 @@ void twice(const Subject& subject) {
     } catch (const Error& error) {
         throw Failed(std::string("a second host cannot load it: ") + error.what());
     }
-    require(names(first) == names(second), "a second host gets other strategies or parameters than the first");
+    require(names(first) == names(second),
+            "a second host gets other strategies or parameters than the first");
 }
 
 }  // namespace
 
 void add_library_tests(std::vector<Test>& table) {
-    add(table, {"lib.entry", Level::smoke, true, "The file passes the gate; its name, version, licence and ids are well-formed."}, entry);
-    add(table, {"lib.bind", Level::smoke, true, "It loads by itself: no symbol or library is missing."}, bind);
-    add(table, {"lib.scan", Level::smoke, true, "It loads quickly and starts no thread, opens no file and prints nothing."}, scan);
-    add(table, {"lib.twice", Level::standard, true, "Two hosts in one process get the same strategies."}, twice);
+    add(table,
+        {"lib.entry", Level::smoke, true,
+         "The file passes the gate; its name, version, licence and ids are well-formed."},
+        entry);
+    add(table, {"lib.bind", Level::smoke, true, "It loads by itself: no symbol or library is missing."},
+        bind);
+    add(table,
+        {"lib.scan", Level::smoke, true,
+         "It loads quickly and starts no thread, opens no file and prints nothing."},
+        scan);
+    add(table, {"lib.twice", Level::standard, true, "Two hosts in one process get the same strategies."},
+        twice);
 }
 
 }  // namespace dsc::conformance

@@ -1,8 +1,8 @@
 #include "notes.hpp"
 
 #include <dsc/base/error.hpp>
-#include <dsc/conformance/check.hpp>
 #include <dsc/config/yaml.hpp>
+#include <dsc/conformance/check.hpp>
 
 namespace dsc::conformance {
 namespace {
@@ -39,7 +39,8 @@ StrategyNotes strategy(const ConfigNode& node) {
     require_known(node, {"kind", "id", "parameters", "waive"});
     StrategyNotes notes;
     const auto kind = plugin::find_kind(node.at("kind").as_string());
-    if (!kind) refuse(node.at("kind"), "there is no kind '" + node.at("kind").as_string() + "' of strategies");
+    if (!kind)
+        refuse(node.at("kind"), "there is no kind '" + node.at("kind").as_string() + "' of strategies");
     notes.kind = *kind;
     notes.id = node.at("id").as_string();
     if (const ConfigNode* parameters = node.find("parameters")) notes.parameters = *parameters;
@@ -49,10 +50,13 @@ StrategyNotes strategy(const ConfigNode& node) {
 
 }  // namespace
 
-Notes read_notes(const fs::path& library) {
+Notes notes_beside(const fs::path& library) {
     const fs::path file = library.parent_path() / (library.stem().string() + ".check.yaml");
     std::error_code error;
-    if (!fs::exists(file, error)) return {};
+    return fs::exists(file, error) ? read_notes(file) : Notes{};
+}
+
+Notes read_notes(const fs::path& file) {
     const ConfigNode root = config::load_yaml(file);
     require_known(root, {"strategies"});
     Notes notes;

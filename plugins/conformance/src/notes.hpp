@@ -1,5 +1,5 @@
 #pragma once
-// The notes beside a plugin, libdsc_NAME.check.yaml: what the tests cannot guess, and what need not hold.
+// The notes on a plugin, libdsc_NAME.check.yaml beside it or a file named: what the tests cannot guess, and what need not hold.
 //
 //     strategies:
 //       - kind: initial_mesh
@@ -25,8 +25,10 @@ struct StrategyNotes {
 
 using Notes = std::vector<StrategyNotes>;
 
-/// Of the plugin in this file; empty where there are none. Throws ConfigError.
-Notes read_notes(const std::filesystem::path& library);
+/// Throws ConfigError, IoError.
+Notes read_notes(const std::filesystem::path& file);
+/// Beside the plugin in this file; empty where there are none. Throws as read_notes().
+Notes notes_beside(const std::filesystem::path& library);
 
 /// Null where the strategy has none.
 const StrategyNotes* find(const Notes& notes, plugin::Kind kind, const std::string& id);

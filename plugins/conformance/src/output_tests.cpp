@@ -13,7 +13,8 @@ void finite(const Subject& subject) {
 
 void complete(const Subject& subject) {
     const Answers answers = subject.answers();
-    if (const auto bad = answers.trace.first_unwritten()) throw Failed("it does not write " + answers.trace.place(*bad));
+    if (const auto bad = answers.trace.first_unwritten())
+        throw Failed("it does not write " + answers.trace.place(*bad));
 }
 
 void bounds(const Subject& subject) {
@@ -40,8 +41,10 @@ void quiet(const Subject& subject) {
 
 void add_output_tests(std::vector<Test>& table) {
     add(table, {"out.finite", Level::smoke, false, "No answer is NaN or infinite."}, finite);
-    add(table, {"out.complete", Level::smoke, false, "Every entry of an output is written."}, complete, per_vertex);
-    add(table, {"out.bounds", Level::standard, false, "Nothing outside of an output is written."}, bounds, per_vertex);
+    add(table, {"out.complete", Level::smoke, false, "Every entry of an output is written."}, complete,
+        per_vertex);
+    add(table, {"out.bounds", Level::standard, false, "Nothing outside of an output is written."}, bounds,
+        per_vertex);
     add(table, {"out.const", Level::standard, false, "The input is as it was before, bit by bit."}, inputs);
     add(table, {"out.quiet", Level::strict, false, "Nothing is printed."}, quiet);
 }

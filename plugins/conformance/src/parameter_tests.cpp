@@ -26,8 +26,8 @@ void try_out(const Subject& subject, const Variation& variation) {
         throw Failed("with " + variation.name + " it throws something that is no std::exception");
     }
     if (const auto bad = answers.trace.first_not_finite())
-        throw Failed("with " + variation.name + " it gives " + std::to_string(answers.trace.values()[*bad]) + " as " +
-                     answers.trace.place(*bad));
+        throw Failed("with " + variation.name + " it gives " + std::to_string(answers.trace.values()[*bad]) +
+                     " as " + answers.trace.place(*bad));
 }
 
 // What nobody says and what is said explicitly come to the same.
@@ -65,9 +65,18 @@ void fuzz(const Subject& subject) {
 }  // namespace
 
 void add_parameter_tests(std::vector<Test>& table) {
-    add(table, {"param.default", Level::smoke, false, "It works with its defaults, and the same whether they are written out or left out."}, defaults);
-    add(table, {"param.bounds", Level::standard, false, "It works, or refuses by an exception, with every parameter at the ends of its range."}, bounds);
-    add(table, {"param.fuzz", Level::standard, false, "It works, or refuses by an exception, with random parameters within their ranges."}, fuzz);
+    add(table,
+        {"param.default", Level::smoke, false,
+         "It works with its defaults, and the same whether they are written out or left out."},
+        defaults);
+    add(table,
+        {"param.bounds", Level::standard, false,
+         "It works, or refuses by an exception, with every parameter at the ends of its range."},
+        bounds);
+    add(table,
+        {"param.fuzz", Level::standard, false,
+         "It works, or refuses by an exception, with random parameters within their ranges."},
+        fuzz);
 }
 
 }  // namespace dsc::conformance

@@ -25,7 +25,9 @@ Variation vary(const ConfigNode& base, const Field& field, const ConfigNode& val
     return {field.name + " =" + text(value) + "(" + what + ")", base.with(field.name, value)};
 }
 
-bool is_number(const Field& field) { return field.type == FieldType::integer || field.type == FieldType::real; }
+bool is_number(const Field& field) {
+    return field.type == FieldType::integer || field.type == FieldType::real;
+}
 
 // The last value inside a bound; for an open one the next double, or integer, within.
 double inside(const Field& field, const Bound& bound, bool lower) {
@@ -52,7 +54,8 @@ double base_value(const Field& field, const ConfigNode& base) {
 }
 
 void add_number(const Field& field, const ConfigNode& base, std::vector<Variation>& out) {
-    if (field.minimum) out.push_back(vary(base, field, number(field, inside(field, *field.minimum, true)), "least"));
+    if (field.minimum)
+        out.push_back(vary(base, field, number(field, inside(field, *field.minimum, true)), "least"));
     if (field.maximum && !field.has_tag("costly"))
         out.push_back(vary(base, field, number(field, inside(field, *field.maximum, false)), "greatest"));
 }
@@ -79,7 +82,8 @@ ConfigNode random_value(const Field& field, const ConfigNode& base, RandomStream
         case FieldType::choice:
             return ConfigNode(field.choices[random.index(field.choices.size())]);
         case FieldType::vec3:
-            return ConfigNode::list({draw(field, 1.0, random), draw(field, 1.0, random), draw(field, 1.0, random)});
+            return ConfigNode::list(
+                {draw(field, 1.0, random), draw(field, 1.0, random), draw(field, 1.0, random)});
         default: {
             const ConfigNode* node = base.find(field.name);
             return node != nullptr ? *node : ConfigNode();
@@ -112,7 +116,8 @@ std::vector<Variation> extremes(const config::Schema& schema, const ConfigNode& 
             for (const bool value : {false, true}) out.push_back(vary(base, field, value, "a truth value"));
         }
         if (field.type == FieldType::choice) {
-            for (const std::string& choice : field.choices) out.push_back(vary(base, field, choice, "a choice"));
+            for (const std::string& choice : field.choices)
+                out.push_back(vary(base, field, choice, "a choice"));
         }
         if (field.optional) out.push_back(vary(base, field, ConfigNode(), "unset"));
     }
@@ -138,11 +143,14 @@ std::vector<Variation> wrong(const config::Schema& schema, const ConfigNode& bas
     for (const Field& field : schema.fields()) {
         if (is_number(field)) {
             if (field.minimum)
-                out.push_back(vary(base, field, number(field, outside(field, *field.minimum, true)), "below its range"));
+                out.push_back(vary(base, field, number(field, outside(field, *field.minimum, true)),
+                                   "below its range"));
             if (field.maximum)
-                out.push_back(vary(base, field, number(field, outside(field, *field.maximum, false)), "above its range"));
+                out.push_back(vary(base, field, number(field, outside(field, *field.maximum, false)),
+                                   "above its range"));
         }
-        if (field.type == FieldType::choice) out.push_back(vary(base, field, "no_such_choice", "not a choice"));
+        if (field.type == FieldType::choice)
+            out.push_back(vary(base, field, "no_such_choice", "not a choice"));
         out.push_back(vary(base, field, other_type(field), "another type"));
     }
     out.push_back({"a key that there is not", base.with("no_such_parameter", 1)});

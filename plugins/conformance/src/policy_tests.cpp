@@ -25,8 +25,8 @@ void topology(const Subject& subject) {
     const mesh::Complex complex = mesh::adopt(mesh, "the mesh", nullptr);
     const mesh::ComplexReport report = mesh::validate(complex);
     require(report.valid(), report.faults.empty() ? "" : report.faults.front());
-    require(report.irregular_vertices == 0, "the interface is no 2-manifold at " +
-                                                std::to_string(report.irregular_vertices) + " vertices");
+    require(report.irregular_vertices == 0,
+            "the interface is no 2-manifold at " + std::to_string(report.irregular_vertices) + " vertices");
     require(std::any_of(mesh.labels.begin(), mesh.labels.end(), [](mesh::Label l) { return l > 0; }),
             "no tet has a label above 0: there is nothing to deform");
     require(std::any_of(mesh.labels.begin(), mesh.labels.end(), [](mesh::Label l) { return l == 0; }),
@@ -37,7 +37,9 @@ void topology(const Subject& subject) {
 class Drift final : public hooks::VelocityField {
 public:
     void prepare(const hooks::StepContext&) override {}
-    void evaluate(hooks::Range, std::span<Vec3> out) const override { std::fill(out.begin(), out.end(), Vec3(0.01, 0, 0)); }
+    void evaluate(hooks::Range, std::span<Vec3> out) const override {
+        std::fill(out.begin(), out.end(), Vec3(0.01, 0, 0));
+    }
     bool can_sample() const override { return true; }
     void sample(std::span<const Vec3>, std::span<const Vec3>, std::span<Vec3> out) const override {
         std::fill(out.begin(), out.end(), Vec3(0.01, 0, 0));
@@ -62,19 +64,23 @@ void refinement(const Subject& subject) {
         surface::build_view(deformer.complex(), fixture.view);
         hooks::RefinementRequests requests = ask(policy, fixture, round + 1);
         std::sort(requests.split_faces.begin(), requests.split_faces.end());
-        require(std::adjacent_find(requests.split_faces.begin(), requests.split_faces.end()) == requests.split_faces.end(),
+        require(std::adjacent_find(requests.split_faces.begin(), requests.split_faces.end()) ==
+                    requests.split_faces.end(),
                 "it asks twice for the split of one face");
         const hooks::RefinementRequests again = ask(policy, fixture, round + 1);
         require(again.split_faces.size() <= requests.split_faces.size() &&
                     again.split_edges.size() <= requests.split_edges.size(),
-                "asked again about the same mesh it wants more: " + std::to_string(again.split_faces.size()) + " faces and " +
-                    std::to_string(again.split_edges.size()) + " edges after " + std::to_string(requests.split_faces.size()) +
-                    " and " + std::to_string(requests.split_edges.size()));
+                "asked again about the same mesh it wants more: " + std::to_string(again.split_faces.size()) +
+                    " faces and " + std::to_string(again.split_edges.size()) + " edges after " +
+                    std::to_string(requests.split_faces.size()) + " and " +
+                    std::to_string(requests.split_edges.size()));
         std::vector<std::array<mesh::VertexId, 3>> faces;
         for (const std::uint32_t f : requests.split_faces) {
-            require(f < fixture.view.face_count(), "it asks for face " + std::to_string(f) + ", which does not exist");
+            require(f < fixture.view.face_count(),
+                    "it asks for face " + std::to_string(f) + ", which does not exist");
             const auto& [a, b, c] = fixture.view.faces[f];
-            faces.push_back({fixture.view.vertex_ids[a], fixture.view.vertex_ids[b], fixture.view.vertex_ids[c]});
+            faces.push_back(
+                {fixture.view.vertex_ids[a], fixture.view.vertex_ids[b], fixture.view.vertex_ids[c]});
         }
         deformer.refine(faces, {});
     }
@@ -126,8 +132,14 @@ void progress(const Subject& subject) {
 }  // namespace
 
 void add_policy_tests(std::vector<Test>& table) {
-    add(table, {"mesh.topology", Level::standard, false, "A generated mesh is conforming, fills its box and has a manifold interface."}, topology, {plugin::Kind::initial_mesh});
-    add(table, {"policy.progress", Level::standard, false, "Requests end: refinement asks for nothing twice, improvement leaves valid meshes."}, progress, {plugin::Kind::refinement, plugin::Kind::improvement});
+    add(table,
+        {"mesh.topology", Level::standard, false,
+         "A generated mesh is conforming, fills its box and has a manifold interface."},
+        topology, {plugin::Kind::initial_mesh});
+    add(table,
+        {"policy.progress", Level::standard, false,
+         "Requests end: refinement asks for nothing twice, improvement leaves valid meshes."},
+        progress, {plugin::Kind::refinement, plugin::Kind::improvement});
 }
 
 }  // namespace dsc::conformance

@@ -46,7 +46,8 @@ public:
     Scratch() {
         std::string pattern = (fs::temp_directory_path() / "dsc-check-XXXXXX").string();
         if (mkdtemp(pattern.data()) == nullptr)
-            throw IoError("check.scratch", pattern, "", strerror(errno), "set TMPDIR to a folder that can be written");
+            throw IoError("check.scratch", pattern, "", strerror(errno),
+                          "set TMPDIR to a folder that can be written");
         path_ = pattern;
     }
     ~Scratch() {
@@ -66,7 +67,8 @@ private:
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
-    for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) signal(number, SIG_DFL);
+    for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL})
+        signal(number, SIG_DFL);
     const int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
     dup2(null, STDIN_FILENO);
     dup2(output, STDOUT_FILENO);
@@ -107,12 +109,14 @@ std::string last_line(const std::string& text) {
     std::size_t end = text.find_last_not_of("\n ");
     if (end == std::string::npos) return {};
     const std::size_t begin = text.find_last_of('\n', end);
-    return text.substr(begin == std::string::npos ? 0 : begin + 1, end - (begin == std::string::npos ? 0 : begin + 1) + 1);
+    return text.substr(begin == std::string::npos ? 0 : begin + 1,
+                       end - (begin == std::string::npos ? 0 : begin + 1) + 1);
 }
 
 // The line of a sanitizer's report that says what it is; empty without one.
 std::string sanitizer_report(const std::string& output) {
-    for (const char* sign : {"ERROR: AddressSanitizer", "ERROR: LeakSanitizer", "WARNING: ThreadSanitizer", "runtime error:"}) {
+    for (const char* sign :
+         {"ERROR: AddressSanitizer", "ERROR: LeakSanitizer", "WARNING: ThreadSanitizer", "runtime error:"}) {
         const std::size_t at = output.find(sign);
         if (at == std::string::npos) continue;
         const std::size_t begin = output.rfind('\n', at);
@@ -130,10 +134,12 @@ Verdict judge(int status, bool in_time, const std::string& bytes, const std::str
     const std::string last_words = said.empty() ? "" : ", its last words: " + said;
     if (WIFSIGNALED(status)) {
         const int number = WTERMSIG(status);
-        return {Status::crash, "signal " + std::to_string(number) + " (" + strsignal(number) + ")" + last_words};
+        return {Status::crash,
+                "signal " + std::to_string(number) + " (" + strsignal(number) + ")" + last_words};
     }
     if (bytes.empty() || WEXITSTATUS(status) != 0)
-        return {Status::crash, "it ended the process with exit code " + std::to_string(WEXITSTATUS(status)) + last_words};
+        return {Status::crash,
+                "it ended the process with exit code " + std::to_string(WEXITSTATUS(status)) + last_words};
     return {static_cast<Status>(bytes[0]), bytes.substr(1)};
 }
 
@@ -147,7 +153,9 @@ std::size_t printed_so_far() {
     return size_of(printed);
 }
 
-std::string printed_since(std::size_t begin) { return printed < 0 ? std::string() : read_file(printed, begin, 200); }
+std::string printed_since(std::size_t begin) {
+    return printed < 0 ? std::string() : read_file(printed, begin, 200);
+}
 
 double cpu_seconds() {
     timespec now{};
@@ -183,8 +191,8 @@ Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::millisec
     close(ends[0]);
     close(output);
     if (child < 0)
-        throw PluginError("check.process",
-                          std::string("cannot make a process for a test (") + strerror(errno) + "); close other programs");
+        throw PluginError("check.process", std::string("cannot make a process for a test (") +
+                                               strerror(errno) + "); close other programs");
     return judge(status, in_time, bytes, said, limit);
 }
 

@@ -43,7 +43,8 @@ std::string xml(std::string_view text) {
 
 std::string junit_case(const Report& report, const Outcome& o) {
     const std::string owner = o.strategy.empty() ? report.plugin : report.plugin + ": " + o.strategy;
-    std::string out = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", xml(owner), o.test, o.seconds);
+    std::string out = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", xml(owner),
+                                  o.test, o.seconds);
     if (o.status == Status::pass) return out + "/>\n";
     out += ">\n";
     if (o.status == Status::skip) {
@@ -52,7 +53,8 @@ std::string junit_case(const Report& report, const Outcome& o) {
         out += fmt::format("    <system-out>warning: {}</system-out>\n", xml(o.message));
     } else {
         const char* element = o.status == Status::fail ? "failure" : "error";
-        out += fmt::format("    <{} message=\"{}\" type=\"{}\"/>\n", element, xml(o.message), lower(name(o.status)));
+        out += fmt::format("    <{} message=\"{}\" type=\"{}\"/>\n", element, xml(o.message),
+                           lower(name(o.status)));
     }
     return out + "  </testcase>\n";
 }
@@ -106,7 +108,8 @@ std::string junit(const Report& report) {
     for (const Outcome& o : report.outcomes) seconds += o.seconds;
     std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     out += fmt::format(
-        "<testsuite name=\"dsc plugin check {}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n",
+        "<testsuite name=\"dsc plugin check {}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" "
+        "time=\"{:.3f}\">\n",
         xml(report.file.filename().string()), report.outcomes.size(), report.count(Status::fail),
         report.count(Status::crash) + report.count(Status::timeout), report.count(Status::skip), seconds);
     for (const Outcome& o : report.outcomes) out += junit_case(report, o);

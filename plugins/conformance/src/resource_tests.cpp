@@ -45,7 +45,8 @@ void use_once(const Subject& subject, const Fixture& fixture) {
 
 // Made, used and destroyed many times, it holds no more memory than after a few times.
 void leak(const Subject& subject) {
-    const bool costly = subject.kind() == plugin::Kind::initial_mesh || subject.kind() == plugin::Kind::improvement;
+    const bool costly =
+        subject.kind() == plugin::Kind::initial_mesh || subject.kind() == plugin::Kind::improvement;
     const unsigned repeats = costly ? 5 : 100;
     const Fixture small = costly ? subject.fixture() : triangles(2);
     for (unsigned i = 0; i < 3; ++i) use_once(subject, small);
@@ -85,16 +86,22 @@ void scale(const Subject& subject) {
     const double large = time(5);
     const double ratio = large / std::max(small, 1e-6);
     if (large > 0.02 && ratio > 9)
-        throw Warned("four times the surface takes " + std::to_string(ratio) + " times as long: it grows faster than the surface");
+        throw Warned("four times the surface takes " + std::to_string(ratio) +
+                     " times as long: it grows faster than the surface");
 }
 
 }  // namespace
 
 void add_resource_tests(std::vector<Test>& table) {
     add(table, {"cancel", Level::standard, false, "Cancelled, it comes back within 2 s."}, cancel);
-    add(table, {"leak", Level::standard, false, "Made, used and destroyed, it leaves no memory behind."}, leak);
-    add(table, {"thr.race", Level::strict, false, "Concurrent calls have no data race (in a build with ThreadSanitizer)."}, race);
-    add(table, {"perf.scale", Level::strict, false, "The time grows with the surface, not faster."}, scale, {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement});
+    add(table, {"leak", Level::standard, false, "Made, used and destroyed, it leaves no memory behind."},
+        leak);
+    add(table,
+        {"thr.race", Level::strict, false,
+         "Concurrent calls have no data race (in a build with ThreadSanitizer)."},
+        race);
+    add(table, {"perf.scale", Level::strict, false, "The time grows with the surface, not faster."}, scale,
+        {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement});
 }
 
 }  // namespace dsc::conformance

@@ -17,9 +17,10 @@ using config::FieldType;
 
 // Words that units are made of, joined by / or ^.
 constexpr std::array unit_words = {
-    "1",       "length",  "curvature", "time",      "radians",   "degrees", "mean edges", "steps", "seconds", "vertices",
-    "faces",   "tets",    "points",    "diagonals", "radius",    "cells",   "finest cells", "directions", "levels",
-    "point distances", "point spacings", "2", "3", "threads", "rounds",
+    "1",      "length",  "curvature",    "time",       "radians", "degrees",         "mean edges",
+    "steps",  "seconds", "vertices",     "faces",      "tets",    "points",          "diagonals",
+    "radius", "cells",   "finest cells", "directions", "levels",  "point distances", "point spacings",
+    "2",      "3",       "threads",      "rounds",
 };
 
 bool is_unit(const std::string& unit) {
@@ -48,10 +49,14 @@ void lint_field(const Field& field, std::vector<std::string>& problems) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
     });
     if (!snake) problems.push_back(subject + "is not named in snake_case");
-    if (field.doc.empty() || field.doc.back() != '.') problems.push_back(subject + "has a doc that is no sentence");
-    if (!field.unit.empty() && !is_unit(field.unit)) problems.push_back(subject + "has the unknown unit '" + field.unit + "'");
-    const bool number = field.type == FieldType::real || field.type == FieldType::real_list || field.type == FieldType::vec3;
-    if (number && field.unit.empty()) problems.push_back(subject + "is a real number without a unit (\"1\" for a pure number)");
+    if (field.doc.empty() || field.doc.back() != '.')
+        problems.push_back(subject + "has a doc that is no sentence");
+    if (!field.unit.empty() && !is_unit(field.unit))
+        problems.push_back(subject + "has the unknown unit '" + field.unit + "'");
+    const bool number =
+        field.type == FieldType::real || field.type == FieldType::real_list || field.type == FieldType::vec3;
+    if (number && field.unit.empty())
+        problems.push_back(subject + "is a real number without a unit (\"1\" for a pure number)");
     if (!field.object) return;
     for (const Field& inner : field.object->fields()) lint_field(inner, problems);
 }
@@ -72,8 +77,9 @@ void roundtrip(const Subject& subject) {
     }
     ConfigNode resolved;
     try {
-        const bool needs_notes = std::any_of(subject.schema().fields().begin(), subject.schema().fields().end(),
-                                             [](const Field& field) { return field.required; });
+        const bool needs_notes =
+            std::any_of(subject.schema().fields().begin(), subject.schema().fields().end(),
+                        [](const Field& field) { return field.required; });
         resolved = needs_notes ? subject.defaults() : subject.resolve(ConfigNode::map());
     } catch (const StrategyError& error) {
         throw Failed(std::string("its defaults cannot be judged: ") + error.what());
@@ -116,9 +122,18 @@ void reject(const Subject& subject) {
 }  // namespace
 
 void add_schema_tests(std::vector<Test>& table) {
-    add(table, {"schema.lint", Level::smoke, false, "Parameters are named in snake_case, documented in sentences, and numbers have known units."}, lint);
-    add(table, {"schema.roundtrip", Level::smoke, false, "The defaults are accepted, and written as YAML and read back they are the same."}, roundtrip);
-    add(table, {"schema.reject", Level::standard, false, "Values outside of a range, of another type, and unknown keys are refused; judging never throws."}, reject);
+    add(table,
+        {"schema.lint", Level::smoke, false,
+         "Parameters are named in snake_case, documented in sentences, and numbers have known units."},
+        lint);
+    add(table,
+        {"schema.roundtrip", Level::smoke, false,
+         "The defaults are accepted, and written as YAML and read back they are the same."},
+        roundtrip);
+    add(table,
+        {"schema.reject", Level::standard, false,
+         "Values outside of a range, of another type, and unknown keys are refused; judging never throws."},
+        reject);
 }
 
 }  // namespace dsc::conformance

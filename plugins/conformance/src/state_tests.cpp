@@ -63,8 +63,12 @@ void damaged(const Subject& subject) {
 }  // namespace
 
 void add_state_tests(std::vector<Test>& table) {
-    add(table, {"state.roundtrip", Level::standard, false, "Saved and read by another instance, a run goes on as if nothing had been."}, roundtrip);
-    add(table, {"state.bad", Level::standard, false, "Damaged states end in an exception, never in a crash."}, damaged);
+    add(table,
+        {"state.roundtrip", Level::standard, false,
+         "Saved and read by another instance, a run goes on as if nothing had been."},
+        roundtrip);
+    add(table, {"state.bad", Level::standard, false, "Damaged states end in an exception, never in a crash."},
+        damaged);
 }
 
 }  // namespace dsc::conformance

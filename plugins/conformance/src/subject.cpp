@@ -20,11 +20,13 @@ Subject::Subject(std::filesystem::path file, const StrategyName* strategy, const
     notes_ = find(notes, strategy->kind, strategy->id);
     host_.load(file_);
     strategy_ = host_.find(strategy->kind, strategy->id);
-    if (strategy_ && nests(*strategy_->strategy->schema)) host_.load_all(options.search, host::OnFault::collect);
+    if (strategy_ && nests(*strategy_->strategy->schema))
+        host_.load_all(options.search, host::OnFault::collect);
 }
 
 const plugin::StrategyRecord& Subject::record() const {
-    if (!strategy_) throw Failed("the strategy is gone: the plugin registers another set of strategies each time");
+    if (!strategy_)
+        throw Failed("the strategy is gone: the plugin registers another set of strategies each time");
     return *strategy_->strategy;
 }
 
@@ -41,12 +43,12 @@ config::ConfigNode Subject::resolve(const config::ConfigNode& given) const {
 
 const config::ConfigNode& Subject::defaults() const {
     if (defaults_) return *defaults_;
-    const config::ConfigNode given = notes_ != nullptr && notes_->parameters.is_map() ? notes_->parameters
-                                                                                      : config::ConfigNode::map();
+    const config::ConfigNode given =
+        notes_ != nullptr && notes_->parameters.is_map() ? notes_->parameters : config::ConfigNode::map();
     for (const config::Field& field : schema().fields()) {
         if (field.required && given.find(field.name) == nullptr) {
-            throw Skipped("parameter '" + field.name + "' has no default; give it a value in " + file_.stem().string() +
-                          ".check.yaml beside the plugin");
+            throw Skipped("parameter '" + field.name + "' has no default; give it a value in " +
+                          file_.stem().string() + ".check.yaml beside the plugin");
         }
     }
     try {

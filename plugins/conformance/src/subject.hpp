@@ -16,7 +16,8 @@ namespace dsc::conformance {
 class Subject {
 public:
     /// `strategy` null: the test is of the library, which is not loaded here.
-    Subject(std::filesystem::path file, const StrategyName* strategy, const Notes& notes, const CheckOptions& options);
+    Subject(std::filesystem::path file, const StrategyName* strategy, const Notes& notes,
+            const CheckOptions& options);
 
     const std::filesystem::path& file() const { return file_; }
     const CheckOptions& options() const { return options_; }

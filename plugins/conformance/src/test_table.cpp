@@ -2,7 +2,8 @@
 
 namespace dsc::conformance {
 
-void add(std::vector<Test>& table, TestInfo info, void (*run)(const Subject&), std::vector<plugin::Kind> kinds) {
+void add(std::vector<Test>& table, TestInfo info, void (*run)(const Subject&),
+         std::vector<plugin::Kind> kinds) {
     Test& test = table.emplace_back();
     test.info = std::move(info);
     test.run = run;

@@ -19,7 +19,8 @@ struct Test {
     }
 };
 
-void add(std::vector<Test>& table, TestInfo info, void (*run)(const Subject&), std::vector<plugin::Kind> kinds = {});
+void add(std::vector<Test>& table, TestInfo info, void (*run)(const Subject&),
+         std::vector<plugin::Kind> kinds = {});
 
 /// Kinds with a value for each vertex.
 inline const std::vector<plugin::Kind> per_vertex = {plugin::Kind::velocity, plugin::Kind::curvature};

@@ -65,17 +65,18 @@ private:
     std::string judge_build() const {
         require_fitting(entry_, real_);
         const plugin::PluginEntry& entry = entry_.entry;
-        return "plugin '" + text_of(entry.name) + "' " + text_of(entry.version) + ", licence " + text_of(entry.license) +
-               ", ABI " + std::to_string(entry.abi_major) + "." + std::to_string(entry.abi_minor) +
-               ", built to fit this dsc";
+        return "plugin '" + text_of(entry.name) + "' " + text_of(entry.version) + ", licence " +
+               text_of(entry.license) + ", ABI " + std::to_string(entry.abi_major) + "." +
+               std::to_string(entry.abi_minor) + ", built to fit this dsc";
     }
 
     void note_soft_differences() {
         if (failed_) return;
         for (const auto& d :
              plugin::compare_fingerprints(text_of(entry_.entry.fingerprint), plugin::core_fingerprint())) {
-            all_.push_back({"build", Result::note,
-                            d.key + " is '" + d.plugin + "', that of dsc is '" + d.host + "'; this does no harm"});
+            all_.push_back(
+                {"build", Result::note,
+                 d.key + " is '" + d.plugin + "', that of dsc is '" + d.host + "'; this does no harm"});
         }
     }
 

@@ -78,7 +78,8 @@ void Host::load(const fs::path& file) {
     if (is_loaded(real)) return;
     require_admissible(real);
     if (rehearsed_.count(real) == 0) rehearse({&real, 1});
-    if (const std::optional<Fault>& fault = rehearsed_.at(real)) throw PluginError(fault->code, fault->message);
+    if (const std::optional<Fault>& fault = rehearsed_.at(real))
+        throw PluginError(fault->code, fault->message);
 
     const plugin::PluginEntry& entry = open_library(real);
     auto loaded = std::make_unique<Loaded>(Loaded{info_of(entry, real), enroll(entry, real)});

@@ -54,7 +54,8 @@ const plugin::PluginEntry& open_library(const std::filesystem::path& file) {
     return *static_cast<const plugin::PluginEntry*>(entry);
 }
 
-std::vector<plugin::StrategyRecord> enroll(const plugin::PluginEntry& entry, const std::filesystem::path& file) {
+std::vector<plugin::StrategyRecord> enroll(const plugin::PluginEntry& entry,
+                                           const std::filesystem::path& file) {
     const std::string remedy = "report this to the plugin's authors";
     const std::string name = text_of(entry.name);
     if (!is_plain_name(name)) {

@@ -59,7 +59,8 @@ void withdraw() {
     setrlimit(RLIMIT_CORE, &no_core);
     const int null = open("/dev/null", O_RDWR | O_CLOEXEC);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, stream);
-    for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) signal(number, SIG_DFL);
+    for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL})
+        signal(number, SIG_DFL);
 }
 
 [[noreturn]] void rehearse(std::span<const fs::path> libraries, std::size_t first, int to) {
@@ -175,16 +176,19 @@ std::vector<std::optional<Fault>> scan(std::span<const fs::path> libraries, std:
     while (next < libraries.size()) {
         Child child(libraries, next);
         // As long as the child answers, it goes on to the next library; where it ends, another one takes over.
-        for (Child::End end = Child::End::answered; end == Child::End::answered && next < libraries.size(); ++next) {
+        for (Child::End end = Child::End::answered; end == Child::End::answered && next < libraries.size();
+             ++next) {
             Answer answer;
             end = child.next(answer, Clock::now() + limit);
             const fs::path& file = libraries[next];
             if (end == Child::End::late) {
-                faults[next] = fault_of(file, "plugin.hang", "did not load within " + std::to_string(limit.count() / 1000) +
-                                                                 " s when it was tried in a process of its own");
+                faults[next] = fault_of(file, "plugin.hang",
+                                        "did not load within " + std::to_string(limit.count() / 1000) +
+                                            " s when it was tried in a process of its own");
             } else if (end == Child::End::closed) {
-                faults[next] = fault_of(file, "plugin.crash",
-                                        "crashes when it is loaded: the process that tried it " + child.obituary());
+                faults[next] =
+                    fault_of(file, "plugin.crash",
+                             "crashes when it is loaded: the process that tried it " + child.obituary());
             } else if (!answer.code.empty()) {
                 faults[next] = Fault{file, answer.code, answer.message};
             }

@@ -86,6 +86,7 @@ void CornerBox::declare(config::ParamSchema<Params>& schema) {
     schema.integer("divisions", &Params::divisions)
         .range(1, 200)
         .unit("1")
+        .costly()
         .doc("Edges from the solid's centre to its surface along an axis.");
     schema.real("box", &Params::box).greater(0).unit("length").doc("Half the edge of the box, which is centred at 0.");
     schema.check([](const Params& p) { return p.half_size.minCoeff() > 0; }, "half_size must be above 0");

@@ -12,6 +12,7 @@ namespace dsc::strategies {
 /// was. A refinement between steps sees the step before it.
 class Flow final : public hooks::VelocityField {
 public:
+    static constexpr hooks::Traits traits = {.rigid = false};
     struct Params : Field {
         double time_step = 0.01;
         int substeps = 1;

@@ -10,6 +10,7 @@ namespace dsc::strategies {
 /// the rotation takes them [Saul2015, ch. 4, RotateFunc].
 class Rotate final : public hooks::VelocityField {
 public:
+    static constexpr hooks::Traits traits = {.rigid = false};
     struct Params {
         Vec3 centre = Vec3::Zero();
         Vec3 axis = Vec3(0, 0, 1);

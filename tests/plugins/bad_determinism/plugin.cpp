@@ -15,7 +15,9 @@ public:
     Dice(const Params&, const dsc::plugin::Setup&) : factor_(1.0 + 1e-6 * std::random_device{}()) {}
 
 private:
-    dsc::Vec3 displacement(std::size_t vertex) const override { return factor_ * Velocity::displacement(vertex); }
+    dsc::Vec3 displacement(std::size_t vertex) const override {
+        return factor_ * Velocity::displacement(vertex);
+    }
     double factor_;
 };
 
@@ -41,7 +43,9 @@ public:
     }
 
 private:
-    dsc::Vec3 displacement(std::size_t vertex) const override { return factor_ * Velocity::displacement(vertex); }
+    dsc::Vec3 displacement(std::size_t vertex) const override {
+        return factor_ * Velocity::displacement(vertex);
+    }
     double factor_ = 1;
 };
 
@@ -64,14 +68,17 @@ public:
     }
 
 private:
-    dsc::Vec3 displacement(std::size_t vertex) const override { return factor_ * Velocity::displacement(vertex); }
+    dsc::Vec3 displacement(std::size_t vertex) const override {
+        return factor_ * Velocity::displacement(vertex);
+    }
     double factor_ = 1;
 };
 
 class SecretlyRandom final : public Velocity {
     using Velocity::Velocity;
     dsc::Vec3 displacement(std::size_t vertex) const override {
-        return (1.0 + context().random(context().surface.births[vertex]).uniform()) * Velocity::displacement(vertex);
+        return (1.0 + context().random(context().surface.births[vertex]).uniform()) *
+               Velocity::displacement(vertex);
     }
 };
 

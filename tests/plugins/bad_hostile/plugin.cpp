@@ -19,7 +19,8 @@ class NeedsManyPoints final : public Velocity {
     using Velocity::Velocity;
     dsc::Vec3 displacement(std::size_t vertex) const override {
         const bool lost = context().cloud != nullptr && context().cloud->size() == 1;
-        return lost ? dsc::Vec3::Constant(std::numeric_limits<double>::quiet_NaN()) : Velocity::displacement(vertex);
+        return lost ? dsc::Vec3::Constant(std::numeric_limits<double>::quiet_NaN())
+                    : Velocity::displacement(vertex);
     }
 };
 

@@ -12,7 +12,8 @@ class NotFinite final : public Velocity {
     using Velocity::Velocity;
     dsc::Vec3 displacement(std::size_t vertex) const override {
         const bool bad = ordinary() && vertex == 7;
-        return bad ? dsc::Vec3(0, std::numeric_limits<double>::infinity(), 0) : Velocity::displacement(vertex);
+        return bad ? dsc::Vec3(0, std::numeric_limits<double>::infinity(), 0)
+                   : Velocity::displacement(vertex);
     }
 };
 

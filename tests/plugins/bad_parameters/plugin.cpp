@@ -57,7 +57,9 @@ public:
     MovingDefault(const Params& params, const dsc::plugin::Setup&) : gain_(params.gain) {}
 
 private:
-    dsc::Vec3 displacement(std::size_t vertex) const override { return gain_ * Velocity::displacement(vertex); }
+    dsc::Vec3 displacement(std::size_t vertex) const override {
+        return gain_ * Velocity::displacement(vertex);
+    }
     double gain_;
 };
 
@@ -72,7 +74,8 @@ class BreaksInTheMiddle final : public Gained {
     using Gained::Gained;
     dsc::Vec3 displacement(std::size_t vertex) const override {
         const bool bad = gain() > 0.55 && gain() < 0.95;
-        return bad ? dsc::Vec3::Constant(std::numeric_limits<double>::quiet_NaN()) : Gained::displacement(vertex);
+        return bad ? dsc::Vec3::Constant(std::numeric_limits<double>::quiet_NaN())
+                   : Gained::displacement(vertex);
     }
 };
 

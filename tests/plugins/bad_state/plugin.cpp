@@ -18,7 +18,9 @@ public:
     }
 
 protected:
-    dsc::Vec3 displacement(std::size_t vertex) const override { return steps_ * Velocity::displacement(vertex); }
+    dsc::Vec3 displacement(std::size_t vertex) const override {
+        return steps_ * Velocity::displacement(vertex);
+    }
     int steps_ = 0;
 };
 

@@ -25,16 +25,17 @@ std::vector<Examination> examine(const fs::path& file) { return dsc::host::exami
 }  // namespace
 
 TEST_CASE("a library that crashes, ends the program or hangs when it is loaded does so in another process") {
-    const std::vector<fs::path> files = {fixture("bad_crash"), fixture("good"), fixture("bad_exit"), fixture("bad_hang"),
-                                         fixture("bad_throws"), fixture("good")};
+    const std::vector<fs::path> files = {fixture("bad_crash"), fixture("good"),       fixture("bad_exit"),
+                                         fixture("bad_hang"),  fixture("bad_throws"), fixture("good")};
     const auto faults = dsc::host::scan(files, std::chrono::milliseconds(1500));
     REQUIRE(faults.size() == 6);
     REQUIRE(faults[0].has_value());
     CHECK(faults[0]->code == "plugin.crash");
 #ifndef __SANITIZE_ADDRESS__
-    CHECK(faults[0]->message == files[0].string() +
-                                    ": crashes when it is loaded: the process that tried it was ended by signal 11 "
-                                    "(Segmentation fault); report this to the plugin's authors");
+    CHECK(faults[0]->message ==
+          files[0].string() +
+              ": crashes when it is loaded: the process that tried it was ended by signal 11 "
+              "(Segmentation fault); report this to the plugin's authors");
 #endif
     CHECK_FALSE(faults[1].has_value());
     REQUIRE(faults[2].has_value());
@@ -64,18 +65,20 @@ TEST_CASE("the doctor goes the way of a load and stops where it ends") {
         const char* step;
         const char* text;
     };
-    for (const Case& c : {Case{"bad_no_entry", "library", "without the symbol dsc_plugin_entry"},
-                          Case{"bad_abi_old", "build", "was built for ABI"},
-                          Case{"bad_debug_stl", "build", "dbgstl is '1' there and '0' here"},
-                          Case{"bad_symbol", "load", "undefined symbol"}, Case{"bad_crash", "load", "crashes when"},
-                          Case{"bad_throws", "register", "failed to register"},
-                          Case{"bad_schema", "register", "failed to register"}}) {
+    for (const Case& c :
+         {Case{"bad_no_entry", "library", "without the symbol dsc_plugin_entry"},
+          Case{"bad_abi_old", "build", "was built for ABI"},
+          Case{"bad_debug_stl", "build", "dbgstl is '1' there and '0' here"},
+          Case{"bad_symbol", "load", "undefined symbol"}, Case{"bad_crash", "load", "crashes when"},
+          Case{"bad_throws", "register", "failed to register"},
+          Case{"bad_schema", "register", "failed to register"}}) {
         CAPTURE(c.plugin);
         const auto examinations = examine(fixture(c.plugin));
         CHECK_FALSE(dsc::host::healthy(examinations));
         CHECK(failed_step(examinations).step == c.step);
         CHECK(failed_step(examinations).text.find(c.text) != std::string::npos);
-        CHECK((examinations.back().result == Examination::Result::not_reached || c.step == std::string("names")));
+        CHECK((examinations.back().result == Examination::Result::not_reached ||
+               c.step == std::string("names")));
     }
     const support::TemporaryFolder folder;
     CHECK(failed_step(examine(folder.path() / "none.so")).step == "file");

@@ -41,6 +41,8 @@ public:
     /// Accepted items of a list of strings.
     FieldBuilder& choices(std::vector<std::string> list) { return field().choices = std::move(list), *this; }
     FieldBuilder& tag(std::string name) { return field().tags.push_back(std::move(name)), *this; }
+    /// Time or memory grow with it: tests leave it at or below its default.
+    FieldBuilder& costly() { return tag("costly"); }
     /// Not for the first page of the documentation.
     FieldBuilder& advanced() { return tag("advanced"); }
 

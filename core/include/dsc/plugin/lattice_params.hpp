@@ -17,6 +17,7 @@ void declare_lattice(config::ParamSchema<Params>& schema, const std::string& whe
     schema.integer("cells", static_cast<int Params::*>(&Options::cells))
         .range(mesh::least_lattice_cells, mesh::most_lattice_cells)
         .unit("1")
+        .costly()
         .doc("Finest cells along the box; the box grows to the next number that the octree can have.");
     schema.real("cell", static_cast<std::optional<double> Params::*>(&Options::cell))
         .greater(0)

@@ -53,19 +53,20 @@ struct StrategyName {
 
 struct CheckOptions {
     Level level = Level::standard;
-    std::uint64_t seed = 1;                    ///< of all that is random in the tests
-    unsigned fuzz = 20;                        ///< random parameter sets
-    std::chrono::milliseconds limit{30000};    ///< of one test; ten times as much under a sanitizer
-    std::vector<std::string> only;             ///< ids of tests; empty: all of the level
-    std::vector<StrategyName> strategies;      ///< empty: all of the library
-    std::vector<host::SearchEntry> search;     ///< plugins for strategies that nest others
-    bool in_process = false;                   ///< no process of its own, for a debugger
+    std::uint64_t seed = 1;                  ///< of all that is random in the tests
+    unsigned fuzz = 20;                      ///< random parameter sets
+    std::chrono::milliseconds limit{30000};  ///< of one test; ten times as much under a sanitizer
+    std::vector<std::string> only;           ///< ids of tests; empty: all of the level
+    std::vector<StrategyName> strategies;    ///< empty: all of the library
+    std::filesystem::path notes;  ///< empty: libdsc_NAME.check.yaml beside the plugin, where there is one
+    std::vector<host::SearchEntry> search;           ///< plugins for strategies that nest others
+    bool in_process = false;                         ///< no process of its own, for a debugger
     std::function<void(const Outcome&)> on_outcome;  ///< as soon as it is known
 };
 
 struct Report {
     std::filesystem::path file;
-    std::string plugin;   ///< name and version; empty where the library does not load
+    std::string plugin;  ///< name and version; empty where the library does not load
     Level level = Level::standard;
     std::uint64_t seed = 1;
     std::vector<Outcome> outcomes;
@@ -74,7 +75,7 @@ struct Report {
     std::size_t count(Status status) const;
 };
 
-/// Checks the plugin in `file`. Notes beside it, libdsc_NAME.check.yaml, give parameters that have no default and waive
+/// Checks the plugin in `file`. Notes give parameters that have no default and waive
 /// tests with a reason (share/doc/write-a-strategy.md). Throws PluginError "plugin.open", UsageError for an unknown test or
 /// strategy, ConfigError for faulty notes; what the plugin does becomes outcomes. [setup]
 Report check(const std::filesystem::path& file, const CheckOptions& options);
