@@ -22,5 +22,7 @@ void add_evaluate(CLI::App& app, Context& context);
 void add_render(CLI::App& app, Context& context);
 void add_convert(CLI::App& app, Context& context);
 void add_plugin(CLI::App& app, Context& context);
+/// Below `dsc plugin`.
+void add_plugin_new(CLI::App& plugin, Context& context);
 
 }  // namespace dsc::app

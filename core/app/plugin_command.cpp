@@ -111,6 +111,7 @@ void add_plugin(CLI::App& app, Context& context) {
         ->check(CLI::IsMember({"text", "json", "yaml"}))
         ->capture_default_str();
     add("path", "Where plugins are looked for, in order", path);
+    add_plugin_new(*command, context);
 }
 
 }  // namespace dsc::app
