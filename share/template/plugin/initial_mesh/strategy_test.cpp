@@ -1,6 +1,7 @@
 // What the mesh must be. The strategy comes through the plugin's door, as in a run.
 #include <doctest/doctest.h>
 
+#include <dsc/base/error.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>
