@@ -85,6 +85,7 @@ std::vector<ProjectFile> plugin_project(const std::string& name, plugin::Kind ki
         if ((folder == own && base != "page.md") || folder == "shared/")
             files.push_back({std::string(base), filled(file, values)});
     }
+    std::sort(files.begin(), files.end(), [](const ProjectFile& a, const ProjectFile& b) { return a.name < b.name; });
     return files;
 }
 

@@ -4,6 +4,7 @@
 A block of the language sh is run. A block after a comment <!-- file: NAME --> is written to that file.
 """
 
+import json
 import re
 import unittest
 
@@ -33,6 +34,9 @@ class Tutorial(unittest.TestCase):
             commands += len(text.splitlines())
             package.run(["bash", "-euc", text], folder)
         self.assertGreater(commands, 8)
+        for run, volume in (("run", 1.413), ("shrinking", 0.702)):  # the figures that the page tells
+            summary = json.loads((folder / "steady" / run / "summary.json").read_text())
+            self.assertAlmostEqual(summary["volume"], volume, places=3)
         self.assertTrue((folder / "steady.png").stat().st_size > 1000)
         self.assertIn("steady", package.run(["dsc", "plugin", "list"], folder))
         (package.SCRATCH / "home/.local/share/dsc/plugins/libdsc_steady.so").unlink()
