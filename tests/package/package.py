@@ -10,7 +10,6 @@ CMAKE = os.environ["DSC_PACKAGE_CMAKE"]
 BUILD = Path(os.environ["DSC_PACKAGE_BUILD"])
 SOURCE = Path(os.environ["DSC_PACKAGE_SOURCE"])
 SCRATCH = Path(os.environ["DSC_PACKAGE_SCRATCH"])
-SANITIZED = bool(os.environ["DSC_PACKAGE_SANITIZE"])
 PREFIX = SCRATCH / "moved prefix"
 KINDS = ["velocity", "curvature", "refinement", "initial_mesh", "improvement", "observer"]
 
@@ -35,6 +34,7 @@ def environment():
     clean.setdefault("CCACHE_DIR", str(Path.home() / ".cache" / "ccache"))
     clean["PATH"] = f"{PREFIX / 'bin'}:{os.environ['PATH']}"
     clean["CXX"] = os.environ["DSC_PACKAGE_CXX"]
+    clean["CMAKE_GENERATOR"] = os.environ["DSC_PACKAGE_GENERATOR"]
     if os.environ["DSC_PACKAGE_LAUNCHER"]:
         clean["CMAKE_CXX_COMPILER_LAUNCHER"] = os.environ["DSC_PACKAGE_LAUNCHER"]
     return clean
