@@ -92,6 +92,7 @@ int path(const PluginArguments& arguments) {
 void add_plugin(CLI::App& app, Context& context) {
     CLI::App* command = app.add_subcommand("plugin", "Strategies: which there are, and what they take");
     command->require_subcommand(1);
+    add_plugin_new(*command, context);
     const auto arguments = std::make_shared<PluginArguments>();
     const auto add = [&](const char* name, const char* text, int (*action)(const PluginArguments&)) {
         CLI::App* sub = command->add_subcommand(name, text);
@@ -111,7 +112,6 @@ void add_plugin(CLI::App& app, Context& context) {
         ->check(CLI::IsMember({"text", "json", "yaml"}))
         ->capture_default_str();
     add("path", "Where plugins are looked for, in order", path);
-    add_plugin_new(*command, context);
 }
 
 }  // namespace dsc::app

@@ -51,7 +51,7 @@ void log_next(const std::string& name) {
                                    " builds against an installed one: cmake --install BUILD_FOLDER --prefix PREFIX, and use PREFIX/bin/dsc");
         return;
     }
-    log(LogLevel::info, "next: cmake -S " + name + " -B " + name + "/build -Ddsc_DIR=" + package.string());
+    log(LogLevel::info, "next: cmake -S " + name + " -B " + name + "/build -Ddsc_DIR='" + package.string() + "'");
     log(LogLevel::info, "then: cmake --build " + name + "/build && ctest --test-dir " + name + "/build && dsc run " + name +
                             "/experiment.yaml");
 }

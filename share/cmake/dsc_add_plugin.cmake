@@ -6,7 +6,8 @@
 #   LINK     further targets; a heavy or differently licensed library belongs into a plugin of its own
 #   TESTS    doctest sources, run by ctest as plugin.NAME.*: they see the strategy's own headers and, through the
 #            macro DSC_TEST_PLUGIN, the path of the library
-#   CHECK    waivers for `dsc plugin check`, each with its reason
+#   CHECK    notes for `dsc plugin check`: parameters that it cannot guess, tests that need not hold and why. @VARIABLES@ of
+#            CMake are filled in; the result lies beside the library, as libdsc_NAME.check.yaml
 # Targets: plugin_NAME (the library), test_plugin_NAME.
 #
 # Outside of this project also: the build ends with loading the library into dsc, and fails where that does; ctest has
@@ -20,13 +21,14 @@ function(_dsc_add_load_test name)
       -P ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/dsc_load_test.cmake)
 endfunction()
 
-function(_dsc_add_conformance_test name waivers)
-  set(options --level standard)
-  if(waivers)
-    get_filename_component(waivers ${waivers} ABSOLUTE)
-    list(APPEND options --waivers ${waivers})
-  endif()
-  add_test(NAME ${name}.conformance COMMAND dsc::dsc plugin check $<TARGET_FILE:plugin_${name}> ${options})
+function(_dsc_add_notes name notes)
+  configure_file(${notes} ${CMAKE_CURRENT_BINARY_DIR}/plugin_${name}.check.yaml @ONLY)
+  file(GENERATE OUTPUT $<TARGET_FILE_DIR:plugin_${name}>/libdsc_${name}.check.yaml
+    INPUT ${CMAKE_CURRENT_BINARY_DIR}/plugin_${name}.check.yaml)
+endfunction()
+
+function(_dsc_add_conformance_test name)
+  add_test(NAME ${name}.conformance COMMAND dsc::dsc plugin check $<TARGET_FILE:plugin_${name}> --level standard)
   set_tests_properties(${name}.conformance PROPERTIES LABELS conformance TIMEOUT 1800)
 endfunction()
 
@@ -97,12 +99,15 @@ function(dsc_add_plugin name)
     set_target_properties(plugin_${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${DSC_PLUGIN_OUTPUT_DIRECTORY}")
   endif()
 
+  if(arg_CHECK)
+    _dsc_add_notes(${name} ${arg_CHECK})
+  endif()
   if(outside)
     _dsc_add_load_test(${name})
     _dsc_install_plugin(${name})
     if(NOT DEFINED BUILD_TESTING OR BUILD_TESTING)
       enable_testing()
-      _dsc_add_conformance_test(${name} "${arg_CHECK}")
+      _dsc_add_conformance_test(${name})
       if(arg_TESTS)
         _dsc_find_doctest()
         _dsc_add_plugin_test(${name} "${arg_TESTS}" "${arg_LINK}")
