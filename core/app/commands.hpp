@@ -14,6 +14,9 @@ struct Context {
     std::function<int()> action;            ///< of the command that was given
 };
 
+/// Below `dsc plugin`, as the others that get it.
+void add_plugin_new(CLI::App& plugin, Context& context);
+
 void add_run(CLI::App& app, Context& context);
 void add_reconstruct(CLI::App& app, Context& context);
 void add_sample(CLI::App& app, Context& context);

@@ -114,6 +114,7 @@ int path(const PluginArguments& arguments) {
 void add_plugin(CLI::App& app, Context& context) {
     CLI::App* command = app.add_subcommand("plugin", "Strategies: which there are, and what they take");
     command->require_subcommand(1);
+    add_plugin_new(*command, context);
     const auto arguments = std::make_shared<PluginArguments>();
     const auto add = [&](const char* name, const char* text, int (*action)(const PluginArguments&)) {
         CLI::App* sub = command->add_subcommand(name, text);

@@ -1,8 +1,9 @@
 #include "temporary_folder.hpp"
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <dsc/base/error.hpp>
-#include <string>
 
 namespace dsc::app {
 
@@ -13,6 +14,15 @@ TemporaryFolder::TemporaryFolder() {
     if (mkdtemp(pattern.data()) == nullptr) {
         throw IoError("io.temporary", pattern, "", "a temporary folder cannot be made there",
                       "set TMPDIR to a folder that can be written");
+    }
+    path_ = pattern;
+}
+
+TemporaryFolder::TemporaryFolder(const std::filesystem::path& parent, const std::string& name) {
+    std::string pattern = (parent / (name + "-XXXXXX")).string();
+    if (mkdtemp(pattern.data()) == nullptr) {
+        throw IoError("io.folder", parent.string(), "", std::string("no folder can be made there (") + std::strerror(errno) + ")",
+                      "go to a folder that can be written");
     }
     path_ = pattern;
 }

@@ -2,13 +2,16 @@
 // A folder that is gone when its owner is.
 
 #include <filesystem>
+#include <string>
 
 namespace dsc::app {
 
 class TemporaryFolder {
 public:
-    /// Throws IoError "io.temporary".
+    /// In the system's folder for such. Throws IoError "io.temporary".
     TemporaryFolder();
+    /// In `parent`, its name beginning with `name`. Throws IoError "io.folder".
+    TemporaryFolder(const std::filesystem::path& parent, const std::string& name);
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;

@@ -1,0 +1,81 @@
+// dsc plugin new NAME --kind KIND
+#include <dsc/base/error.hpp>
+#include <dsc/base/log.hpp>
+#include <dsc/config/spelling.hpp>
+#include <dsc/host/search_path.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "plugin_project.hpp"
+
+namespace dsc::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewArguments {
+    std::string name;
+    std::string kind;
+};
+
+plugin::Kind kind_of_word(const std::string& word) {
+    if (const auto kind = plugin::find_kind(word)) return *kind;
+    std::vector<std::string> names;
+    for (const plugin::Kind kind : plugin::all_kinds) names.emplace_back(plugin::kind_name(kind));
+    const auto near = config::closest(word, names);
+    throw UsageError("usage.kind", "there is no kind of strategy '" + word + "'" +
+                                       (near ? "; did you mean '" + *near + "'?" : "") + "; the kinds are " + config::join(names));
+}
+
+/// A library of the same name in the user's folder would stand in front of one that dsc brings, and hide its strategies.
+void require_free_name(const std::string& name) {
+    std::error_code error;
+    const fs::path built_in = host::installed_folder() / ("libdsc_" + name + ".so");
+    if (fs::exists(built_in, error)) {
+        throw UsageError("usage.plugin_taken", "'" + name + "' is the name of a plugin that dsc brings (" + built_in.string() +
+                                                   "); take another one");
+    }
+    if (fs::symlink_status(name, error).type() != fs::file_type::not_found) {
+        throw UsageError("usage.exists", name + " is here already; take another name or another folder");
+    }
+}
+
+/// What comes next, on stderr: the commands as they have to be typed here.
+void log_next(const std::string& name) {
+    const fs::path package = (host::installed_folder() / "../../cmake/dsc").lexically_normal();
+    std::error_code error;
+    if (!fs::exists(package / "dscConfig.cmake", error)) {
+        log(LogLevel::warning, "this dsc is not installed, and " + name +
+                                   " builds against an installed one: cmake --install BUILD_FOLDER --prefix PREFIX, and use PREFIX/bin/dsc");
+        return;
+    }
+    log(LogLevel::info, "next: cmake -S " + name + " -B " + name + "/build -Ddsc_DIR='" + package.string() + "'");
+    log(LogLevel::info, "then: cmake --build " + name + "/build && ctest --test-dir " + name + "/build && dsc run " + name +
+                            "/experiment.yaml");
+}
+
+int execute(const NewArguments& arguments) {
+    require_plugin_name(arguments.name);
+    const plugin::Kind kind = kind_of_word(arguments.kind);
+    require_free_name(arguments.name);
+    const std::vector<ProjectFile> files = plugin_project(arguments.name, kind);
+    write_project(fs::path(".") / arguments.name, files);
+    for (const ProjectFile& file : files) std::cout << arguments.name << "/" << file.name << "\n";
+    log_next(arguments.name);
+    return 0;
+}
+
+}  // namespace
+
+void add_plugin_new(CLI::App& plugin, Context& context) {
+    CLI::App* command =
+        plugin.add_subcommand("new", "A project for a strategy of your own: code, test, experiment, page, in the new folder NAME");
+    const auto arguments = std::make_shared<NewArguments>();
+    command->add_option("NAME", arguments->name, "Lower case letters, digits and _; the library will be libdsc_NAME.so")->required();
+    command->add_option("--kind", arguments->kind, "velocity, curvature, refinement, initial_mesh, improvement or observer")->required();
+    command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+}
+
+}  // namespace dsc::app

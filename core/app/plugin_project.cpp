@@ -1,0 +1,105 @@
+#include "plugin_project.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <dsc/base/error.hpp>
+#include <dsc/base/version.hpp>
+#include <dsc/io/atomic_file.hpp>
+#include <dsc/plugin/entry.hpp>
+#include <map>
+
+#include "plugin_templates.hpp"
+#include "temporary_folder.hpp"
+
+namespace dsc::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Values = std::map<std::string, std::string, std::less<>>;
+
+/// my_flow -> MyFlow.
+std::string in_camel_case(std::string_view name) {
+    std::string out;
+    bool begins = true;
+    for (const char c : name) {
+        if (c == '_') {
+            begins = true;
+            continue;
+        }
+        out += begins ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
+        begins = false;
+    }
+    return out;
+}
+
+/// The kind at the end keeps the class apart from macros and from the hooks' own names.
+std::string class_name(const std::string& name, plugin::Kind kind) {
+    const std::string ending = in_camel_case(plugin::kind_name(kind));
+    std::string out = in_camel_case(name);
+    const bool ends_so =
+        out.size() > ending.size() && out.compare(out.size() - ending.size(), ending.size(), ending) == 0;
+    return ends_so ? out : out + ending;
+}
+
+/// Puts the values in the place of @NAME@ and the like. A word between two @ that is no value is a mistake in the template.
+std::string filled(const TemplateFile& file, const Values& values) {
+    std::string out;
+    std::string_view rest = file.text;
+    for (std::size_t at = rest.find('@'); at != std::string_view::npos; at = rest.find('@')) {
+        const std::size_t end = rest.find('@', at + 1);
+        const auto value = end == std::string_view::npos ? values.end() : values.find(rest.substr(at + 1, end - at - 1));
+        if (value == values.end()) {
+            throw Error(ExitCode::internal, "internal.template",
+                        "the template " + std::string(file.path) + " has an @ that belongs to no value");
+        }
+        out.append(rest.substr(0, at)).append(value->second);
+        rest.remove_prefix(end + 1);
+    }
+    return out.append(rest);
+}
+
+}  // namespace
+
+void require_plugin_name(const std::string& name) {
+    const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
+    constexpr std::size_t longest = sizeof(plugin::PluginEntry::name) - 1;
+    if (!name.empty() && name[0] >= 'a' && name[0] <= 'z' && std::all_of(name.begin(), name.end(), plain) &&
+        name.size() <= longest)
+        return;
+    throw UsageError("usage.plugin_name", "'" + name + "' cannot be the name of a plugin; use lower case letters, digits and _, a "
+                                              "letter first, at most " + std::to_string(longest));
+}
+
+std::vector<ProjectFile> plugin_project(const std::string& name, plugin::Kind kind) {
+    Values values = {{"NAME", name}, {"CLASS", class_name(name, kind)}, {"DSC_VERSION", DSC_VERSION}};
+    const std::string own = std::string(plugin::kind_name(kind)) + "/";
+    for (const TemplateFile& file : plugin_templates()) {
+        if (file.path == own + "page.md") values["PAGE"] = filled(file, values);
+    }
+    std::vector<ProjectFile> files;
+    for (const TemplateFile& file : plugin_templates()) {
+        const std::size_t slash = file.path.find('/');
+        const std::string_view folder = file.path.substr(0, slash + 1);
+        const std::string_view base = file.path.substr(slash + 1);
+        if ((folder == own && base != "page.md") || folder == "shared/")
+            files.push_back({std::string(base), filled(file, values)});
+    }
+    std::sort(files.begin(), files.end(), [](const ProjectFile& a, const ProjectFile& b) { return a.name < b.name; });
+    return files;
+}
+
+void write_project(const fs::path& place, const std::vector<ProjectFile>& files) {
+    const TemporaryFolder beside(place.parent_path(), "." + place.filename().string());
+    const fs::path whole = beside.path() / place.filename();
+    std::error_code error;
+    fs::create_directory(whole, error);
+    for (const ProjectFile& file : files) io::write_file(whole / file.name, file.text);
+    fs::rename(whole, place, error);
+    if (error) {
+        throw IoError("io.write", place.string(), "", "cannot be made (" + error.message() + ")",
+                      "take another name or another folder");
+    }
+}
+
+}  // namespace dsc::app

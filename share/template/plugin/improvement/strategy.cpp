@@ -1,0 +1,77 @@
+// Improvement `@NAME@`: a poor tet loses an edge or a face and its free vertices move; a hopeless one is collapsed.
+#include <dsc/hooks/improvement.hpp>
+#include <dsc/plugin/plugin.hpp>
+
+namespace {
+
+using dsc::mesh::Operation;
+using dsc::mesh::Request;
+
+class @CLASS@ final : public dsc::hooks::Improvement {
+public:
+    /// What an experiment may set; the values here are the defaults.
+    struct Params {
+        double poor = 0.3;
+        double hopeless = 0.05;
+    };
+    static void declare(dsc::config::ParamSchema<Params>& schema) {
+        schema.real("poor", &Params::poor)
+            .range(0, 1)
+            .unit("1")
+            .doc("Tets below this volume-length quality are repaired.");
+        schema.real("hopeless", &Params::hopeless)
+            .range(0, 1)
+            .unit("1")
+            .doc("Tets below this quality are collapsed, at the price of the interface's shape within the kernel's bounds.");
+        schema.check([](const Params& p) { return p.hopeless <= p.poor; }, "hopeless must not be above poor");
+    }
+
+    @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
+
+    // Once a repair round. `round.dirty` has the tets to look at, worst first; the kernel takes the requests in their order
+    // and carries out those that keep the mesh valid and make it no worse.
+    void propose(const dsc::hooks::StepContext&, const dsc::mesh::RepairRound& round,
+                 std::vector<Request>& out) override {
+        const dsc::mesh::Complex& complex = round.complex;
+        for (const dsc::mesh::TetId tet : round.dirty) {
+            const auto quality = static_cast<double>(complex.quality(tet));
+            if (quality >= params_.poor) continue;
+            out.push_back(request(complex, tet, Operation::edge_removal, params_.poor));
+            out.push_back(request(complex, tet, Operation::face_removal, params_.poor));
+            for (const dsc::mesh::VertexId v : complex.tet(tet).v) {
+                if (complex.on_interface(v) || complex.on_box(v)) continue;
+                out.push_back(request(complex, tet, Operation::smooth_optimise, params_.poor));
+                out.back().vertices[0] = v;
+            }
+            if (quality >= params_.hopeless) continue;
+            out.push_back(request(complex, tet, Operation::edge_collapse, params_.hopeless));
+            out.back().mode = dsc::mesh::CollapseMode::bounded;
+        }
+    }
+
+    // The topology of the interface stays as it is.
+    dsc::mesh::TopologyLimits topology_limits() const override {
+        dsc::mesh::TopologyLimits limits;
+        limits.thickness = 0.0;
+        return limits;
+    }
+
+private:
+    // For the tet as it is now: skipped if another operation has changed it, or mended it, by the time of its turn.
+    static Request request(const dsc::mesh::Complex& complex, dsc::mesh::TetId tet, Operation operation, double below) {
+        Request request;
+        request.operation = operation;
+        request.tet = tet;
+        request.birth_date = complex.birth_date(tet);
+        request.only_below = static_cast<float>(below);
+        return request;
+    }
+
+    Params params_;
+};
+
+}  // namespace
+
+DSC_PLUGIN("@NAME@", "0.1.0", "BSD-3-Clause", "Improvement @NAME@") {
+    registrar.add<@CLASS@>("@NAME@", "poor tets lose an edge or a face, hopeless ones are collapsed");
+}

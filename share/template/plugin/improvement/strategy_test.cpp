@@ -1,0 +1,88 @@
+// What the improvement must ask for, on a mesh with a known fault. The strategy comes through the plugin's door, as in a run.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <dsc/base/error.hpp>
+#include <dsc/host/host.hpp>
+#include <dsc/mesh/adopt.hpp>
+#include <dsc/mesh/lattice.hpp>
+
+namespace {
+
+using dsc::Vec3;
+using dsc::config::ConfigNode;
+
+// A ball in a box of 8 x 8 x 8 cells whose plane x = 0 is moved by `shift` cells: near 1 the tets right of it are flat.
+dsc::mesh::Complex ball(double shift) {
+    dsc::mesh::LatticeOptions options;
+    options.cells = 8;
+    const double cell = dsc::mesh::finest_cell(options);
+    dsc::mesh::TetMesh mesh = dsc::mesh::make_lattice(options, [](const Vec3&, double) { return false; }, "ball");
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        Vec3 centre = Vec3::Zero();
+        for (const std::uint32_t v : mesh.tets[t]) centre += 0.25 * mesh.points[v];
+        mesh.labels[t] = centre.norm() < 0.9 ? 1 : 0;
+    }
+    for (Vec3& p : mesh.points) {
+        if (std::abs(p.x()) < 1e-9) p.x() = shift * cell;
+    }
+    return dsc::mesh::adopt(mesh, "ball", nullptr, 0.0);
+}
+
+std::vector<dsc::mesh::Request> proposals(const dsc::mesh::Complex& complex, double poor, double hopeless) {
+    dsc::host::Host host;
+    host.load(DSC_TEST_PLUGIN);
+    const auto params = ConfigNode::map({{"poor", poor}, {"hopeless", hopeless}});
+    const auto strategy = host.create<dsc::hooks::Improvement>({"@NAME@", params}, "improvement");
+    std::vector<dsc::mesh::TetId> dirty;
+    for (dsc::mesh::TetId t = 0; t < complex.tet_slots(); ++t) dirty.push_back(t);
+    const dsc::surface::SurfaceView view;
+    const dsc::hooks::StepContext step{.surface = view, .box = {}, .to_normalised = {}};
+    const dsc::mesh::RepairRound round{complex, dirty, {}, {}, {}, 1.0, strategy->flatness(), 0, true};
+    std::vector<dsc::mesh::Request> out;
+    strategy->propose(step, round, out);
+    return out;
+}
+
+std::size_t count(const std::vector<dsc::mesh::Request>& requests, dsc::mesh::Operation operation) {
+    std::size_t found = 0;
+    for (const auto& request : requests) found += request.operation == operation ? 1 : 0;
+    return found;
+}
+
+std::size_t tets_below(const dsc::mesh::Complex& complex, double quality) {
+    std::size_t found = 0;
+    for (dsc::mesh::TetId t = 0; t < complex.tet_slots(); ++t)
+        found += static_cast<double>(complex.quality(t)) < quality ? 1 : 0;
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("good tets are left alone") { CHECK(proposals(ball(0.0), 0.3, 0.05).empty()); }
+
+TEST_CASE("each poor tet is to lose an edge or a face, each hopeless one to collapse") {
+    const auto complex = ball(0.98);
+    const auto requests = proposals(complex, 0.3, 0.1);
+    CHECK(tets_below(complex, 0.1) > 0);
+    CHECK(tets_below(complex, 0.3) >= tets_below(complex, 0.1));
+    CHECK(count(requests, dsc::mesh::Operation::edge_removal) == tets_below(complex, 0.3));
+    CHECK(count(requests, dsc::mesh::Operation::face_removal) == tets_below(complex, 0.3));
+    CHECK(count(requests, dsc::mesh::Operation::edge_collapse) == tets_below(complex, 0.1));
+    CHECK(proposals(complex, 0.0, 0.0).empty());
+}
+
+TEST_CASE("only free vertices are smoothed") {
+    const auto complex = ball(0.98);
+    const auto requests = proposals(complex, 0.3, 0.1);
+    CHECK(count(requests, dsc::mesh::Operation::smooth_optimise) > 0);
+    for (const auto& request : requests) {
+        if (request.operation != dsc::mesh::Operation::smooth_optimise) continue;
+        CHECK_FALSE(complex.on_interface(request.vertices[0]));
+        CHECK_FALSE(complex.on_box(request.vertices[0]));
+    }
+}
+
+TEST_CASE("a threshold above the other is refused") {
+    CHECK_THROWS_AS(proposals(ball(0.0), 0.1, 0.2), dsc::ConfigError);
+}

@@ -1,0 +1,74 @@
+// Refinement `@NAME@`: splits the interface edges at which the surface bends.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <dsc/hooks/refinement_policy.hpp>
+#include <dsc/plugin/plugin.hpp>
+#include <numbers>
+#include <tuple>
+
+namespace {
+
+using dsc::surface::SurfaceView;
+
+class @CLASS@ final : public dsc::hooks::RefinementPolicy {
+public:
+    /// What an experiment may set; the values here are the defaults.
+    struct Params {
+        double bend = 20.0;
+        double shortest = 0.5;
+    };
+    static void declare(dsc::config::ParamSchema<Params>& schema) {
+        schema.real("bend", &Params::bend)
+            .range(0, 180)
+            .unit("degrees")
+            .doc("Edges are split where the normals of their two faces differ by more than this angle.");
+        schema.real("shortest", &Params::shortest)
+            .range(0, 100)
+            .unit("mean edges")
+            .doc("Shorter edges are not split.");
+    }
+
+    @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
+
+    // Between two steps. What is asked for here the kernel carries out where it can; the rest is counted.
+    void refine(const dsc::hooks::RefinementContext& context, dsc::hooks::RefinementRequests& out) override {
+        const SurfaceView& surface = context.step.surface;
+        const double flat = std::cos(params_.bend * std::numbers::pi / 180);
+        const double shortest = params_.shortest * surface.mean_edge;
+        const std::vector<Side> sides = sides_of(surface);
+        for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+            const auto& [a, b, face] = sides[i];
+            const auto& [next_a, next_b, next_face] = sides[i + 1];
+            if (a != next_a || b != next_b) continue;
+            ++i;  // both sides of the edge are dealt with
+            if (surface.face_normals[face].dot(surface.face_normals[next_face]) >= flat) continue;
+            if ((surface.positions[a] - surface.positions[b]).norm() < shortest) continue;
+            out.split_edges.push_back({a, b});
+        }
+    }
+
+private:
+    using Side = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // lower vertex, higher vertex, face
+
+    // Every edge as its faces see it, sorted: the two sides of an edge come to stand side by side.
+    static std::vector<Side> sides_of(const SurfaceView& surface) {
+        std::vector<Side> sides;
+        for (std::uint32_t face = 0; face < surface.face_count(); ++face) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto [a, b] = std::minmax(surface.faces[face][k], surface.faces[face][(k + 1) % 3]);
+                sides.emplace_back(a, b, face);
+            }
+        }
+        std::sort(sides.begin(), sides.end());
+        return sides;
+    }
+
+    Params params_;
+};
+
+}  // namespace
+
+DSC_PLUGIN("@NAME@", "0.1.0", "BSD-3-Clause", "Refinement @NAME@") {
+    registrar.add<@CLASS@>("@NAME@", "splits interface edges at which the surface bends");
+}

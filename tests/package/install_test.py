@@ -1,0 +1,45 @@
+#!/usr/bin/env python3
+"""What an installation holds: relocatable, complete, its headers free of everything but Eigen."""
+
+import json
+import re
+import unittest
+
+import package
+
+
+class Install(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.first = package.install()
+
+    def test_no_text_names_a_folder_of_the_build(self):
+        for file in package.PREFIX.rglob("*"):
+            if file.suffix in {".cmake", ".hpp", ".cpp"}:
+                text = file.read_text(encoding="utf-8")
+                for folder in (self.first, package.BUILD, package.SOURCE):
+                    self.assertNotIn(str(folder), text, file)
+
+    def test_the_program_finds_its_library_plugins_and_data(self):
+        self.assertIn("fingerprint abi_major=", package.run(["dsc", "--version"]))
+        strategies = json.loads(package.run(["dsc", "plugin", "list", "--json"]))
+        for kind in package.KINDS:
+            self.assertTrue([s for s in strategies if s["kind"] == kind], kind)
+        for strategy in strategies:
+            if strategy["kind"] != "filter":
+                self.assertTrue(strategy["file"].startswith(str(package.PREFIX)), strategy)
+        self.assertTrue((package.PREFIX / "share/dsc/data/teapot.bpt").is_file())
+
+    def test_headers_need_the_standard_library_and_eigen(self):
+        headers = sorted((package.PREFIX / "include").rglob("*.hpp"))
+        self.assertGreater(len(headers), 60)
+        for header in headers:
+            for included in re.findall(r"^\s*#\s*include\s*[<\"]([^>\"]+)", header.read_text(encoding="utf-8"), re.M):
+                allowed = included.startswith(("dsc/", "Eigen/")) or re.fullmatch(r"[a-z_]+", included)
+                self.assertTrue(allowed, f"{header}: {included}")
+                if included.startswith("dsc/"):
+                    self.assertTrue((package.PREFIX / "include" / included).is_file(), f"{header}: {included}")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+"""share/doc/write-a-strategy.md, followed to the letter: its files are written and its commands run, in their order.
+
+A block of the language sh is run. A block after a comment <!-- file: NAME --> is written to that file.
+"""
+
+import json
+import re
+import unittest
+
+import package
+
+PAGE = package.SOURCE / "share/doc/write-a-strategy.md"
+BLOCK = re.compile(r"(?:<!-- file: (\S+) -->\n)?```(\w+)\n(.*?)^```$", re.M | re.S)
+
+
+def steps():
+    """(file or None, text) in the order of the page."""
+    for file, language, text in BLOCK.findall(PAGE.read_text(encoding="utf-8")):
+        if file or language == "sh":
+            yield file or None, text
+
+
+class Tutorial(unittest.TestCase):
+    def test_every_command_works(self):
+        folder = package.fresh_folder("tutorial")
+        commands = 0
+        for file, text in steps():
+            if file:
+                (folder / file).write_text(text, encoding="utf-8")
+                continue
+            if not package.knows_check():
+                text = re.sub(r"^dsc plugin check .*\n", "", text, flags=re.M).replace("ctest ", "ctest -E conformance ")
+            commands += len(text.splitlines())
+            package.run(["bash", "-euc", text], folder)
+        self.assertGreater(commands, 8)
+        for run, volume in (("run", 1.413), ("shrinking", 0.702)):  # the figures that the page tells
+            summary = json.loads((folder / "steady" / run / "summary.json").read_text())
+            self.assertAlmostEqual(summary["volume"], volume, places=3)
+        self.assertTrue((folder / "steady.png").stat().st_size > 1000)
+        self.assertIn("steady", package.run(["dsc", "plugin", "list"], folder))
+        (package.SCRATCH / "home/.local/share/dsc/plugins/libdsc_steady.so").unlink()
+
+
+if __name__ == "__main__":
+    unittest.main()
