@@ -48,7 +48,8 @@ void log_next(const std::string& name) {
     std::error_code error;
     if (!fs::exists(package / "dscConfig.cmake", error)) {
         log(LogLevel::warning, "this dsc is not installed, and " + name +
-                                   " builds against an installed one: cmake --install BUILD_FOLDER --prefix PREFIX, and use PREFIX/bin/dsc");
+                                   " builds against an installed one: cmake --install BUILD_FOLDER --prefix PREFIX, "
+                                   "and use PREFIX/bin/dsc");
         return;
     }
     log(LogLevel::info, "next: cmake -S " + name + " -B " + name + "/build -Ddsc_DIR='" + package.string() + "'");
@@ -73,8 +74,10 @@ void add_plugin_new(CLI::App& plugin, Context& context) {
     CLI::App* command =
         plugin.add_subcommand("new", "A project for a strategy of your own: code, test, experiment, page, in the new folder NAME");
     const auto arguments = std::make_shared<NewArguments>();
-    command->add_option("NAME", arguments->name, "Lower case letters, digits and _; the library will be libdsc_NAME.so")->required();
-    command->add_option("--kind", arguments->kind, "velocity, curvature, refinement, initial_mesh, improvement or observer")->required();
+    command->add_option("NAME", arguments->name, "Lower case letters, digits and _; the library will be libdsc_NAME.so")
+        ->required();
+    command->add_option("--kind", arguments->kind, "velocity, curvature, refinement, initial_mesh, improvement or observer")
+        ->required();
     command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }
 

@@ -20,6 +20,9 @@ endforeach()
 add_library(headers OBJECT headers.cpp)
 target_link_libraries(headers PRIVATE dsc::core dsc::sdk)
 """
+NOTES = """# Of @PROJECT_NAME@.
+strategies: [{kind: observer, id: my_observer, waive: {seed.used: to see a waiver}}]
+"""
 
 
 class New(unittest.TestCase):
@@ -31,6 +34,10 @@ class New(unittest.TestCase):
         include = package.PREFIX / "include"
         headers = sorted(h.relative_to(include) for h in include.rglob("*.hpp"))
         (cls.folder / "headers.cpp").write_text("".join(f"#include <{h}>\n" for h in headers))
+        # One of them has notes for `dsc plugin check`.
+        (cls.folder / "notes.yaml").write_text(NOTES)
+        project = cls.folder / "my_observer/CMakeLists.txt"
+        project.write_text(project.read_text().replace(" TESTS", " CHECK ../notes.yaml TESTS"))
         (cls.folder / "CMakeLists.txt").write_text(TOGETHER.format(kinds=" ".join(package.KINDS)))
         package.run(["cmake", "-S", ".", "-B", "build"], cls.folder, CXXFLAGS=WARNINGS)
         package.run(["cmake", "--build", "build"], cls.folder)
@@ -51,6 +58,13 @@ class New(unittest.TestCase):
         for kind in package.KINDS:
             self.assertIn(f"my_{kind}.conformance", listed)
             self.assertIn(f"plugin.my_{kind}.", said)
+
+    def test_notes_lie_beside_their_library(self):
+        notes = (self.folder / "my_observer/build/libdsc_my_observer.check.yaml").read_text()
+        self.assertEqual(notes, NOTES.replace("@PROJECT_NAME@", "my_observer"))
+        if package.knows_check():
+            self.assertIn("waived: to see a waiver", package.run(
+                ["dsc", "plugin", "check", "my_observer/build/libdsc_my_observer.so"], self.folder))
 
     def test_experiments_run_from_anywhere(self):
         for kind in package.KINDS:
