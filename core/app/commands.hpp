@@ -22,5 +22,6 @@ void add_evaluate(CLI::App& app, Context& context);
 void add_render(CLI::App& app, Context& context);
 void add_convert(CLI::App& app, Context& context);
 void add_plugin(CLI::App& app, Context& context);
+void add_schema(CLI::App& app, Context& context);
 
 }  // namespace dsc::app

@@ -1,7 +1,6 @@
 // dsc plugin list | describe ID | path
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
-#include <dsc/run/experiment.hpp>
 #include <iostream>
 #include <memory>
 
@@ -22,22 +21,6 @@ struct PluginArguments {
     std::string format = "text";
 };
 
-/// All strategies and the core's cloud filters.
-std::vector<Described> all_strategies(const host::Host& host) {
-    std::vector<Described> all;
-    for (const plugin::StrategyInfo& info : host.list()) {
-        all.push_back({std::string(plugin::kind_name(info.strategy->kind)), info.strategy->id,
-                       info.strategy->summary, info.plugin->name, info.plugin->version,
-                       info.plugin->file.string(), info.strategy->schema.get()});
-    }
-    const run::ExperimentLookup lookup(host);
-    for (const std::string& id : lookup.ids("filter")) {
-        all.push_back(
-            {"filter", id, "filter of the point cloud", "core", "", "", lookup.find_schema("filter", id)});
-    }
-    return all;
-}
-
 int list(const PluginArguments& arguments) {
     Plugins plugins(arguments.plugins);
     const std::vector<Described> all = all_strategies(plugins.load());
@@ -49,6 +32,11 @@ int list(const PluginArguments& arguments) {
     }
     std::cout << list_text(all);
     return 0;
+}
+
+std::string described(const Described& d, const std::string& format) {
+    if (format == "yaml") return yaml_text(d);
+    return format == "md" ? markdown_text(d) : description_text(d);
 }
 
 int describe(const PluginArguments& arguments) {
@@ -75,7 +63,7 @@ int describe(const PluginArguments& arguments) {
     }
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (i > 0) std::cout << "\n";
-        std::cout << (arguments.format == "yaml" ? yaml_text(found[i]) : description_text(found[i]));
+        std::cout << described(found[i], arguments.format);
     }
     return 0;
 }
@@ -107,8 +95,8 @@ void add_plugin(CLI::App& app, Context& context) {
     CLI::App* describing = add("describe", "The parameters of a strategy", describe);
     describing->add_option("ID", arguments->id, "Its id")->required();
     describing->add_option("--kind", arguments->kind, "Its kind, where two kinds have the id");
-    describing->add_option("--format", arguments->format, "text, json or yaml (a block for an experiment)")
-        ->check(CLI::IsMember({"text", "json", "yaml"}))
+    describing->add_option("--format", arguments->format, "text, json, yaml (a block for an experiment) or md (a page)")
+        ->check(CLI::IsMember({"text", "json", "yaml", "md"}))
         ->capture_default_str();
     add("path", "Where plugins are looked for, in order", path);
 }

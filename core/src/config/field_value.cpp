@@ -170,7 +170,8 @@ private:
             wanted = "at most " + std::to_string(most);
         }
         diagnostics_.error("config.list_size", place(node),
-                           "'" + path + "' must have " + wanted + " items, not " + std::to_string(size));
+                           "'" + path + "' must have " + wanted + " items, not " + std::to_string(size),
+                           "accepted: " + field_.summary());
     }
 
     const Field& field_;

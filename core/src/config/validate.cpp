@@ -241,7 +241,8 @@ private:
                                "'" + path + "' must have " +
                                    (value.size() < least ? "at least " + std::to_string(least)
                                                          : "at most " + std::to_string(most)) +
-                                   " items, not " + std::to_string(value.size()));
+                                   " items, not " + std::to_string(value.size()),
+                               "accepted: " + field.summary());
         }
         std::vector<ConfigNode> items;
         for (std::size_t i = 0; i < value.size(); ++i) {
