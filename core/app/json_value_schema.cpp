@@ -163,7 +163,9 @@ void add_required(const config::Schema& schema, const std::string& name, ordered
 }  // namespace
 
 ordered_json value_schema(const Field& field) {
-    ordered_json schema = {{"description", field.doc + " (" + field.summary() + ")"}};
+    std::string description = field.doc + " (" + field.summary() + ")";
+    if (field.object && !field.object->checks().empty()) description += " " + conditions_text(*field.object);
+    ordered_json schema = {{"description", description}};
     schema.update(bare_schema(field));
     // An object without a value has its defaults.
     const bool may_be_null = field.optional || field.type == FieldType::object;
