@@ -7,6 +7,7 @@
 #include <set>
 
 #include "config/field_value.hpp"
+#include "config/text.hpp"
 
 namespace dsc::config {
 namespace {
@@ -76,10 +77,9 @@ std::string held_text(const Field& field) {
 std::string size_text(const Field& field) {
     const std::size_t least = field.min_size.value_or(0);
     const std::size_t most = field.max_size.value_or(std::numeric_limits<std::size_t>::max());
-    const auto items = [](std::size_t n) { return std::to_string(n) + (n == 1 ? " item" : " items"); };
-    if (least == most) return items(least);
-    if (most == std::numeric_limits<std::size_t>::max()) return least == 0 ? "" : "at least " + items(least);
-    return least == 0 ? "at most " + items(most) : std::to_string(least) + " to " + items(most);
+    if (least == most) return items_text(least);
+    if (most == std::numeric_limits<std::size_t>::max()) return least == 0 ? "" : "at least " + items_text(least);
+    return least == 0 ? "at most " + items_text(most) : std::to_string(least) + " to " + items_text(most);
 }
 
 /// ", 1 to 4 items, (0, 1]": the bounds of the size and of the value.
@@ -165,6 +165,7 @@ bool Field::has_tag(std::string_view tag) const {
 
 std::string Field::range_text() const {
     const auto text = [&](const Bound& bound) { return bound_text(*this, bound.value); };
+    if (minimum && maximum && minimum->value == maximum->value) return "exactly " + text(*minimum);
     if (minimum && maximum) {
         return (minimum->open ? "(" : "[") + text(*minimum) + ", " + text(*maximum) +
                (maximum->open ? ")" : "]");

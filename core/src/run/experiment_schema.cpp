@@ -43,7 +43,7 @@ void declare_cloud(config::ParamSchema<CloudInput>& s) {
     s.strategies("filters", &CloudInput::filters, "filter")
         .doc("Filters of the cloud, in the order in which they work.");
     s.check([](const CloudInput& p) { return p.file.has_value() != p.sample.has_value(); },
-            "input.cloud needs exactly one of 'file' and 'sample'");
+            "exactly one of 'file' and 'sample' must be given");
 }
 
 void declare_normalize(config::ParamSchema<NormalizeInput>& s) {

@@ -169,9 +169,9 @@ TEST_CASE("missing and empty values") {
 
 TEST_CASE("failed cross check") {
     CHECK(error_in("velocity: {type: point_cloud, beta: 1.0}\n") ==
-          "a.yaml:1:11: error: velocity 'point_cloud': beta above 0 needs a curvature\n"
+          "a.yaml:1:37: error: velocity 'point_cloud': beta above 0 needs a curvature\n"
           "    1 | velocity: {type: point_cloud, beta: 1.0}\n"
-          "      |           ^\n"
+          "      |                                     ^~~\n"
           "1 error; nothing was run");
 }
 
@@ -188,7 +188,7 @@ TEST_CASE("malformed YAML") {
                    "a: b: c\n") ==
           "a.yaml:2:5: error: malformed YAML: illegal map value\n"
           "    2 | a: b: c\n"
-          "      |     ^\n"
+          "      |     ^  text with ': ' in it belongs in quotes\n"
           "1 error; nothing was run");
     CHECK(error_in("name: x\n"
                    "levels: [1, 2\n"
