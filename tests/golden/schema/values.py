@@ -173,7 +173,7 @@ def fields_of_schema(schema):
         types = value.get("type", "string")
         types = types if isinstance(types, list) else [types]
         reference = next((part["$ref"] for part in value.get("allOf", []) if "$ref" in part), None)
-        field = {"name": name, "optional": "null" in types and types[0] != "object", "required": False, "default": value.get("default")}
+        field = {"name": name, "optional": "null" in types, "required": False, "default": value.get("default")}
         if types[0] == "array":
             items = value["items"]
             inner = next((part["$ref"] for part in items.get("allOf", []) if "$ref" in part), None)
@@ -197,6 +197,7 @@ def fields_of_schema(schema):
             field["type"] = "file"
         if "else" in value:
             field["choices"] = [choice for choice in value["else"]["enum"] if choice is not None]
+            field["optional"] = None in value["else"]["enum"]
         for key, word in (("minimum", "inimum"), ("maximum", "aximum")):
             for keyword, is_open in ((f"{key[0]}{word}", False), (f"exclusive{key[0].upper()}{word}", True)):
                 if keyword in value:
