@@ -46,17 +46,16 @@ def page_name(strategy):
 def index(strategies):
     lines = ["# Strategies and their parameters",
              "Written by `share/reference.py` from the declarations in the code; `dsc plugin describe ID --format md` prints such a "
-             "page for any strategy, of your own plugins too. How the methods work stands on the pages linked under *method*."]
+             "page for any strategy, of your own plugins too. How the methods work stands on the pages linked as *method*."]
     for kind, (title, meaning) in KINDS.items():
         of_kind = [s for s in strategies if s["kind"] == kind]
         if not of_kind:
             continue
-        lines += ["", f'<a id="{kind}"></a>', f"## {title}", f"{meaning[0].upper()}{meaning[1:]}.", "",
-                  "| | what | method |", "| --- | --- | --- |"]
+        lines += ["", f'<a id="{kind}"></a>', f"## {title}", f"{meaning[0].upper()}{meaning[1:]}.", "", "| | |", "| --- | --- |"]
         for s in of_kind:
             method = f"strategies/{kind}/{s['id']}/README.md"
-            link = f"[method](../../../{method})" if (ROOT / method).exists() else ""
-            lines.append(f"| [{s['id']}]({page_name(s)}) | {s['summary']} | {link} |")
+            link = f"; [method](../../../{method})" if (ROOT / method).exists() else ""
+            lines.append(f"| [{s['id']}]({page_name(s)}) | {s['summary']}{link} |")
     return "\n".join(lines) + "\n"
 
 

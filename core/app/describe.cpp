@@ -105,8 +105,7 @@ bool has_values(const config::Schema& schema) {
 /// The fields with their defaults, a comment before each; the conditions of a map come last.
 void yaml_block(const config::Schema& schema, const std::string& indent, std::string& text) {
     for (const Field& field : schema.fields()) {
-        const std::string unit = field.unit == "1" ? "; a pure number" : "";
-        text += wrapped(field.doc + " (" + field.summary() + unit + ")", indent + "# ");
+        text += wrapped(doc_text(field), indent + "# ");
         if (field.type == FieldType::object && !field.default_value.is_null()) {
             text += indent + (has_values(*field.object) ? "" : "# ") + field.name + ":\n";
             yaml_block(*field.object, indent + "  ", text);
@@ -168,6 +167,11 @@ std::string yaml_text(const Described& d) {
     text += key + (in_list ? "s:\n  - type: " : ":\n  type: ") + d.id + "\n";
     yaml_block(*d.schema, in_list ? "    " : "  ", text);
     return text;
+}
+
+std::string doc_text(const Field& field) {
+    const std::string summary = field.summary();
+    return summary == "map" ? field.doc : field.doc + " (" + summary + ")";
 }
 
 std::string wrapped(const std::string& text, const std::string& indent) {

@@ -29,6 +29,9 @@ std::string yaml_text(const Described& described);
 /// A reference page in Markdown. It names no file and no version, so that it changes with the declaration only.
 std::string markdown_text(const Described& described);
 
+/// What a field is for and, in brackets, what it accepts.
+std::string doc_text(const config::Field& field);
+
 /// The text in lines of about 100 characters, each after `indent`.
 std::string wrapped(const std::string& text, const std::string& indent);
 

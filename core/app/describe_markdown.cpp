@@ -20,6 +20,12 @@ std::string cell(const std::string& text) {
 
 std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
 
+/// A summary as a sentence.
+std::string sentence(std::string text) {
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    return text + ".";
+}
+
 std::string type_cell(const Field& field) {
     std::string text = cell(config::type_text(field));
     if (!field.kind.empty()) text = "[" + text + "](README.md#" + field.kind + ")";
@@ -58,7 +64,7 @@ void add_rows(const config::Schema& schema, const std::string& path, std::string
 }  // namespace
 
 std::string markdown_text(const Described& d) {
-    std::string text = "# " + d.kind + " `" + d.id + "`\n" + d.summary + "\n\n";
+    std::string text = "# " + d.kind + " `" + d.id + "`\n" + sentence(d.summary) + "\n\n";
     if (d.schema->fields().empty()) return text + "It has no parameters.\n";
     std::string rows;
     Besides besides;

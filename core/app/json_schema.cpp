@@ -2,6 +2,7 @@
 #include "json_schema.hpp"
 
 #include <algorithm>
+#include <dsc/plugin/kind.hpp>
 #include <dsc/run/experiment.hpp>
 #include <map>
 
@@ -70,6 +71,7 @@ ordered_json definitions(const std::vector<Described>& strategies) {
             ordered_json& schema = all[id_definition(d)];
             schema = {{"description", joined(d.summary, conditions_text(*d.schema))}};
             schema.update(map_schema(*d.schema, d.id));
+            schema.erase("type");  // where null is allowed, an if on the keys of a map holds for it
         }
     }
     return all;

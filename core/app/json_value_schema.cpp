@@ -163,7 +163,7 @@ void add_required(const config::Schema& schema, const std::string& name, ordered
 }  // namespace
 
 ordered_json value_schema(const Field& field) {
-    std::string description = field.doc + " (" + field.summary() + ")";
+    std::string description = doc_text(field);
     if (field.object && !field.object->checks().empty()) description += " " + conditions_text(*field.object);
     ordered_json schema = {{"description", description}};
     schema.update(bare_schema(field));

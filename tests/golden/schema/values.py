@@ -75,7 +75,8 @@ class Values:
             begin += 1 if low and low["open"] else 0
             end -= 1 if high and high["open"] else 0
             value = self.random.randint(math.ceil(begin), math.floor(end))
-            return self.random.choice([value, float(value)])
+            # Beyond 2^53 the program takes no number with a point for an integer.
+            return self.random.choice([value, float(value)]) if abs(value) < 2**53 else value
         value = begin + (end - begin) * self.random.uniform(0.01, 0.99)
         return value if value != int(value) else self.random.choice([int(value), value])
 
