@@ -32,7 +32,8 @@ ordered_json if_type(const std::string& id, ordered_json then) {
 
 /// Which strategies the kind has, and for each of them its parameters.
 ordered_json kind_schema(const std::string& kind, const std::vector<Described>& members) {
-    ordered_json ids = ordered_json::array(), summaries = ordered_json::array(), cases = ordered_json::array();
+    ordered_json ids = ordered_json::array(), summaries = ordered_json::array(),
+                 cases = ordered_json::array();
     for (const Described& d : members) {
         ids.push_back(d.id);
         summaries.push_back(d.summary);
@@ -91,11 +92,11 @@ ordered_json json_schema(const std::vector<Described>& strategies) {
                            {"title", "dsc experiment, format 1"},
                            {"description", conditions_text(experiment)}};
     schema.update(map_schema(experiment));
-    schema["properties"]["include"] = {
-        {"description",
-         "A file or a list of files that this one completes: maps are merged, lists are replaced, this file comes last."},
-        {"type", {"string", "array"}},
-        {"items", {{"type", "string"}}}};
+    schema["properties"]["include"] = {{"description",
+                                        "A file or a list of files that this one completes: maps are merged, "
+                                        "lists are replaced, this file comes last."},
+                                       {"type", {"string", "array"}},
+                                       {"items", {{"type", "string"}}}};
     schema["if"] = {{"required", {"include"}}};
     schema["else"] = required_schema(experiment);
     schema["definitions"] = definitions(strategies);

@@ -15,8 +15,10 @@ using nlohmann::ordered_json;
 /// The tighter of what is declared and what the bound member can hold.
 void add_bounds(const Field& field, ordered_json& schema) {
     const bool integer = schema["type"] == "integer";
-    const bool low_declared = field.minimum && (!integer || field.minimum->value >= double(field.storage_min));
-    const bool high_declared = field.maximum && (!integer || field.maximum->value <= double(field.storage_max));
+    const bool low_declared =
+        field.minimum && (!integer || field.minimum->value >= double(field.storage_min));
+    const bool high_declared =
+        field.maximum && (!integer || field.maximum->value <= double(field.storage_max));
     if (low_declared) {
         schema[field.minimum->open ? "exclusiveMinimum" : "minimum"] = number_json(field.minimum->value);
     } else if (integer) {
@@ -122,9 +124,11 @@ ordered_json bare_schema(const Field& field) {
         case FieldType::strategy:
             return {{"type", "object"}, {"allOf", {reference(kind_definition(field.kind))}}};
         case FieldType::strategy_list:
-            return list_schema(field, {{"type", "object"},
-                                       {"allOf", {reference(kind_definition(field.kind)),
-                                                  reference(required_definition(field.kind))}}});
+            return list_schema(
+                field,
+                {{"type", "object"},
+                 {"allOf",
+                  {reference(kind_definition(field.kind)), reference(required_definition(field.kind))}}});
     }
     return true;
 }
@@ -137,8 +141,8 @@ void add_old_name(const config::Schema& schema, const config::Deprecation& old, 
     value["deprecationMessage"] = "now called '" + old.new_name + "'";
     value["doNotSuggest"] = true;
     map["properties"][old.old_name] = std::move(value);
-    map["allOf"].push_back({{"if", {{"required", {old.new_name}}}},
-                            {"then", {{"properties", {{old.old_name, false}}}}}});
+    map["allOf"].push_back(
+        {{"if", {{"required", {old.new_name}}}}, {"then", {{"properties", {{old.old_name, false}}}}}});
 }
 
 /// Whether a map lacks something when the field is left out: then it must be there although it has defaults.

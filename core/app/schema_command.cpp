@@ -9,8 +9,8 @@
 namespace dsc::app {
 
 void add_schema(CLI::App& app, Context& context) {
-    CLI::App* command =
-        app.add_subcommand("schema", "JSON Schema (draft-07) of an experiment, for editors and other checkers");
+    CLI::App* command = app.add_subcommand(
+        "schema", "JSON Schema (draft-07) of an experiment, for editors and other checkers");
     const auto paths = std::make_shared<std::vector<std::string>>();
     command->add_option("--plugin", *paths, "Plugin library or folder of them; may repeat")
         ->expected(1)

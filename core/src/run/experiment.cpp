@@ -38,7 +38,7 @@ std::vector<std::string> plugin_paths(const ConfigNode& root) {
 
 using FileChange = std::function<ConfigNode(const ConfigNode& file)>;
 
-/// Replaces the values of all file fields by `change(value)`, through nested objects and strategies.
+/// Replaces the values of all file fields that name one by `change(value)`, through nested objects and strategies.
 ConfigNode map_files(const ConfigNode& node, const Schema& schema, const StrategyLookup& lookup,
                      const FileChange& change);
 
@@ -56,7 +56,7 @@ ConfigNode map_value(const ConfigNode& value, const Field& field, const Strategy
     std::vector<ConfigNode> items;
     switch (field.type) {
         case FieldType::file:
-            return change(value);
+            return value.as_string().empty() ? value : change(value);
         case FieldType::object:
             return map_files(value, *field.object, lookup, change);
         case FieldType::strategy:
@@ -106,10 +106,11 @@ void require_files(const ConfigNode& resolved, const StrategyLookup& lookup) {
     config::Diagnostics missing;
     map_files(resolved, *experiment_schema(), lookup, [&](const ConfigNode& file) {
         std::error_code ignored;
-        const std::string& name = file.as_string();
-        if (!name.empty() && !fs::exists(name, ignored)) {
-            missing.error("io.open", file.position(), "'" + file.path() + "': " + name + " does not exist",
-                          "check the path; it counts from the folder of this file");
+        const bool typed = file.position().from_command_line();
+        if (!fs::exists(file.as_string(), ignored)) {
+            missing.error("io.open", file.position(), "'" + file.path() + "': " + file.as_string() + " does not exist",
+                          std::string("check the path; it counts from the ") +
+                              (typed ? "current folder" : "folder of this file"));
         }
         return file;
     });

@@ -69,13 +69,20 @@ void declare_scalars(dsc::config::ParamSchema<Params>& s) {
     s.integer("byte", &Params::byte).doc("As many as the type can hold.");
     s.integer("whole", &Params::whole).less(100).doc("One end, open.");
     s.integer("limit", &Params::limit).at_least(0).doc("May stay unset.");
-    s.real("share", &Params::share).range(0, 1).open_low().open_high().unit("1").advanced().doc("Both ends open.");
+    s.real("share", &Params::share)
+        .range(0, 1)
+        .open_low()
+        .open_high()
+        .unit("1")
+        .advanced()
+        .doc("Both ends open.");
     s.real("below", &Params::below).at_most(0).unit("length").doc("One end, closed.");
     s.real("radius", &Params::radius).greater(0).unit("length").doc("One end, open; may stay unset.");
     s.string("label", &Params::label).doc("Any text | even with a bar.");
     s.string("remark", &Params::remark).doc("Text that may stay unset.");
     s.choice("mode", &Params::mode, {{"near", Mode::near}, {"far", Mode::far}}).doc("One of two.");
-    s.choice("other_mode", &Params::other_mode, {{"near", Mode::near}, {"far", Mode::far}}).doc("One of two or unset.");
+    s.choice("other_mode", &Params::other_mode, {{"near", Mode::near}, {"far", Mode::far}})
+        .doc("One of two or unset.");
     s.file("file", &Params::file).required().doc("Any file, must be given.");
     s.file("page", &Params::page).extensions({".md", ".txt"}).doc("A file with an extension, or none.");
     s.file("table", &Params::table).extensions({".csv"}).doc("A file that may stay unset.");
