@@ -109,7 +109,8 @@ def explains(fault, error):
     path, kind = fault
     at = tuple(error.absolute_path)
     if kind == "value":
-        return inside(at, path)
+        # Newer versions of the validator tell what may not be there at all without its key.
+        return inside(at, path) or (error.validator is None and at == path[:-1])
     if kind == "unknown":
         return at == path[:-1] and error.validator == "additionalProperties" and repr(path[-1]) in error.message
     return at == path[:-1] and is_required(error) and (path[-1] in error.message or error.validator == "anyOf")
@@ -245,6 +246,9 @@ class Strategies(Judges):
             for number in range(8 if name == "every_field" else 3):
                 with self.subTest(strategy=f"{kind} {name}", number=number):
                     self.expect_right(Written(hosted(kind, values.good_strategy(kind, name))[0]).text)
+            for values.end in ("minimum", "maximum"):
+                with self.subTest(strategy=f"{kind} {name}", ends=values.end):
+                    self.expect_right(Written(self.complete(kind, name, values)[0]).text)
 
     def plant_values(self, kind, name, fields, whole):
         """All bad values of all fields, as many at once as there are fields."""

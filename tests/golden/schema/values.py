@@ -10,6 +10,7 @@ class Values:
         self.random = random
         self.strategies = strategies  # {kind: {id: description}}
         self.complete = False  # leave nothing out
+        self.end = None  # "minimum" or "maximum": take this end of every range that has it
 
     # ---- good ones ----------------------------------------------------------------------------------------------
 
@@ -65,6 +66,8 @@ class Values:
 
     def _good_number(self, field, kind):
         low, high = field.get("minimum"), field.get("maximum")
+        if self.end and field.get(self.end) and not field[self.end]["open"]:
+            return int(field[self.end]["value"]) if kind == "integer" else field[self.end]["value"]
         ends = [end["value"] for end in (low, high) if end and not end["open"]]
         if ends and self.random.random() < 0.4:
             value = self.random.choice(ends)
