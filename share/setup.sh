@@ -18,7 +18,7 @@ build_packages=(
     libboost-dev libcli11-dev libeigen3-dev libembree-dev libnanoflann-dev libopenmesh-dev libpcl-dev libpng-dev librandom123-dev
     libspdlog-dev libssl-dev libvtk9-dev libyaml-cpp-dev nlohmann-json3-dev
 )
-test_packages=(doctest-dev libbenchmark-dev libcgal-dev libgmp-dev libmpfr-dev python3)
+test_packages=(doctest-dev libbenchmark-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-jsonschema python3-yaml)
 full_packages=(valgrind chromium snakemake slurm-wlm)
 
 say() { printf '%s\n' "$*" >&2; }

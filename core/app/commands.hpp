@@ -14,9 +14,6 @@ struct Context {
     std::function<int()> action;            ///< of the command that was given
 };
 
-/// Below `dsc plugin`, as the others that get it.
-void add_plugin_new(CLI::App& plugin, Context& context);
-
 void add_run(CLI::App& app, Context& context);
 void add_reconstruct(CLI::App& app, Context& context);
 void add_sample(CLI::App& app, Context& context);
@@ -24,8 +21,10 @@ void add_info(CLI::App& app, Context& context);
 void add_evaluate(CLI::App& app, Context& context);
 void add_render(CLI::App& app, Context& context);
 void add_convert(CLI::App& app, Context& context);
+void add_schema(CLI::App& app, Context& context);
 void add_plugin(CLI::App& app, Context& context);
 /// Below `dsc plugin`.
+void add_plugin_new(CLI::App& plugin, Context& context);
 void add_plugin_check(CLI::App& plugin, Context& context);
 void add_plugin_doctor(CLI::App& plugin, Context& context);
 

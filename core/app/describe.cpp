@@ -3,45 +3,24 @@
 #include <algorithm>
 #include <array>
 #include <dsc/config/yaml.hpp>
+#include <limits>
+
+#include "config_json.hpp"
 
 namespace dsc::app {
 namespace {
 
 using config::Field;
 using config::FieldType;
-using config::NodeType;
 using nlohmann::ordered_json;
-
-ordered_json to_json(const config::ConfigNode& node) {
-    switch (node.type()) {
-        case NodeType::null:
-            return nullptr;
-        case NodeType::boolean:
-            return node.as_boolean();
-        case NodeType::integer:
-            return node.as_integer();
-        case NodeType::real:
-            return node.as_real();
-        case NodeType::string:
-            return node.as_string();
-        case NodeType::list: {
-            ordered_json list = ordered_json::array();
-            for (const config::ConfigNode& item : node.items()) list.push_back(to_json(item));
-            return list;
-        }
-        case NodeType::map: {
-            ordered_json map = ordered_json::object();
-            for (const config::ConfigEntry& entry : node.entries()) map[entry.key] = to_json(entry.value);
-            return map;
-        }
-    }
-    return nullptr;
-}
 
 ordered_json bound(const std::optional<config::Bound>& bound) {
     if (!bound) return nullptr;
     return {{"value", bound->value}, {"open", bound->open}};
 }
+
+/// The parameters of a map, its conditions and its old names, added to `json`; the parameters under `key`.
+void add_schema(const config::Schema& schema, const char* key, ordered_json& json);
 
 ordered_json fields_json(const config::Schema& schema) {
     ordered_json fields = ordered_json::array();
@@ -55,22 +34,42 @@ ordered_json fields_json(const config::Schema& schema) {
                              {"default", to_json(field.default_value)}};
         if (field.minimum) json["minimum"] = bound(field.minimum);
         if (field.maximum) json["maximum"] = bound(field.maximum);
+        if (field.min_size) json["min_size"] = *field.min_size;
+        if (field.max_size && *field.max_size != std::numeric_limits<std::size_t>::max())
+            json["max_size"] = *field.max_size;
         if (!field.choices.empty()) json["choices"] = field.choices;
+        if (!field.extensions.empty()) json["extensions"] = field.extensions;
         if (!field.kind.empty()) json["kind"] = field.kind;
         if (!field.tags.empty()) json["tags"] = field.tags;
-        if (field.object) json["fields"] = fields_json(*field.object);
+        if (field.object) add_schema(*field.object, "fields", json);
         fields.push_back(std::move(json));
     }
     return fields;
 }
 
-void fields_text(const config::Schema& schema, const std::string& indent, std::string& text) {
-    for (const Field& field : schema.fields()) {
-        text += indent + field.name + ": " + field.summary();
-        if (!field.unit.empty() && field.unit != "1") text += " [" + field.unit + "]";
-        text += "\n" + indent + "    " + field.doc + "\n";
-        if (field.object) fields_text(*field.object, indent + "  ", text);
+void add_schema(const config::Schema& schema, const char* key, ordered_json& json) {
+    json[key] = fields_json(schema);
+    if (!schema.checks().empty()) {
+        ordered_json& checks = json["checks"] = ordered_json::array();
+        for (const config::CrossCheck& check : schema.checks()) checks.push_back(check.message);
     }
+    if (!schema.deprecations().empty()) {
+        ordered_json& old_names = json["deprecated"] = ordered_json::array();
+        for (const config::Deprecation& d : schema.deprecations())
+            old_names.push_back({{"old_name", d.old_name}, {"new_name", d.new_name}});
+    }
+}
+
+void schema_text(const config::Schema& schema, const std::string& indent, std::string& text) {
+    for (const Field& field : schema.fields()) {
+        text += indent + field.name + ": " + field.summary() + "\n";
+        text += wrapped(field.doc, indent + "    ");
+        if (field.object) schema_text(*field.object, indent + "  ", text);
+    }
+    for (const config::CrossCheck& check : schema.checks())
+        text += wrapped("Condition: " + check.message + ".", indent);
+    for (const config::Deprecation& d : schema.deprecations())
+        text += indent + "Old name, still accepted: " + d.old_name + " for " + d.new_name + ".\n";
 }
 
 std::string origin(const Described& d) {
@@ -82,6 +81,42 @@ std::string yaml_value(const config::ConfigNode& value) {
     if (value.is_null()) return " null\n";
     const std::string text = config::to_yaml(config::ConfigNode::map({{"x", value}}));
     return text.substr(2);
+}
+
+std::string indented(const std::string& lines, const std::string& indent) {
+    std::string out;
+    for (std::size_t begin = 0; begin < lines.size();) {
+        const std::size_t end = lines.find('\n', begin) + 1;
+        out += indent + lines.substr(begin, end - begin);
+        begin = end;
+    }
+    return out;
+}
+
+/// Whether the block has a value for any field; one with comments only would read as null.
+bool has_values(const config::Schema& schema) {
+    const auto& fields = schema.fields();
+    return std::any_of(fields.begin(), fields.end(), [](const Field& field) {
+        const bool open = field.type == FieldType::object && !field.default_value.is_null();
+        return !field.required && (!open || has_values(*field.object));
+    });
+}
+
+/// The fields with their defaults, a comment before each; the conditions of a map come last.
+void yaml_block(const config::Schema& schema, const std::string& indent, std::string& text) {
+    for (const Field& field : schema.fields()) {
+        text += wrapped(doc_text(field), indent + "# ");
+        if (field.type == FieldType::object && !field.default_value.is_null()) {
+            text += indent + (has_values(*field.object) ? "" : "# ") + field.name + ":\n";
+            yaml_block(*field.object, indent + "  ", text);
+        } else if (field.required) {
+            text += indent + "# " + field.name + ": required\n";
+        } else {
+            text += indented(field.name + ":" + yaml_value(field.default_value), indent);
+        }
+    }
+    for (const config::CrossCheck& check : schema.checks())
+        text += wrapped("Condition: " + check.message + ".", indent + "# ");
 }
 
 }  // namespace
@@ -113,7 +148,7 @@ ordered_json summary_json(const Described& d) {
 
 ordered_json full_json(const Described& d) {
     ordered_json json = summary_json(d);
-    json["parameters"] = fields_json(*d.schema);
+    add_schema(*d.schema, "parameters", json);
     return json;
 }
 
@@ -121,25 +156,40 @@ std::string description_text(const Described& d) {
     std::string text = d.kind + " '" + d.id + "': " + d.summary + "\n(" + origin(d) + ")\n";
     if (d.schema->fields().empty()) return text + "It has no parameters.\n";
     text += "Parameters:\n";
-    fields_text(*d.schema, "  ", text);
+    schema_text(*d.schema, "  ", text);
     return text;
 }
 
 std::string yaml_text(const Described& d) {
-    std::string text =
-        "# " + d.kind + " '" + d.id + "': " + d.summary + "\n" + d.kind + ":\n  type: " + d.id + "\n";
-    for (const Field& field : d.schema->fields()) {
-        text += "  # " + field.doc + " (" + field.summary() +
-                (field.unit.empty() ? "" : "; unit " + field.unit) + ")\n";
-        std::string value = field.name + ":" + (field.required ? " \n" : yaml_value(field.default_value));
-        if (field.required) value = "# " + field.name + ": required\n";
-        for (std::size_t begin = 0; begin < value.size();) {
-            const std::size_t end = value.find('\n', begin) + 1;
-            text += "  " + value.substr(begin, end - begin);
-            begin = end;
-        }
-    }
+    const std::string key = d.kind == "refinement" ? "refine" : d.kind;
+    const bool in_list = d.kind == "observer" || d.kind == "filter";
+    std::string text = wrapped(d.kind + " '" + d.id + "': " + d.summary, "# ");
+    text += key + (in_list ? "s:\n  - type: " : ":\n  type: ") + d.id + "\n";
+    yaml_block(*d.schema, in_list ? "    " : "  ", text);
     return text;
+}
+
+std::string doc_text(const Field& field) {
+    const std::string summary = field.summary();
+    return summary == "map" ? field.doc : field.doc + " (" + summary + ")";
+}
+
+std::string wrapped(const std::string& text, const std::string& indent) {
+    constexpr std::size_t width = 100;
+    std::string out;
+    std::string line = indent;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find(' ', begin), text.size());
+        const bool first = line.size() == indent.size();
+        if (!first && line.size() + 1 + end - begin > width) {
+            out += line + "\n";
+            line = indent + text.substr(begin, end - begin);
+        } else {
+            line += (first ? "" : " ") + text.substr(begin, end - begin);
+        }
+        begin = end + 1;
+    }
+    return out + line + "\n";
 }
 
 }  // namespace dsc::app

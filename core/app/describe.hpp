@@ -21,10 +21,18 @@ struct Described {
 /// A table with a row a strategy.
 std::string list_text(const std::vector<Described>& all);
 nlohmann::ordered_json summary_json(const Described& described);
-/// With all parameters: type, default, range, unit, doc.
+/// With all that is declared: parameters, conditions, old names.
 nlohmann::ordered_json full_json(const Described& described);
 std::string description_text(const Described& described);
 /// The parameters with their defaults as a commented block for an experiment.
 std::string yaml_text(const Described& described);
+/// A reference page in Markdown. It names no file and no version, so that it changes with the declaration only.
+std::string markdown_text(const Described& described);
+
+/// What a field is for and, in brackets, what it accepts.
+std::string doc_text(const config::Field& field);
+
+/// The text in lines of about 100 characters, each after `indent`.
+std::string wrapped(const std::string& text, const std::string& indent);
 
 }  // namespace dsc::app

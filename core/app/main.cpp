@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
     dsc::app::add_render(app, context);
     dsc::app::add_convert(app, context);
     dsc::app::add_plugin(app, context);
+    dsc::app::add_schema(app, context);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {

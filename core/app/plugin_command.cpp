@@ -1,7 +1,6 @@
 // dsc plugin list | describe ID | path
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
-#include <dsc/run/experiment.hpp>
 #include <iostream>
 #include <memory>
 
@@ -21,22 +20,6 @@ struct PluginArguments {
     std::string kind;
     std::string format = "text";
 };
-
-/// All strategies and the core's cloud filters.
-std::vector<Described> all_strategies(const host::Host& host) {
-    std::vector<Described> all;
-    for (const plugin::StrategyInfo& info : host.list()) {
-        all.push_back({std::string(plugin::kind_name(info.strategy->kind)), info.strategy->id,
-                       info.strategy->summary, info.plugin->name, info.plugin->version,
-                       info.plugin->file.string(), info.strategy->schema.get()});
-    }
-    const run::ExperimentLookup lookup(host);
-    for (const std::string& id : lookup.ids("filter")) {
-        all.push_back(
-            {"filter", id, "filter of the point cloud", "core", "", "", lookup.find_schema("filter", id)});
-    }
-    return all;
-}
 
 /// Why a library is not among the plugins: refused by the gate, or it does harm when it is loaded.
 std::string_view state(const host::Fault& fault) {
@@ -73,6 +56,11 @@ int list(const PluginArguments& arguments) {
     return host.faults().empty() ? 0 : static_cast<int>(ExitCode::plugin);
 }
 
+std::string described(const Described& d, const std::string& format) {
+    if (format == "yaml") return yaml_text(d);
+    return format == "md" ? markdown_text(d) : description_text(d);
+}
+
 int describe(const PluginArguments& arguments) {
     Plugins plugins(arguments.plugins);
     const std::vector<Described> all = all_strategies(plugins.load());
@@ -97,7 +85,7 @@ int describe(const PluginArguments& arguments) {
     }
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (i > 0) std::cout << "\n";
-        std::cout << (arguments.format == "yaml" ? yaml_text(found[i]) : description_text(found[i]));
+        std::cout << described(found[i], arguments.format);
     }
     return 0;
 }
@@ -114,7 +102,6 @@ int path(const PluginArguments& arguments) {
 void add_plugin(CLI::App& app, Context& context) {
     CLI::App* command = app.add_subcommand("plugin", "Strategies: which there are, and what they take");
     command->require_subcommand(1);
-    add_plugin_new(*command, context);
     const auto arguments = std::make_shared<PluginArguments>();
     const auto add = [&](const char* name, const char* text, int (*action)(const PluginArguments&)) {
         CLI::App* sub = command->add_subcommand(name, text);
@@ -130,10 +117,11 @@ void add_plugin(CLI::App& app, Context& context) {
     CLI::App* describing = add("describe", "The parameters of a strategy", describe);
     describing->add_option("ID", arguments->id, "Its id")->required();
     describing->add_option("--kind", arguments->kind, "Its kind, where two kinds have the id");
-    describing->add_option("--format", arguments->format, "text, json or yaml (a block for an experiment)")
-        ->check(CLI::IsMember({"text", "json", "yaml"}))
+    describing->add_option("--format", arguments->format, "text, json, yaml (a block for an experiment) or md (a page)")
+        ->check(CLI::IsMember({"text", "json", "yaml", "md"}))
         ->capture_default_str();
     add("path", "Where plugins are looked for, in order", path);
+    add_plugin_new(*command, context);
     add_plugin_check(*command, context);
     add_plugin_doctor(*command, context);
 }

@@ -1,5 +1,7 @@
 #include "plugins.hpp"
 
+#include <dsc/run/input.hpp>
+
 namespace dsc::app {
 
 Plugins::Plugins(std::vector<std::string> command_line) : command_line_(std::move(command_line)) {}
@@ -25,6 +27,18 @@ run::PluginLoader Plugins::loader() {
     return [this](const std::vector<std::string>& experiment) -> const config::StrategyLookup& {
         return load(experiment);
     };
+}
+
+std::vector<Described> all_strategies(const host::Host& host) {
+    std::vector<Described> all;
+    for (const plugin::StrategyInfo& info : host.list()) {
+        all.push_back({std::string(plugin::kind_name(info.strategy->kind)), info.strategy->id,
+                       info.strategy->summary, info.plugin->name, info.plugin->version,
+                       info.plugin->file.string(), info.strategy->schema.get()});
+    }
+    for (const std::string& id : run::filter_ids())
+        all.push_back({"filter", id, run::filter_summary(id), "core", "", "", run::filter_schema(id)});
+    return all;
 }
 
 }  // namespace dsc::app

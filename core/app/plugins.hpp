@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "describe.hpp"
+
 namespace dsc::app {
 
 /// Owns the host of a command.
@@ -28,5 +30,8 @@ private:
     std::vector<std::string> command_line_;
     host::Host host_;
 };
+
+/// All strategies of a host and the core's cloud filters; valid as long as the host.
+std::vector<Described> all_strategies(const host::Host& host);
 
 }  // namespace dsc::app

@@ -1,4 +1,5 @@
-// Every bad experiment ends in diagnostics with place and remedy, exit code 3 (or that of its fault), and no folder.
+// Bad experiments whose fault is not in their text alone: files, folders, plugins, the environment. The others are in
+// tests/golden/errors.
 #include <doctest/doctest.h>
 
 #include "process.hpp"
@@ -42,84 +43,6 @@ std::string fault(const std::string& text, int code = 3, const std::vector<std::
 
 }  // namespace
 
-TEST_CASE("malformed YAML") {
-    CHECK(fault(with("name: shrink", "name: [shrink")) ==
-          R"(a.yaml:3:6: error: malformed YAML: end of sequence flow not found
-    3 | input: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {scale: 0.9}}
-      |      ^  is the '[' in line 2 closed?
-1 error; nothing was run
-)");
-}
-
-TEST_CASE("duplicate key") {
-    CHECK(fault(good + "name: again\n") ==
-          R"(a.yaml:8:1: error: duplicate key 'name', first given in line 2
-    8 | name: again
-      | ^~~~  remove one of the two
-1 error; nothing was run
-)");
-}
-
-TEST_CASE("unknown key") {
-    CHECK(fault(with("alpha: 0.2", "alhpa: 0.2")) ==
-          R"(a.yaml:5:31: error: unknown key 'alhpa' in velocity 'point_cloud'
-    5 | velocity: {type: point_cloud, alhpa: 0.2}
-      |                               ^~~~~  did you mean 'alpha'? (real, [0, 2], default 0.2)
-      note: accepted keys: type, alpha, beta, curvature, curvature_at, target, unsupported
-1 error; nothing was run
-)");
-    CHECK(fault(good, 3, {"velocty.alpha=1"}) ==
-          R"(command line: 'velocty.alpha=1': error: unknown key 'velocty' in the experiment
-      note: did you mean 'velocity'? (velocity strategy, required)
-      note: accepted keys: dsc, name, seed, plugins, input, initial_mesh, velocity, improvement, schedule, stop, observers, output
-1 error; nothing was run
-)");
-}
-
-TEST_CASE("wrong type") {
-    CHECK(fault(with("alpha: 0.2", "alpha: fast")) ==
-          R"(a.yaml:5:38: error: 'velocity.alpha' must be a number, not the string 'fast'
-    5 | velocity: {type: point_cloud, alpha: fast}
-      |                                      ^~~~  accepted: real, [0, 2], default 0.2
-1 error; nothing was run
-)");
-}
-
-TEST_CASE("value out of range") {
-    CHECK(fault(with("scale: 0.9", "scale: 1.6")) ==
-          R"(a.yaml:3:70: error: 'input.normalize.scale': 1.6 is above the maximum 1.5
-    3 | input: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {scale: 1.6}}
-      |                                                                      ^~~  accepted: real in length, (0, 1.5], default 0.9
-1 error; nothing was run
-)");
-}
-
-TEST_CASE("unknown strategy") {
-    const std::string text = fault(with("type: point_cloud", "type: point_clod"));
-    CHECK(text.find(R"(a.yaml:5:18: error: unknown velocity 'point_clod'
-    5 | velocity: {type: point_clod, alpha: 0.2}
-      |                  ^~~~~~~~~~  did you mean 'point_cloud'?
-      note: known velocity strategies: )") == 0);
-    CHECK(text.find("1 error; nothing was run\n") != std::string::npos);
-}
-
-TEST_CASE("several faults at once") {
-    CHECK(fault(with("alpha: 0.2", "alpha: fast, gamma: 1") + "speed: 3\n") ==
-          R"(a.yaml:5:38: error: 'velocity.alpha' must be a number, not the string 'fast'
-    5 | velocity: {type: point_cloud, alpha: fast, gamma: 1}
-      |                                      ^~~~  accepted: real, [0, 2], default 0.2
-a.yaml:5:44: error: unknown key 'gamma' in velocity 'point_cloud'
-    5 | velocity: {type: point_cloud, alpha: fast, gamma: 1}
-      |                                            ^~~~~
-      note: accepted keys: type, alpha, beta, curvature, curvature_at, target, unsupported
-a.yaml:8:1: error: unknown key 'speed' in the experiment
-    8 | speed: 3
-      | ^~~~~  did you mean 'seed'? (integer, at least 0, default 1)
-      note: accepted keys: dsc, name, seed, plugins, input, initial_mesh, velocity, improvement, schedule, stop, observers, output
-3 errors; nothing was run
-)");
-}
-
 TEST_CASE("a variable that is not set") {
     const std::string text = fault(with("sample: {shape: sphere, n: 500}", "file: \"${DSC_DATA}/cow.obj\""));
     CHECK(text.find(R"(a.yaml:3:23: error: the environment variable 'DSC_DATA' is not set
@@ -129,19 +52,6 @@ TEST_CASE("a variable that is not set") {
     CHECK(text.find("DSC_DATA is the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj") !=
           std::string::npos);
     CHECK(text.find("they are public") != std::string::npos);
-}
-
-TEST_CASE("a value of the command line that is none") {
-    CHECK(fault(good, 3, {"velocity.alpha"}) ==
-          R"(command line: 'velocity.alpha': error: malformed override: no '=' in it
-      note: write path.to.key=value
-1 error; nothing was run
-)");
-    CHECK(fault(good, 3, {"velocity.alpha=7"}) ==
-          R"(command line: 'velocity.alpha=7': error: 'velocity.alpha': 7 is above the maximum 2
-      note: accepted: real, [0, 2], default 0.2
-1 error; nothing was run
-)");
 }
 
 TEST_CASE("an experiment that does not exist") {

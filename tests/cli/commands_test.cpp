@@ -105,7 +105,18 @@ TEST_CASE("info --require-solid: exit 5 for an open surface, with the figures") 
     CHECK(cli.dsc({"info", "closed.obj", "--require-solid"}).code == 0);
 }
 
-TEST_CASE("plugin list, describe in three forms, path") {
+TEST_CASE("schema: JSON on stdout and nothing else") {
+    const Cli cli;
+    const Result result = cli.dsc({"schema"});
+    CHECK(result.code == 0);
+    CHECK(result.err.empty());
+    const json schema = json::parse(result.out);
+    CHECK(schema["$schema"] == "http://json-schema.org/draft-07/schema#");
+    CHECK(schema["definitions"]["velocity.rotate"]["properties"]["degrees"]["maximum"] == 180);
+    CHECK(cli.dsc({"schema", "--plugin", "missing.so"}).code == 4);
+}
+
+TEST_CASE("plugin list, describe in four forms, path") {
     const Cli cli;
     const Result list = cli.dsc({"plugin", "list"});
     CHECK(list.code == 0);
@@ -128,6 +139,7 @@ TEST_CASE("plugin list, describe in three forms, path") {
         "block.yaml",
         "dsc: 1\nschedule: [{steps: 1}]\ninitial_mesh: {type: grid}\nimprovement: {type: dsc}\n" + yaml.out);
     CHECK(cli.dsc({"run", "block.yaml", "--check"}).code == 0);
+    CHECK(cli.dsc({"plugin", "describe", "point_cloud", "--format", "md"}).out.find("# velocity `point_cloud`\n") == 0);
     CHECK(cli.dsc({"plugin", "path"}).out.find("(installed folder)") != std::string::npos);
 }
 

@@ -50,11 +50,6 @@ def run(command, folder=None, expect=0, **variables):
     return done.stdout
 
 
-def knows_check():
-    """Whether this dsc has `plugin check`; without it the conformance tests of plugins cannot run."""
-    return "--level" in run(["dsc", "plugin", "check", "--help"], expect=None)
-
-
 def fresh_folder(name):
     folder = SCRATCH / name
     shutil.rmtree(folder, ignore_errors=True)

@@ -9,6 +9,7 @@
 
 #include "config/scalar.hpp"
 #include "config/text.hpp"
+#include "config/variables.hpp"
 
 namespace dsc::config {
 namespace {
@@ -21,8 +22,7 @@ public:
 
     ConfigNode boolean(const ConfigNode& node, const std::string& path) {
         if (node.is_boolean()) return node;
-        return wrong_type(node, path, "true or false",
-                          node.is_string() ? boolean_hint(node.as_string()) : "");
+        return wrong_type(node, path, "true or false", text_hint(node, boolean_hint));
     }
 
     ConfigNode integer(const ConfigNode& node, const std::string& path) {
@@ -30,8 +30,7 @@ public:
         const bool exact = node.is_integer() || (node.is_real() && std::abs(node.as_real()) <= exact_to &&
                                                  std::trunc(node.as_real()) == node.as_real());
         if (!exact) {
-            return wrong_type(node, path, "an integer",
-                              node.is_string() ? number_hint(node.as_string()) : "");
+            return wrong_type(node, path, "an integer", text_hint(node, number_hint));
         }
         const std::int64_t value = node.as_integer();
         if (within(static_cast<double>(value), std::to_string(value), node, path) &&
@@ -46,7 +45,7 @@ public:
 
     ConfigNode real(const ConfigNode& node, const std::string& path) {
         if (!node.is_number()) {
-            return wrong_type(node, path, "a number", node.is_string() ? number_hint(node.as_string()) : "");
+            return wrong_type(node, path, "a number", text_hint(node, number_hint));
         }
         within(node.as_real(), number_text(node), node, path);
         return ConfigNode(node.as_real()).placed(node.position()).with_path(path);
@@ -55,7 +54,8 @@ public:
     ConfigNode string(const ConfigNode& node, const std::string& path) {
         if (!node.is_string()) {
             const bool scalar = !node.is_list() && !node.is_map() && !node.is_null();
-            return wrong_type(node, path, "a string", scalar ? "put it in quotes" : "");
+            const bool any_text = scalar && field_.choices.empty();
+            return wrong_type(node, path, "a string", any_text ? "put it in quotes" : "");
         }
         if (!field_.choices.empty()) check_choice(node, path);
         return node;
@@ -96,6 +96,13 @@ public:
 private:
     const SourcePosition& place(const ConfigNode& node) const {
         return node.position().known() ? node.position() : fallback_;
+    }
+
+    /// What to do about text where a number or a boolean is due.
+    static std::string text_hint(const ConfigNode& node, std::string (*hint)(std::string_view)) {
+        if (!node.is_string()) return {};
+        return holds_variable(node.position()) ? "a variable gives text; write the value itself, or override it with KEY=VALUE"
+                                               : hint(node.as_string());
     }
 
     ConfigNode wrong_type(const ConfigNode& node, const std::string& path, const std::string& wanted,
@@ -161,16 +168,17 @@ private:
         const std::size_t most =
             vector ? 3 : field_.max_size.value_or(std::numeric_limits<std::size_t>::max());
         if (size >= least && size <= most) return;
-        std::string wanted = std::to_string(least);
+        std::string wanted;
         if (least == most) {
-            wanted = "exactly " + wanted;
+            wanted = "exactly " + items_text(least);
         } else if (size < least) {
-            wanted = "at least " + wanted;
+            wanted = "at least " + items_text(least);
         } else {
-            wanted = "at most " + std::to_string(most);
+            wanted = "at most " + items_text(most);
         }
         diagnostics_.error("config.list_size", place(node),
-                           "'" + path + "' must have " + wanted + " items, not " + std::to_string(size));
+                           "'" + path + "' must have " + wanted + ", not " + std::to_string(size),
+                           "accepted: " + field_.summary());
     }
 
     const Field& field_;

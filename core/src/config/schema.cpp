@@ -1,10 +1,13 @@
 #include <algorithm>
+#include <dsc/config/field_text.hpp>
 #include <dsc/config/schema.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/config/yaml.hpp>
+#include <limits>
 #include <set>
 
 #include "config/field_value.hpp"
+#include "config/text.hpp"
 
 namespace dsc::config {
 namespace {
@@ -57,6 +60,34 @@ std::string short_text(const ConfigNode& node) {
         return "[" + join(items) + "]";
     }
     return node.is_number() ? number_text(node) : value_text(node);
+}
+
+/// "list of strings out of obj | ply".
+std::string held_text(const Field& field) {
+    if (field.type == FieldType::choice) return "one of " + join(field.choices, " | ");
+    if (field.type == FieldType::strategy) return field.kind + " strategy";
+    if (field.type == FieldType::strategy_list) return "list of " + field.kind + " strategies";
+    std::string out(type_name(field.type));
+    if (!field.choices.empty()) out += " out of " + join(field.choices, " | ");
+    if (!field.extensions.empty()) out += " (" + join(field.extensions, " ") + ")";
+    return out;
+}
+
+/// "1 to 4 items"; empty where any number will do.
+std::string size_text(const Field& field) {
+    const std::size_t least = field.min_size.value_or(0);
+    const std::size_t most = field.max_size.value_or(std::numeric_limits<std::size_t>::max());
+    if (least == most) return items_text(least);
+    if (most == std::numeric_limits<std::size_t>::max()) return least == 0 ? "" : "at least " + items_text(least);
+    return least == 0 ? "at most " + items_text(most) : std::to_string(least) + " to " + items_text(most);
+}
+
+/// ", 1 to 4 items, (0, 1]": the bounds of the size and of the value.
+std::string limits_text(const Field& field) {
+    std::string out;
+    if (const std::string size = size_text(field); !size.empty()) out += ", " + size;
+    if (const std::string range = field.range_text(); !range.empty()) out += ", " + range;
+    return out;
 }
 
 /// The faults of one field, without its place.
@@ -134,6 +165,7 @@ bool Field::has_tag(std::string_view tag) const {
 
 std::string Field::range_text() const {
     const auto text = [&](const Bound& bound) { return bound_text(*this, bound.value); };
+    if (minimum && maximum && minimum->value == maximum->value) return "exactly " + text(*minimum);
     if (minimum && maximum) {
         return (minimum->open ? "(" : "[") + text(*minimum) + ", " + text(*maximum) +
                (maximum->open ? ")" : "]");
@@ -144,24 +176,21 @@ std::string Field::range_text() const {
 }
 
 std::string Field::summary() const {
-    std::string out;
-    if (type == FieldType::choice) {
-        out = "one of " + join(choices, " | ");
-    } else if (type == FieldType::strategy) {
-        out = kind + " strategy";
-    } else if (type == FieldType::strategy_list) {
-        out = "list of " + kind + " strategies";
-    } else {
-        out = type_name(type);
-        if (!choices.empty()) out += " out of " + join(choices, " | ");
-        if (!extensions.empty()) out += " (" + join(extensions, " ") + ")";
-    }
+    std::string out = held_text(*this);
     if (!unit.empty() && unit != "1") out += " in " + unit;
-    if (const std::string range = range_text(); !range.empty()) out += ", " + range;
+    out += limits_text(*this);
     if (required) return out + ", required";
     if (optional && default_value.is_null()) return out + ", optional";
     if (type != FieldType::object) out += ", default " + short_text(default_value);
     return out;
+}
+
+std::string type_text(const Field& field) { return held_text(field) + limits_text(field); }
+
+std::string default_text(const Field& field) {
+    if (field.required) return "required";
+    if (field.optional && field.default_value.is_null()) return "unset";
+    return field.type == FieldType::object ? "" : short_text(field.default_value);
 }
 
 std::size_t Schema::add(Field field) {

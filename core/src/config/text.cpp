@@ -85,4 +85,17 @@ std::string quoted_text(std::string_view text) {
     return "'" + printable(text.substr(0, end)) + (end < text.size() ? "..." : "") + "'";
 }
 
+std::string items_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " item" : " items"); }
+
+std::size_t find_word(std::string_view text, std::string_view word) {
+    const auto is_part = [&](std::size_t at) {
+        const char c = at < text.size() ? text[at] : ' ';
+        return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    };
+    std::size_t at = text.find(word);
+    while (at != std::string_view::npos && ((at > 0 && is_part(at - 1)) || is_part(at + word.size())))
+        at = text.find(word, at + 1);
+    return at;
+}
+
 }  // namespace dsc::config

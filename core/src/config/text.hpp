@@ -21,6 +21,12 @@ bool is_utf8(std::string_view text);
 /// The text with control characters as blanks and broken bytes as '?', safe for a terminal; one column each.
 std::string printable(std::string_view text);
 
+/// "1 item", "3 items".
+std::string items_text(std::size_t count);
+
+/// Where a word stands in a text, npos where it is only part of others.
+std::size_t find_word(std::string_view text, std::string_view word);
+
 /// 'text' in quotes for a message, printable and shortened to some 60 characters.
 std::string quoted_text(std::string_view text);
 

@@ -102,7 +102,7 @@ public:
             diagnostics_.error("config.unknown_strategy",
                                type->position().known() ? type->position() : position,
                                "unknown " + kind + " " + quoted_text(id),
-                               near ? "did you mean '" + *near + "'?" : "", {known_ids(kind)});
+                               near ? "did you mean '" + *near + "'?" : kind_hint(id), {known_ids(kind)});
             return node;
         }
         if (schema->find("type")) {
@@ -120,6 +120,14 @@ private:
         const std::vector<std::string> ids = lookup_.ids(kind);
         return ids.empty() ? "no " + kind + " strategy is loaded"
                            : "known " + kind + " strategies: " + join(ids);
+    }
+
+    /// What an id is that was used for another kind.
+    std::string kind_hint(const std::string& id) const {
+        for (const std::string& kind : known_kinds_) {
+            if (lookup_.find_schema(kind, id)) return quoted_text(id) + " is of the kind " + kind;
+        }
+        return {};
     }
 
     /// The map with old names replaced by new ones.
@@ -239,9 +247,10 @@ private:
         if (value.size() < least || value.size() > most) {
             diagnostics_.error("config.list_size", place,
                                "'" + path + "' must have " +
-                                   (value.size() < least ? "at least " + std::to_string(least)
-                                                         : "at most " + std::to_string(most)) +
-                                   " items, not " + std::to_string(value.size()));
+                                   (value.size() < least ? "at least " + items_text(least)
+                                                         : "at most " + items_text(most)) +
+                                   ", not " + std::to_string(value.size()),
+                               "accepted: " + field.summary());
         }
         std::vector<ConfigNode> items;
         for (std::size_t i = 0; i < value.size(); ++i) {
@@ -263,8 +272,25 @@ private:
                 throw StrategyError("strategy.check",
                                     map.owner + " failed while its parameters were checked: " + error.what());
             }
-            if (!holds) diagnostics_.error("config.check", place, map.owner + ": " + check.message);
+            if (holds) continue;
+            const ConfigNode* culprit = first_named(check.message, resolved);
+            diagnostics_.error("config.check", culprit ? culprit->position() : place, map.owner + ": " + check.message);
         }
+    }
+
+    /// Of the values that were given, the one whose key a message names first; nullptr where it names none.
+    static const ConfigNode* first_named(const std::string& message, const ConfigNode& map) {
+        const ConfigNode* first = nullptr;
+        std::size_t first_at = std::string::npos;
+        for (const ConfigEntry& entry : map.entries()) {
+            if (!entry.value.position().known()) continue;
+            const std::size_t at = find_word(message, entry.key);
+            if (at < first_at) {
+                first = &entry.value;
+                first_at = at;
+            }
+        }
+        return first;
     }
 
     const StrategyLookup& lookup_;

@@ -57,4 +57,18 @@ std::string expand_variables(std::string_view text, const SourcePosition& positi
     return out;
 }
 
+bool holds_variable(const SourcePosition& position) {
+    if (!position.known() || position.line < 1) return false;
+    std::string_view rest = position.source->line(position.line);
+    const auto bytes_of = [&](int characters) {
+        std::size_t at = 0;
+        for (; characters > 0 && at < rest.size(); --characters) {
+            for (++at; at < rest.size() && (static_cast<unsigned char>(rest[at]) & 0xc0U) == 0x80U;) ++at;
+        }
+        return at;
+    };
+    rest.remove_prefix(bytes_of(position.column - 1));
+    return rest.substr(0, bytes_of(position.length)).find("${") != std::string_view::npos;
+}
+
 }  // namespace dsc::config

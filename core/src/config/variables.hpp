@@ -13,4 +13,7 @@ namespace dsc::config {
 std::string expand_variables(std::string_view text, const SourcePosition& position,
                              const Environment& environment, Diagnostics& diagnostics);
 
+/// Whether the text at a position, as it is written there, holds a variable.
+bool holds_variable(const SourcePosition& position);
+
 }  // namespace dsc::config

@@ -141,9 +141,21 @@ public:
         if (has_variable && line.substr(0, variable).find_first_of("\"'") == std::string_view::npos) {
             return "put text with ${...} in quotes";
         }
+        const std::size_t colon = line.find(": ");
+        if (colon != std::string_view::npos && line.find(": ", colon + 1) != std::string_view::npos &&
+            line.find_first_of("\"'{[") == std::string_view::npos) {
+            return "text with ': ' in it belongs in quotes";
+        }
+        if (frames_.empty() || !is_flow(frames_.back())) {
+            // Below a value of its own line nothing can be nested.
+            const std::string_view before = job_.source->line(position.line - 1);
+            const bool has_value = before.find(": ") != std::string_view::npos && before.back() != ':';
+            if (has_value && first < line.size() && first > before.find_first_not_of(' '))
+                return "is this line indented too far?";
+        }
         for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
+            if (!is_flow(*frame)) continue;
             const char bracket = places_.character(frame->position);
-            if (bracket != '[' && bracket != '{') continue;
             const std::string line_text = " in line " + std::to_string(frame->position.line);
             return std::string("is the '") + bracket + "'" + (job_.flow_only ? "" : line_text) + " closed?";
         }
@@ -235,6 +247,11 @@ private:
         std::size_t nodes = 1;
         std::size_t depth = 0;
     };
+
+    bool is_flow(const Frame& frame) const {
+        const char bracket = places_.character(frame.position);
+        return bracket == '[' || bracket == '{';
+    }
 
     bool expects_key() const { return !frames_.empty() && frames_.back().is_map && !frames_.back().has_key; }
 

@@ -36,12 +36,14 @@ std::vector<std::string> plugin_paths(const ConfigNode& root) {
     return paths;
 }
 
-/// Replaces the values of all file fields by `change(value)`, through nested objects and strategies.
+using FileChange = std::function<ConfigNode(const ConfigNode& file)>;
+
+/// Replaces the values of all file fields that name one by `change(value)`, through nested objects and strategies.
 ConfigNode map_files(const ConfigNode& node, const Schema& schema, const StrategyLookup& lookup,
-                     const std::function<ConfigNode(const std::string&)>& change);
+                     const FileChange& change);
 
 ConfigNode map_strategy(const ConfigNode& node, const std::string& kind, const StrategyLookup& lookup,
-                        const std::function<ConfigNode(const std::string&)>& change) {
+                        const FileChange& change) {
     const ConfigNode* type = node.find("type");
     if (type == nullptr || !type->is_string()) return node;
     const Schema* schema = lookup.find_schema(kind, type->as_string());
@@ -49,12 +51,12 @@ ConfigNode map_strategy(const ConfigNode& node, const std::string& kind, const S
 }
 
 ConfigNode map_value(const ConfigNode& value, const Field& field, const StrategyLookup& lookup,
-                     const std::function<ConfigNode(const std::string&)>& change) {
+                     const FileChange& change) {
     if (value.is_null()) return value;
     std::vector<ConfigNode> items;
     switch (field.type) {
         case FieldType::file:
-            return change(value.as_string());
+            return value.as_string().empty() ? value : change(value);
         case FieldType::object:
             return map_files(value, *field.object, lookup, change);
         case FieldType::strategy:
@@ -73,7 +75,7 @@ ConfigNode map_value(const ConfigNode& value, const Field& field, const Strategy
 }
 
 ConfigNode map_files(const ConfigNode& node, const Schema& schema, const StrategyLookup& lookup,
-                     const std::function<ConfigNode(const std::string&)>& change) {
+                     const FileChange& change) {
     std::vector<ConfigEntry> entries;
     for (const ConfigEntry& entry : node.entries()) {
         const Field* field = schema.find(entry.key);
@@ -97,6 +99,25 @@ ConfigNode plugin_content(const std::string& path) {
     std::vector<ConfigNode> hashes;
     for (const fs::path& file : files) hashes.emplace_back("sha256:" + sha256_of_file(file));
     return ConfigNode::list(std::move(hashes));
+}
+
+/// All files that are not there at once, each at its place.
+void require_files(const ConfigNode& resolved, const StrategyLookup& lookup) {
+    config::Diagnostics missing;
+    map_files(resolved, *experiment_schema(), lookup, [&](const ConfigNode& file) {
+        std::error_code ignored;
+        const bool typed = file.position().from_command_line();
+        if (!fs::exists(file.as_string(), ignored)) {
+            missing.error("io.open", file.position(), "'" + file.path() + "': " + file.as_string() + " does not exist",
+                          std::string("check the path; it counts from the ") +
+                              (typed ? "current folder" : "folder of this file"));
+        }
+        return file;
+    });
+    if (!missing.has_errors()) return;
+    const std::size_t count = missing.error_count();
+    throw IoError("io.open", missing.text(config::Severity::error) + std::to_string(count) +
+                                 (count == 1 ? " error" : " errors") + "; nothing was run");
 }
 
 void warn_of_unwritten(const Experiment& experiment, const ConfigNode& resolved,
@@ -152,8 +173,9 @@ std::string resolved_text(const LoadedExperiment& loaded) { return config::to_ya
 
 std::string config_hash(const LoadedExperiment& loaded, const StrategyLookup& lookup) {
     const ExperimentLookup all(lookup);
-    ConfigNode canonical = map_files(loaded.resolved, *experiment_schema(), all, [](const std::string& file) {
-        return ConfigNode("sha256:" + sha256_of_file(file));
+    require_files(loaded.resolved, all);
+    ConfigNode canonical = map_files(loaded.resolved, *experiment_schema(), all, [](const ConfigNode& file) {
+        return ConfigNode("sha256:" + sha256_of_file(file.as_string()));
     });
     std::vector<ConfigNode> plugins;
     for (const std::string& path : loaded.experiment.plugins) plugins.push_back(plugin_content(path));
@@ -164,9 +186,10 @@ std::string config_hash(const LoadedExperiment& loaded, const StrategyLookup& lo
 std::vector<std::string> input_files(const LoadedExperiment& loaded, const StrategyLookup& lookup) {
     std::vector<std::string> files;
     const ExperimentLookup all(lookup);
-    map_files(loaded.resolved, *experiment_schema(), all, [&](const std::string& file) {
-        if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
-        return ConfigNode(file);
+    map_files(loaded.resolved, *experiment_schema(), all, [&](const ConfigNode& file) {
+        const std::string& name = file.as_string();
+        if (std::find(files.begin(), files.end(), name) == files.end()) files.push_back(name);
+        return file;
     });
     return files;
 }

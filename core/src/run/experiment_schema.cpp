@@ -15,20 +15,15 @@ bool plain_name(const std::string& name) {
     });
 }
 
-bool known_shape(const std::string& shape) {
-    const auto names = cloud::shape_names();
-    return std::find(names.begin(), names.end(), shape) != names.end();
-}
-
-std::string shape_list() {
-    std::string text;
-    for (const std::string_view name : cloud::shape_names())
-        text += (text.empty() ? "" : ", ") + std::string(name);
-    return text;
+/// The built-in shapes as the values of a choice.
+std::vector<std::pair<std::string, std::string>> shapes() {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const std::string_view name : cloud::shape_names()) all.emplace_back(name, name);
+    return all;
 }
 
 void declare_sample(config::ParamSchema<SampleInput>& s) {
-    s.string("shape", &SampleInput::shape).doc("Built-in shape: " + shape_list() + ".");
+    s.choice("shape", &SampleInput::shape, shapes()).doc("Built-in shape.");
     s.integer("n", &SampleInput::n).range(1, 10000000).unit("points").doc("Number of points.");
     s.real("noise", &SampleInput::noise)
         .range(0, 1)
@@ -39,8 +34,6 @@ void declare_sample(config::ParamSchema<SampleInput>& s) {
         .open_high()
         .unit("1")
         .doc("Part of the points that lie anywhere in the shape's box, grown 1.2 times.");
-    s.check([](const SampleInput& p) { return known_shape(p.shape); },
-            "shape must be one of " + shape_list());
 }
 
 void declare_cloud(config::ParamSchema<CloudInput>& s) {
@@ -50,7 +43,7 @@ void declare_cloud(config::ParamSchema<CloudInput>& s) {
     s.strategies("filters", &CloudInput::filters, "filter")
         .doc("Filters of the cloud, in the order in which they work.");
     s.check([](const CloudInput& p) { return p.file.has_value() != p.sample.has_value(); },
-            "input.cloud needs exactly one of 'file' and 'sample'");
+            "exactly one of 'file' and 'sample' must be given");
 }
 
 void declare_normalize(config::ParamSchema<NormalizeInput>& s) {

@@ -8,17 +8,18 @@
 namespace dsc::run {
 namespace {
 
-/// A filter: its schema, and what it does with resolved parameters.
+/// A filter: what it is for, its schema, and what it does with resolved parameters.
 struct Filter {
+    std::string summary;
     std::shared_ptr<const config::Schema> schema;
     std::function<cloud::Filtered(const cloud::Cloud&, const config::ConfigNode&)> apply;
 };
 
 template <class Options, class Declare, class Apply>
-Filter make_filter(Declare declare, Apply apply) {
+Filter make_filter(std::string summary, Declare declare, Apply apply) {
     const auto schema = std::make_shared<config::ParamSchema<Options>>();
     declare(*schema);
-    return {schema->shared_schema(),
+    return {std::move(summary), schema->shared_schema(),
             [schema, apply](const cloud::Cloud& cloud, const config::ConfigNode& params) {
                 return apply(cloud, schema->read(params));
             }};
@@ -33,6 +34,7 @@ const std::map<std::string, Filter>& filters() {
     using cloud::VoxelGridOptions;
     static const std::map<std::string, Filter> all = {
         {"duplicates", make_filter<DuplicatesOptions>(
+                           "removes points that repeat an earlier one",
                            [](config::ParamSchema<DuplicatesOptions>& s) {
                                s.real("tolerance", &DuplicatesOptions::tolerance)
                                    .range(0, 1)
@@ -42,19 +44,22 @@ const std::map<std::string, Filter>& filters() {
                                        "repetitions only.");
                            },
                            cloud::remove_duplicates)},
-        {"clusters", make_filter<ClustersOptions>(
-                         [](config::ParamSchema<ClustersOptions>& s) {
-                             s.real("closer", &ClustersOptions::closer)
-                                 .range(0, 1)
-                                 .open_low()
-                                 .open_high()
-                                 .unit("point distances")
-                                 .doc(
-                                     "A point this close to an earlier one is removed; 1 is how far apart the 24 "
-                                     "nearest points would lie if they were spread evenly.");
-                         },
-                         cloud::remove_clusters)},
+        {"clusters",
+         make_filter<ClustersOptions>(
+             "thins places where points crowd together",
+             [](config::ParamSchema<ClustersOptions>& s) {
+                 s.real("closer", &ClustersOptions::closer)
+                     .range(0, 1)
+                     .open_low()
+                     .open_high()
+                     .unit("point distances")
+                     .doc(
+                         "A point this close to an earlier one is removed; 1 is how far apart the 24 "
+                         "nearest points would lie if they were spread evenly.");
+             },
+             cloud::remove_clusters)},
         {"hidden", make_filter<HiddenOptions>(
+                       "removes points that no view from outside can see",
                        [](config::ParamSchema<HiddenOptions>& s) {
                            s.integer("views", &HiddenOptions::views)
                                .range(1, 10000)
@@ -78,6 +83,7 @@ const std::map<std::string, Filter>& filters() {
                        },
                        cloud::remove_hidden)},
         {"voxel_grid", make_filter<VoxelGridOptions>(
+                           "keeps one point of each cell of a grid",
                            [](config::ParamSchema<VoxelGridOptions>& s) {
                                s.real("size", &VoxelGridOptions::size)
                                    .range(0, 1)
@@ -88,6 +94,7 @@ const std::map<std::string, Filter>& filters() {
                            cloud::voxel_grid)},
         {"statistical_outliers",
          make_filter<StatisticalOutliersOptions>(
+             "removes points whose neighbours are unusually far away",
              [](config::ParamSchema<StatisticalOutliersOptions>& s) {
                  s.integer("neighbours", &StatisticalOutliersOptions::neighbours)
                      .range(1, 1000)
@@ -100,6 +107,7 @@ const std::map<std::string, Filter>& filters() {
              },
              cloud::remove_statistical_outliers)},
         {"radius_outliers", make_filter<RadiusOutliersOptions>(
+                                "removes points with few neighbours",
                                 [](config::ParamSchema<RadiusOutliersOptions>& s) {
                                     s.real("radius", &RadiusOutliersOptions::radius)
                                         .range(0, 1)
@@ -141,6 +149,11 @@ cloud::Cloud read_points(const CloudInput& input, std::uint64_t seed, InputRepor
 const config::Schema* filter_schema(const std::string& id) {
     const auto found = filters().find(id);
     return found == filters().end() ? nullptr : found->second.schema.get();
+}
+
+std::string filter_summary(const std::string& id) {
+    const auto found = filters().find(id);
+    return found == filters().end() ? "" : found->second.summary;
 }
 
 std::vector<std::string> filter_ids() {

@@ -1,5 +1,5 @@
 // Makes the strategies of an experiment and checks that they fit together.
-#include <dsc/base/error.hpp>
+#include <dsc/config/diagnostics.hpp>
 #include <dsc/run/driver.hpp>
 
 namespace dsc::run {
@@ -16,11 +16,11 @@ Strategies make_strategies(const Experiment& experiment, const plugin::Catalogue
                                                  : catalogue.create<hooks::RefinementPolicy>(refine, path));
         if (all.refinements.back() && all.refinements.back()->needs_sampling() &&
             !all.velocity->can_sample()) {
-            throw ConfigError(
-                "config.no_sampling",
-                path + ": refinement '" + refine.type +
-                    "' reads the velocity between the vertices, and velocity '" + experiment.velocity.type +
-                    "' has no value there; choose another refinement or a velocity that can be sampled\n");
+            config::fail("config.no_sampling", refine.params.position(),
+                         path + ": refinement '" + refine.type +
+                             "' reads the velocity between the vertices, and velocity '" +
+                             experiment.velocity.type + "' has no value there",
+                         "choose another refinement or a velocity that can be sampled");
         }
     }
     for (std::size_t i = 0; i < experiment.observers.size(); ++i) {

@@ -90,7 +90,7 @@ TEST_CASE("out of range, closed and open ends") {
           "      |       ^~  accepted: integer, default 1\n"
           "a.yaml:3:15: error: 'levels.1': 2.5 is above the maximum 2\n"
           "    3 | levels: [0.5, 2.5]\n"
-          "      |               ^~~  accepted: list of reals, [0, 2], default [0.5, 1]\n"
+          "      |               ^~~  accepted: list of reals, at most 4 items, [0, 2], default [0.5, 1]\n"
           "4 errors; nothing was run");
 }
 
@@ -109,7 +109,7 @@ TEST_CASE("bad choice, wrong number of items, wrong extension") {
           "      |                ^~~~  did you mean 'ply'?\n"
           "a.yaml:5:7: error: 'axis' must have exactly 3 items, not 2\n"
           "    5 | axis: [0, 1]\n"
-          "      |       ^\n"
+          "      |       ^  accepted: vector of 3 reals, default [0, 0, 1]\n"
           "a.yaml:6:8: error: 'cloud': 'scan.las' is no file that can be used here; its name must end in "
           ".obj or "
           ".ply\n"
@@ -169,9 +169,9 @@ TEST_CASE("missing and empty values") {
 
 TEST_CASE("failed cross check") {
     CHECK(error_in("velocity: {type: point_cloud, beta: 1.0}\n") ==
-          "a.yaml:1:11: error: velocity 'point_cloud': beta above 0 needs a curvature\n"
+          "a.yaml:1:37: error: velocity 'point_cloud': beta above 0 needs a curvature\n"
           "    1 | velocity: {type: point_cloud, beta: 1.0}\n"
-          "      |           ^\n"
+          "      |                                     ^~~\n"
           "1 error; nothing was run");
 }
 
@@ -188,7 +188,7 @@ TEST_CASE("malformed YAML") {
                    "a: b: c\n") ==
           "a.yaml:2:5: error: malformed YAML: illegal map value\n"
           "    2 | a: b: c\n"
-          "      |     ^\n"
+          "      |     ^  text with ': ' in it belongs in quotes\n"
           "1 error; nothing was run");
     CHECK(error_in("name: x\n"
                    "levels: [1, 2\n"

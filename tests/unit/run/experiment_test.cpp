@@ -92,7 +92,7 @@ TEST_CASE("faults name the place and what is accepted") {
     CHECK(contains(fault(minimal, {"input={cloud: {file: a.obj, sample: {}}}"}),
                    "exactly one of 'file' and 'sample'"));
     CHECK(contains(fault(minimal, {"input={cloud: {sample: {shape: cup}}}"}),
-                   "shape must be one of teapot, sphere"));
+                   "'cup' is not one of teapot, sphere"));
     CHECK(contains(fault(minimal, {"input={cloud: {sample: {}}, normalize: {scale: 2}}"}), "(0, 1.5]"));
     CHECK(contains(fault(minimal, {"input={cloud: {sample: {}, filters: [{type: voxels}]}}"}), "voxel_grid"));
     CHECK(contains(fault(minimal, {"output.surface=[dxf]"}), "dxf"));

@@ -36,8 +36,10 @@ LoadedInput load_input(const Input& input, std::uint64_t seed);
 /// Applies one filter of an experiment. [setup]
 cloud::Filtered apply_filter(const cloud::Cloud& cloud, const config::StrategyConfig& filter);
 
-/// The schema of a filter by its id, null for an unknown one; the ids in alphabetical order. [setup]
+/// The schema of a filter by its id, null for an unknown one; what it is for, on one line, empty for an unknown one; the
+/// ids in alphabetical order. [setup]
 const config::Schema* filter_schema(const std::string& id);
+std::string filter_summary(const std::string& id);
 std::vector<std::string> filter_ids();
 
 }  // namespace dsc::run

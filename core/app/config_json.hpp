@@ -1,0 +1,15 @@
+#pragma once
+// Values of a configuration as JSON.
+
+#include <dsc/config/node.hpp>
+#include <nlohmann/json.hpp>
+
+namespace dsc::app {
+
+/// The same tree; keys keep their order.
+nlohmann::ordered_json to_json(const config::ConfigNode& node);
+
+/// A number without a needless ".0".
+nlohmann::ordered_json number_json(double value);
+
+}  // namespace dsc::app

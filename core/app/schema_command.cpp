@@ -1,0 +1,27 @@
+// dsc schema
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "json_schema.hpp"
+#include "plugins.hpp"
+
+namespace dsc::app {
+
+void add_schema(CLI::App& app, Context& context) {
+    CLI::App* command = app.add_subcommand(
+        "schema", "JSON Schema (draft-07) of an experiment, for editors and other checkers");
+    const auto paths = std::make_shared<std::vector<std::string>>();
+    command->add_option("--plugin", *paths, "Plugin library or folder of them; may repeat")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->callback([paths, &context] {
+        context.action = [paths] {
+            Plugins plugins(*paths);
+            std::cout << json_schema(all_strategies(plugins.load())).dump(2) << "\n";
+            return 0;
+        };
+    });
+}
+
+}  // namespace dsc::app

@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+"""Writes what is generated from the declarations of the parameters: the pages in share/doc/strategies and the JSON Schema.
+
+    share/reference.py [--dsc build/dev/bin/dsc]                    writes them
+    share/reference.py [--dsc build/dev/bin/dsc] --check FOLDER     writes them below FOLDER, exits 1 if those here differ
+
+Only strategies that come with dsc count, not those that DSC_PLUGIN_PATH or a user's folder add.
+"""
+import argparse
+import difflib
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+SHARE = ROOT / "share"
+KINDS = {
+    "initial_mesh": ("Initial meshes", "what a run starts from; key `initial_mesh`"),
+    "velocity": ("Velocities", "where the interface wants to go; key `velocity`"),
+    "curvature": ("Curvatures", "how curved the interface is; a parameter of some velocities"),
+    "refinement": ("Refinements", "which faces are split; key `refine` of an item of the `schedule`"),
+    "improvement": ("Improvements", "which repairs a step tries; key `improvement`"),
+    "observer": ("Observers", "figures for `metrics.csv` and `summary.json`; items of `observers`"),
+    "filter": ("Filters", "what becomes of the cloud before the run; items of `input.cloud.filters`"),
+}
+
+
+class Command:
+    def __init__(self, dsc):
+        self.dsc = dsc
+
+    def __call__(self, *words):
+        environment = {"PATH": os.environ.get("PATH", ""), "XDG_DATA_HOME": "/nonexistent", "LC_ALL": "C"}
+        for name in ("ASAN_OPTIONS", "LSAN_OPTIONS", "TSAN_OPTIONS", "UBSAN_OPTIONS"):
+            if name in os.environ:
+                environment[name] = os.environ[name]
+        return subprocess.run([self.dsc, *words], check=True, stdout=subprocess.PIPE, text=True, env=environment).stdout
+
+
+def page_name(strategy):
+    return f"{strategy['kind']}_{strategy['id']}.md"
+
+
+def index(strategies):
+    lines = ["# Strategies and their parameters",
+             "Written by `share/reference.py` from the declarations in the code; `dsc plugin describe ID --format md` prints such a "
+             "page for any strategy, of your own plugins too. How the methods work stands on the pages linked as *method*."]
+    for kind, (title, meaning) in KINDS.items():
+        of_kind = [s for s in strategies if s["kind"] == kind]
+        if not of_kind:
+            continue
+        lines += ["", f'<a id="{kind}"></a>', f"## {title}", f"{meaning[0].upper()}{meaning[1:]}.", "", "| | |", "| --- | --- |"]
+        for s in of_kind:
+            method = f"strategies/{kind}/{s['id']}/README.md"
+            link = f"; [method](../../../{method})" if (ROOT / method).exists() else ""
+            lines.append(f"| [{s['id']}]({page_name(s)}) | {s['summary']}{link} |")
+    return "\n".join(lines) + "\n"
+
+
+def reference(dsc):
+    """{path below share/: text} of everything that is generated."""
+    strategies = json.loads(dsc("plugin", "list", "--json"))
+    unknown = {s["kind"] for s in strategies} - set(KINDS)
+    if unknown:
+        raise SystemExit(f"reference.py does not know the kinds {', '.join(sorted(unknown))}; add them to KINDS")
+    files = {"doc/strategies/README.md": index(strategies), "schema/dsc.schema.json": dsc("schema")}
+    for s in strategies:
+        files[f"doc/strategies/{page_name(s)}"] = dsc("plugin", "describe", s["id"], "--kind", s["kind"], "--format", "md")
+    return files
+
+
+def write(files, folder):
+    for path, text in files.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(text, encoding="utf-8")
+
+
+def present():
+    """{path below share/: text} of what is there now."""
+    paths = [*SHARE.glob("doc/strategies/*.md"), *SHARE.glob("schema/*.json")]
+    return {path.relative_to(SHARE).as_posix(): path.read_text(encoding="utf-8") for path in paths}
+
+
+def differences(files, here):
+    for path in sorted(files.keys() | here.keys()):
+        if path not in files:
+            yield f"share/{path} is not generated any more"
+        elif path not in here:
+            yield f"share/{path} is missing"
+        elif files[path] != here[path]:
+            lines = difflib.unified_diff(here[path].splitlines(), files[path].splitlines(), f"share/{path}", "generated", lineterm="", n=1)
+            yield "\n".join(list(lines)[:30])
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--dsc", default=str(ROOT / "build" / "dev" / "bin" / "dsc"), help="the command; default that of the preset dev")
+    parser.add_argument("--check", metavar="FOLDER", type=Path, help="write below FOLDER and compare")
+    options = parser.parse_args(arguments)
+    files = reference(Command(options.dsc))
+    if options.check is None:
+        for path in present().keys() - files.keys():
+            (SHARE / path).unlink()
+        write(files, SHARE)
+        print(f"{len(files)} files below share/ written")
+        return 0
+    write(files, options.check)
+    found = list(differences(files, present()))
+    if found:
+        print("\n".join(found))
+        print(f"{len(found)} of {len(files)} files below share/ are not current; renew them with\n    share/reference.py --dsc {options.dsc}")
+        return 1
+    print(f"{len(files)} files below share/ are current")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
