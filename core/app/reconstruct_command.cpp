@@ -17,7 +17,7 @@
 #include "outcome.hpp"
 #include "plugins.hpp"
 #include "temporary_folder.hpp"
-#include "terminal.hpp"
+#include "progress.hpp"
 
 namespace dsc::app {
 namespace {
@@ -116,7 +116,7 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
         arguments.threads != 0 ? arguments.threads : std::max(1U, std::thread::hardware_concurrency());
     options.cancel = &cancel_on_signals();
     options.command = command;
-    options.on_step = progress_reporter(arguments.terminal);
+    options.on_step = progress_reporter(arguments.terminal, loaded.experiment);
     const run::RunOutcome outcome = run::run_experiment(loaded, plugins.host(), options);
     report(outcome);
     if (exit_code(outcome) != 0) return exit_code(outcome);

@@ -11,7 +11,7 @@
 #include "duration.hpp"
 #include "outcome.hpp"
 #include "plugins.hpp"
-#include "terminal.hpp"
+#include "progress.hpp"
 
 namespace dsc::app {
 namespace {
@@ -23,6 +23,7 @@ struct RunArguments {
     unsigned threads = 0;
     std::vector<std::string> plugins;
     bool check = false;
+    bool resume = false;
     bool print_config = false;
     std::string time_budget;
     TerminalOptions terminal;
@@ -50,14 +51,22 @@ int execute(const RunArguments& arguments, const std::vector<std::string>& comma
     if (arguments.check) return check(loaded, plugins.host(), arguments);
     if (arguments.print_config) return 0;
 
+    const std::filesystem::path folder =
+        arguments.folder.empty() ? run::default_folder(loaded, plugins.host()) : std::filesystem::path(arguments.folder);
+    if (arguments.resume && run::is_finished(folder, loaded, plugins.host())) {
+        log(LogLevel::info, folder.string() + " is finished, there is nothing to resume");
+        std::cout << folder.string() << "\n";
+        return 0;
+    }
     run::RunOptions options;
-    options.folder = arguments.folder;
+    options.folder = folder;
+    options.resume = arguments.resume;
     options.threads =
         arguments.threads != 0 ? arguments.threads : std::max(1U, std::thread::hardware_concurrency());
     options.time_budget = budget;
     options.cancel = &cancel_on_signals();
     options.command = command;
-    options.on_step = progress_reporter(arguments.terminal);
+    options.on_step = progress_reporter(arguments.terminal, loaded.experiment);
     const run::RunOutcome outcome = run::run_experiment(loaded, plugins.host(), options);
     report(outcome);
     std::cout << outcome.folder.string() << "\n";
@@ -82,7 +91,10 @@ void add_run(CLI::App& app, Context& context) {
     command->add_flag("--check", arguments->check, "Only say whether the experiment is right");
     command->add_flag("--print-config", arguments->print_config,
                       "Print the experiment with all defaults, run nothing");
-    command->add_option("--time-budget", arguments->time_budget, "Stop after this time: 90, 90s, 10m, 1.5h");
+    command->add_flag("--resume", arguments->resume,
+                      "Go on from the last checkpoint in the run folder, from the start where there is none; a finished run "
+                      "stays as it is");
+    command->add_option("--time-budget", arguments->time_budget, "Save a checkpoint and stop, with exit code 75, after this time: 90, 90s, 10m, 1.5h");
     add_progress(*command, arguments->terminal);
     add_verbosity(*command, arguments->terminal);
     command->callback([arguments, &context] {

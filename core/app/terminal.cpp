@@ -2,14 +2,11 @@
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <csignal>
-#include <cstdio>
+#include <cstdlib>
 #include <dsc/base/log.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 namespace dsc::app {
 namespace {
@@ -35,29 +32,6 @@ spdlog::level::level_enum spdlog_level(LogLevel level) {
     return spdlog::level::err;
 }
 
-void print_line(const run::StepMetrics& row, std::uint64_t planned) {
-    const std::string distance =
-        row.cloud_to_surface_mean ? fmt::format("{:.5f}", *row.cloud_to_surface_mean) : "-";
-    fmt::print(stderr, "\rstep {}/{}  {} vertices  {} tets  speed {:.2e}  cloud to surface {}  \x1b[K",
-               row.step, planned, row.interface_vertices, row.tets, row.mean_speed, distance);
-    if (row.step >= planned) fmt::print(stderr, "\n");
-    std::fflush(stderr);
-}
-
-void print_json(const run::StepMetrics& row, std::uint64_t planned) {
-    nlohmann::ordered_json json = {{"step", row.step},
-                                   {"planned", planned},
-                                   {"interface_vertices", row.interface_vertices},
-                                   {"tets", row.tets},
-                                   {"mean_speed", row.mean_speed},
-                                   {"max_speed", row.max_speed},
-                                   {"volume", row.volume},
-                                   {"min_tet_quality", row.min_tet_quality}};
-    if (row.vertex_to_cloud_mean) json["vertex_to_cloud_mean"] = *row.vertex_to_cloud_mean;
-    if (row.cloud_to_surface_mean) json["cloud_to_surface_mean"] = *row.cloud_to_surface_mean;
-    fmt::print(stderr, "{}\n", json.dump());
-}
-
 }  // namespace
 
 void add_verbosity(CLI::App& command, TerminalOptions& options) {
@@ -65,17 +39,12 @@ void add_verbosity(CLI::App& command, TerminalOptions& options) {
     command.add_flag("-q,--quiet", options.quiet, "Say only errors on stderr")->excludes(verbose);
 }
 
-void add_progress(CLI::App& command, TerminalOptions& options) {
-    command
-        .add_option("--progress", options.progress,
-                    "auto (a line on a terminal), never, or json (a line a step)")
-        ->check(CLI::IsMember({"auto", "never", "json"}))
-        ->capture_default_str();
-}
-
 void start_log(const TerminalOptions& options) {
-    const auto logger =
-        std::make_shared<spdlog::logger>("dsc", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+    const auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+    // https://no-color.org: set and not empty means no colours.
+    const char* no_color = std::getenv("NO_COLOR");
+    if (no_color != nullptr && *no_color != '\0') sink->set_color_mode(spdlog::color_mode::never);
+    const auto logger = std::make_shared<spdlog::logger>("dsc", sink);
     logger->set_pattern("%^%l%$: %v");
     logger->set_level(options.quiet     ? spdlog::level::err
                       : options.verbose ? spdlog::level::debug
@@ -86,23 +55,10 @@ void start_log(const TerminalOptions& options) {
     });
 }
 
-std::function<void(const run::StepMetrics&, std::uint64_t)> progress_reporter(
-    const TerminalOptions& options) {
-    if (options.progress == "json") return print_json;
-    if (options.progress == "never" || options.quiet || isatty(STDERR_FILENO) == 0) return {};
-    using Clock = std::chrono::steady_clock;
-    const auto last = std::make_shared<Clock::time_point>();
-    return [last](const run::StepMetrics& row, std::uint64_t planned) {
-        const Clock::time_point now = Clock::now();
-        if (row.step < planned && now - *last < std::chrono::milliseconds(100)) return;
-        *last = now;
-        print_line(row, planned);
-    };
-}
-
 const CancelToken& cancel_on_signals() {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
+    std::signal(SIGUSR1, on_signal);
     return cancel_token;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/state.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/unpinch.hpp>
 #include <dsc/mesh/validate.hpp>
@@ -289,9 +290,25 @@ Deformer& Deformer::operator=(Deformer&&) noexcept = default;
 const mesh::Complex& Deformer::complex() const { return state_->complex; }
 double Deformer::target_length() const { return state_->length; }
 std::uint64_t Deformer::step_count() const { return state_->step; }
-void Deformer::restore(double target_length, std::uint64_t step) {
-    state_->length = target_length;
-    state_->step = step;
+
+void Deformer::save(StateWriter& out) const {
+    state_->complex.save(out);
+    out.value(state_->length);
+    out.value(state_->step);
+    out.value(state_->bench.limits);
+    state_->queues.save(out);
+    state_->topology.save(out);
+}
+
+Deformer Deformer::load(StateReader& in, const DeformerOptions& options, Workers* workers) {
+    Deformer deformer(mesh::Complex::load(in), options, workers);
+    State& s = *deformer.state_;
+    in.value(s.length);
+    in.value(s.step);
+    in.value(s.bench.limits);
+    s.queues.load(in);
+    s.topology.load(in);
+    return deformer;
 }
 
 StepReport Deformer::step(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/state.hpp>
 
 namespace dsc::kernel {
 
@@ -81,6 +82,23 @@ void RepairQueues::check(std::uint32_t previous_clock) {
     }
     // A failure that was woken is offered now; it counts again only when it fails again.
     for (const TetId t : dirty_) memory_[t].tet = mesh::none;
+}
+
+void RepairQueues::save(StateWriter& out) const {
+    out.list(failed_);
+    out.list(failed_now_);
+    out.value(last_clock_);
+}
+
+void RepairQueues::load(StateReader& in) {
+    in.list(failed_);
+    in.list(failed_now_);
+    in.value(last_clock_);
+    if (!audit_) return;
+    memory_.assign(complex_.tet_slots(), Failure{mesh::none, 0, 0});
+    for (const std::vector<Failure>* list : {&failed_, &failed_now_}) {
+        for (const Failure& failure : *list) memory_[failure.tet] = failure;
+    }
 }
 
 }  // namespace dsc::kernel

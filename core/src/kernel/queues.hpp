@@ -29,6 +29,10 @@ public:
 
     std::size_t failures() const { return failed_.size(); }
 
+    /// Between rounds. The audit's own memory starts anew. [step]
+    void save(StateWriter& out) const;
+    void load(StateReader& in);
+
 private:
     struct Failure {
         TetId tet;

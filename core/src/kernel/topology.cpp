@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <dsc/base/state.hpp>
 #include <dsc/geometry/quality.hpp>
 
 namespace dsc::kernel {
@@ -338,6 +339,18 @@ void TopologyStage::remove_small_components(std::uint64_t step, std::span<const 
             break;
         }
     }
+}
+
+void TopologyStage::save(StateWriter& out) const {
+    out.list(event_step_);
+    out.list(event_birth_);
+    out.list(event_to_);
+}
+
+void TopologyStage::load(StateReader& in) {
+    in.list(event_step_);
+    in.list(event_birth_);
+    in.list(event_to_);
 }
 
 }  // namespace dsc::kernel

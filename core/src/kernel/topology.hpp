@@ -30,6 +30,10 @@ public:
     /// Relabels and names the event; kinds other than (1,2), (2,1), (0,1), (1,0) must not be committed.
     Event commit(const Region& region, std::uint64_t step);
 
+    /// Which vertices rest since which event. [step]
+    void save(StateWriter& out) const;
+    void load(StateReader& in);
+
 private:
     // Where a region may start: an edge inside a phase, its ends on the interface; or a face inside a phase whose three
     // edges all lie on the interface, the cross-section of a neck that is too thin to have an edge inside.

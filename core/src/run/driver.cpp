@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <dsc/base/error.hpp>
+#include <dsc/base/state.hpp>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/run/driver.hpp>
 #include <dsc/run/mesh_files.hpp>
 
+#include "saved_run.hpp"
 #include "step_figures.hpp"
 #include "stopwatch.hpp"
 
@@ -41,7 +43,9 @@ public:
           serial_(1),
           workers_(options.workers != nullptr ? *options.workers : serial_),
           planned_(planned_steps(experiment)),
-          deformer_(initial_complex(), {}, &workers_) {
+          resumed_(options.resume),
+          deformer_(options.resume.empty() ? kernel::Deformer(initial_complex(), {}, &workers_)
+                                           : kernel::Deformer::load(resumed_, {}, &workers_)) {
         policy_.propose = [this](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
             strategies_.improvement->propose(*context_, round, out);
         };
@@ -56,8 +60,9 @@ public:
 
     DriveResult execute() {
         try {
-            begin();
-            for (std::size_t i = 0; i < experiment_.schedule.size() && !over_; ++i) series(i);
+            options_.resume.empty() ? begin() : go_on();
+            while (place_.item < experiment_.schedule.size() && !over_) series();
+            if (result_.totals.status == Status::cancelled) checkpoint();
             finish();
         } catch (const StrategyError&) {
             if (options_.on_strategy_failure)
@@ -127,38 +132,61 @@ private:
         result_.surface = surface::extract_interface(result_.mesh);
     }
 
-    void series(std::size_t index) {
-        const Series& item = experiment_.schedule[index];
-        hooks::RefinementPolicy* refinement = strategies_.refinements[index].get();
+    /// What the schedule has at `place_`, from there on; leaves `place_` where the run is to go on.
+    void series() {
+        const Series& item = experiment_.schedule[place_.item];
+        hooks::RefinementPolicy* refinement = strategies_.refinements[place_.item].get();
+        if (stop_asked()) return end(Status::cancelled);
         if (!item.steps) {
             refine(*refinement);
-            return;
+            return next_item();
         }
-        unsigned quiet = 0;
-        stuck_ = 0;
-        result_.totals.status = Status::max_steps;
-        for (std::uint32_t step = 1; step <= *item.steps && !over_; ++step) {
+        if (place_.steps == 0) result_.totals.status = Status::max_steps;
+        while (place_.steps < *item.steps) {
+            if (stop_asked()) return end(Status::cancelled);
             const bool slow = advance();
-            quiet = slow ? quiet + 1 : 0;
-            if (!over_ && item.every && step % *item.every == 0) refine(*refinement);
+            place_.quiet = slow ? place_.quiet + 1 : 0;
+            ++place_.steps;
             if (over_) break;
-            if (stuck_ >= stall_steps) {
+            if (item.every && place_.steps % *item.every == 0) refine(*refinement);
+            if (place_.stuck >= stall_steps) {
                 result_.totals.status = Status::stalled;
                 break;
             }
-            if (experiment_.stop && quiet >= experiment_.stop->patience) {
+            if (experiment_.stop && place_.quiet >= experiment_.stop->patience) {
                 result_.totals.status = Status::converged;
                 break;
             }
+            if (options_.checkpoint_every > 0 && deformer_.step_count() % options_.checkpoint_every == 0) checkpoint();
         }
+        next_item();
+    }
+
+    void next_item() { place_ = {.item = place_.item + 1, .status = result_.totals.status}; }
+
+    /// What a run depends on: the strategies' state, and how far it has come.
+    void checkpoint() {
+        if (!options_.on_checkpoint || deformer_.step_count() == 0) return;
+        if (result_.totals.status != Status::cancelled) place_.status = result_.totals.status;
+        StateWriter out;
+        deformer_.save(out);
+        out.value(place_);
+        save(out, result_.totals);
+        save(out, strategies_);
+        options_.on_checkpoint(out.take(), deformer_.step_count());
+    }
+
+    void go_on() {
+        resumed_.value(place_);
+        load(resumed_, result_.totals);
+        load(resumed_, strategies_);
+        result_.totals.status = place_.status;
+        refresh_view();
+        over_ = view_.vertex_count() == 0;
     }
 
     /// One step; true if its largest speed was below the stop criterion.
     bool advance() {
-        if (stop_asked()) {
-            end(Status::cancelled);
-            return false;
-        }
         const hooks::StepContext context = make_context(deformer_.step_count() + 1);
         context_ = &context;
         StepMetrics row;
@@ -186,7 +214,7 @@ private:
         publish(row);
 
         const bool moving = row.mean_speed > stall_speed * mean_edge;
-        stuck_ = moving && came_about < stall_ratio * asked ? stuck_ + 1 : 0;
+        place_.stuck = moving && came_about < stall_ratio * asked ? place_.stuck + 1 : 0;
         if (view_.vertex_count() == 0) over_ = true;
         return experiment_.stop && row.max_speed < experiment_.stop->speed * mean_edge;
     }
@@ -229,10 +257,6 @@ private:
     }
 
     void refine(hooks::RefinementPolicy& refinement) {
-        if (stop_asked()) {
-            end(Status::cancelled);
-            return;
-        }
         const Timed timed(result_.totals.seconds.refine);
         const hooks::StepContext context = make_context(deformer_.step_count());
         strategies_.velocity->prepare(context);
@@ -337,6 +361,7 @@ private:
     }
 
     void end(Status status) {
+        place_.status = result_.totals.status;
         result_.totals.status = status;
         over_ = true;
     }
@@ -349,12 +374,13 @@ private:
     Workers& workers_;
     std::uint64_t planned_;
     DriveResult result_;
+    SchedulePlace place_;
+    StateReader resumed_;
     kernel::Deformer deformer_;
     kernel::RepairPolicy policy_;
     surface::SurfaceView view_;
     std::vector<Vec3> displacements_;
     const hooks::StepContext* context_ = nullptr;  // of the step under way, for the policy
-    unsigned stuck_ = 0;
     bool over_ = false;
 };
 

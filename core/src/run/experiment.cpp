@@ -129,7 +129,6 @@ void warn_of_unwritten(const Experiment& experiment, const ConfigNode& resolved,
                             value == nullptr ? config::SourcePosition{} : value->position(),
                             std::string("output.") + key + " is not written by this version");
     };
-    if (experiment.output.checkpoint) warn("checkpoint");
     if (experiment.output.series) warn("series");
     if (experiment.output.report.value_or(false)) warn("report");
 }

@@ -28,14 +28,25 @@ void discard(const fs::path& path) {
 
 }  // namespace
 
-bool RunFolder::is_ours(const fs::path& folder) {
+std::optional<RunFolder::Status> RunFolder::status(const fs::path& folder) {
     std::ifstream file(folder / "status.json");
-    if (!file) return false;
+    if (!file) return std::nullopt;
     const nlohmann::json status = nlohmann::json::parse(file, nullptr, false);
-    return status.is_object() && status.value("format", "") == "dsc-run-1";
+    const auto text = [&status](const char* key) {
+        const auto found = status.find(key);
+        return found != status.end() && found->is_string() ? found->get<std::string>() : std::string();
+    };
+    if (!status.is_object() || text("format") != "dsc-run-1") return std::nullopt;
+    return Status{text("state"), text("config_sha256")};
 }
 
-RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
+bool RunFolder::is_ours(const fs::path& folder) { return status(folder).has_value(); }
+
+RunFolder::RunFolder(fs::path folder) : RunFolder(std::move(folder), Keep::nothing) {}
+
+RunFolder RunFolder::resumed(fs::path folder) { return RunFolder(std::move(folder), Keep::progress); }
+
+RunFolder::RunFolder(fs::path folder, Keep keep) : folder_(std::move(folder)) {
     std::error_code error;
     const fs::file_status status = fs::status(folder_, error);
     if (fs::exists(status) && !fs::is_directory(status)) {
@@ -54,6 +65,7 @@ RunFolder::RunFolder(fs::path folder) : folder_(std::move(folder)) {
     fs::create_directories(folder_, error);
     if (error) cannot(folder_, "cannot be made", error);
     remove_results();
+    if (keep == Keep::progress) return;
     for (const char* name : other_names) discard(folder_ / name);
 }
 

@@ -14,6 +14,33 @@ RunLog::RunLog(const std::filesystem::path& folder, const cloud::Transform& to_n
     write(events_, events_file_, "");
 }
 
+RunLog::RunLog(const std::filesystem::path& folder, const cloud::Transform& to_normalised, const LogState& from)
+    : metrics_file_(folder / "metrics.csv"),
+      events_file_(folder / "events.jsonl"),
+      to_normalised_(to_normalised),
+      columns_(from.columns) {
+    cut(metrics_file_, from.metrics_bytes);
+    cut(events_file_, from.events_bytes);
+    metrics_.open(metrics_file_, std::ios::binary | std::ios::app);
+    events_.open(events_file_, std::ios::binary | std::ios::app);
+    write(metrics_, metrics_file_, "");
+    write(events_, events_file_, "");
+}
+
+void RunLog::cut(const std::filesystem::path& file, std::uint64_t bytes) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (!error && size >= bytes) std::filesystem::resize_file(file, bytes, error);
+    if (error || size < bytes)
+        throw IoError("run.resume", file.string(), "", "is shorter than it was at the checkpoint, or cannot be written",
+                      "run without --resume to start anew");
+}
+
+LogState RunLog::state() {
+    const auto bytes = [](std::ofstream& stream) { return static_cast<std::uint64_t>(stream.tellp()); };
+    return {bytes(metrics_), bytes(events_), columns_.value_or(0)};
+}
+
 void RunLog::add(const StepMetrics& row) {
     if (!columns_ && row.step == 0) {
         waiting_ = row;

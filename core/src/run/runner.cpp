@@ -10,6 +10,7 @@
 #include <dsc/run/runner.hpp>
 #include <dsc/surface/surface_view.hpp>
 
+#include "checkpoints.hpp"
 #include "run_log.hpp"
 #include "stopwatch.hpp"
 #include "summary.hpp"
@@ -151,10 +152,17 @@ public:
         state_.started = utc_now();
         state_.hash = config_hash(loaded_, catalogue_);
         Strategies strategies = make_strategies(loaded_.experiment, catalogue_);
-        const RunFolder folder(options_.folder.empty() ? folder_of(loaded_, state_.hash) : options_.folder);
+        const fs::path path = options_.folder.empty() ? folder_of(loaded_, state_.hash) : options_.folder;
+        const Checkpoints checkpoints(path / "checkpoint", kept_checkpoints());
+        if (options_.resume) resumed_ = checkpoints.last(state_.hash);
+        const RunFolder folder = resumed_ ? RunFolder::resumed(path) : RunFolder(path);
+        if (options_.resume) {
+            log(LogLevel::info, resumed_ ? "going on after step " + std::to_string(resumed_->steps)
+                                         : "no checkpoint of this experiment in " + path.string() + ": from the start");
+        }
         folder.write("status.json", status_json(state_));
         try {
-            RunOutcome outcome = work(folder, strategies);
+            RunOutcome outcome = work(folder, strategies, checkpoints);
             state_.finished = utc_now();
             state_.state = outcome.totals.status == Status::cancelled ? "stopped" : "done";
             state_.exit_code = static_cast<int>(state_.state == "done" ? ExitCode::ok : ExitCode::stopped);
@@ -172,7 +180,15 @@ public:
     }
 
 private:
-    RunOutcome work(const RunFolder& folder, Strategies& strategies) {
+    std::size_t kept_checkpoints() const {
+        const auto& wanted = loaded_.experiment.output.checkpoint;
+        return wanted ? wanted->keep : 1;
+    }
+
+    /// Of the whole run, that before a checkpoint included.
+    double run_seconds() const { return watch_.seconds() + (resumed_ ? resumed_->seconds : 0.0); }
+
+    RunOutcome work(const RunFolder& folder, Strategies& strategies, const Checkpoints& checkpoints) {
         const Experiment& experiment = loaded_.experiment;
         folder.write("config.resolved.yaml", resolved_text(loaded_));
         folder.write("provenance.json", provenance(""));
@@ -184,8 +200,13 @@ private:
         const cloud::TargetCloud* target = input ? &input->target : nullptr;
         const cloud::Transform to_normalised = target != nullptr ? target->transform() : cloud::Transform{};
 
-        RunLog run_log(folder.path(), to_normalised);
+        RunLog run_log = resumed_ ? RunLog(folder.path(), to_normalised, resumed_->log) : RunLog(folder.path(), to_normalised);
         DriveOptions drive_options;
+        if (resumed_) drive_options.resume = resumed_->state;
+        if (experiment.output.checkpoint) drive_options.checkpoint_every = experiment.output.checkpoint->every;
+        drive_options.on_checkpoint = [&](std::string state, std::uint64_t steps) {
+            checkpoints.write({state_.hash, steps, run_seconds(), run_log.state(), std::move(state)});
+        };
         drive_options.workers = &workers_;
         drive_options.cancel = options_.cancel;
         if (options_.time_budget) {
@@ -223,7 +244,7 @@ private:
         folder.write("summary.json",
                      summary_json({loaded_, state_.hash, outcome.totals, input ? &*input : nullptr, distances,
                                    outcome.surface, outcome.label_surfaces, outcome.volume, outcome.conforms, to_normalised,
-                                   watch_.seconds(), process_usage()}));
+                                   run_seconds(), process_usage()}));
         return outcome;
     }
 
@@ -277,6 +298,7 @@ private:
     Workers workers_;
     Stopwatch watch_;
     RunState state_;
+    std::optional<Checkpoint> resumed_;
 };
 
 }  // namespace
@@ -284,6 +306,11 @@ private:
 RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
                           const RunOptions& options) {
     return Job(loaded, catalogue, options).run();
+}
+
+bool is_finished(const fs::path& folder, const LoadedExperiment& loaded, const plugin::Catalogue& catalogue) {
+    const std::optional<RunFolder::Status> status = RunFolder::status(folder);
+    return status && status->state == "done" && status->hash == config_hash(loaded, catalogue);
 }
 
 fs::path default_folder(const LoadedExperiment& loaded, const config::StrategyLookup& lookup) {

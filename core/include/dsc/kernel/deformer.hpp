@@ -56,9 +56,12 @@ public:
     const mesh::Complex& complex() const;
     /// L: constant between refinements.
     double target_length() const;
-    /// For resuming: sets L and the step counter.
-    void restore(double target_length, std::uint64_t step);
     std::uint64_t step_count() const;
+
+    /// Between steps: the complex, L, the step counter, and what the kernel remembers of refusals and events. [step]
+    void save(StateWriter& out) const;
+    /// The saved one goes on: its next step is the one that it would have been. Throws IoError "state.damaged". [setup]
+    static Deformer load(StateReader& in, const DeformerOptions& options = {}, Workers* workers = nullptr);
 
     /// One step: `vertices[i]` wants to move by `displacements[i]`, counted from where it is now; not movable vertices
     /// are ignored. The rest of the motion that cannot be reached is dropped and counted. [step]

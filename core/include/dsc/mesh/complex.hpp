@@ -14,6 +14,11 @@
 #include <dsc/mesh/tet_index.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
 
+namespace dsc {
+class StateReader;
+class StateWriter;
+}  // namespace dsc
+
 namespace dsc::mesh {
 
 using VertexId = std::uint32_t;
@@ -181,6 +186,10 @@ public:
     /// Compact arrays, vertices in birth order, tets in the order of their sorted births: the same complex gives the
     /// same bytes whatever its slots. `ids`, if given, receives the complex' vertex of each point.
     TetMesh to_mesh(std::vector<VertexId>* ids = nullptr) const;
+    /// All of it, slots, clocks and change list too: what is loaded goes on as the saved one would. [step]
+    void save(StateWriter& out) const;
+    /// Throws IoError "state.damaged" for bytes that are no complex. [setup]
+    static Complex load(StateReader& in);
 
 private:
     struct Vertex {

@@ -12,6 +12,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
 
 namespace dsc::run {
 
@@ -40,6 +42,11 @@ struct DriveOptions {
     /// A strategy failed: the complex as it stands, which is valid, and the number of whole steps behind it. The error goes
     /// on afterwards.
     std::function<void(const mesh::TetMesh&, std::uint64_t steps)> on_strategy_failure;
+    /// Every so many steps, and where the run is stopped: the state of the run and the number of steps behind it. A later
+    /// drive() of the same experiment with this state as `resume` goes on to the same result.
+    std::function<void(std::string state, std::uint64_t steps)> on_checkpoint;
+    std::uint64_t checkpoint_every = 0;  ///< steps; 0: only where the run is stopped
+    std::string_view resume;             ///< a state that on_checkpoint was given; empty: from the start
 };
 
 /// Where a run ended, normalised units.

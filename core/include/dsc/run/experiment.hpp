@@ -53,11 +53,12 @@ struct Stop {
     std::uint32_t patience = 3;
 };
 
-/// Parts of format 1 that this version accepts and does not write yet; a warning says so.
+/// When the state of the run is saved, besides where it is stopped.
 struct CheckpointOutput {
-    std::uint32_t every = 20;
-    std::uint32_t keep = 2;
+    std::uint32_t every = 20;  ///< steps
+    std::uint32_t keep = 2;    ///< the last ones
 };
+/// Parts of format 1 that this version accepts and does not write yet; a warning says so.
 struct SeriesOutput {
     std::uint32_t every = 10;
 };

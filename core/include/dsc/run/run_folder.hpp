@@ -17,9 +17,17 @@ public:
     /// Throws UsageError "run.folder" for a file or any other folder that is not empty, IoError "run.folder" when it
     /// cannot be made. [setup]
     explicit RunFolder(std::filesystem::path folder);
+    /// The same for a run that goes on: what it has written so far stays, but for results.
+    static RunFolder resumed(std::filesystem::path folder);
 
     /// Whether `folder` is a run folder of ours.
     static bool is_ours(const std::filesystem::path& folder);
+    /// What status.json says of the run; nothing where the folder is none of ours.
+    struct Status {
+        std::string state;  ///< running, done, stopped, failed
+        std::string hash;   ///< of its resolved experiment
+    };
+    static std::optional<Status> status(const std::filesystem::path& folder);
 
     const std::filesystem::path& path() const noexcept { return folder_; }
     std::filesystem::path file(std::string_view name) const { return folder_ / name; }
@@ -41,6 +49,8 @@ public:
     void remove_results() const;
 
 private:
+    enum class Keep { nothing, progress };
+    RunFolder(std::filesystem::path folder, Keep keep);
     std::filesystem::path folder_;
 };
 

@@ -19,6 +19,7 @@ struct RunOptions {
     unsigned threads = 1;
     std::optional<double> time_budget;  ///< seconds; the run ends after the step in which it is used up
     const CancelToken* cancel = nullptr;
+    bool resume = false;  ///< go on from the last checkpoint in the folder; without one, from the start
     std::vector<std::string> command;  ///< as typed, for provenance.json
     std::function<void(const StepMetrics&, std::uint64_t planned)> on_step;
 };
@@ -41,6 +42,9 @@ struct RunOutcome {
 /// GeometryError "run.invalid_result". [setup]
 RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
                           const RunOptions& options);
+
+/// Whether the folder holds the finished run of this experiment: then there is nothing to resume. [setup]
+bool is_finished(const std::filesystem::path& folder, const LoadedExperiment& loaded, const plugin::Catalogue& catalogue);
 
 /// The folder that a run without `-o` gets. [setup]
 std::filesystem::path default_folder(const LoadedExperiment& loaded, const config::StrategyLookup& lookup);

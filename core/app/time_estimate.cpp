@@ -1,0 +1,59 @@
+#include "time_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace dsc::app {
+namespace {
+
+constexpr double memory = 0.95;        // weight of a step against the one after it
+constexpr double usual_growth = 1.35;  // of the vertices by a refinement, until one was seen
+
+}  // namespace
+
+TimeEstimate::TimeEstimate(const std::vector<run::Series>& schedule) : refinements_(1, 0) {
+    for (const run::Series& item : schedule) {
+        if (!item.steps) ++refinements_.back();
+        for (std::uint32_t step = 1; step <= item.steps.value_or(0); ++step)
+            refinements_.push_back(item.every && step % *item.every == 0 ? 1 : 0);
+    }
+}
+
+std::uint64_t TimeEstimate::refinements_between(std::uint64_t from, std::uint64_t to) const {
+    const auto at = [this](std::uint64_t step) {
+        return refinements_.begin() +
+               static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(step, refinements_.size()));
+    };
+    return std::accumulate(at(from), at(to), std::uint64_t{0});
+}
+
+void TimeEstimate::add(std::uint64_t step, std::size_t interface_vertices, double seconds) {
+    const double vertices = static_cast<double>(interface_vertices);
+    if (step_ && step > *step_) {
+        const auto refined = static_cast<double>(refinements_between(*step_, step));
+        if (refined > 0 && vertices > 0 && vertices_ > 0) {
+            growths_ += refined;
+            growth_ += std::log(vertices / vertices_);
+        }
+        cost_ = memory * cost_ + (seconds - seconds_);
+        work_ = memory * work_ + vertices * static_cast<double>(step - *step_);
+    }
+    step_ = step;
+    vertices_ = vertices;
+    seconds_ = seconds;
+}
+
+std::optional<double> TimeEstimate::remaining() const {
+    if (!step_ || work_ <= 0) return std::nullopt;
+    const double factor = growths_ > 0 ? std::exp(growth_ / growths_) : usual_growth;
+    double vertices = vertices_;
+    double work = 0;
+    for (std::uint64_t step = *step_; step + 1 < refinements_.size(); ++step) {
+        vertices *= std::pow(factor, refinements_[step]);
+        work += vertices;
+    }
+    return work * cost_ / work_;
+}
+
+}  // namespace dsc::app

@@ -1,0 +1,33 @@
+#pragma once
+// How long a run will go on, from what its steps have cost so far.
+
+#include <cstdint>
+#include <dsc/run/experiment.hpp>
+#include <optional>
+#include <vector>
+
+namespace dsc::app {
+
+/// A step costs so much for each interface vertex; refinements make more of them, each by the same factor. Both are learned
+/// from the steps behind, the last ones counting most.
+class TimeEstimate {
+public:
+    /// The steps and refinements of this schedule.
+    explicit TimeEstimate(const std::vector<run::Series>& schedule);
+
+    /// The state after a step, 0 before the first one, and the seconds since the run began.
+    void add(std::uint64_t step, std::size_t interface_vertices, double seconds);
+    /// Seconds from the last step on; nothing before the first one.
+    std::optional<double> remaining() const;
+
+private:
+    std::uint64_t refinements_between(std::uint64_t from, std::uint64_t to) const;
+
+    std::vector<std::uint32_t> refinements_;  ///< right after each step, 0 before the first one
+    std::optional<std::uint64_t> step_;
+    double vertices_ = 0, seconds_ = 0;
+    double cost_ = 0, work_ = 0;       ///< seconds and vertices of the steps behind, weighed
+    double growths_ = 0, growth_ = 0;  ///< refinements seen, and the sum of the logarithms of their factors
+};
+
+}  // namespace dsc::app

@@ -1,0 +1,50 @@
+#include <dsc/base/error.hpp>
+#include <dsc/base/state.hpp>
+#include <dsc/mesh/complex.hpp>
+
+namespace dsc::mesh {
+
+void Complex::save(StateWriter& out) const {
+    out.list(vertices_);
+    out.list(tets_);
+    out.list(labels_);
+    out.list(qualities_);
+    out.list(dates_);
+    out.list(birth_dates_);
+    out.list(free_vertices_);
+    out.list(free_tets_);
+    out.list(interface_);
+    out.list(changes_);
+    out.value(taken_clock_);
+    out.value(clock_);
+    out.value(next_birth_);
+    out.value(box_.low);
+    out.value(box_.high);
+}
+
+Complex Complex::load(StateReader& in) {
+    Complex c;
+    in.list(c.vertices_);
+    in.list(c.tets_);
+    in.list(c.labels_);
+    in.list(c.qualities_);
+    in.list(c.dates_);
+    in.list(c.birth_dates_);
+    in.list(c.free_vertices_);
+    in.list(c.free_tets_);
+    in.list(c.interface_);
+    in.list(c.changes_);
+    in.value(c.taken_clock_);
+    in.value(c.clock_);
+    in.value(c.next_birth_);
+    in.value(c.box_.low);
+    in.value(c.box_.high);
+    const std::size_t tets = c.tets_.size();
+    if (c.labels_.size() != tets || c.qualities_.size() != tets || c.dates_.size() != tets ||
+        c.birth_dates_.size() != tets)
+        throw IoError("state.damaged",
+                      "a saved complex has lists of different lengths; it is not what it seems");
+    return c;
+}
+
+}  // namespace dsc::mesh

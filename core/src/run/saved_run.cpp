@@ -1,0 +1,85 @@
+#include "saved_run.hpp"
+
+#include <sstream>
+
+namespace dsc::run {
+namespace {
+
+void save(StateWriter& out, const hooks::Figures& figures) {
+    out.value<std::uint64_t>(figures.size());
+    for (const auto& [name, value] : figures) {
+        out.text(name);
+        out.value(value);
+    }
+}
+
+void load(StateReader& in, hooks::Figures& figures) {
+    figures.clear();
+    for (auto count = in.value<std::uint64_t>(); count > 0; --count) {
+        const std::string name(in.text());
+        figures.emplace_back(name, in.value<double>());
+    }
+}
+
+/// The plain members, in one order for both ways.
+template <class Totals, class Visit>
+void each_plain(Totals& t, Visit&& visit) {
+    visit(t.steps);
+    visit(t.volume_initial);
+    visit(t.rounds);
+    visit(t.requested);
+    visit(t.arrived);
+    visit(t.clamped);
+    visit(t.dropped_motion);
+    visit(t.edit_distance);
+    visit(t.edit_volume);
+    visit(t.relabelled_volume);
+    visit(t.refinements);
+    visit(t.refine_requested);
+    visit(t.refine_committed);
+    visit(t.operations);
+    visit(t.repair_classes);
+    visit(t.events);
+    visit(t.adopted);
+    visit(t.seconds);
+}
+
+template <class Owner, class Visit>
+void each_strategy(Owner& all, Visit&& visit) {
+    visit(*all.initial_mesh);
+    visit(*all.velocity);
+    visit(*all.improvement);
+    for (auto& refinement : all.refinements) {
+        if (refinement) visit(*refinement);
+    }
+    for (auto& observer : all.observers) visit(*observer);
+}
+
+}  // namespace
+
+void save(StateWriter& out, const RunTotals& totals) {
+    each_plain(totals, [&](const auto& value) { out.value(value); });
+    save(out, totals.initial_mesh);
+}
+
+void load(StateReader& in, RunTotals& totals) {
+    each_plain(totals, [&](auto& value) { in.value(value); });
+    load(in, totals.initial_mesh);
+}
+
+void save(StateWriter& out, const Strategies& strategies) {
+    each_strategy(strategies, [&](const hooks::Strategy& strategy) {
+        std::ostringstream state(std::ios::binary);
+        strategy.save(state);
+        out.text(state.str());
+    });
+}
+
+void load(StateReader& in, Strategies& strategies) {
+    each_strategy(strategies, [&](hooks::Strategy& strategy) {
+        std::istringstream state(std::string(in.text()), std::ios::binary);
+        strategy.load(state);
+    });
+}
+
+}  // namespace dsc::run
