@@ -1,8 +1,8 @@
 // A run that was interrupted and goes on is the run that was not: 40 steps against 20, a checkpoint, and 20, to the last bit.
 #include <doctest/doctest.h>
 
+#include <dsc/base/error.hpp>
 #include <dsc/config/yaml.hpp>
-#include <dsc/io/write.hpp>
 #include <dsc/run/driver.hpp>
 #include <dsc/run/input.hpp>
 #include <map>
@@ -26,11 +26,11 @@ const std::map<std::string, std::string> experiments = {
     {"selective curvature, refined as it goes",
      "input: {cloud: {sample: {shape: box_tunnel, n: 2000}}, normalize: {}}\n"
      "initial_mesh: {type: lattice, cells: 20, shapes: [{shape: sphere, radius: 1.1}]}\n"
-     "velocity: {type: point_cloud, curvature_at: stalled, curvature: {type: angular_defect}}\n"
+     "velocity: {type: point_cloud, curvature_at: unsupported, beta: 3.0e-4, unsupported: {beyond: 2}, curvature: {type: angular_defect}}\n"
      "improvement: {type: dsc}\n"
      "schedule: [{steps: 40, every: 6, refine: {type: centroid_speed}}]\n"},
     {"illinois",
-     "initial_mesh: {type: corner_box, divisions: 4}\nvelocity: {type: rotate, angle: 3}\nimprovement: "
+     "initial_mesh: {type: corner_box, divisions: 4}\nvelocity: {type: rotate, degrees: 3}\nimprovement: "
      "{type: illinois}\n"
      "observers: [{type: analytic}]\nschedule: [{steps: 40}]\n"},
     {"average",

@@ -1,7 +1,5 @@
 #include "checkpoints.hpp"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
@@ -18,6 +16,11 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "dsc-checkpoint-1";
 constexpr std::size_t seal_size = 64;  // hex digits of a SHA-256
+
+std::string name_of(std::uint64_t steps) {
+    const std::string number = std::to_string(steps);
+    return "step_" + std::string(number.size() < 10 ? 10 - number.size() : 0, '0') + number + ".dscstate";
+}
 
 /// Oldest first: the names have their steps with leading zeros.
 std::vector<fs::path> files_of(const fs::path& folder) {
@@ -71,7 +74,7 @@ void Checkpoints::write(const Checkpoint& checkpoint) const {
     if (error)
         throw IoError("run.folder", folder_.string(), "", "cannot be made: " + error.message(),
                       "choose another folder with -o or make this one writable");
-    io::write_file(folder_ / fmt::format("step_{:010}.dscstate", checkpoint.steps), packed(checkpoint));
+    io::write_file(folder_ / name_of(checkpoint.steps), packed(checkpoint));
     std::vector<fs::path> files = files_of(folder_);
     for (std::size_t i = 0; i + keep_ < files.size(); ++i) fs::remove(files[i], error);
 }
