@@ -1,4 +1,6 @@
 // out.*: what is written, where, and what is left alone.
+#include <dsc/base/log.hpp>
+
 #include "process.hpp"
 #include "test_table.hpp"
 
@@ -30,6 +32,7 @@ void inputs(const Subject& subject) {
 }
 
 void quiet(const Subject& subject) {
+    set_log_sink([](LogLevel, std::string_view) {});  // what goes through the log may be said
     const std::size_t before = printed_so_far();
     subject.answers();
     const bool silent = printed_so_far() == before;
