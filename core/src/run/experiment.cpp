@@ -130,8 +130,6 @@ void warn_of_unwritten(const Experiment& experiment, const ConfigNode& resolved,
                             std::string("output.") + key + " is not written by this version");
     };
     if (experiment.output.checkpoint) warn("checkpoint");
-    if (experiment.output.series) warn("series");
-    if (experiment.output.report.value_or(false)) warn("report");
 }
 
 }  // namespace

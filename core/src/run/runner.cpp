@@ -6,11 +6,13 @@
 #include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
 #include <dsc/run/provenance.hpp>
+#include <dsc/run/report.hpp>
 #include <dsc/run/run_folder.hpp>
 #include <dsc/run/runner.hpp>
 #include <dsc/surface/surface_view.hpp>
 
 #include "run_log.hpp"
+#include "state_series.hpp"
 #include "stopwatch.hpp"
 #include "summary.hpp"
 
@@ -160,6 +162,10 @@ public:
             state_.exit_code = static_cast<int>(state_.state == "done" ? ExitCode::ok : ExitCode::stopped);
             state_.totals = outcome.totals;
             folder.write("provenance.json", provenance(state_.finished));
+            if (loaded_.experiment.output.report.value_or(false)) {
+                folder.write("report.html", report_html(folder.path(), &workers_));
+                outcome.report = folder.file("report.html");
+            }
             folder.write("status.json", status_json(state_));
             return outcome;
         } catch (const Error& error) {
@@ -197,6 +203,12 @@ private:
         };
         drive_options.on_event = [&](const kernel::Event& event) { run_log.add(event); };
         drive_options.on_repairs = [&](const ClassFigures& figures) { run_log.add(figures); };
+        StateSeries states(experiment, catalogue_, folder.path());
+        if (states.active()) {
+            drive_options.on_state = [&](const hooks::StepContext& context, const mesh::Complex& complex) {
+                states.add(context, complex);
+            };
+        }
         drive_options.on_strategy_failure = [&](const mesh::TetMesh& mesh, std::uint64_t steps) {
             save_last_good(folder, to_input(mesh, to_normalised), steps);
         };
@@ -218,7 +230,7 @@ private:
         std::optional<surface::CloudEvaluation> distances;
         if (target != nullptr)
             distances = surface::evaluate_cloud(driven.surface, target->points(), &workers_);
-        outcome.totals.seconds.io = io_watch.seconds();
+        outcome.totals.seconds.io += io_watch.seconds();
         folder.publish_results();
         folder.write("summary.json",
                      summary_json({loaded_, state_.hash, outcome.totals, input ? &*input : nullptr, distances,

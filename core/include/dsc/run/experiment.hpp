@@ -53,11 +53,12 @@ struct Stop {
     std::uint32_t patience = 3;
 };
 
-/// Parts of format 1 that this version accepts and does not write yet; a warning says so.
+/// A part of format 1 that this version accepts and does not write yet; a warning says so.
 struct CheckpointOutput {
     std::uint32_t every = 20;
     std::uint32_t keep = 2;
 };
+/// States for ParaView.
 struct SeriesOutput {
     std::uint32_t every = 10;
 };
@@ -121,6 +122,9 @@ LoadedExperiment load_experiment(const std::string& file, std::span<const std::s
 
 /// The same for a tree made by code. [setup]
 LoadedExperiment resolve_experiment(const config::ConfigNode& root, const PluginLoader& load_plugins);
+
+/// The input of a resolved configuration, which needs no plugin to be read; empty without one. Throws ConfigError. [setup]
+std::optional<Input> input_of(const config::ConfigNode& resolved);
 
 /// What `--print-config` prints and config.resolved.yaml holds.
 std::string resolved_text(const LoadedExperiment& loaded);
