@@ -162,10 +162,7 @@ public:
             state_.exit_code = static_cast<int>(state_.state == "done" ? ExitCode::ok : ExitCode::stopped);
             state_.totals = outcome.totals;
             folder.write("provenance.json", provenance(state_.finished));
-            if (loaded_.experiment.output.report.value_or(false)) {
-                folder.write("report.html", report_html(folder.path(), &workers_));
-                outcome.report = folder.file("report.html");
-            }
+            if (loaded_.experiment.output.report.value_or(false)) write_report(folder, outcome);
             folder.write("status.json", status_json(state_));
             return outcome;
         } catch (const Error& error) {
@@ -237,6 +234,16 @@ private:
                                    outcome.surface, outcome.label_surfaces, outcome.volume, outcome.conforms, to_normalised,
                                    watch_.seconds(), process_usage()}));
         return outcome;
+    }
+
+    /// Made from the folder, as `dsc report` does. A result without its page is still a result.
+    void write_report(const RunFolder& folder, RunOutcome& outcome) {
+        try {
+            folder.write("report.html", report_html(folder.path(), &workers_));
+            outcome.report = folder.file("report.html");
+        } catch (const Error& error) {
+            log(LogLevel::warning, std::string("the report could not be written: ") + error.what());
+        }
     }
 
     /// What was reached before a strategy failed. What goes wrong here must not hide the strategy's error.
