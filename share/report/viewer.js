@@ -88,13 +88,10 @@
     this.root = root;
     this.canvas = make('canvas', {tabIndex: 0}, root);
     this.canvas.setAttribute('aria-label', 'the surface, to turn');
-    this.controls = new THREE.OrbitControls(this.camera, this.canvas);
-    this.controls.enableKeys = false;
     this.light();
     this.panel();
     this.home();
     var view = this;
-    this.controls.addEventListener('change', function () { view.ask(); });
     window.addEventListener('resize', function () { view.ask(); });
     window.addEventListener('beforeprint', function () { view.draw(); });
     this.ask();
@@ -161,8 +158,8 @@
     var z = this.data.up === 'z', from = z ? [0.85, -1.55, 0.75] : [0.85, 0.75, 1.55];
     this.camera.up.set(0, z ? 0 : 1, z ? 1 : 0);
     // OrbitControls takes the upward axis when it is made; a new one is the way to tell it.
-    var old = this.controls, view = this;
-    old.dispose();
+    var view = this;
+    if (this.controls) this.controls.dispose();
     this.controls = new THREE.OrbitControls(this.camera, this.canvas);
     this.controls.enableKeys = false;
     this.controls.addEventListener('change', function () { view.ask(); });
