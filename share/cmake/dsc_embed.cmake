@@ -17,13 +17,14 @@ foreach(name IN LISTS files more)
   if(NOT at EQUAL -1)
     message(FATAL_ERROR "${file} holds the mark )dsc_text\" that ends a text; write it in another way")
   endif()
-  string(APPEND entries "    {\"${name}\", R\"dsc_text(${text})dsc_text\"},\n")
+  string(APPEND entries "    {\"${name}\", R\"dsc_text(${text})dsc_text\"sv},\n")
 endforeach()
 file(WRITE ${OUTPUT} "// Written by share/cmake/dsc_embed.cmake.
 #include \"${HEADER}\"
 
 namespace ${NAMESPACE} {
 namespace {
+using namespace std::literals;  // a long text has its length without counting
 constexpr ${TYPE} files[] = {
 ${entries}};
 }  // namespace

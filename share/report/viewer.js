@@ -3,7 +3,7 @@
 (function () {
   'use strict';
 
-  var LABELS = [[0.90, 0.925, 0.945], [0.93, 0.66, 0.38], [0.47, 0.71, 0.58], [0.57, 0.54, 0.79], [0.80, 0.49, 0.60], [0.62, 0.52, 0.40]];
+  var LABELS = [[0.78, 0.85, 0.90], [0.93, 0.66, 0.38], [0.47, 0.71, 0.58], [0.57, 0.54, 0.79], [0.80, 0.49, 0.60], [0.62, 0.52, 0.40]];
   // From good to bad, told apart by those who cannot tell red from green, too.
   var DISTANCE = [[0.13, 0.35, 0.55], [0.16, 0.60, 0.62], [0.55, 0.75, 0.38], [0.96, 0.76, 0.20], [0.85, 0.28, 0.16]];
   var QUALITY = DISTANCE.slice().reverse();
@@ -163,7 +163,7 @@
     this.controls = new THREE.OrbitControls(this.camera, this.canvas);
     this.controls.enableKeys = false;
     this.controls.addEventListener('change', function () { view.ask(); });
-    this.camera.position.set(from[0], from[1], from[2]).multiplyScalar(1.95);
+    this.camera.position.set(from[0], from[1], from[2]).multiplyScalar(1.42);
     this.controls.update();
   };
 
@@ -175,7 +175,7 @@
     geometry.setIndex(new THREE.BufferAttribute(faces, 1));
     geometry.computeVertexNormals();
     var offset = {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, clippingPlanes: clip};
-    var outer = Object.assign({color: 0xd9bd94, specular: 0x222222, shininess: 25, side: THREE.FrontSide}, offset);
+    var outer = Object.assign({color: 0xd9bd94, specular: 0x0d0d0d, shininess: 20, side: THREE.FrontSide}, offset);
     var inner = Object.assign({color: 0x8797a5, specular: 0x000000, side: THREE.BackSide}, offset);
     group.surface = new THREE.Group();
     group.surface.add(new THREE.Mesh(geometry, new THREE.MeshPhongMaterial(outer)));

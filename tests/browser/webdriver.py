@@ -41,7 +41,7 @@ class Browser:
         self.session = "/" + self.call("POST", "session", {"capabilities": {"alwaysMatch": capabilities}}, whole=True)["sessionId"]
 
     def call(self, method, path, body=None, whole=False):
-        address = f"http://127.0.0.1:{self.port}/" + (path if whole else f"session{self.session}/{path}")
+        address = f"http://127.0.0.1:{self.port}/" + (path if whole else f"session{self.session}/{path}".rstrip("/"))
         data = None if body is None else json.dumps(body).encode()
         request = urllib.request.Request(address, data, {"Content-Type": "application/json"}, method=method)
         try:
@@ -66,8 +66,9 @@ class Browser:
         return self.call("POST", "execute/sync", {"script": text, "args": list(arguments)})
 
     def console(self):
-        """What the page has said since the last call."""
-        return [entry["message"] for entry in self.call("POST", "se/log", {"type": "browser"})]
+        """What the page has said since the last call; that software drawing is slow is no news."""
+        entries = self.call("POST", "se/log", {"type": "browser"})
+        return [entry["message"] for entry in entries if "GL Driver Message (OpenGL, Performance" not in entry["message"]]
 
     def find(self, selector):
         return self.call("POST", "element", {"using": "css selector", "value": selector})[ELEMENT]

@@ -215,7 +215,7 @@ private:
     /// Tets round the surface: all that are not outside, and those outside whose centre is near its box.
     std::vector<std::size_t> near_tets() const {
         Box3 box = bounding_box(surface_.points);
-        const Vec3 margin = Vec3::Constant(0.06 * box.diagonal());
+        const Vec3 margin = Vec3::Constant(0.12 * box.diagonal());
         box.low -= margin;
         box.high += margin;
         std::vector<std::size_t> chosen;
