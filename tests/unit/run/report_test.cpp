@@ -14,9 +14,9 @@
 #include <dsc/surface/surface_view.hpp>
 #include <nlohmann/json.hpp>
 
-#include "../../../core/src/run/report_record.hpp"
-#include "../../../core/src/run/report_warnings.hpp"
-#include "../../../core/src/run/state_series.hpp"
+#include "run/report_record.hpp"
+#include "run/report_warnings.hpp"
+#include "run/state_series.hpp"
 #include "fakes.hpp"
 
 using namespace dsc;

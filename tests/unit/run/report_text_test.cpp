@@ -4,10 +4,10 @@
 #include <cmath>
 #include <dsc/base/error.hpp>
 
-#include "../../../core/src/run/report_html.hpp"
-#include "../../../core/src/run/report_plot.hpp"
-#include "../../../core/src/run/report_record.hpp"
-#include "../../../core/src/run/state_series.hpp"
+#include "run/report_html.hpp"
+#include "run/report_plot.hpp"
+#include "run/report_record.hpp"
+#include "run/state_series.hpp"
 
 using namespace dsc;
 namespace html = dsc::run::html;
