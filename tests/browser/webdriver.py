@@ -74,11 +74,14 @@ class Browser:
         return self.call("POST", "element", {"using": "css selector", "value": selector})[ELEMENT]
 
     def shot(self, selector):
-        """A picture of an element."""
+        """A picture of an element, brought into view first: what is not in view is not in the picture."""
+        self.script("document.querySelector(arguments[0]).scrollIntoView({block: 'center'})", selector)
         return Picture(base64.b64decode(self.call("GET", f"element/{self.find(selector)}/screenshot")))
 
     def page_shot(self):
-        return base64.b64decode(self.call("GET", "screenshot"))
+        """The whole page as a PNG."""
+        command = {"cmd": "Page.captureScreenshot", "params": {"captureBeyondViewport": True}}
+        return base64.b64decode(self.call("POST", "goog/cdp/execute", command)["data"])
 
     def print_pdf(self):
         return base64.b64decode(self.call("POST", "print", {}))
