@@ -202,7 +202,7 @@
     for (var i = 0; i < position.length / 3; ++i) colours.set(levels ? ramp(DISTANCE, levels[i] / 255) : [0.2, 0.3, 0.4], 3 * i);
     geometry.setAttribute('position', new THREE.BufferAttribute(position, 3));
     geometry.setAttribute('color', new THREE.BufferAttribute(colours, 3));
-    var material = new THREE.PointsMaterial({size: 0.012, vertexColors: THREE.VertexColors, clippingPlanes: [this.plane]});
+    var material = new THREE.PointsMaterial({size: 0.018, vertexColors: THREE.VertexColors, clippingPlanes: [this.plane]});
     this.cloudPoints = new THREE.Points(geometry, material);
     this.scene.add(this.cloudPoints);
     return this.cloudPoints;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <dsc/base/error.hpp>
+#include <dsc/config/yaml.hpp>
 #include <dsc/run/report.hpp>
 #include <map>
 
@@ -80,8 +81,10 @@ void collect(const config::ConfigNode& node, std::vector<std::string>& order, st
         value = "none";
     } else if (node.is_boolean()) {
         value = node.as_boolean() ? "true" : "false";
-    } else if (node.is_number()) {
-        value = html::real(node.as_real());
+    } else if (node.is_integer()) {
+        value = std::to_string(node.as_integer());
+    } else if (node.is_real()) {
+        value = config::real_text(node.as_real());
     } else if (node.is_string()) {
         value = node.as_string();
     } else {

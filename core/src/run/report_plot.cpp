@@ -169,7 +169,7 @@ std::vector<double> axis_ticks(double low, double high, int count) {
             break;
         }
     }
-    for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) out.push_back(k * step);
+    for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) out.push_back(k * step + 0.0);  // no -0
     return out;
 }
 

@@ -61,6 +61,7 @@ TEST_CASE("metrics: columns, empty cells, and tables that are none") {
 TEST_CASE("plots: round ticks, gaps, a logarithmic axis, names escaped") {
     CHECK(run::axis_ticks(0, 10, 5) == std::vector<double>{0, 2, 4, 6, 8, 10});
     CHECK(run::axis_ticks(3, 3, 5).empty());
+    CHECK_FALSE(std::signbit(run::axis_ticks(0, 10, 5).front()));
     const double none = std::nan("");
     const run::Plot plot{.title = "<t>", .x_label = "<x>", .curves = {{"<c>", {0, 1, 2, 3, 4}, {1, none, 3, 4, 5}}, {"d", {0, 4}, {2, 2}}}};
     const std::string svg = run::svg_plot(plot);
