@@ -15,11 +15,11 @@ os_release=${DSC_OS_RELEASE:-/etc/os-release}  # replaced by the script's own te
 
 build_packages=(
     cmake ninja-build g++
-    libboost-dev libcli11-dev libeigen3-dev libembree-dev libnanoflann-dev libopenmesh-dev libpcl-dev libpng-dev librandom123-dev
+    libboost-dev libcli11-dev libeigen3-dev libembree-dev libjs-three libnanoflann-dev libopenmesh-dev libpcl-dev libpng-dev librandom123-dev
     libspdlog-dev libssl-dev libvtk9-dev libyaml-cpp-dev nlohmann-json3-dev
 )
 test_packages=(doctest-dev libbenchmark-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-jsonschema python3-yaml)
-full_packages=(valgrind chromium snakemake slurm-wlm)
+full_packages=(valgrind chromium chromium-driver snakemake slurm-wlm)
 
 say() { printf '%s\n' "$*" >&2; }
 
@@ -118,6 +118,7 @@ run_default() {
     report surface "$out/result/surface.obj"
     report volume "$out/result/volume.vtu"
     report picture "$out/preview.png"
+    report report "$out/report.html"
     say_next
 }
 

@@ -21,6 +21,7 @@ void add_info(CLI::App& app, Context& context);
 void add_evaluate(CLI::App& app, Context& context);
 void add_render(CLI::App& app, Context& context);
 void add_convert(CLI::App& app, Context& context);
+void add_report(CLI::App& app, Context& context);
 void add_schema(CLI::App& app, Context& context);
 void add_plugin(CLI::App& app, Context& context);
 /// Below `dsc plugin`.

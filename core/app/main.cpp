@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
     dsc::app::add_evaluate(app, context);
     dsc::app::add_render(app, context);
     dsc::app::add_convert(app, context);
+    dsc::app::add_report(app, context);
     dsc::app::add_plugin(app, context);
     dsc::app::add_schema(app, context);
     try {

@@ -99,7 +99,8 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
                                                      cloud::read_cloud(arguments.cloud), detail);
     const bool kept = !arguments.keep_run.empty();
     root = root.with("output",
-                     config::ConfigNode::map({{"surface", wanted(list, false,
+                     config::ConfigNode::map({{"report", kept},
+                                              {"surface", wanted(list, false,
                                                                  kept ? std::vector<std::string>{"obj", "ply"}
                                                                       : std::vector<std::string>{"obj"})},
                                               {"volume", wanted(list, true,

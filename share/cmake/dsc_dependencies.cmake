@@ -11,6 +11,10 @@ find_package(nlohmann_json REQUIRED)
 find_package(OpenMesh REQUIRED)
 find_package(embree 3 REQUIRED)
 find_path(NANOFLANN_INCLUDE_DIR nanoflann.hpp REQUIRED)
+# three.js draws the report's surfaces in the browser; it becomes part of the program.
+find_file(DSC_THREE_JS three.min.js PATHS /usr/share /usr/local/share PATH_SUFFIXES javascript/three REQUIRED)
+find_file(DSC_ORBIT_JS OrbitControls.js PATHS /usr/share /usr/local/share PATH_SUFFIXES javascript/three/examples/js/controls
+  REQUIRED)
 find_package(PCL 1.13 REQUIRED COMPONENTS common io filters kdtree search)
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
 if(DSC_BUILD_TESTS)

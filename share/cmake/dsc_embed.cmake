@@ -1,27 +1,35 @@
-# cmake -DFOLDER=... -DOUTPUT=file.cpp -P dsc_embed.cmake
+# cmake -DFOLDER=... [-DMORE=FILE|FILE...] -DHEADER=x.hpp -DNAMESPACE=dsc::app -DTYPE=T -DFUNCTION=f -DOUTPUT=file.cpp -P dsc_embed.cmake
 #
-# Writes a source with the files below FOLDER as text, for core/app/plugin_templates.hpp.
+# Writes a source with the files below FOLDER, and those of MORE by their names alone, as text: the function FUNCTION, which
+# HEADER declares, returns a span of TYPE {path, text}.
 file(GLOB_RECURSE files RELATIVE ${FOLDER} ${FOLDER}/*)
 list(SORT files)
+string(REPLACE "|" ";" more "${MORE}")
 set(entries "")
-foreach(name IN LISTS files)
-  file(READ ${FOLDER}/${name} text)
+foreach(name IN LISTS files more)
+  set(file ${FOLDER}/${name})
+  if(IS_ABSOLUTE ${name})
+    set(file ${name})
+    get_filename_component(name ${file} NAME)
+  endif()
+  file(READ ${file} text)
   string(FIND "${text}" ")dsc_text\"" at)
   if(NOT at EQUAL -1)
-    message(FATAL_ERROR "${FOLDER}/${name} holds the mark )dsc_text\" that ends a text; write it in another way")
+    message(FATAL_ERROR "${file} holds the mark )dsc_text\" that ends a text; write it in another way")
   endif()
-  string(APPEND entries "    {\"${name}\", R\"dsc_text(${text})dsc_text\"},\n")
+  string(APPEND entries "    {\"${name}\", R\"dsc_text(${text})dsc_text\"sv},\n")
 endforeach()
 file(WRITE ${OUTPUT} "// Written by share/cmake/dsc_embed.cmake.
-#include \"plugin_templates.hpp\"
+#include \"${HEADER}\"
 
-namespace dsc::app {
+namespace ${NAMESPACE} {
 namespace {
-constexpr TemplateFile files[] = {
+using namespace std::literals;  // a long text has its length without counting
+constexpr ${TYPE} files[] = {
 ${entries}};
 }  // namespace
 
-std::span<const TemplateFile> plugin_templates() { return files; }
+std::span<const ${TYPE}> ${FUNCTION}() { return files; }
 
-}  // namespace dsc::app
+}  // namespace ${NAMESPACE}
 ")

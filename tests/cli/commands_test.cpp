@@ -32,6 +32,7 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
              {"sample", "teapot", "-o", "a.xyz"},
              {"sample", "cup", "-n", "10", "-o", "a.xyz"},
              {"render", "a.obj"},
+             {"report"},
              {"plugin"},
              {"plugin", "describe", "point_clod"},
          }) {
@@ -91,6 +92,18 @@ TEST_CASE("sample, info, convert, evaluate and render work together") {
     CHECK(cli.dsc({"render", "torus.xyz", "-o", "a.png"}).code == 2);
     CHECK(cli.dsc({"render", "truth.obj", "-o", "none/a.png"}).code == 6);
     CHECK(cli.dsc({"render", ".", "-o", "a.png"}).code == 6);
+}
+
+TEST_CASE("report: folders that are no run's are refused, nothing is written") {
+    const Cli cli;
+    const Result missing = cli.dsc({"report", "nowhere"});
+    CHECK(missing.code == 6);
+    CHECK(missing.err == "error: nowhere: is no folder; name the folder of a run that has ended (dsc run CONFIG -o DIR)\n");
+    cli.write("notes/status.json", "{}");
+    CHECK(cli.dsc({"report", "notes"}).code == 6);
+    CHECK(cli.dsc({"report", "notes", "nowhere"}).code == 6);
+    CHECK_FALSE(cli.exists("notes/report.html"));
+    CHECK_FALSE(cli.exists("comparison.html"));
 }
 
 TEST_CASE("info --require-solid: exit 5 for an open surface, with the figures") {

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 DSC = """#!/bin/sh
 echo "dsc $*" >>"$FAKE/calls"
 case "$1" in
-    run) mkdir -p "$4/result"; echo x >"$4/result/surface.obj"; echo x >"$4/result/volume.vtu"; echo x >"$4/preview.png"
+    run) mkdir -p "$4/result"; echo x >"$4/result/surface.obj"; echo x >"$4/result/volume.vtu"; echo x >"$4/preview.png"; echo x >"$4/report.html"
          echo "words of the run" ;;
     reconstruct) [ ! -e "$FAKE/dsc_fails" ] || exit 5
                  echo x >out_surface.ply; echo x >out_volume.vtu; echo out_surface.ply; echo out_volume.vtu ;;
@@ -125,14 +125,14 @@ class Setup(unittest.TestCase):
         result = self.setup("run")
         self.assertEqual(result.stdout.splitlines(), [
             "surface runs/quickstart/result/surface.obj", "volume runs/quickstart/result/volume.vtu",
-            "picture runs/quickstart/preview.png",
+            "picture runs/quickstart/preview.png", "report runs/quickstart/report.html",
             "next: build/release/bin/dsc reconstruct YOUR_CLOUD -o surface.obj -o volume.vtu"])
         self.assertTrue(any("--preset release" in call for call in self.calls("cmake")))
 
     def test_from_another_folder_the_paths_are_absolute(self):
         lines = self.setup("run", cwd=self.folder / "fake").stdout.splitlines()
         self.assertEqual(lines[0], f"surface {self.project}/runs/quickstart/result/surface.obj")
-        self.assertEqual(lines[3].split(" reconstruct ")[0], f"next: {self.project}/build/release/bin/dsc")
+        self.assertEqual(lines[4].split(" reconstruct ")[0], f"next: {self.project}/build/release/bin/dsc")
 
     def test_run_with_a_cloud_reconstructs_it_in_the_callers_folder(self):
         home = self.folder / "home"
@@ -173,7 +173,7 @@ class Setup(unittest.TestCase):
     def test_full_installs_the_tools_of_the_rare_tests(self):
         self.assertEqual(self.setup("test", "--full").returncode, 0)
         installed = set((self.fake / "installed").read_text().split())
-        self.assertLessEqual({"valgrind", "chromium", "snakemake", "slurm-wlm"}, installed)
+        self.assertLessEqual({"valgrind", "chromium", "chromium-driver", "snakemake", "slurm-wlm"}, installed)
 
     def test_the_gate_is_run_by_full_only_and_its_absence_is_told(self):
         result = self.setup("test")

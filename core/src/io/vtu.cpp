@@ -1,4 +1,4 @@
-// VTK unstructured grids of tets through VTK's own XML reader and writer. The one place that includes VTK.
+// VTK unstructured grids of tets through VTK's own XML reader and writer.
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/quality.hpp>
 
@@ -7,10 +7,7 @@
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkIntArray.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
@@ -25,87 +22,16 @@
 
 #include "io/codecs.hpp"
 #include "io/text.hpp"
+#include "io/vtk_tools.hpp"
 #include "io/vtu_check.hpp"
 
 namespace dsc::io {
 namespace {
 
-/// Takes what VTK would print.
-class Capture : public vtkOutputWindow {
-public:
-    static Capture* New() { VTK_STANDARD_NEW_BODY(Capture); }
-    void DisplayText(const char* text) override {
-        if (text != nullptr) text_ += text;
-    }
-    const std::string& text() const { return text_; }
-
-private:
-    std::string text_;
-};
-
-class CaptureScope {
-public:
-    CaptureScope()
-        : before_(vtkOutputWindow::GetInstance()), verbosity_(vtkLogger::GetCurrentVerbosityCutoff()) {
-        vtkOutputWindow::SetInstance(capture_);
-        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-    }
-    ~CaptureScope() {
-        vtkLogger::SetStderrVerbosity(verbosity_);
-        vtkOutputWindow::SetInstance(before_);
-    }
-    CaptureScope(const CaptureScope&) = delete;
-    CaptureScope& operator=(const CaptureScope&) = delete;
-
-    bool quiet() const { return capture_->text().empty(); }
-    /// The first line of VTK's messages that says something, without its object and file names.
-    std::string cause() const {
-        Lines lines(capture_->text(), "");
-        for (std::string_view line; lines.next(line);) {
-            const std::size_t colon = line.find("): ");
-            if (colon != std::string_view::npos) return std::string(line.substr(colon + 3));
-        }
-        return "it is not a readable VTU file";
-    }
-
-private:
-    vtkSmartPointer<vtkOutputWindow> before_;
-    vtkLogger::Verbosity verbosity_;
-    vtkNew<Capture> capture_;
-};
-
-template <class Array, class Value>
-vtkSmartPointer<Array> make_array(const char* name, const std::vector<Value>& values) {
-    auto array = vtkSmartPointer<Array>::New();
-    if (name != nullptr) array->SetName(name);
-    array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-    std::copy(values.begin(), values.end(), array->GetPointer(0));
-    return array;
-}
-
 vtkSmartPointer<vtkUnstructuredGrid> make_grid(const mesh::TetMesh& mesh) {
-    vtkNew<vtkDoubleArray> coordinates;
-    coordinates->SetNumberOfComponents(3);
-    coordinates->SetNumberOfTuples(static_cast<vtkIdType>(mesh.points.size()));
-    double* to = coordinates->GetPointer(0);
-    for (const Vec3& p : mesh.points) to = std::copy(p.data(), p.data() + 3, to);
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    points->SetData(coordinates);
-
-    vtkNew<vtkTypeInt64Array> offsets, corners;
-    offsets->SetNumberOfTuples(static_cast<vtkIdType>(mesh.tets.size() + 1));
-    corners->SetNumberOfTuples(static_cast<vtkIdType>(4 * mesh.tets.size()));
-    vtkTypeInt64* offset = offsets->GetPointer(0);
-    vtkTypeInt64* corner = corners->GetPointer(0);
-    for (std::size_t t = 0; t <= mesh.tets.size(); ++t) *offset++ = static_cast<vtkTypeInt64>(4 * t);
-    for (const auto& tet : mesh.tets) corner = std::copy(tet.begin(), tet.end(), corner);
-    vtkNew<vtkCellArray> cells;
-    cells->SetData(offsets, corners);
-
     auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-    grid->SetPoints(points);
-    grid->SetCells(VTK_TETRA, cells);
+    grid->SetPoints(make_points(mesh.points));
+    grid->SetCells(VTK_TETRA, make_cells(mesh.tets));
     return grid;
 }
 
@@ -114,22 +40,6 @@ std::vector<double> qualities(const mesh::TetMesh& mesh) {
     out.reserve(mesh.tets.size());
     for (const auto& [a, b, c, d] : mesh.tets) {
         out.push_back(geometry::tet_quality(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]));
-    }
-    return out;
-}
-
-std::vector<Vec3> read_points(vtkUnstructuredGrid& grid, std::string_view file) {
-    std::vector<Vec3> out;
-    const vtkIdType count = grid.GetNumberOfPoints();
-    out.reserve(static_cast<std::size_t>(count));
-    for (vtkIdType i = 0; i < count; ++i) {
-        Vec3 p;
-        grid.GetPoints()->GetPoint(i, p.data());
-        if (!p.allFinite()) {
-            fail("io.not_finite", {file, 0}, "point " + std::to_string(i) + " is NaN or infinite",
-                 "export the file again");
-        }
-        out.push_back(p);
     }
     return out;
 }
@@ -213,7 +123,7 @@ mesh::TetMesh decode_checked(const std::string& content, std::string_view file) 
         fail("io.syntax", {file, 0}, "VTK refuses it: " + capture.cause(), copy_again);
     vtkUnstructuredGrid* grid = reader->GetOutput();
     mesh::TetMesh mesh;
-    mesh.points = read_points(*grid, file);
+    mesh.points = points_of(*grid, file);
     read_tets(*grid, mesh, file);
     if (!mesh.tets.empty()) read_labels(*grid, mesh, file);
     return mesh;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "io/bytes.hpp"
 #include "io/text.hpp"
@@ -133,7 +134,13 @@ private:
     /// VTK allocates what is announced. zlib packs at most 1032 to 1, and a point or a tet has at least 12
     /// bytes.
     void check_counts() const {
-        for (const std::string_view name : {"NumberOfPoints", "NumberOfCells"}) {
+        bool polygons = false;
+        for_tags(xml_, "<VTKFile", [&](std::string_view tag, std::size_t) { polygons = attribute(tag, "type") == "PolyData"; });
+        const std::vector<std::string_view> counts =
+            polygons ? std::vector<std::string_view>{"NumberOfPoints", "NumberOfVerts", "NumberOfLines", "NumberOfStrips",
+                                                     "NumberOfPolys"}
+                     : std::vector<std::string_view>{"NumberOfPoints", "NumberOfCells"};
+        for (const std::string_view name : counts) {
             for_tags(xml_, "<Piece", [&](std::string_view tag, std::size_t) {
                 const std::string_view value = attribute(tag, name);
                 const auto count = number(value);

@@ -1,5 +1,5 @@
 #pragma once
-// A look at a VTU file before VTK gets it: VTK trusts its block headers and divides by what they say.
+// A look at a VTU or VTP file before VTK gets it: VTK trusts its block headers and divides by what they say.
 
 #include <string>
 #include <string_view>

@@ -339,6 +339,9 @@ private:
     void publish(const StepMetrics& row) {
         result_.last = row;
         if (options_.on_step) options_.on_step(row, planned_);
+        if (!options_.on_state) return;
+        const Timed timed(result_.totals.seconds.io);
+        options_.on_state(make_context(row.step), deformer_.complex());
     }
 
     void tell(const kernel::Event& event) const {

@@ -120,19 +120,6 @@ void require_files(const ConfigNode& resolved, const StrategyLookup& lookup) {
                                  (count == 1 ? " error" : " errors") + "; nothing was run");
 }
 
-void warn_of_unwritten(const Experiment& experiment, const ConfigNode& resolved,
-                       config::Diagnostics& diagnostics) {
-    const auto warn = [&](const char* key) {
-        const ConfigNode* output = resolved.find("output");
-        const ConfigNode* value = output == nullptr ? nullptr : output->find(key);
-        diagnostics.warning("config.unwritten",
-                            value == nullptr ? config::SourcePosition{} : value->position(),
-                            std::string("output.") + key + " is not written by this version");
-    };
-    if (experiment.output.series) warn("series");
-    if (experiment.output.report.value_or(false)) warn("report");
-}
-
 }  // namespace
 
 LoadedExperiment resolve_experiment(const ConfigNode& root, const PluginLoader& load_plugins) {
@@ -153,7 +140,6 @@ LoadedExperiment resolve_experiment(const ConfigNode& root, const PluginLoader& 
     config::ParamSchema<Experiment> reader;
     Experiment::declare(reader);
     loaded.experiment = reader.read(loaded.resolved);
-    warn_of_unwritten(loaded.experiment, loaded.resolved, diagnostics);
     loaded.warnings = diagnostics.text(config::Severity::warning);
     return loaded;
 }

@@ -106,9 +106,9 @@ void declare_output(config::ParamSchema<Output>& s) {
     s.object("checkpoint", &Output::checkpoint, declare_checkpoint)
         .doc("States to resume from. Accepted, not written by this version.");
     s.object("series", &Output::series, declare_states)
-        .doc("States on the way as .vtu. Accepted, not written by this version.");
+        .doc("States on the way for ParaView, in series/: surfaces as .vtp, volumes as .vtu, an index .pvd of each.");
     s.boolean("report", &Output::report)
-        .doc("A page that shows the run. Accepted, not written by this version.");
+        .doc("report.html, a page that shows the run: figures, plots and the surface to turn and cut.");
 }
 
 }  // namespace
@@ -148,6 +148,18 @@ std::shared_ptr<const config::Schema> experiment_schema() {
         return s.shared_schema();
     }();
     return schema;
+}
+
+std::optional<Input> input_of(const config::ConfigNode& resolved) {
+    const config::ConfigNode* node = resolved.find("input");
+    if (node == nullptr || node->is_null()) return std::nullopt;
+    config::ParamSchema<Input> schema;
+    declare_input(schema);
+    const config::NoStrategies none;
+    config::Diagnostics diagnostics;
+    const config::ConfigNode checked = config::validate(*node, schema.schema(), ExperimentLookup(none), diagnostics, "input");
+    diagnostics.throw_if_errors();
+    return schema.read(checked);
 }
 
 // ---- lookup -------------------------------------------------------------------------------------------------------

@@ -11,9 +11,9 @@ namespace fs = std::filesystem;
 
 /// What a run writes. Those that look like a result come first.
 constexpr std::array result_names = {"result",      ".result.part", "summary.json",
-                                     "preview.png", "report.html",  "series"};
+                                     "preview.png", "report.html"};
 constexpr std::array other_names = {"metrics.csv", "events.jsonl", "config.resolved.yaml", "provenance.json",
-                                    "checkpoint", "last_good"};
+                                    "checkpoint", "last_good", "series"};
 
 [[noreturn]] void cannot(const fs::path& folder, const char* what, const std::error_code& error) {
     throw IoError("run.folder", folder.string(), "", std::string(what) + ": " + error.message(),

@@ -6,12 +6,14 @@
 #include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
 #include <dsc/run/provenance.hpp>
+#include <dsc/run/report.hpp>
 #include <dsc/run/run_folder.hpp>
 #include <dsc/run/runner.hpp>
 #include <dsc/surface/surface_view.hpp>
 
 #include "checkpoints.hpp"
 #include "run_log.hpp"
+#include "state_series.hpp"
 #include "stopwatch.hpp"
 #include "summary.hpp"
 
@@ -168,6 +170,7 @@ public:
             state_.exit_code = static_cast<int>(state_.state == "done" ? ExitCode::ok : ExitCode::stopped);
             state_.totals = outcome.totals;
             folder.write("provenance.json", provenance(state_.finished));
+            if (loaded_.experiment.output.report.value_or(false)) write_report(folder, outcome);
             folder.write("status.json", status_json(state_));
             return outcome;
         } catch (const Error& error) {
@@ -218,6 +221,12 @@ private:
         };
         drive_options.on_event = [&](const kernel::Event& event) { run_log.add(event); };
         drive_options.on_repairs = [&](const ClassFigures& figures) { run_log.add(figures); };
+        StateSeries states(experiment, catalogue_, folder.path());
+        if (states.active()) {
+            drive_options.on_state = [&](const hooks::StepContext& context, const mesh::Complex& complex) {
+                states.add(context, complex);
+            };
+        }
         drive_options.on_strategy_failure = [&](const mesh::TetMesh& mesh, std::uint64_t steps) {
             save_last_good(folder, to_input(mesh, to_normalised), steps);
         };
@@ -239,13 +248,23 @@ private:
         std::optional<surface::CloudEvaluation> distances;
         if (target != nullptr)
             distances = surface::evaluate_cloud(driven.surface, target->points(), &workers_);
-        outcome.totals.seconds.io = io_watch.seconds();
+        outcome.totals.seconds.io += io_watch.seconds();
         folder.publish_results();
         folder.write("summary.json",
                      summary_json({loaded_, state_.hash, outcome.totals, input ? &*input : nullptr, distances,
                                    outcome.surface, outcome.label_surfaces, outcome.volume, outcome.conforms, to_normalised,
                                    run_seconds(), process_usage()}));
         return outcome;
+    }
+
+    /// Made from the folder, as `dsc report` does. A result without its page is still a result.
+    void write_report(const RunFolder& folder, RunOutcome& outcome) {
+        try {
+            folder.write("report.html", report_html(folder.path(), &workers_));
+            outcome.report = folder.file("report.html");
+        } catch (const Error& error) {
+            log(LogLevel::warning, std::string("the report could not be written: ") + error.what());
+        }
     }
 
     /// What was reached before a strategy failed. What goes wrong here must not hide the strategy's error.

@@ -4,6 +4,8 @@
 #include <dsc/base/progress.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/target.hpp>
+#include <dsc/hooks/context.hpp>
+#include <dsc/mesh/complex.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
 #include <dsc/plugin/catalogue.hpp>
 #include <dsc/run/experiment.hpp>
@@ -39,6 +41,8 @@ struct DriveOptions {
     std::function<void(const StepMetrics&, std::uint64_t planned)> on_step;  ///< also for row 0
     std::function<void(const kernel::Event&)> on_event;
     std::function<void(const ClassFigures&)> on_repairs;  ///< after the step's events, each class asked for
+    /// After row 0 and every step: the state as it stands, good for the length of the call.
+    std::function<void(const hooks::StepContext&, const mesh::Complex&)> on_state;
     /// A strategy failed: the complex as it stands, which is valid, and the number of whole steps behind it. The error goes
     /// on afterwards.
     std::function<void(const mesh::TetMesh&, std::uint64_t steps)> on_strategy_failure;

@@ -58,7 +58,7 @@ struct CheckpointOutput {
     std::uint32_t every = 20;  ///< steps
     std::uint32_t keep = 2;    ///< the last ones
 };
-/// Parts of format 1 that this version accepts and does not write yet; a warning says so.
+/// States for ParaView.
 struct SeriesOutput {
     std::uint32_t every = 10;
 };
@@ -122,6 +122,9 @@ LoadedExperiment load_experiment(const std::string& file, std::span<const std::s
 
 /// The same for a tree made by code. [setup]
 LoadedExperiment resolve_experiment(const config::ConfigNode& root, const PluginLoader& load_plugins);
+
+/// The input of a resolved configuration, which needs no plugin to be read; empty without one. Throws ConfigError. [setup]
+std::optional<Input> input_of(const config::ConfigNode& resolved);
 
 /// What `--print-config` prints and config.resolved.yaml holds.
 std::string resolved_text(const LoadedExperiment& loaded);

@@ -30,6 +30,7 @@ struct RunOutcome {
     std::vector<std::filesystem::path> surfaces;  ///< in result/
     std::vector<std::filesystem::path> volumes;
     std::filesystem::path picture;
+    std::filesystem::path report;  ///< empty where the experiment asks for none
     RunTotals totals;
     SurfaceMeasure surface;
     std::map<mesh::Label, SurfaceMeasure> label_surfaces;  ///< of surface_LABEL.*, where there are two labels above 0 or more

@@ -1,0 +1,51 @@
+// dsc report
+#include <dsc/base/error.hpp>
+#include <dsc/io/atomic_file.hpp>
+#include <dsc/run/report.hpp>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "commands.hpp"
+
+namespace dsc::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReportArguments {
+    std::vector<std::string> folders;
+    std::string output;
+};
+
+fs::path output_of(const ReportArguments& arguments) {
+    if (!arguments.output.empty()) return arguments.output;
+    return arguments.folders.size() == 1 ? fs::path(arguments.folders.front()) / "report.html" : fs::path("comparison.html");
+}
+
+int execute(const ReportArguments& arguments) {
+    const std::vector<fs::path> folders(arguments.folders.begin(), arguments.folders.end());
+    const fs::path output = output_of(arguments);
+    Workers workers(std::max(1U, std::thread::hardware_concurrency()));
+    const std::string page =
+        folders.size() == 1 ? run::report_html(folders.front(), &workers) : run::comparison_html(folders, &workers);
+    io::write_file(output, page);
+    std::cout << output.string() << "\n";
+    return 0;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Context& context) {
+    CLI::App* command = app.add_subcommand("report", "A page that shows a run, or compares several");
+    const auto arguments = std::make_shared<ReportArguments>();
+    command->add_option("DIR", arguments->folders, "Folders of finished runs")->required();
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "Page; default DIR/report.html, for several runs comparison.html in the current folder")
+        ->expected(1);
+    command->callback(
+        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+}
+
+}  // namespace dsc::app

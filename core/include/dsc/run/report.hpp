@@ -1,0 +1,19 @@
+#pragma once
+// The page that shows a run, and the one that compares several: a single file each, which needs no network.
+
+#include <dsc/base/workers.hpp>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace dsc::run {
+
+/// The HTML of a finished run, made from its folder alone and the cloud that its configuration names: the same bytes whenever
+/// it is asked for. A cloud that is gone is said to be missing. Throws IoError "report.no_run" for a folder without a finished
+/// run, "report.damaged", and what readers of its files throw. [setup]
+std::string report_html(const std::filesystem::path& run_folder, Workers* workers = nullptr);
+
+/// Several runs side by side. Throws the same. [setup]
+std::string comparison_html(std::span<const std::filesystem::path> run_folders, Workers* workers = nullptr);
+
+}  // namespace dsc::run

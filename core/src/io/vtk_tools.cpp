@@ -1,0 +1,75 @@
+#include "io/vtk_tools.hpp"
+
+#include <vtkDoubleArray.h>
+#include <vtkObjectFactory.h>
+
+#include "io/text.hpp"
+
+namespace dsc::io {
+
+/// Takes what VTK would print.
+class VtkMessages : public vtkOutputWindow {
+public:
+    static VtkMessages* New() { VTK_STANDARD_NEW_BODY(VtkMessages); }
+    void DisplayText(const char* text) override {
+        if (text != nullptr) text_ += text;
+    }
+    const std::string& text() const { return text_; }
+
+private:
+    std::string text_;
+};
+
+CaptureScope::CaptureScope()
+    : before_(vtkOutputWindow::GetInstance()),
+      verbosity_(vtkLogger::GetCurrentVerbosityCutoff()),
+      capture_(vtkSmartPointer<VtkMessages>::New()) {
+    vtkOutputWindow::SetInstance(capture_);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+}
+
+CaptureScope::~CaptureScope() {
+    vtkLogger::SetStderrVerbosity(verbosity_);
+    vtkOutputWindow::SetInstance(before_);
+}
+
+bool CaptureScope::quiet() const { return capture_->text().empty(); }
+
+std::string CaptureScope::cause() const {
+    Lines lines(capture_->text(), "");
+    for (std::string_view line; lines.next(line);) {
+        const std::size_t colon = line.find("): ");
+        if (colon != std::string_view::npos) return std::string(line.substr(colon + 3));
+    }
+    return "it is not a readable file of VTK";
+}
+
+vtkSmartPointer<vtkPoints> make_points(const std::vector<Vec3>& points) {
+    vtkNew<vtkDoubleArray> coordinates;
+    coordinates->SetNumberOfComponents(3);
+    coordinates->SetNumberOfTuples(static_cast<vtkIdType>(points.size()));
+    double* to = coordinates->GetPointer(0);
+    for (const Vec3& p : points) to = std::copy(p.data(), p.data() + 3, to);
+    auto out = vtkSmartPointer<vtkPoints>::New();
+    out->SetDataTypeToDouble();
+    out->SetData(coordinates);
+    return out;
+}
+
+std::vector<Vec3> points_of(vtkPointSet& data, std::string_view file) {
+    std::vector<Vec3> out;
+    const vtkIdType count = data.GetNumberOfPoints();
+    out.reserve(static_cast<std::size_t>(count));
+    for (vtkIdType i = 0; i < count; ++i) {
+        Vec3 p;
+        data.GetPoints()->GetPoint(i, p.data());
+        if (!p.allFinite()) {
+            fail("io.not_finite", {file, 0}, "point " + std::to_string(i) + " is NaN or infinite",
+                 "export the file again");
+        }
+        out.push_back(p);
+    }
+    return out;
+}
+
+}  // namespace dsc::io

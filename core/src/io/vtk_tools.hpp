@@ -1,0 +1,72 @@
+#pragma once
+// What the VTK formats share: arrays in VTK's form and back, and VTK's messages, which it would print.
+
+#include <vtkCellArray.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkOutputWindow.h>
+#include <vtkPointSet.h>
+#include <vtkPoints.h>
+#include <vtkSmartPointer.h>
+#include <vtkTypeInt64Array.h>
+
+#include <algorithm>
+#include <dsc/geometry/vec.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dsc::io {
+
+class VtkMessages;
+
+/// While it lives, VTK's messages come here and not to the terminal.
+class CaptureScope {
+public:
+    CaptureScope();
+    ~CaptureScope();
+    CaptureScope(const CaptureScope&) = delete;
+    CaptureScope& operator=(const CaptureScope&) = delete;
+
+    bool quiet() const;
+    /// The first line of VTK's messages that says something, without its object and file names.
+    std::string cause() const;
+
+private:
+    vtkSmartPointer<vtkOutputWindow> before_;
+    vtkLogger::Verbosity verbosity_;
+    vtkSmartPointer<VtkMessages> capture_;
+};
+
+template <class Array, class Value>
+vtkSmartPointer<Array> make_array(const char* name, const std::vector<Value>& values) {
+    auto array = vtkSmartPointer<Array>::New();
+    if (name != nullptr) array->SetName(name);
+    array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+    std::copy(values.begin(), values.end(), array->GetPointer(0));
+    return array;
+}
+
+/// Doubles, every bit kept.
+vtkSmartPointer<vtkPoints> make_points(const std::vector<Vec3>& points);
+
+/// Cells of N corners each.
+template <class Corners>
+vtkSmartPointer<vtkCellArray> make_cells(const std::vector<Corners>& cells) {
+    constexpr std::size_t size = std::tuple_size_v<Corners>;
+    vtkNew<vtkTypeInt64Array> offsets, corners;
+    offsets->SetNumberOfTuples(static_cast<vtkIdType>(cells.size() + 1));
+    corners->SetNumberOfTuples(static_cast<vtkIdType>(size * cells.size()));
+    vtkTypeInt64* offset = offsets->GetPointer(0);
+    vtkTypeInt64* corner = corners->GetPointer(0);
+    for (std::size_t i = 0; i <= cells.size(); ++i) *offset++ = static_cast<vtkTypeInt64>(size * i);
+    for (const Corners& cell : cells) corner = std::copy(cell.begin(), cell.end(), corner);
+    auto out = vtkSmartPointer<vtkCellArray>::New();
+    out->SetData(offsets, corners);
+    return out;
+}
+
+/// Throws IoError "io.not_finite" for a point that is NaN or infinite.
+std::vector<Vec3> points_of(vtkPointSet& data, std::string_view file);
+
+}  // namespace dsc::io

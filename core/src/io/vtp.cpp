@@ -1,0 +1,189 @@
+// VTK polygons, triangles only, through VTK's own XML reader and writer; and the .pvd index, a few lines.
+#include <dsc/base/error.hpp>
+#include <dsc/io/atomic_file.hpp>
+#include <dsc/io/series.hpp>
+#include <dsc/surface/measure.hpp>
+
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include "io/text.hpp"
+#include "io/vtk_tools.hpp"
+#include "io/vtu_check.hpp"
+
+namespace dsc::io {
+namespace {
+
+void require_size(std::size_t count, std::size_t expected, const std::string& array) {
+    if (count == expected) return;
+    throw GeometryError("surface.size", "surface: array " + in_quotes(array) + " has " + counted(count, "value") + " for " +
+                                            std::to_string(expected) + "; give one for each");
+}
+
+void check_arrays(const surface::TriangleMesh& mesh, const SurfaceData& data) {
+    for (const DataArray& a : data.cells) require_size(a.values.size(), mesh.faces.size(), a.name);
+    for (const DataArray& a : data.points) require_size(a.values.size(), mesh.points.size(), a.name);
+    for (const VectorArray& a : data.vectors) require_size(a.values.size(), mesh.points.size(), a.name);
+}
+
+vtkSmartPointer<vtkDoubleArray> make_vectors(const VectorArray& vectors) {
+    auto array = vtkSmartPointer<vtkDoubleArray>::New();
+    array->SetName(vectors.name.c_str());
+    array->SetNumberOfComponents(3);
+    array->SetNumberOfTuples(static_cast<vtkIdType>(vectors.values.size()));
+    double* to = array->GetPointer(0);
+    for (const Vec3& v : vectors.values) to = std::copy(v.data(), v.data() + 3, to);
+    return array;
+}
+
+std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& data, std::string_view file) {
+    vtkNew<vtkPolyData> polygons;
+    polygons->SetPoints(make_points(mesh.points));
+    polygons->SetPolys(make_cells(mesh.faces));
+    for (const DataArray& a : data.cells)
+        polygons->GetCellData()->AddArray(make_array<vtkDoubleArray>(a.name.c_str(), a.values));
+    for (const DataArray& a : data.points)
+        polygons->GetPointData()->AddArray(make_array<vtkDoubleArray>(a.name.c_str(), a.values));
+    for (const VectorArray& a : data.vectors) polygons->GetPointData()->AddArray(make_vectors(a));
+    CaptureScope capture;
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetInputData(polygons);
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToZLib();
+    writer->SetHeaderTypeToUInt64();
+    writer->WriteToOutputStringOn();
+    if (writer->Write() == 0 || writer->GetErrorCode() != 0 || !capture.quiet())
+        fail("io.write", {file, 0}, "VTK cannot write it: " + capture.cause(), "leave the series out");
+    return writer->GetOutputString();
+}
+
+/// VTK trusts offsets and indices of the file; we do not.
+void read_faces(vtkPolyData& polygons, surface::TriangleMesh& mesh, std::string_view file) {
+    const vtkIdType count = polygons.GetNumberOfPolys();
+    if (polygons.GetNumberOfCells() != count)
+        fail("io.cell_type", {file, 0}, "it holds points, lines or strips", "export the triangles alone");
+    if (count == 0) return;
+    vtkDataArray* offsets = polygons.GetPolys()->GetOffsetsArray();
+    vtkDataArray* corners = polygons.GetPolys()->GetConnectivityArray();
+    if (offsets->GetNumberOfValues() != count + 1) fail("io.truncated", {file, 0}, "offsets are missing", copy_again);
+    const vtkIdType size = corners->GetNumberOfValues();
+    for (vtkIdType f = 0; f < count; ++f) {
+        const auto begin = static_cast<vtkIdType>(offsets->GetTuple1(f)), end = static_cast<vtkIdType>(offsets->GetTuple1(f + 1));
+        if (begin < 0 || end - begin != 3 || end > size) {
+            fail("io.cell_type", {file, 0}, "polygon " + std::to_string(f) + " has no 3 corners", "export triangles");
+        }
+        std::array<std::uint32_t, 3> face{};
+        for (vtkIdType k = 0; k < 3; ++k) {
+            const double index = corners->GetTuple1(begin + k);
+            if (!(index >= 0.0) || index >= static_cast<double>(mesh.points.size())) {
+                fail("io.index", {file, 0},
+                     "polygon " + std::to_string(f) + " refers to a point that is not one of " +
+                         std::to_string(mesh.points.size()),
+                     "export the file again");
+            }
+            face[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(index);
+        }
+        mesh.faces.push_back(face);
+    }
+}
+
+/// The array's name and values where it holds floating-point numbers of `components`, one tuple an element.
+vtkDoubleArray* doubles(vtkFieldData& data, int index, int components, std::size_t elements) {
+    auto* array = vtkDoubleArray::SafeDownCast(data.GetAbstractArray(index));
+    const bool fits = array != nullptr && array->GetName() != nullptr && array->GetNumberOfComponents() == components &&
+                      array->GetNumberOfTuples() == static_cast<vtkIdType>(elements);
+    return fits ? array : nullptr;
+}
+
+void read_arrays(vtkFieldData& from, std::size_t elements, std::vector<DataArray>& out) {
+    for (int i = 0; i < from.GetNumberOfArrays(); ++i) {
+        vtkDoubleArray* array = doubles(from, i, 1, elements);
+        if (array == nullptr) continue;
+        out.push_back({array->GetName(), {array->GetPointer(0), array->GetPointer(0) + elements}});
+    }
+}
+
+void read_vectors(vtkFieldData& from, std::size_t elements, std::vector<VectorArray>& out) {
+    for (int i = 0; i < from.GetNumberOfArrays(); ++i) {
+        vtkDoubleArray* array = doubles(from, i, 3, elements);
+        if (array == nullptr) continue;
+        VectorArray& vectors = out.emplace_back(VectorArray{array->GetName(), std::vector<Vec3>(elements)});
+        for (std::size_t v = 0; v < elements; ++v) array->GetTuple(static_cast<vtkIdType>(v), vectors.values[v].data());
+    }
+}
+
+surface::TriangleMesh decode_checked(const std::string& content, std::string_view file, SurfaceData* data) {
+    CaptureScope capture;
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->ReadFromInputStringOn();
+    reader->SetInputString(with_point_data(content));
+    reader->Update();
+    if (reader->GetErrorCode() != 0 || !capture.quiet())
+        fail("io.syntax", {file, 0}, "VTK refuses it: " + capture.cause(), copy_again);
+    vtkPolyData* polygons = reader->GetOutput();
+    surface::TriangleMesh mesh;
+    mesh.points = points_of(*polygons, file);
+    read_faces(*polygons, mesh, file);
+    if (data == nullptr) return mesh;
+    read_arrays(*polygons->GetCellData(), mesh.faces.size(), data->cells);
+    read_arrays(*polygons->GetPointData(), mesh.points.size(), data->points);
+    read_vectors(*polygons->GetPointData(), mesh.points.size(), data->vectors);
+    return mesh;
+}
+
+/// Our own names need it least, but a .pvd is XML whatever it is told.
+std::string xml_text(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                out += c;
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+void write_vtp(const std::filesystem::path& file, const surface::TriangleMesh& mesh, const SurfaceData& data) {
+    surface::require_sound(mesh);
+    check_arrays(mesh, data);
+    write_file(file, encode_vtp(mesh, data, file.string()));
+}
+
+surface::TriangleMesh read_vtp(const std::filesystem::path& file, SurfaceData* data) {
+    const std::string content = read_file(file), name = file.string();
+    check_vtu(content, name);
+    try {
+        return decode_checked(content, name, data);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        fail("io.count", {name, 0}, std::string("VTK cannot read it: ") + error.what(), copy_again);
+    }
+}
+
+void write_pvd(const std::filesystem::path& file, std::span<const SeriesEntry> entries) {
+    std::string text =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
+    for (const SeriesEntry& entry : entries) {
+        text += "    <DataSet timestep=\"" + std::to_string(entry.step) + "\" part=\"0\" file=\"" + xml_text(entry.file) + "\"/>\n";
+    }
+    write_file(file, text + "  </Collection>\n</VTKFile>\n");
+}
+
+}  // namespace dsc::io

@@ -1,0 +1,62 @@
+#include <dsc/base/error.hpp>
+#include <dsc/run/report.hpp>
+
+#include "report_files.hpp"
+#include "report_html.hpp"
+#include "report_page.hpp"
+#include "report_sections.hpp"
+
+namespace dsc::run {
+namespace {
+
+std::string file(std::string_view name) {
+    for (const ReportFile& known : report_files()) {
+        if (known.path == name) return std::string(known.text);
+    }
+    throw Error(ExitCode::internal, "report.template", "the program has no file " + std::string(name) + " for reports");
+}
+
+std::string subtitle(const RunRecord& record) {
+    const auto word = [&](const char* path) {
+        const nlohmann::ordered_json* value = find(record.provenance, path);
+        return value != nullptr && value->is_string() ? value->get<std::string>() : std::string("-");
+    };
+    return html::text("dsc " + word("versions.dsc") + ", seed " + std::to_string(record.resolved.at("seed").as_integer()) +
+                      ", finished " + word("finished"));
+}
+
+}  // namespace
+
+std::string report_page(const std::string& title, const std::string& subtitle, const std::string& body) {
+    return html::fill(file("page.html"), {{"title", html::text(title)},
+                                          {"subtitle", subtitle},
+                                          {"licence", file("three_licence.txt")},
+                                          {"style", file("style.css")},
+                                          {"body", body},
+                                          {"three", file("three.min.js")},
+                                          {"orbit", file("OrbitControls.js")},
+                                          {"cut", file("cut.js")},
+                                          {"viewer", file("viewer.js")}});
+}
+
+std::string guarded_report(const std::function<std::string()>& make) {
+    try {
+        return make();
+    } catch (const nlohmann::json::exception& error) {
+        throw IoError("report.damaged", std::string("a JSON file of the run does not hold what a run writes: ") + error.what() +
+                                            "; run the experiment again");
+    }
+}
+
+std::string report_html(const std::filesystem::path& run_folder, Workers* workers) {
+    return guarded_report([&] {
+        const RunRecord record = read_record(run_folder);
+        const Scene scene = make_scene(record, {}, workers);
+        const std::string body = headline_section(record) + warnings_section(record) + viewer_section(record, scene) +
+                                 thesis_section(record) + plots_section(record, scene) + time_section(record) +
+                                 topology_section(record) + config_section(record) + provenance_section(record);
+        return report_page(record.name(), subtitle(record), body);
+    });
+}
+
+}  // namespace dsc::run

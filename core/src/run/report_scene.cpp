@@ -1,0 +1,287 @@
+#include "report_scene.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <dsc/base/error.hpp>
+#include <dsc/geometry/quality.hpp>
+#include <dsc/io/read.hpp>
+#include <dsc/io/series.hpp>
+#include <dsc/run/experiment.hpp>
+#include <dsc/run/input.hpp>
+#include <dsc/run/sha256.hpp>
+#include <dsc/surface/decimate.hpp>
+#include <dsc/surface/distance.hpp>
+#include <dsc/surface/measure.hpp>
+
+#include "report_html.hpp"
+#include "state_series.hpp"
+
+namespace dsc::run {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+template <class Integer>
+void append_little_endian(std::string& out, Integer value) {
+    for (std::size_t i = 0; i < sizeof(Integer); ++i) out += static_cast<char>((value >> (8 * i)) & 0xFFU);
+}
+
+/// Points as 16-bit numbers in their box.
+ordered_json pack_points(const std::vector<Vec3>& points) {
+    const Box3 box = bounding_box(points);
+    const Vec3 low = box.empty() ? Vec3(Vec3::Zero()) : box.low;
+    const Vec3 step = box.empty() ? Vec3(Vec3::Zero()) : Vec3(box.size() / 65535.0);
+    std::string bytes;
+    bytes.reserve(6 * points.size());
+    for (const Vec3& p : points) {
+        for (int k = 0; k < 3; ++k) {
+            const double at = step[k] > 0.0 ? std::round((p[k] - low[k]) / step[k]) : 0.0;
+            append_little_endian(bytes, static_cast<std::uint16_t>(std::clamp(at, 0.0, 65535.0)));
+        }
+    }
+    return {{"count", points.size()},
+            {"low", {low.x(), low.y(), low.z()}},
+            {"step", {step.x(), step.y(), step.z()}},
+            {"data", html::base64(bytes)}};
+}
+
+/// Indices in 16 bits where that is enough.
+template <class Corners>
+ordered_json pack_cells(const std::vector<Corners>& cells, std::size_t points) {
+    const bool wide = points > 65536;
+    std::string bytes;
+    for (const Corners& cell : cells) {
+        for (const std::uint32_t v : cell) {
+            if (wide) {
+                append_little_endian(bytes, v);
+            } else {
+                append_little_endian(bytes, static_cast<std::uint16_t>(v));
+            }
+        }
+    }
+    return {{"count", cells.size()}, {"wide", wide}, {"data", html::base64(bytes)}};
+}
+
+ordered_json pack_mesh(const surface::TriangleMesh& mesh) {
+    return {{"points", pack_points(mesh.points)}, {"faces", pack_cells(mesh.faces, mesh.points.size())}};
+}
+
+/// Numbers from 0 to `top` in 8 bits.
+std::string pack_levels(const std::vector<double>& values, double top) {
+    std::string bytes;
+    for (const double value : values) {
+        const double part = top > 0.0 ? std::clamp(value / top, 0.0, 1.0) : 0.0;
+        bytes += static_cast<char>(static_cast<unsigned char>(std::lround(255.0 * part)));
+    }
+    return html::base64(bytes);
+}
+
+double quantile(std::vector<double> values, double part) {
+    if (values.empty()) return 0.0;
+    const auto at = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + at, values.end());
+    return values[static_cast<std::size_t>(at)];
+}
+
+class SceneMaker {
+public:
+    SceneMaker(const RunRecord& record, const SceneLimits& limits, Workers* workers)
+        : record_(record), limits_(limits), workers_(workers) {}
+
+    Scene make() {
+        json_["name"] = record_.name();
+        json_["up"] = "y";
+        json_["units"] = "normalised units";
+        read_result();
+        json_["frames"] = ordered_json::array();
+        if (limits_.frames > 0) attempt("the steps on the way are not shown", [&] { add_frames(); });
+        if (!surface_.faces.empty()) {
+            attempt("the surface is not shown", [&] {
+                json_["frames"].push_back({{"label", "result"}, {"mesh", pack_mesh(thinned(surface_, limits_.faces, "the surface"))}});
+                scene_.empty = false;
+            });
+        }
+        scene_.empty = scene_.empty && json_["frames"].empty();
+        attempt("the cloud is not shown", [&] { add_cloud(); });
+        if (limits_.tets > 0) attempt("the cut is not shown", [&] { add_tets(); });
+        scene_.json = json_.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+        return std::move(scene_);
+    }
+
+private:
+    void note(const std::string& text) { scene_.notes.push_back(text); }
+
+    /// A page without one of its parts is better than none.
+    template <class Action>
+    void attempt(const std::string& otherwise, const Action& action) {
+        try {
+            action();
+        } catch (const Error& error) {
+            note(otherwise + ": " + error.what());
+        }
+    }
+
+    void read_result() {
+        const fs::path surface = result_file(record_.folder, "surface", {"obj", "ply", "off", "stl"});
+        if (!surface.empty()) attempt("the surface is not shown", [&] { surface_ = io::read_surface(surface); });
+        const fs::path volume = result_file(record_.folder, "volume", {"dsc", "vtu"});
+        if (volume.empty()) return;
+        attempt("the volume is not shown", [&] { volume_ = io::read_volume(volume); });
+        for (const auto& [a, b, c, d] : volume_.tets) {
+            const auto& p = volume_.points;
+            scene_.qualities.push_back(geometry::tet_quality(p[a], p[b], p[c], p[d]));
+        }
+    }
+
+    surface::TriangleMesh thinned(const surface::TriangleMesh& mesh, std::size_t faces, const std::string& what) {
+        if (mesh.faces.size() <= faces) return mesh;
+        try {
+            const surface::TriangleMesh few = surface::decimate(mesh, faces);
+            if (!what.empty())
+                note(what + " is drawn with " + html::integer(static_cast<double>(few.faces.size())) + " of its " +
+                     html::integer(static_cast<double>(mesh.faces.size())) + " triangles");
+            return few;
+        } catch (const GeometryError&) {
+            // Where three labels meet the interface is no manifold and cannot be thinned.
+            return mesh;
+        }
+    }
+
+    void add_frames() {
+        const std::vector<io::SeriesEntry> kept = kept_states(record_.folder, "surface");
+        const std::size_t count = std::min(kept.size(), limits_.frames);
+        const auto last = static_cast<std::uint64_t>(std::max(0.0, record_.number("steps")));
+        for (std::size_t i = 0; i < count; ++i) {
+            const io::SeriesEntry& entry = kept[count == kept.size() ? i : i * (kept.size() - 1) / std::max<std::size_t>(1, count - 1)];
+            // The state after the last step is the result, unless a refinement followed.
+            if (entry.step >= last && last > 0) continue;
+            const surface::TriangleMesh mesh = io::read_vtp(record_.folder / "series" / entry.file);
+            if (mesh.faces.empty()) continue;
+            json_["frames"].push_back({{"label", "step " + std::to_string(entry.step)},
+                                       {"mesh", pack_mesh(thinned(mesh, limits_.frame_faces, ""))}});
+        }
+    }
+
+    /// The cloud of the configuration, as the run saw it: filtered, in the input's coordinates.
+    void add_cloud() {
+        const std::optional<Input> input = input_of(record_.resolved);
+        if (!input) return;
+        if (input->cloud.sample) json_["up"] = "z";  // the built-in shapes stand along z
+        require_same_file(*input);
+        const config::ConfigNode* seed = record_.resolved.find("seed");
+        const LoadedInput loaded = load_input(*input, seed != nullptr ? static_cast<std::uint64_t>(seed->as_integer()) : 1);
+        std::vector<Vec3> points = loaded.cloud.points;
+        if (points.size() > limits_.points) {
+            note("of the cloud's " + html::integer(static_cast<double>(points.size())) + " points " +
+                 html::integer(static_cast<double>(limits_.points)) + " are drawn");
+            for (std::size_t i = 0; i < limits_.points; ++i) points[i] = points[i * points.size() / limits_.points];
+            points.resize(limits_.points);
+        }
+        ordered_json cloud = {{"points", pack_points(points)}};
+        if (!surface_.faces.empty()) {
+            scene_.distances = distances(points, loaded.target.transform().scale);
+            // A few points far away would leave all others in one colour.
+            const double top = quantile(scene_.distances, 0.99);
+            cloud["top"] = top;
+            cloud["distance"] = pack_levels(scene_.distances, top);
+        }
+        json_["cloud"] = std::move(cloud);
+        scene_.empty = false;
+    }
+
+    /// A report of yesterday's run must not show today's file.
+    void require_same_file(const Input& input) const {
+        const ordered_json* inputs = find(record_.provenance, "inputs");
+        if (!input.cloud.file || inputs == nullptr || !inputs->is_array()) return;
+        for (const ordered_json& known : *inputs) {
+            if (!known.is_object() || known.value("file", "") != *input.cloud.file) continue;
+            if (known.value("sha256", "") == sha256_of_file(*input.cloud.file)) return;
+            throw IoError("report.changed", *input.cloud.file, "", "is not the file that the run read",
+                          "bring it back to see the cloud");
+        }
+    }
+
+    std::vector<double> distances(const std::vector<Vec3>& points, double scale) const {
+        const surface::TriangleTree tree(surface_);
+        std::vector<double> out(points.size());
+        for_blocks(workers_, points.size(), 256, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) out[i] = scale * tree.nearest(points[i]).distance;
+        });
+        return out;
+    }
+
+    /// Tets round the surface: all that are not outside, and those outside whose centre is near its box.
+    std::vector<std::size_t> near_tets() const {
+        Box3 box = bounding_box(surface_.points);
+        const Vec3 margin = Vec3::Constant(0.12 * box.diagonal());
+        box.low -= margin;
+        box.high += margin;
+        std::vector<std::size_t> chosen;
+        for (std::size_t t = 0; t < volume_.tets.size(); ++t) {
+            Vec3 centre = Vec3::Zero();
+            for (const std::uint32_t v : volume_.tets[t]) centre += 0.25 * volume_.points[v];
+            if (volume_.labels[t] > 0 || box.contains(centre)) chosen.push_back(t);
+        }
+        return chosen;
+    }
+
+    void add_tets() {
+        if (volume_.tets.empty() || surface_.faces.empty()) return;
+        const std::vector<std::size_t> chosen = near_tets();
+        if (chosen.size() > limits_.tets) {
+            note("the cut is not shown: " + html::integer(static_cast<double>(chosen.size())) +
+                 " tets are too many for a page; ParaView cuts result/volume.vtu");
+            return;
+        }
+        constexpr std::uint32_t unused = 0xFFFFFFFFU;
+        std::vector<std::uint32_t> index(volume_.points.size(), unused);
+        std::vector<Vec3> points;
+        std::vector<std::array<std::uint32_t, 4>> tets;
+        std::string labels;
+        std::vector<double> qualities;
+        for (const std::size_t t : chosen) {
+            std::array<std::uint32_t, 4> tet = volume_.tets[t];
+            for (std::uint32_t& v : tet) {
+                if (index[v] == unused) {
+                    index[v] = static_cast<std::uint32_t>(points.size());
+                    points.push_back(volume_.points[v]);
+                }
+                v = index[v];
+            }
+            tets.push_back(tet);
+            labels += static_cast<char>(static_cast<unsigned char>(std::min<mesh::Label>(volume_.labels[t], 255)));
+            qualities.push_back(scene_.qualities[t]);
+        }
+        json_["tets"] = {{"points", pack_points(points)},
+                         {"cells", pack_cells(tets, points.size())},
+                         {"labels", html::base64(labels)},
+                         {"quality", pack_levels(qualities, 1.0)}};
+    }
+
+    const RunRecord& record_;
+    const SceneLimits& limits_;
+    Workers* workers_;
+    Scene scene_;
+    ordered_json json_;
+    surface::TriangleMesh surface_;
+    mesh::TetMesh volume_;
+};
+
+}  // namespace
+
+Scene make_scene(const RunRecord& record, const SceneLimits& limits, Workers* workers) {
+    return SceneMaker(record, limits, workers).make();
+}
+
+fs::path result_file(const fs::path& run_folder, const std::string& stem, const std::vector<std::string>& extensions) {
+    std::error_code error;
+    for (const std::string& extension : extensions) {
+        const fs::path file = run_folder / "result" / (stem + "." + extension);
+        if (fs::exists(file, error)) return file;
+    }
+    return {};
+}
+
+}  // namespace dsc::run
