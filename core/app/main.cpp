@@ -48,6 +48,7 @@ int run(int argc, char** argv) {
     dsc::app::add_convert(app, context);
     dsc::app::add_plugin(app, context);
     dsc::app::add_schema(app, context);
+    dsc::app::add_sweep(app, context);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {
