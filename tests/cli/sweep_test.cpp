@@ -87,7 +87,7 @@ TEST_CASE("a sweep with faults: exit 3, all of them, and nothing is written") {
     CHECK(expand.out.empty());
     CHECK(expand.err.find("a.yaml:3:16: error: unknown key 'prat' in velocity 'average'") != std::string::npos);
     CHECK(expand.err.find("did you mean 'part'?") != std::string::npos);
-    CHECK(expand.err.find("a.yaml:3:67: error: 'initial_mesh.cells' is -8") != std::string::npos);
+    CHECK(expand.err.find("a.yaml:3:67: error: 'initial_mesh.cells': -8 is below") != std::string::npos);
     CHECK(expand.err.find("2 errors; nothing was written") != std::string::npos);
     CHECK_FALSE(cli.exists("out"));
     cli.write("a.yaml", "sweep: 1\nbase: nowhere.yaml\nrepeat: 2\n");

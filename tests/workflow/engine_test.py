@@ -36,7 +36,7 @@ output: {surface: [obj], volume: [dsc]}
 SWEEP = """\
 sweep: 1
 base: base.yaml
-axes: [{grid: {velocity.part: {from: 0.1, to: 0.6, count: 6}, initial_mesh.cells: [16, 18]}}]
+axes: [{grid: {velocity.part: {from: 0.05, to: 0.3, count: 6}, initial_mesh.cells: [16, 18]}}]
 """
 
 

@@ -277,7 +277,7 @@ TEST_CASE("faults of points: all at once, each once, at the value in the sweep f
     const std::string three = bench.expand_fault(
         "axes: [{grid: {initial_mesh.cells: [6, 600, many], velocity.facter: [1, 2]}}]\n");
     CAPTURE(three);
-    CHECK(contains(three, "DIR/sweep.yaml:3:41: error: 'initial_mesh.cells' is 600, above the maximum 100"));
+    CHECK(contains(three, "DIR/sweep.yaml:3:41: error: 'initial_mesh.cells': 600 is above the maximum 100"));
     CHECK(contains(three, "DIR/sweep.yaml:3:46: error: 'initial_mesh.cells' must be an integer, not the string 'many'"));
     CHECK(contains(three, "DIR/sweep.yaml:3:52: error: unknown key 'facter' in velocity 'linear'"));
     CHECK(contains(three, "did you mean 'factor'?"));
