@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* base =
-    "dsc: 1\ninitial_mesh: {type: grid, cells: 6, shape: cube, half_width: 0.8}\nvelocity: {type: average, part: 0.5}\n"
+    "dsc: 1\ninitial_mesh: {type: grid, cells: 10, shape: cube, half_width: 0.8}\nvelocity: {type: average, part: 0.5}\n"
     "improvement: {type: dsc}\nschedule: [{steps: 2}]\noutput: {surface: [obj], volume: [dsc]}\n";
 
 std::vector<std::string> lines(const std::string& text) {
@@ -36,7 +36,7 @@ TEST_CASE("a sweep of 12 points: expand, run two of them, collect") {
     cli.write("base/cube.yaml", base);
     cli.write("a.yaml",
               "sweep: 1\nbase: base/cube.yaml\naxes:\n"
-              "  - grid: {velocity.part: [0.25, 0.5, 0.75], initial_mesh.cells: [6, 8]}\n"
+              "  - grid: {velocity.part: [0.25, 0.5, 0.75], initial_mesh.cells: [10, 12]}\n"
               "repeat: 2\n");
     const Result check = cli.dsc({"sweep", "expand", "a.yaml", "--check"});
     CHECK(check.code == 0);
@@ -50,7 +50,7 @@ TEST_CASE("a sweep of 12 points: expand, run two of them, collect") {
     const std::string table = cli.read("out/jobs.tsv");
     const std::vector<std::string> rows = lines(table);
     REQUIRE(rows.size() == 13);
-    CHECK(rows[1].find("\t{velocity.part: 0.25, initial_mesh.cells: 6, seed: 1}") != std::string::npos);
+    CHECK(rows[1].find("\t{velocity.part: 0.25, initial_mesh.cells: 10, seed: 1}") != std::string::npos);
     for (std::size_t i = 1; i < rows.size(); ++i)
         CHECK(cli.dsc({"run", "out/" + folder_of(rows[i]) + "/experiment.yaml", "--check"}).code == 0);
 
@@ -68,9 +68,9 @@ TEST_CASE("a sweep of 12 points: expand, run two of them, collect") {
     const std::vector<std::string> results = lines(cli.read("results.csv"));
     REQUIRE(results.size() == 13);
     CHECK(results[0].find("index,folder,status,ended,error,velocity.part,initial_mesh.cells,seed,steps,") == 0);
-    CHECK(results[1].find("0," + folder_of(rows[1]) + ",done,max_steps,,0.25,6,1,2,") == 0);
-    CHECK(results[6].find("5," + folder_of(rows[6]) + ",done,max_steps,,0.5,6,2,2,") == 0);
-    CHECK(results[2].find("1," + folder_of(rows[2]) + ",missing,,,0.25,6,2,,") == 0);
+    CHECK(results[1].find("0," + folder_of(rows[1]) + ",done,max_steps,,0.25,10,1,2,") == 0);
+    CHECK(results[6].find("5," + folder_of(rows[6]) + ",done,max_steps,,0.5,10,2,2,") == 0);
+    CHECK(results[2].find("1," + folder_of(rows[2]) + ",missing,,,0.25,10,2,,") == 0);
     for (const std::string& line : results)
         CHECK(std::count(line.begin(), line.end(), ',') == std::count(results[0].begin(), results[0].end(), ','));
     CHECK(cli.dsc({"sweep", "collect", "out"}).out == cli.read("results.csv"));
@@ -87,7 +87,7 @@ TEST_CASE("a sweep with faults: exit 3, all of them, and nothing is written") {
     CHECK(expand.out.empty());
     CHECK(expand.err.find("a.yaml:3:16: error: unknown key 'prat' in velocity 'average'") != std::string::npos);
     CHECK(expand.err.find("did you mean 'part'?") != std::string::npos);
-    CHECK(expand.err.find("a.yaml:3:67: error: 'initial_mesh.cells': -8 is below") != std::string::npos);
+    CHECK(expand.err.find("a.yaml:3:68: error: 'initial_mesh.cells': -8 is below") != std::string::npos);
     CHECK(expand.err.find("2 errors; nothing was written") != std::string::npos);
     CHECK_FALSE(cli.exists("out"));
     cli.write("a.yaml", "sweep: 1\nbase: nowhere.yaml\nrepeat: 2\n");

@@ -90,10 +90,16 @@ private:
     std::map<std::vector<std::string>, const config::StrategyLookup*> loaded_;
 };
 
-ConfigNode with_all(ConfigNode root, const ConfigNode& overrides) {
+/// The tree with all overrides that fit; the others are faults of the point, beside which the rest is judged.
+ConfigNode with_all(ConfigNode root, const ConfigNode& overrides, const SweepPoint& point, Faults& faults) {
     if (overrides.is_null()) return root;
-    for (const config::ConfigEntry& entry : overrides.entries())
-        root = config::with_value(root, entry.key, entry.value, entry.position);
+    for (const config::ConfigEntry& entry : overrides.entries()) {
+        try {
+            root = config::with_value(root, entry.key, entry.value, entry.position);
+        } catch (const ConfigError& error) {
+            faults.add(error, point);
+        }
+    }
     return root;
 }
 
@@ -104,7 +110,6 @@ std::vector<std::string> sweep_experiments(const Sweep& sweep, const PluginLoade
     ConfigNode base = config::load_yaml(sweep.base, options);
     if (base.is_map() && base.find("name") == nullptr)
         base = base.with("name", ConfigNode(fs::path(sweep.base).stem().string()));
-    base = with_all(base, sweep.set);
 
     Loader loader(load_plugins);
     const PluginLoader load_once = [&loader](const auto& paths) -> const config::StrategyLookup& { return loader(paths); };
@@ -113,7 +118,8 @@ std::vector<std::string> sweep_experiments(const Sweep& sweep, const PluginLoade
     std::vector<std::string> texts;
     for (const SweepPoint& point : sweep.points) {
         try {
-            const LoadedExperiment loaded = resolve_experiment(with_all(base, point.overrides), load_once);
+            const ConfigNode root = with_all(with_all(base, sweep.set, point, faults), point.overrides, point, faults);
+            const LoadedExperiment loaded = resolve_experiment(root, load_once);
             make_strategies(loaded.experiment, catalogue);
             if (read.insert(input_files(loaded, catalogue)).second) config_hash(loaded, catalogue);
             texts.push_back("# Point " + point.name + " of a sweep: " + config::flow_text(point.overrides) + "\n" +

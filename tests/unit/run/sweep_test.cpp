@@ -171,11 +171,11 @@ TEST_CASE("faults of a sweep file, all at once, with their places") {
         "  - zip: {initial_mesh.cells: [6, 7], initial_mesh.half: [0.5, 0.6, 0.7]}\n"
         "  - random: {ranges: {name: {from: 2, to: 1}, x: {from: 0, to: 1, scale: log}, y: {to: 1, size: 2}}}\n");
     for (const char* part :
-         {":4:28: error: the values of 'velocity.factor' must be a list", ":4:39: error: 'seed' has no values",
-          ":5:57: error: 'initial_mesh.half' has 3 values and 'initial_mesh.cells' has 2",
+         {":4:29: error: the values of 'velocity.factor' must be a list", ":4:40: error: 'seed' has no values",
+          ":5:58: error: 'initial_mesh.half' has 3 values and 'initial_mesh.cells' has 2",
           "the range of 'name': 'to' must be above 'from'",
           "the range of 'x': 'from' must be above 0 on a logarithmic scale",
-          "unknown key 'size' in the range of 'y'", "'from' is missing in the range of 'y'", "7 errors"}) {
+          "unknown key 'size' in the range of 'y'", "y.from' is missing in the range of 'y'", "7 errors"}) {
         CAPTURE(several);
         CHECK_MESSAGE(contains(several, part), part);
     }
@@ -271,14 +271,15 @@ TEST_CASE("faults of points: all at once, each once, at the value in the sweep f
     CAPTURE(message);
     CHECK(contains(message, "DIR/sweep.yaml:5:12: error: 'schedule' is a list of 1, it has no item '4'"));
     CHECK(contains(message, "in the point {initial_mesh.cells: 6, velocity.facter: 1, schedule.4.steps: 3} and 5 others"));
-    CHECK(contains(message, "1 error; nothing was written"));
+    CHECK(contains(message, "DIR/sweep.yaml:4:48: error: unknown key 'facter'"));
+    CHECK(contains(message, "4 errors; nothing was written"));
     CHECK_FALSE(std::filesystem::exists(bench.folder.path() / "out"));
 
     const std::string three = bench.expand_fault(
         "axes: [{grid: {initial_mesh.cells: [6, 600, many], velocity.facter: [1, 2]}}]\n");
     CAPTURE(three);
-    CHECK(contains(three, "DIR/sweep.yaml:3:41: error: 'initial_mesh.cells': 600 is above the maximum 100"));
-    CHECK(contains(three, "DIR/sweep.yaml:3:46: error: 'initial_mesh.cells' must be an integer, not the string 'many'"));
+    CHECK(contains(three, "DIR/sweep.yaml:3:40: error: 'initial_mesh.cells': 600 is above the maximum 100"));
+    CHECK(contains(three, "DIR/sweep.yaml:3:45: error: 'initial_mesh.cells' must be an integer, not the string 'many'"));
     CHECK(contains(three, "DIR/sweep.yaml:3:52: error: unknown key 'facter' in velocity 'linear'"));
     CHECK(contains(three, "did you mean 'factor'?"));
     CHECK(contains(three, "3 errors; nothing was written"));
