@@ -19,7 +19,7 @@ build_packages=(
     libspdlog-dev libssl-dev libvtk9-dev libyaml-cpp-dev nlohmann-json3-dev
 )
 test_packages=(doctest-dev libbenchmark-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-jsonschema python3-yaml)
-full_packages=(valgrind chromium chromium-driver snakemake slurm-wlm)
+full_packages=(valgrind chromium chromium-driver munge parallel slurm-wlm snakemake)
 
 say() { printf '%s\n' "$*" >&2; }
 

@@ -24,6 +24,7 @@ void add_convert(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
 void add_schema(CLI::App& app, Context& context);
 void add_plugin(CLI::App& app, Context& context);
+void add_sweep(CLI::App& app, Context& context);
 /// Below `dsc plugin`.
 void add_plugin_new(CLI::App& plugin, Context& context);
 void add_plugin_check(CLI::App& plugin, Context& context);

@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
     dsc::app::add_report(app, context);
     dsc::app::add_plugin(app, context);
     dsc::app::add_schema(app, context);
+    dsc::app::add_sweep(app, context);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {

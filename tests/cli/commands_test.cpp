@@ -35,6 +35,11 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
              {"report"},
              {"plugin"},
              {"plugin", "describe", "point_clod"},
+             {"sweep"},
+             {"sweep", "expand"},
+             {"sweep", "expand", "a.yaml"},
+             {"sweep", "collect"},
+             {"sweep", "collect", "nowhere"},
          }) {
         CAPTURE(wrong);
         const Result result = cli.dsc(wrong);

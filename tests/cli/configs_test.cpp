@@ -18,7 +18,8 @@ TEST_CASE("each experiment in configs/ passes --check and prints what reproduces
     cli.environment["DSC_DATA"] = (cli.folder() / "clouds").string();
     std::vector<fs::path> configs;
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(DSC_SOURCE_DIR) / "configs")) {
-        if (entry.path().extension() == ".yaml") configs.push_back(entry.path());
+        const bool sweep = entry.path().parent_path().filename() == "sweeps";
+        if (entry.path().extension() == ".yaml" && !sweep) configs.push_back(entry.path());
     }
     std::sort(configs.begin(), configs.end());
     CHECK(configs.size() >= 4);
@@ -37,4 +38,19 @@ TEST_CASE("each experiment in configs/ passes --check and prints what reproduces
         CHECK(cli.dsc({"run", "again.yaml", "--print-config"}).out == printed.out);
         CHECK_FALSE(cli.exists("runs"));
     }
+}
+
+TEST_CASE("each sweep in configs/sweeps passes --check, which writes nothing") {
+    const Cli cli;
+    std::size_t sweeps = 0;
+    for (const auto& entry : fs::directory_iterator(fs::path(DSC_SOURCE_DIR) / "configs/sweeps")) {
+        CAPTURE(entry.path());
+        const Result check = cli.dsc({"sweep", "expand", entry.path().string(), "--check"});
+        CHECK(check.code == 0);
+        CHECK(check.err.empty());
+        CHECK(check.out.find(": valid, ") != std::string::npos);
+        ++sweeps;
+    }
+    CHECK(sweeps >= 1);
+    CHECK(fs::is_empty(cli.folder()));
 }

@@ -30,6 +30,12 @@ class Install(unittest.TestCase):
                 self.assertTrue(strategy["file"].startswith(str(package.PREFIX)), strategy)
         self.assertTrue((package.PREFIX / "share/dsc/data/teapot.bpt").is_file())
 
+    def test_man_page_completion_and_workflow_are_there(self):
+        for file in ("share/man/man1/dsc.1", "share/bash-completion/completions/dsc", "share/dsc/workflow/Snakefile"):
+            self.assertTrue((package.PREFIX / file).is_file(), file)
+        point = package.PREFIX / "share/dsc/workflow/run_point.sh"
+        self.assertIn("expected a folder of a point", package.run([point], expect=2))
+
     def test_headers_need_the_standard_library_and_eigen(self):
         headers = sorted((package.PREFIX / "include").rglob("*.hpp"))
         self.assertGreater(len(headers), 60)

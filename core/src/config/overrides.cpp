@@ -31,6 +31,51 @@ std::vector<std::string> split(std::string_view path) {
     }
 }
 
+/// Puts a value into a tree.
+class Placement {
+public:
+    /// `what` leads every message, `key` is the place of the path.
+    Placement(std::string what, SourcePosition key) : what_(std::move(what)), key_(std::move(key)) {}
+
+    [[noreturn]] void refuse(const std::string& message, const std::string& hint) const {
+        fail(code, key_, what_ + message, hint);
+    }
+
+    ConfigNode set(const ConfigNode& node, const std::vector<std::string>& parts, const ConfigNode& value,
+                   std::size_t depth = 0, const std::string& path = "") const {
+        if (depth == parts.size()) return value;
+        const std::string& part = parts[depth];
+        const std::string inner = join_path(path, part);
+        if (node.is_list()) {
+            const std::size_t index = item_index(node, part, path);
+            return node.with_item(index, set(node.items()[index], parts, value, depth + 1, inner));
+        }
+        if (!node.is_map() && !node.is_null()) {
+            refuse(
+                "'" + path + "' is " + std::string(type_name(node.type())) + ", it has no key '" + part + "'",
+                "");
+        }
+        const ConfigNode* old = node.find(part);
+        return node.with(part, set(old ? *old : ConfigNode().placed(key_), parts, value, depth + 1, inner), key_);
+    }
+
+private:
+    std::size_t item_index(const ConfigNode& list, const std::string& part, const std::string& path) const {
+        std::size_t index = 0;
+        const char* end = part.data() + part.size();
+        const auto parsed = std::from_chars(part.data(), end, index);
+        if (parsed.ec != std::errc() || parsed.ptr != end || index >= list.size()) {
+            refuse("'" + path + "' is a list of " + std::to_string(list.size()) + ", it has no item '" + part + "'",
+                   list.size() == 0 ? "write " + path + "=[...]"
+                                    : "items are numbered from 0 to " + std::to_string(list.size() - 1));
+        }
+        return index;
+    }
+
+    std::string what_;
+    SourcePosition key_;
+};
+
 /// One override on its way into the tree.
 class Override {
 public:
@@ -41,64 +86,30 @@ public:
 
     ConfigNode apply(const ConfigNode& root) {
         const std::string& text = source_->text;
+        const Placement placement("malformed override: ",
+                                  {source_, 1, 1, static_cast<int>(character_count(source_->text))});
         const std::size_t equals = text.find('=');
-        if (equals == std::string::npos) refuse("no '=' in it", "write path.to.key=value");
+        if (equals == std::string::npos) placement.refuse("no '=' in it", "write path.to.key=value");
         if (text[0] == '+' || text[0] == '~') {
-            refuse(std::string("it starts with '") + text[0] + "'",
-                   "write path.to.key=value; any key of the schema may be given");
+            placement.refuse(std::string("it starts with '") + text[0] + "'",
+                             "write path.to.key=value; any key of the schema may be given");
         }
-        parts_ = split(std::string_view(text).substr(0, equals));
-        if (parts_.empty()) {
-            refuse(quoted_text(text.substr(0, equals)) + " is no dotted path", "write path.to.key=value");
+        const std::vector<std::string> parts = split(std::string_view(text).substr(0, equals));
+        if (parts.empty()) {
+            placement.refuse(quoted_text(text.substr(0, equals)) + " is no dotted path", "write path.to.key=value");
         }
-        if (parts_.size() > options_.max_depth) refuse("its path is too long", "");
-        if (first_non_text(text)) refuse("it holds bytes that are no text", "");
-        if (text.find_first_of("\r\n") != std::string::npos) refuse("it has more than one line", "");
-        value_ = parse_value(source_, equals + 1, options_);
-        const bool lost = value_.is_null() && !is_null_text(text.substr(equals + 1));
-        if (lost) refuse("its value is a comment", "put a value with '#' in quotes");
-        return set(root, 0, "");
+        if (parts.size() > options_.max_depth) placement.refuse("its path is too long", "");
+        if (first_non_text(text)) placement.refuse("it holds bytes that are no text", "");
+        if (text.find_first_of("\r\n") != std::string::npos) placement.refuse("it has more than one line", "");
+        const ConfigNode value = parse_value(source_, equals + 1, options_);
+        const bool lost = value.is_null() && !is_null_text(text.substr(equals + 1));
+        if (lost) placement.refuse("its value is a comment", "put a value with '#' in quotes");
+        return placement.set(root, parts, value);
     }
 
 private:
-    [[noreturn]] void refuse(const std::string& message, const std::string& hint) const {
-        fail(code, position(), "malformed override: " + message, hint);
-    }
-
-    SourcePosition position() const {
-        return {source_, 1, 1, static_cast<int>(character_count(source_->text))};
-    }
-
-    ConfigNode set(const ConfigNode& node, std::size_t depth, const std::string& path) const {
-        if (depth == parts_.size()) return value_;
-        const std::string& part = parts_[depth];
-        const std::string inner = join_path(path, part);
-        if (node.is_list()) {
-            std::size_t index = 0;
-            const char* end = part.data() + part.size();
-            const auto parsed = std::from_chars(part.data(), end, index);
-            if (parsed.ec != std::errc() || parsed.ptr != end || index >= node.size()) {
-                refuse("'" + path + "' is a list of " + std::to_string(node.size()) + ", it has no item '" +
-                           part + "'",
-                       node.size() == 0 ? "write " + path + "=[...]"
-                                        : "items are numbered from 0 to " + std::to_string(node.size() - 1));
-            }
-            return node.with_item(index, set(node.items()[index], depth + 1, inner));
-        }
-        if (!node.is_map() && !node.is_null()) {
-            refuse(
-                "'" + path + "' is " + std::string(type_name(node.type())) + ", it has no key '" + part + "'",
-                "");
-        }
-        const ConfigNode* old = node.find(part);
-        return node.with(part, set(old ? *old : ConfigNode().placed(position()), depth + 1, inner),
-                         position());
-    }
-
     std::shared_ptr<const SourceText> source_;
     const YamlOptions& options_;
-    std::vector<std::string> parts_;
-    ConfigNode value_;
 };
 
 }  // namespace
@@ -123,6 +134,15 @@ ConfigNode apply_overrides(const ConfigNode& root, std::span<const std::string> 
             code, faults + std::to_string(count) + (count == 1 ? " error" : " errors") + "; nothing was run");
     }
     return tree;
+}
+
+ConfigNode with_value(const ConfigNode& root, const std::string& path, const ConfigNode& value,
+                      const SourcePosition& key) {
+    const Placement placement("", key);
+    const std::vector<std::string> parts = split(path);
+    if (parts.empty()) placement.refuse(quoted_text(path) + " is no dotted path", "write path.to.key: value");
+    if (parts.size() > YamlOptions{}.max_depth) placement.refuse("its path is too long", "");
+    return placement.set(root, parts, value);
 }
 
 }  // namespace dsc::config

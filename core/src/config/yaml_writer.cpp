@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <dsc/base/error.hpp>
+#include <dsc/config/overrides.hpp>
 #include <dsc/config/yaml.hpp>
 #include <string>
 
@@ -160,6 +161,19 @@ std::string real_text(double value) {
     std::string text(buffer.data(), result.ptr);
     if (fixed && text.find('.') == std::string::npos) text += ".0";
     return text;
+}
+
+std::string flow_text(const ConfigNode& node) {
+    if (is_scalar(node)) return scalar_text(node);
+    std::string out;
+    if (node.is_list()) {
+        for (const ConfigNode& item : node.items()) out += (out.empty() ? "" : ", ") + flow_text(item);
+        return "[" + out + "]";
+    }
+    for (const ConfigEntry& entry : node.entries()) {
+        out += (out.empty() ? "" : ", ") + key_text(entry.key) + ": " + flow_text(entry.value);
+    }
+    return "{" + out + "}";
 }
 
 std::string to_yaml(const ConfigNode& node) {

@@ -204,7 +204,7 @@ def maps(fields, path):
 
 class Shipped(Judges):
     def test_every_config_is_right_for_both(self):
-        configs = sorted((ROOT / "configs").rglob("*.yaml"))
+        configs = sorted(c for c in (ROOT / "configs").rglob("*.yaml") if c.parent.name != "sweeps")
         self.assertGreater(len(configs), 10)
         for config in configs:
             with self.subTest(config=config.relative_to(ROOT).as_posix()):

@@ -8,6 +8,7 @@
 
 using dsc::config::ConfigNode;
 using test::parse;
+namespace config = dsc::config;
 
 namespace {
 
@@ -65,4 +66,38 @@ TEST_CASE("malformed overrides are all reported and all refused") {
     std::string deep = "a";
     for (int i = 0; i < 100000; ++i) deep += ".a";
     CHECK(test::code_of([&] { overridden("", {deep + "=1"}); }) == "config.override");
+}
+
+TEST_CASE("a value that stands in a file keeps its place, its key too") {
+    const ConfigNode sweep = parse("velocity.alpha: 0.3\nschedule.0.steps: 7\nstop.speed: 1\n");
+    ConfigNode root = parse("velocity: {type: point_cloud}\nschedule: [{steps: 5}]\n");
+    for (const config::ConfigEntry& entry : sweep.entries())
+        root = config::with_value(root, entry.key, entry.value, entry.position);
+    CHECK(root == parse("velocity: {type: point_cloud, alpha: 0.3}\nschedule: [{steps: 7}]\nstop: {speed: 1}\n"));
+    const config::ConfigEntry* alpha = root.at("velocity").find_entry("alpha");
+    REQUIRE(alpha != nullptr);
+    CHECK(alpha->position.describe() == "a.yaml:1:1");
+    CHECK(alpha->value.position().describe() == "a.yaml:1:17");
+    CHECK(alpha->value.path() == "velocity.alpha");
+
+    const auto fault = [&](const std::string& path) {
+        return test::error_of([&] { config::with_value(root, path, ConfigNode(1), sweep.entries()[1].position); });
+    };
+    CHECK(fault("schedule.4.steps").find("a.yaml:2:1: error: 'schedule' is a list of 1, it has no item '4'") == 0);
+    CHECK(fault("velocity.alpha.x").find("a.yaml:2:1: error: 'velocity.alpha' is a real number") == 0);
+    CHECK(fault("velocity..alpha").find("a.yaml:2:1: error: 'velocity..alpha' is no dotted path") == 0);
+}
+
+TEST_CASE("a value on one line reads back as an equal tree") {
+    for (const char* text :
+         {"1", "1.0", "-0.001", "true", "~", "plain", "'it''s, {odd}: #'", "\"tab\\t line\\n\"", "'$${HOME}'", "'0.5'", "[]", "{}",
+          "[1, [2.5, a], {b: [~]}]", "{a.b: 1, 'c d': {e: ['x, y']}}"}) {
+        const ConfigNode value = parse(std::string("a: ") + text).at("a");
+        const std::string flow = config::flow_text(value);
+        CAPTURE(flow);
+        CHECK(flow.find('\n') == std::string::npos);
+        const auto source = std::make_shared<const config::SourceText>(
+            config::SourceText{config::SourceText::Kind::command_line, "command line", "a=" + flow});
+        CHECK(config::parse_value(source, 2) == value);
+    }
 }

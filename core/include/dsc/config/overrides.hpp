@@ -15,4 +15,13 @@ namespace dsc::config {
 ConfigNode apply_overrides(const ConfigNode& root, std::span<const std::string> overrides,
                            const YamlOptions& options = {});
 
+/// The same for one value that stands in a file, as a sweep has them: `value` at the dotted `path`, which is written at
+/// `key`. Faults of the value are told at its own place. Throws ConfigError "config.override". [setup]
+ConfigNode with_value(const ConfigNode& root, const std::string& path, const ConfigNode& value,
+                      const SourcePosition& key);
+
+/// A value as it stands on the right of `key=`: one line, lists and maps in flow style. Reads back as an equal tree.
+/// Throws ConfigError like to_yaml().
+std::string flow_text(const ConfigNode& node);
+
 }  // namespace dsc::config

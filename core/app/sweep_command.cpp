@@ -1,0 +1,99 @@
+// dsc sweep expand | collect
+#include <dsc/base/error.hpp>
+#include <dsc/base/log.hpp>
+#include <dsc/io/atomic_file.hpp>
+#include <dsc/run/sweep.hpp>
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "plugins.hpp"
+
+namespace dsc::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExpandArguments {
+    std::string file;
+    std::string folder;
+    std::vector<std::string> plugins;
+    bool check = false;
+};
+
+struct CollectArguments {
+    std::string folder;
+    std::string output;
+};
+
+std::string points_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " point" : " points"); }
+
+int expand(const ExpandArguments& arguments) {
+    if (arguments.folder.empty() && !arguments.check)
+        throw UsageError("usage.output", "-o DIR is missing: the folder for the points; or --check to write nothing");
+    const run::Sweep sweep = run::load_sweep(arguments.file);
+    if (sweep.repeated > 0)
+        log(LogLevel::warning, arguments.file + ": " + points_text(sweep.repeated) + " left out, equal to earlier ones");
+    Plugins plugins(arguments.plugins);
+    const std::vector<std::string> experiments = run::sweep_experiments(sweep, plugins.loader(), plugins.host());
+    if (arguments.check) {
+        std::cout << arguments.file << ": valid, " << points_text(sweep.points.size()) << "\n";
+        return 0;
+    }
+    const run::Expansion done = run::expand_sweep(sweep, experiments, arguments.folder);
+    std::string text = points_text(sweep.points.size()) + ": " + std::to_string(done.added) + " new, " +
+                       std::to_string(done.kept) + " kept";
+    if (done.others > 0) {
+        text += "; the table has " + std::to_string(done.others) + " more, which the sweep does not name any longer";
+    }
+    log(LogLevel::info, text);
+    std::cout << (fs::path(arguments.folder) / "jobs.tsv").string() << "\n";
+    return 0;
+}
+
+int collect(const CollectArguments& arguments) {
+    run::SweepStates states;
+    const std::string table = run::collect_sweep(arguments.folder, states);
+    log(LogLevel::info, points_text(states.points) + ": " + std::to_string(states.done) + " done, " +
+                            std::to_string(states.failed) + " failed, " + std::to_string(states.unfinished) +
+                            " unfinished, " + std::to_string(states.missing) + " not started");
+    if (arguments.output.empty()) {
+        std::cout << table;
+    } else {
+        io::write_file(arguments.output, table);
+        std::cout << arguments.output << "\n";
+    }
+    return 0;
+}
+
+void add_expand(CLI::App& sweep, Context& context) {
+    CLI::App* command = sweep.add_subcommand("expand", "A folder for each point of a sweep, and a job table");
+    const auto arguments = std::make_shared<ExpandArguments>();
+    command->add_option("SWEEP", arguments->file, "Sweep, a YAML file")->required();
+    command->add_option("-o,--output", arguments->folder, "Folder; points that are in it already are kept");
+    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_flag("--check", arguments->check, "Only say whether all points are right");
+    command->callback([arguments, &context] { context.action = [arguments] { return expand(*arguments); }; });
+}
+
+void add_collect(CLI::App& sweep, Context& context) {
+    CLI::App* command =
+        sweep.add_subcommand("collect", "One CSV table: status, overrides and headline figures of every point");
+    const auto arguments = std::make_shared<CollectArguments>();
+    command->add_option("DIR", arguments->folder, "Folder that dsc sweep expand wrote")->required();
+    command->add_option("-o,--output", arguments->output, "File; default stdout");
+    command->callback([arguments, &context] { context.action = [arguments] { return collect(*arguments); }; });
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, Context& context) {
+    CLI::App* command = app.add_subcommand("sweep", "Many experiments for an engine: folders out of a file, a table out of folders");
+    command->require_subcommand(1);
+    add_expand(*command, context);
+    add_collect(*command, context);
+}
+
+}  // namespace dsc::app

@@ -1,0 +1,91 @@
+// From a sweep to folders: the points' first, the table that names them last.
+#include <dsc/base/error.hpp>
+#include <dsc/io/atomic_file.hpp>
+#include <dsc/run/run_folder.hpp>
+#include <dsc/run/sweep.hpp>
+#include <set>
+
+#include "sweep_table.hpp"
+
+namespace dsc::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) {
+        throw IoError("run.folder", folder.string(), "", "cannot be made: " + error.message(),
+                      "choose another folder with -o or make this one writable");
+    }
+}
+
+/// The table as it stands; an empty one is written first, so that a folder that an interrupted call left is known.
+std::vector<SweepJob> open_table(const fs::path& folder) {
+    std::error_code error;
+    if (fs::exists(table_file(folder), error)) return read_table(folder);
+    const bool file = fs::exists(folder, error) && !fs::is_directory(folder, error);
+    if (file || (fs::is_directory(folder, error) && !fs::is_empty(folder, error))) {
+        throw UsageError("sweep.folder", folder.string() + (file ? " is a file" : " is not empty and no sweep") +
+                                             "; nothing in it was changed; name another folder with -o or empty it");
+    }
+    make_folder(folder);
+    io::write_file(table_file(folder), table_text({}));
+    return {};
+}
+
+enum class Place { fresh, same, other };
+
+/// What stands where a point's experiment shall be.
+Place look(const fs::path& file, const std::string& text) {
+    std::error_code error;
+    if (!fs::exists(file, error)) return Place::fresh;
+    return io::read_file(file) == text ? Place::same : Place::other;
+}
+
+/// Points that were started must stay the experiments that they are.
+void require_unchanged(const Sweep& sweep, const std::vector<std::string>& experiments, const fs::path& folder) {
+    std::size_t count = 0;
+    std::string first;
+    for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+        const fs::path point = folder / point_folder(sweep.points[i].name);
+        if (!RunFolder::is_ours(point / "run") || look(point / "experiment.yaml", experiments[i]) != Place::other) continue;
+        if (count++ == 0) first = point.string();
+    }
+    if (count == 0) return;
+    throw UsageError("sweep.changed",
+                     std::to_string(count) + (count == 1 ? " point was" : " points were") + " started (" + first +
+                         (count == 1 ? "" : ", ...") +
+                         ") and would now be another experiment: the base, 'set' or this dsc has changed; nothing was "
+                         "written; expand into another folder with -o, or remove the folders of these points");
+}
+
+}  // namespace
+
+Expansion expand_sweep(const Sweep& sweep, const std::vector<std::string>& experiments, const fs::path& folder) {
+    std::vector<SweepJob> jobs = open_table(folder);
+    require_unchanged(sweep, experiments, folder);
+    std::set<std::string> known;
+    for (const SweepJob& job : jobs) known.insert(job.name);
+    Expansion expansion;
+    for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+        const SweepPoint& point = sweep.points[i];
+        const fs::path file = folder / point_folder(point.name) / "experiment.yaml";
+        if (look(file, experiments[i]) != Place::same) {
+            make_folder(file.parent_path());
+            io::write_file(file, experiments[i]);
+        }
+        if (known.insert(point.name).second) {
+            jobs.push_back({point.name, point.overrides});
+            ++expansion.added;
+        } else {
+            ++expansion.kept;
+        }
+    }
+    expansion.others = jobs.size() - sweep.points.size();
+    if (expansion.added > 0) io::write_file(table_file(folder), table_text(jobs));
+    return expansion;
+}
+
+}  // namespace dsc::run
