@@ -23,7 +23,7 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
              {"walk"},
              {"run"},
              {"run", "a.yaml", "--fast"},
-             {"run", "a.yaml", "--resume"},
+             {"run", "--resume"},
              {"run", "a.yaml", "--threads", "0"},
              {"run", "a.yaml", "--progress", "loud"},
              {"run", "a.yaml", "-v", "-q"},
