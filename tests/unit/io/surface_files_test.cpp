@@ -26,7 +26,8 @@ TriangleMesh read_text(const std::string& name, const std::string& content) {
 
 TEST_CASE("format table") {
     CHECK(surface_extensions() == ".obj, .ply, .off, .stl");
-    CHECK(volume_extensions() == ".vtu, .dsc");
+    CHECK(volume_extensions() == ".vtu, .dsc, .msh, .mesh");
+    CHECK(readable_volume_extensions() == ".vtu, .dsc");
     CHECK(find_format("a/b.OBJ")->name == "Wavefront OBJ");
     CHECK(find_format("x.vtu")->volume);
     CHECK(find_format("x.xyz") == nullptr);
