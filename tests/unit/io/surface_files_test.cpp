@@ -32,7 +32,7 @@ TEST_CASE("format table") {
     CHECK(find_format("x.vtu")->volume);
     CHECK(find_format("x.xyz") == nullptr);
     CHECK(find_format("obj") == nullptr);
-    CHECK(formats().size() == 6);
+    CHECK(formats().size() == 8);
 }
 
 TEST_CASE("obj, off and ply keep every bit") {
