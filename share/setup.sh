@@ -19,7 +19,7 @@ build_packages=(
     libspdlog-dev libssl-dev libvtk9-dev libyaml-cpp-dev nlohmann-json3-dev
 )
 test_packages=(doctest-dev libbenchmark-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-jsonschema python3-yaml)
-full_packages=(valgrind chromium chromium-driver munge parallel slurm-wlm snakemake)
+full_packages=(valgrind chromium chromium-driver munge parallel python3-meshio slurm-wlm snakemake)
 
 say() { printf '%s\n' "$*" >&2; }
 
@@ -128,7 +128,7 @@ run_cloud() {  # run_cloud CLOUD [options of dsc reconstruct]
     while IFS= read -r path; do
         case "${path,,}" in
             *.obj | *.ply | *.off | *.stl) surface=${surface:-$path} ;;
-            *.vtu | *.dsc) volume=${volume:-$path} ;;
+            *.vtu | *.dsc | *.msh | *.mesh) volume=${volume:-$path} ;;
         esac
         printf '%s\n' "$path"
     done <<<"$written"

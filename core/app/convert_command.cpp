@@ -1,6 +1,7 @@
 // dsc convert
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
+#include <dsc/cloud/read.hpp>
 #include <dsc/cloud/write.hpp>
 #include <dsc/io/formats.hpp>
 #include <dsc/io/write.hpp>
@@ -18,28 +19,35 @@ namespace {
 struct ConvertArguments {
     std::string input;
     std::string output;
+    std::vector<std::string> columns;
 };
 
 /// The points of a surface or a volume as a cloud.
 cloud::Cloud points_of(Content&& content) {
     if (content.cloud) return std::move(*content.cloud);
     cloud::Cloud cloud;
-    cloud.points = content.surface ? std::move(content.surface->points) : std::move(content.volume->points);
+    if (content.surface) {
+        cloud.points = std::move(content.surface->points);
+        cloud.colours = std::move(content.surface->colours);
+    } else {
+        cloud.points = std::move(content.volume->points);
+    }
     return cloud;
 }
 
 int execute(const ConvertArguments& arguments) {
     require_output(arguments.output, arguments.input);
     const io::Format* format = io::find_format(arguments.output);
-    const bool xyz = extension_of(arguments.output) == ".xyz";
-    if (format == nullptr && !xyz) {
+    const bool is_cloud = cloud::is_cloud_file(arguments.output);
+    if (format == nullptr && !is_cloud) {
         throw UsageError("usage.format", arguments.output + " has no extension that is written; use " +
                                              io::surface_extensions() + " for a surface, " +
                                              io::volume_extensions() +
-                                             " for a volume, .xyz, .obj, .ply for a cloud");
+                                             " for a volume, " + std::string(cloud::cloud_extensions()) +
+                                             " for a cloud");
     }
-    Content content = read_any(arguments.input);
-    if (xyz) {
+    Content content = read_any(arguments.input, arguments.columns);
+    if (format == nullptr) {
         cloud::write_cloud(arguments.output, points_of(std::move(content)));
     } else if (format->volume) {
         if (!content.volume) {
@@ -70,6 +78,7 @@ void add_convert(CLI::App& app, Context& context) {
     const auto arguments = std::make_shared<ConvertArguments>();
     command->add_option("IN", arguments->input, "Surface, volume or cloud")->required();
     command->add_option("OUT", arguments->output, "The extension decides")->required();
+    add_columns(*command, arguments->columns);
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

@@ -1,5 +1,6 @@
 #include "files.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <dsc/base/error.hpp>
@@ -19,16 +20,16 @@ std::string extension_of(const fs::path& file) {
     return extension;
 }
 
-Content read_any(const fs::path& file) {
+Content read_any(const fs::path& file, const std::vector<std::string>& columns) {
     const auto read_cloud = [&] {
         Content content;
         cloud::ReadReport report;
-        content.cloud = cloud::read_cloud(file, &report);
+        content.cloud = cloud::read_cloud(file, &report, {columns});
         content.dropped = report.dropped_non_finite;
         return content;
     };
     const io::Format* format = io::find_format(file);
-    if (format == nullptr) return read_cloud();
+    if (format == nullptr || !columns.empty()) return read_cloud();
     Content content;
     if (format->volume) {
         content.volume = io::read_volume(file);
@@ -42,6 +43,16 @@ Content read_any(const fs::path& file) {
         if (error.code() != "io.no_faces" || (extension != ".obj" && extension != ".ply")) throw;
     }
     return read_cloud();
+}
+
+void add_columns(CLI::App& command, std::vector<std::string>& columns) {
+    command
+        .add_option("--columns", columns,
+                    "Columns of a text cloud: X,Y,Z or X,Y,Z,RED,GREEN,BLUE, by their names in the header or by "
+                    "numbers from 1")
+        ->delimiter(',')
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 surface::TriangleMesh read_any_surface(const fs::path& path) {

@@ -7,6 +7,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace dsc::app {
 
@@ -18,8 +23,12 @@ struct Content {
     std::size_t dropped = 0;  ///< points of a cloud that were not finite
 };
 
-/// Reads a surface, a volume or a cloud. A surface format without faces is read as a cloud. Throws IoError.
-Content read_any(const std::filesystem::path& file);
+/// Reads a surface, a volume or a cloud. A surface format without faces is read as a cloud. `columns` are those of a text
+/// cloud (cloud::ReadOptions). Throws IoError.
+Content read_any(const std::filesystem::path& file, const std::vector<std::string>& columns = {});
+
+/// The option --columns of a command that reads a cloud.
+void add_columns(CLI::App& command, std::vector<std::string>& columns);
 
 /// The surface in `path`: a surface file, the label interface of a volume, or the result of a run folder.
 /// Throws IoError "io.no_result" for a folder without one, UsageError "file.no_surface" for a cloud.

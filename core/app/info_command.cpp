@@ -18,6 +18,7 @@ using nlohmann::ordered_json;
 
 struct InfoArguments {
     std::string file;
+    std::vector<std::string> columns;
     bool json = false;
     bool require_solid = false;
 };
@@ -101,6 +102,7 @@ ordered_json cloud_figures(const Content& content) {
         if (neighbours.size() > 1 && distance == 0.0) ++repeated;
     }
     return {{"points", points.size()},
+            {"coloured", !content.cloud->colours.empty()},
             {"dropped_not_finite", content.dropped},
             {"points_with_a_twin", repeated},
             {"mean_spacing", spacing / static_cast<double>(points.size())},
@@ -110,11 +112,12 @@ ordered_json cloud_figures(const Content& content) {
 
 int execute(const InfoArguments& arguments) {
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));
-    const Content content = read_any(arguments.file);
+    const Content content = read_any(arguments.file, arguments.columns);
     ordered_json figures = {{"file", arguments.file}};
     if (content.surface) {
         figures["kind"] = "surface";
         figures.update(surface_figures(run::measure(*content.surface, &workers)));
+        figures["coloured"] = !content.surface->colours.empty();
     } else if (content.volume) {
         figures["kind"] = "volume";
         figures.update(volume_figures(arguments.file, run::measure(*content.volume, &workers)));
@@ -138,6 +141,7 @@ void add_info(CLI::App& app, Context& context) {
     CLI::App* command = app.add_subcommand("info", "What a surface, a volume or a cloud holds");
     const auto arguments = std::make_shared<InfoArguments>();
     command->add_option("FILE", arguments->file, "Surface, volume or cloud")->required();
+    add_columns(*command, arguments->columns);
     command->add_flag("--json", arguments->json, "JSON instead of text");
     command->add_flag("--require-solid", arguments->require_solid, "Exit 5 unless it is a valid solid");
     command->callback(

@@ -80,6 +80,7 @@ ordered_json list_schema(const Field& field, ordered_json items) {
 }
 
 ordered_json string_item(const Field& field) {
+    if (field.has_tag("or_integers")) return {{"type", {"string", "integer"}}};
     if (field.choices.empty()) return {{"type", "string"}};
     Field item = field;
     item.optional = false;

@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 
 struct ReconstructArguments {
     std::string cloud;
+    std::vector<std::string> columns;
     std::vector<std::string> outputs;
     std::string detail = "medium";
     std::string keep_run;
@@ -88,6 +89,14 @@ fs::path source_of(const Target& target, const run::RunOutcome& outcome) {
     throw Error(ExitCode::internal, "reconstruct.format", "the run wrote no ." + target.format);
 }
 
+config::ConfigNode with_columns(const config::ConfigNode& root, const std::vector<std::string>& columns) {
+    if (columns.empty()) return root;
+    const config::ConfigNode& input = root.at("input");
+    const config::ConfigNode list =
+        config::ConfigNode::list(std::vector<config::ConfigNode>(columns.begin(), columns.end()));
+    return root.with("input", input.with("cloud", input.at("cloud").with("columns", list)));
+}
+
 int execute(const ReconstructArguments& arguments, const std::vector<std::string>& command) {
     start_log(arguments.terminal);
     if (!fs::exists(arguments.cloud)) {
@@ -96,7 +105,8 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     const std::vector<Target> list = targets(arguments);
     const run::Detail detail = run::detail_from_name(arguments.detail).value();
     config::ConfigNode root = run::derive_experiment(fs::absolute(arguments.cloud).string(),
-                                                     cloud::read_cloud(arguments.cloud), detail);
+                                                     cloud::read_cloud(arguments.cloud, nullptr, {arguments.columns}), detail);
+    root = with_columns(root, arguments.columns);
     const bool kept = !arguments.keep_run.empty();
     root = root.with("output",
                      config::ConfigNode::map({{"report", kept},
@@ -133,11 +143,11 @@ void add_reconstruct(CLI::App& app, Context& context) {
     const auto arguments = std::make_shared<ReconstructArguments>();
     command->add_option("CLOUD", arguments->cloud, "Point cloud: .obj .ply .pcd .xyz .txt .asc .pts .csv")
         ->required();
+    add_columns(*command, arguments->columns);
     command
         ->add_option("-o,--output", arguments->outputs,
-                     "Output, may repeat; the extension decides: .obj .ply .off .stl surface, .vtu .dsc "
-                     "volume. Default "
-                     "STEM_surface.ply and STEM_volume.vtu in the current folder")
+                     "Output, may repeat; the extension decides: .obj .ply .off .stl surface, .vtu .dsc .msh "
+                     ".mesh volume. Default STEM_surface.ply and STEM_volume.vtu in the current folder")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option("--detail", arguments->detail, "low, medium or high")

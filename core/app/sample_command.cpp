@@ -45,7 +45,7 @@ void add_sample(CLI::App& app, Context& context) {
     const auto arguments = std::make_shared<SampleArguments>();
     command->add_option("SHAPE", arguments->shape, "teapot, sphere, torus or box_tunnel")->required();
     command->add_option("-n", arguments->n, "Number of points")->required()->check(CLI::Range(1, 100000000));
-    command->add_option("-o,--output", arguments->output, "Cloud: .xyz, .obj or .ply")->required();
+    command->add_option("-o,--output", arguments->output, "Cloud: .obj .ply .pcd .xyz .txt .asc .pts .csv")->required();
     command->add_option("--noise", arguments->noise, "Standard deviation of the noise, in diagonals")
         ->check(CLI::Range(0.0, 1.0));
     command->add_option("--outliers", arguments->outliers, "Part of the points that lie anywhere in the box")

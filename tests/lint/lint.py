@@ -248,10 +248,33 @@ def linked_pages(tree):
                     yield path, number, f"{target} does not exist"
 
 
+def error_codes(tree):
+    """Every code of an error is in share/doc/errors.md, and no other."""
+    code = re.compile(r'"([a-z][a-z0-9_]*\.[a-z][a-z0-9_]*)"')
+    thrown = re.compile(r"(?:Error|fail|refuse|error|warning|fault_of)\s*\(|\bcode\s*=")
+    file = re.compile(r".*\.(?:bpt|cpp|csv|dsc|hpp|html|json|jsonl|md|obj|off|ply|png|stl|vtu)")
+    page = "share/doc/errors.md"
+    known = {c: n for n, line in enumerate(tree.files.get(page, []), 1) for c in re.findall(r"^\| `([a-z0-9_]+\.[a-z0-9_]+)`", line)}
+    written = set()
+    for path, lines in tree.files.items():
+        if not path.startswith(("core/", "plugins/", "strategies/")) or not path.endswith((".cpp", ".hpp")) or is_test(path):
+            continue
+        text = "\n".join(line.split("//")[0] for line in lines)
+        for match in code.finditer(text):
+            statement = text[max(text.rfind(end, 0, match.start()) for end in ";{}") + 1:match.start()]
+            if not thrown.search(statement) or file.fullmatch(match[1]):
+                continue
+            written.add(match[1])
+            if match[1] not in known:
+                yield path, text.count("\n", 0, match.start()) + 1, f"the code {match[1]} is not in {page}"
+    for name in sorted(known.keys() - written):
+        yield page, known[name], f"{name} is no error's code"
+
+
 RULES = [
     third_party_walls, core_direction, declared_direction, strategy_direction, plugin_direction, nobody_uses_the_app,
     banned_headers, libraries_do_not_print, header_guards, short_files, open_ends, machine_paths, top_level, readme_commands,
-    paper_keys, linked_pages,
+    paper_keys, linked_pages, error_codes,
 ]
 
 

@@ -20,6 +20,8 @@ CLEAN = {
     "plugins/host/library.cpp": "#include <dlfcn.h>\n#include <dsc/plugin/entry.hpp>\n",
     "strategies/velocity/normal/plugin.cpp": "#include \"strategy.hpp\"\n#include <dsc/hooks/velocity_field.hpp>\n",
     "strategies/velocity/normal/strategy_test.cpp": "#include <doctest/doctest.h>\n#include <dsc/kernel/deformer.hpp>\n",
+    "share/doc/errors.md": "| `io.known` | a code |\n",
+    "core/src/io/stl.cpp": "fail(cut ? \"io.known\" : \"io.known\", place); // fail(\"io.comment\")\nwrite(\"metrics.csv\");\n",
     "tests/unit/surface/judge_test.cpp": "#include <CGAL/Surface_mesh.h>\n",
 }
 
@@ -83,6 +85,12 @@ PLANTED = {
     "top_level": [("scripts/run.sh", "true")],
     "readme_commands": [("README.md", "share/setup.sh run"), ("README.md", "share/setup.sh test")],
     "paper_keys": [("core/src/mesh/adopt.cpp", "// after [Unknown2001]")],
+    "error_codes": [
+        ("core/src/io/read.cpp", "throw IoError(\"io.gone\", file);"),
+        ("plugins/host/src/scan.cpp", "faults[0] = fault_of(file,\n    \"plugin.gone\");"),
+        (NORMAL, "constexpr const char* code = \"strategy.gone\";"),
+        ("share/doc/errors.md", "| `io.known` | a code |\n| `io.gone` | nothing throws it |"),
+    ],
     "linked_pages": [("share/doc/page.md", "[gone](gone.md)"), ("README.md", "share/setup.sh run test ![x](share/x.png)")],
 }
 

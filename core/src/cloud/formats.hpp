@@ -1,10 +1,13 @@
 #pragma once
 // The readers behind read_cloud, one a format. Each throws IoError.
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <dsc/cloud/read.hpp>
 
@@ -16,7 +19,13 @@ struct FileCheck {
 };
 
 Cloud read_obj(const std::string& file, std::string_view text);
-Cloud read_xyz(const std::string& file, std::string_view text);
+Cloud read_table(const std::string& file, std::string_view text, const ReadOptions& options);
+
+/// Colours as they stand in a text, of which `largest_value` is full light, as bytes.
+std::vector<std::array<std::uint8_t, 3>> to_bytes(const std::vector<Vec3>& colours, double largest_value);
+
+/// A coordinate of a text. Throws "io.syntax", "io.non_finite" naming the line.
+double coordinate(const std::string& file, std::size_t line, std::string_view word);
 
 /// Prove that a file holds all that its header promises, so that PCL may be trusted with it: PCL allocates
 /// what a header asks for and its readers do not all notice a missing end.

@@ -103,6 +103,7 @@ Normalized normalize(const Cloud& cloud, double scale_target) {
     result.transform.scale = scale_target / (0.5 * box.size().maxCoeff());
     result.points.reserve(cloud.points.size());
     for (const Vec3& p : cloud.points) result.points.push_back(result.transform.apply(p));
+    result.colours = cloud.colours;
     return result;
 }
 
@@ -121,7 +122,7 @@ Normalized keep_coordinates(const Cloud& cloud, const Box3& box) {
                                 interval(bounding_box(cloud.points)) + ", the box is " + interval(box) +
                                 "; normalise the cloud (normalize: {scale: 0.9}) or scale it into the box");
     }
-    return {cloud.points, Transform{}};
+    return {cloud.points, Transform{}, cloud.colours};
 }
 
 }  // namespace dsc::cloud

@@ -37,27 +37,50 @@ std::string lower_extension(const std::filesystem::path& path) {
                   "accepted are " + std::string(accepted));
 }
 
+bool is_table(const std::string& extension) {
+    return extension == ".xyz" || extension == ".txt" || extension == ".asc" || extension == ".pts" ||
+           extension == ".csv";
+}
+
+void require_columns(const std::string& file, bool table, const ReadOptions& options) {
+    const std::size_t count = options.columns.size();
+    if (count == 0) return;
+    if (!table)
+        throw IoError("io.columns", file, "", "columns can be chosen in text clouds only",
+                      "leave the choice of columns out, or convert the cloud to .csv");
+    if (count != 3 && count != 6)
+        throw IoError("io.columns", file, "", counted(count, "column") + " chosen",
+                      "choose 3 (x, y, z) or 6 (x, y, z, red, green, blue)");
+}
+
 }  // namespace
 
-Cloud read_cloud(const std::filesystem::path& path, ReadReport* report) {
+std::string_view cloud_extensions() { return accepted; }
+
+bool is_cloud_file(const std::filesystem::path& path) {
+    const std::string extension = lower_extension(path);
+    return extension == ".obj" || extension == ".ply" || extension == ".pcd" || is_table(extension);
+}
+
+Cloud read_cloud(const std::filesystem::path& path, ReadReport* report, const ReadOptions& options) {
     const std::string extension = lower_extension(path);
     const bool pcd = extension == ".pcd";
     const bool ply = extension == ".ply";
     const bool obj = extension == ".obj";
-    const bool xyz = extension == ".xyz" || extension == ".txt" || extension == ".asc" ||
-                     extension == ".pts" || extension == ".csv";
-    if (!pcd && !ply && !obj && !xyz) refuse(path, extension);
+    const bool table = is_table(extension);
+    if (!pcd && !ply && !obj && !table) refuse(path, extension);
 
     const std::string file = path.string();
+    require_columns(file, table, options);
     ReadReport local;
     ReadReport& filled = report ? *report : local;
     filled = {};
     Cloud cloud;
-    if (obj || xyz) {
+    if (obj || table) {
         const std::string text = read_file(path);
-        cloud = obj ? read_obj(file, text) : read_xyz(file, text);
+        cloud = obj ? read_obj(file, text) : read_table(file, text, options);
         filled.points = cloud.points.size();
-        filled.format = obj ? "OBJ" : "XYZ";
+        filled.format = obj ? "OBJ" : extension == ".csv" ? "CSV" : "XYZ";
     } else {
         FileCheck check;
         {

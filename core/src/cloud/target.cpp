@@ -39,7 +39,9 @@ TargetCloud::TargetCloud(const Normalized& normalized)
     : search_(std::make_shared<const NearestSearch>(normalized.points)),
       spacings_(std::make_shared<Spacings>()),
       transform_(normalized.transform),
-      box_(bounding_box(search_->points())) {}
+      box_(bounding_box(search_->points())),
+      colours_(std::make_shared<const std::vector<Colour>>(
+          normalized.colours.size() == normalized.points.size() ? normalized.colours : std::vector<Colour>())) {}
 
 double TargetCloud::spacing(std::size_t index) const {
     std::call_once(spacings_->once, [this] {

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <dsc/base/error.hpp>
+#include <dsc/cloud/read.hpp>
 
 #include "text.hpp"
 
@@ -63,6 +64,45 @@ std::string xyz_text(const Cloud& cloud, bool coloured) {
     return text;
 }
 
+/// Comma-separated values under the names of the columns.
+std::string csv_text(const Cloud& cloud, bool coloured) {
+    std::string text = coloured ? "x,y,z,red,green,blue\n" : "x,y,z\n";
+    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            if (k > 0) text += ',';
+            append(text, cloud.points[i][k]);
+        }
+        if (coloured)
+            for (const std::uint8_t c : cloud.colours[i]) text.append(",").append(std::to_string(c));
+        text += '\n';
+    }
+    return text;
+}
+
+void append_raw(std::string& bytes, const Vec3& p) {
+    char raw[3 * sizeof(double)];
+    std::memcpy(raw, p.data(), sizeof raw);
+    bytes.append(raw, sizeof raw);
+}
+
+/// Binary doubles, colours packed as PCL does it: 0x00rrggbb in the four bytes of a "float".
+std::string pcd_bytes(const Cloud& cloud, bool coloured) {
+    const std::string count = std::to_string(cloud.points.size());
+    std::string bytes = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z";
+    bytes += coloured ? " rgb\nSIZE 8 8 8 4\nTYPE F F F F\nCOUNT 1 1 1 1" : "\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1";
+    bytes += "\nWIDTH " + count + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + count + "\nDATA binary\n";
+    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+        append_raw(bytes, cloud.points[i]);
+        if (!coloured) continue;
+        const auto& [red, green, blue] = cloud.colours[i];
+        const std::uint32_t packed = (std::uint32_t{red} << 16U) | (std::uint32_t{green} << 8U) | blue;
+        char raw[sizeof packed];
+        std::memcpy(raw, &packed, sizeof raw);
+        bytes.append(raw, sizeof raw);
+    }
+    return bytes;
+}
+
 std::string ply_bytes(const Cloud& cloud, bool coloured) {
     const bool little = std::endian::native == std::endian::little;
     std::string bytes = "ply\nformat binary_" + std::string(little ? "little" : "big") +
@@ -71,9 +111,7 @@ std::string ply_bytes(const Cloud& cloud, bool coloured) {
     if (coloured) bytes += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     bytes += "end_header\n";
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-        char raw[3 * sizeof(double)];
-        std::memcpy(raw, cloud.points[i].data(), sizeof raw);
-        bytes.append(raw, sizeof raw);
+        append_raw(bytes, cloud.points[i]);
         if (coloured)
             for (const std::uint8_t c : cloud.colours[i]) bytes += static_cast<char>(c);
     }
@@ -115,15 +153,19 @@ void write_cloud(const fs::path& path, const Cloud& cloud) {
     const bool coloured = !cloud.points.empty() && cloud.colours.size() == cloud.points.size();
     if (extension == ".obj")
         write_atomically(path, obj_text(cloud, coloured));
-    else if (extension == ".xyz")
+    else if (extension == ".xyz" || extension == ".txt" || extension == ".asc" || extension == ".pts")
         write_atomically(path, xyz_text(cloud, coloured));
     else if (extension == ".ply")
         write_atomically(path, ply_bytes(cloud, coloured));
+    else if (extension == ".csv")
+        write_atomically(path, csv_text(cloud, coloured));
+    else if (extension == ".pcd")
+        write_atomically(path, pcd_bytes(cloud, coloured));
     else
         throw IoError("io.format", path.string(), "",
                       extension.empty() ? "the file's name has no extension"
                                         : "clouds are not written as " + in_quotes(extension),
-                      "accepted are .xyz .obj .ply");
+                      "accepted are " + std::string(cloud_extensions()));
 }
 
 }  // namespace dsc::cloud

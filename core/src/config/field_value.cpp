@@ -52,6 +52,9 @@ public:
     }
 
     ConfigNode string(const ConfigNode& node, const std::string& path) {
+        if (node.is_integer() && field_.has_tag("or_integers")) {
+            return ConfigNode(std::to_string(node.as_integer())).placed(node.position()).with_path(path);
+        }
         if (!node.is_string()) {
             const bool scalar = !node.is_list() && !node.is_map() && !node.is_null();
             const bool any_text = scalar && field_.choices.empty();

@@ -22,6 +22,9 @@ std::string encode_off(const surface::TriangleMesh& mesh);
 std::string encode_ply(const surface::TriangleMesh& mesh);
 std::string encode_stl(const surface::TriangleMesh& mesh);
 std::string encode_dsc(const mesh::TetMesh& mesh);
+std::string encode_medit(const mesh::TetMesh& mesh);
+/// Throws GeometryError "volume.label" for a label below 0 or without a tag.
+std::string encode_msh(const mesh::TetMesh& mesh);
 /// Throws IoError "io.write" when VTK reports a failure.
 std::string encode_vtu(const mesh::TetMesh& mesh, const VolumeData& data, std::string_view file);
 

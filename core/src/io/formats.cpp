@@ -6,13 +6,15 @@
 namespace dsc::io {
 namespace {
 
-constexpr std::array<Format, 6> table = {{
+constexpr std::array<Format, 8> table = {{
     {".obj", "Wavefront OBJ", true, false},
     {".ply", "PLY", true, false},
     {".off", "Geomview OFF", true, false},
     {".stl", "STL", true, false},
     {".vtu", "VTK unstructured grid", false, true},
     {".dsc", "deformable simplicial complex", false, true},
+    {".msh", "Gmsh MSH 4.1", false, true, true},
+    {".mesh", "MEDIT mesh", false, true, true},
 }};
 
 template <class Predicate>
@@ -46,6 +48,10 @@ std::string surface_extensions() {
 
 std::string volume_extensions() {
     return list([](const Format& f) { return f.volume; });
+}
+
+std::string readable_volume_extensions() {
+    return list([](const Format& f) { return f.volume && !f.write_only; });
 }
 
 }  // namespace dsc::io

@@ -1,6 +1,7 @@
 // Wavefront OBJ: vertices and polygons; everything else that the format knows is skipped.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "io/codecs.hpp"
@@ -21,6 +22,22 @@ struct Reference {
     std::int64_t index;
 };
 
+/// Fractions or bytes, which only the largest number tells.
+std::vector<std::array<std::uint8_t, 3>> colours_in_bytes(const std::vector<Vec3>& colours) {
+    double largest = 0.0;
+    for (const Vec3& c : colours) largest = std::max(largest, c.maxCoeff());
+    const double scale = largest > 1.0 ? 1.0 : 255.0;
+    std::vector<std::array<std::uint8_t, 3>> bytes;
+    bytes.reserve(colours.size());
+    for (const Vec3& c : colours) {
+        const auto byte = [&](double value) {
+            return static_cast<std::uint8_t>(std::lround(std::clamp(value * scale, 0.0, 255.0)));
+        };
+        bytes.push_back({byte(c.x()), byte(c.y()), byte(c.z())});
+    }
+    return bytes;
+}
+
 class ObjReader {
 public:
     ObjReader(std::string_view content, std::string_view file) : lines_(content, file, true) {}
@@ -40,6 +57,7 @@ public:
             }
         }
         check_later_vertices();
+        if (colours_.size() == mesh_.points.size()) mesh_.colours = colours_in_bytes(colours_);
         return std::move(mesh_);
     }
 
@@ -62,6 +80,17 @@ private:
             fail("io.count", lines_.place(), "more than 4294967295 vertices", "split the file");
         }
         mesh_.points.push_back(p);
+        if (colours_.size() + 1 == mesh_.points.size()) colour(fields);
+    }
+
+    /// Three further numbers and no more are a colour; a single one is a weight. The first vertex without a colour
+    /// ends it: a surface has all colours or none.
+    void colour(Fields& fields) {
+        Vec3 rgb;
+        for (int k = 0; k < 3; ++k) {
+            if (!read_number(fields.next(), rgb[k])) return;
+        }
+        if (fields.next().empty()) colours_.push_back(rgb);
     }
 
     void face(Fields& fields) {
@@ -113,6 +142,7 @@ private:
     Lines lines_;
     surface::TriangleMesh mesh_;
     std::vector<std::uint32_t> polygon_;
+    std::vector<Vec3> colours_;     ///< of the vertices so far, as long as each had one
     std::vector<Reference> later_;  ///< corners that name a vertex which had not come yet
 };
 
@@ -125,11 +155,17 @@ surface::TriangleMesh decode_obj(std::string_view content, std::string_view file
 std::string encode_obj(const surface::TriangleMesh& mesh) {
     std::string out;
     out.reserve(60 * mesh.points.size() + 24 * mesh.faces.size());
-    for (const Vec3& p : mesh.points) {
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         out += 'v';
         for (int k = 0; k < 3; ++k) {
             out += ' ';
-            append_number(out, p[k]);
+            append_number(out, mesh.points[i][k]);
+        }
+        if (!mesh.colours.empty()) {
+            for (const std::uint8_t c : mesh.colours[i]) {
+                out += ' ';
+                append_number(out, c / 255.0);
+            }
         }
         out += '\n';
     }

@@ -176,15 +176,16 @@ private:
     }
 
     void read_vertices(const Element& element) {
-        std::vector<int> axes;
+        std::vector<int> axes;  // 0 to 2 a coordinate, 3 to 5 a colour, -1 anything else
         std::array<int, 3> seen{};
+        const bool coloured = has_colours(element);
         for (const Property& p : element.properties) {
             const int axis = p.name == "x" ? 0 : p.name == "y" ? 1 : p.name == "z" ? 2 : -1;
             if (axis >= 0 && p.count)
                 fail("io.syntax", header_place_, "coordinate " + in_quotes(p.name) + " is a list",
                      export_again);
             if (axis >= 0) ++seen[static_cast<std::size_t>(axis)];
-            axes.push_back(axis);
+            axes.push_back(coloured && axis < 0 ? channel(p) : axis);
         }
         if (seen != std::array<int, 3>{1, 1, 1}) {
             fail("io.syntax", header_place_, "element 'vertex' needs each of the properties x, y, z once",
@@ -193,14 +194,42 @@ private:
         mesh_.points.reserve(element.count);
         for (std::uint64_t i = 0; i < element.count; ++i) {
             Vec3 p;
+            std::array<std::uint8_t, 3> colour{};
             for (std::size_t k = 0; k < axes.size(); ++k) {
                 if (axes[k] < 0)
                     skip_property(element.properties[k]);
+                else if (axes[k] > 2)
+                    colour[static_cast<std::size_t>(axes[k] - 3)] = read_byte(element.properties[k].type);
                 else
                     p[axes[k]] = body_.real(element.properties[k].type);
             }
             mesh_.points.push_back(p);
+            if (coloured) mesh_.colours.push_back(colour);
         }
+    }
+
+    /// 3, 4 or 5 for red, green or blue as bytes, else -1: colours of another type are not read.
+    static int channel(const Property& p) {
+        if (p.count || p.type != Type::uint8) return -1;
+        return p.name == "red" ? 3 : p.name == "green" ? 4 : p.name == "blue" ? 5 : -1;
+    }
+
+    static bool has_colours(const Element& element) {
+        std::array<int, 3> seen{};
+        for (const Property& p : element.properties) {
+            if (const int k = channel(p); k > 0) ++seen[static_cast<std::size_t>(k - 3)];
+        }
+        return seen == std::array<int, 3>{1, 1, 1};
+    }
+
+    /// Text can hold any integer where the header promises a byte.
+    std::uint8_t read_byte(Type type) {
+        const std::int64_t value = body_.integer(type);
+        if (value < 0 || value > 255) {
+            fail("io.syntax", body_.place(), "colour " + std::to_string(value) + " is no byte, 0 to 255",
+                 export_again);
+        }
+        return static_cast<std::uint8_t>(value);
     }
 
     void read_faces(const Element& element) {
@@ -276,11 +305,14 @@ surface::TriangleMesh decode_ply(std::string_view content, std::string_view file
 std::string encode_ply(const surface::TriangleMesh& mesh) {
     std::string out =
         "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.points.size()) +
-        "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-        std::to_string(mesh.faces.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
-    out.reserve(out.size() + 24 * mesh.points.size() + 13 * mesh.faces.size());
-    for (const Vec3& p : mesh.points) {
-        for (int k = 0; k < 3; ++k) append_bytes(out, p[k]);
+        "\nproperty double x\nproperty double y\nproperty double z\n" +
+        (mesh.colours.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n") +
+        "element face " + std::to_string(mesh.faces.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+    out.reserve(out.size() + 27 * mesh.points.size() + 13 * mesh.faces.size());
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        for (int k = 0; k < 3; ++k) append_bytes(out, mesh.points[i][k]);
+        if (mesh.colours.empty()) continue;
+        for (const std::uint8_t c : mesh.colours[i]) append_bytes(out, c);
     }
     for (const auto& face : mesh.faces) {
         append_bytes(out, std::uint8_t{3});

@@ -46,7 +46,11 @@ surface::TriangleMesh read_surface(const std::filesystem::path& file) {
 mesh::TetMesh read_volume(const std::filesystem::path& file) {
     const std::string name = file.string();
     const Format* format = find_format(file);
-    if (format == nullptr || !format->volume) unknown_format(name, "volume", volume_extensions());
+    if (format == nullptr || !format->volume) unknown_format(name, "volume", readable_volume_extensions());
+    if (format->write_only) {
+        fail("io.write_only", {name, 0}, std::string(format->name) + " files are written here and not read",
+             "convert it with meshio to one of " + readable_volume_extensions() + ", as share/doc/formats.md shows");
+    }
     const std::string content = require_content(file);
     mesh::TetMesh mesh = format->extension == ".dsc" ? decode_dsc(content, name) : decode_vtu(content, name);
     if (mesh.tets.empty()) {

@@ -45,6 +45,12 @@ double parse_coordinate(std::string_view token, const Place& place) {
     return value;
 }
 
+bool read_number(std::string_view token, double& value) {
+    const std::string_view digits = without_plus(token);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    return error == std::errc{} && end == digits.data() + digits.size() && std::isfinite(value);
+}
+
 std::int64_t parse_integer(std::string_view token, const Place& place) {
     const std::string_view digits = without_plus(token);
     std::int64_t value = 0;

@@ -29,6 +29,9 @@ std::string in_quotes(std::string_view token);
 /// The whole token as a finite double. Throws "io.syntax" or "io.not_finite".
 double parse_coordinate(std::string_view token, const Place& place);
 
+/// Whether the whole token is a finite double, for numbers that a file may go without.
+bool read_number(std::string_view token, double& value);
+
 /// The whole token as an integer. Throws "io.syntax".
 std::int64_t parse_integer(std::string_view token, const Place& place);
 

@@ -68,11 +68,19 @@ void check_tets(const mesh::TetMesh& mesh, const std::string& file) {
                             "; orient the tets (adopt does) or use units in which they do not vanish");
 }
 
+void require_colours(const surface::TriangleMesh& mesh) {
+    if (mesh.colours.empty() || mesh.colours.size() == mesh.points.size()) return;
+    throw GeometryError("surface.colours", "surface: " + counted(mesh.colours.size(), "colour") + " for " +
+                                               counted(mesh.points.size(), "point") +
+                                               "; give one for each or none");
+}
+
 }  // namespace
 
 void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh) {
     const Format& format = require_format(file, &Format::surface, "surface", surface_extensions());
     surface::require_sound(mesh);
+    require_colours(mesh);
     write_file(file, format.extension == ".obj"   ? encode_obj(mesh)
                      : format.extension == ".ply" ? encode_ply(mesh)
                      : format.extension == ".off" ? encode_off(mesh)
@@ -84,7 +92,10 @@ void write_volume(const std::filesystem::path& file, const mesh::TetMesh& mesh, 
     check_arrays(mesh, data);
     check_points(mesh);
     check_tets(mesh, file.string());
-    write_file(file, format.extension == ".dsc" ? encode_dsc(mesh) : encode_vtu(mesh, data, file.string()));
+    write_file(file, format.extension == ".dsc"    ? encode_dsc(mesh)
+                     : format.extension == ".msh"  ? encode_msh(mesh)
+                     : format.extension == ".mesh" ? encode_medit(mesh)
+                                                   : encode_vtu(mesh, data, file.string()));
 }
 
 }  // namespace dsc::io

@@ -14,7 +14,7 @@ namespace dsc::mesh {
 namespace {
 
 [[noreturn]] void refuse(std::string_view name, const std::string& code, const std::string& cause, const std::string& remedy) {
-    throw GeometryError("mesh." + code, std::string(name) + ": " + cause + "; " + remedy);
+    throw GeometryError(code, std::string(name) + ": " + cause + "; " + remedy);
 }
 
 std::string point_text(const Vec3& p) {
@@ -27,20 +27,20 @@ std::string point_text(const Vec3& p) {
 }
 
 void check_arrays(const TetMesh& mesh, std::string_view name) {
-    if (mesh.tets.empty()) refuse(name, "empty", "the mesh has no tets", "a box filled with labelled tets is needed");
+    if (mesh.tets.empty()) refuse(name, "mesh.empty", "the mesh has no tets", "a box filled with labelled tets is needed");
     if (mesh.labels.size() != mesh.tets.size()) {
-        refuse(name, "labels", std::to_string(mesh.labels.size()) + " labels for " + std::to_string(mesh.tets.size()) + " tets",
+        refuse(name, "mesh.labels", std::to_string(mesh.labels.size()) + " labels for " + std::to_string(mesh.tets.size()) + " tets",
                "give one label a tet");
     }
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         if (!mesh.points[i].allFinite()) {
-            refuse(name, "not_finite", "vertex " + std::to_string(i) + " has a coordinate that is not finite", "mend the vertex");
+            refuse(name, "mesh.not_finite", "vertex " + std::to_string(i) + " has a coordinate that is not finite", "mend the vertex");
         }
     }
     for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
         for (const std::uint32_t v : mesh.tets[i]) {
             if (v < mesh.points.size()) continue;
-            refuse(name, "index", "tet " + std::to_string(i) + " uses vertex " + std::to_string(v) + " of " +
+            refuse(name, "mesh.index", "tet " + std::to_string(i) + " uses vertex " + std::to_string(v) + " of " +
                                       std::to_string(mesh.points.size()),
                    "indices count from 0");
         }
@@ -83,7 +83,7 @@ void orient(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string
         }
     }
     if (flat == 0) return;
-    refuse(name, "flat_tet",
+    refuse(name, "mesh.flat_tet",
            "tet " + std::to_string(first) + " at " + point_text(points[tets[first].v[0]]) + " has zero volume (" +
                std::to_string(flat) + " such in all)",
            "remove flat tets, or write the coordinates with more digits");
@@ -115,12 +115,12 @@ void join_faces(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::st
         return "tet " + std::to_string(fault.tet) + " at " + point_text(points[fault.vertex]);
     };
     if (crowded.count > 0) {
-        refuse(name, "crowded_face",
+        refuse(name, "mesh.crowded_face",
                face_text(crowded) + " has a face that two other tets have already (" + std::to_string(crowded.count) + " such in all)",
                "remove duplicate tets: some writers repeat the last line of the file");
     }
     if (same_side.count > 0) {
-        refuse(name, "same_side",
+        refuse(name, "mesh.same_side",
                face_text(same_side) + " lies on the same side of a face as its neighbour (" + std::to_string(same_side.count) +
                    " such in all)",
                "tets must not overlap");
@@ -135,7 +135,7 @@ void check_volume(const std::vector<Vec3>& points, const std::vector<Tet>& tets,
     if (std::abs(sum - box) <= 1e-9 * box) return;
     char text[96];
     std::snprintf(text, sizeof text, "the tets' volumes add up to %.12g, their bounding box has %.12g", sum, box);
-    refuse(name, "volume", text, "the tets must fill an axis-parallel box without gaps or overlaps");
+    refuse(name, "mesh.volume", text, "the tets must fill an axis-parallel box without gaps or overlaps");
 }
 
 void check_stars(const Complex& c, std::string_view name) {
@@ -147,7 +147,7 @@ void check_stars(const Complex& c, std::string_view name) {
     for (VertexId v = 0; v < c.vertex_slots(); ++v) {
         c.star(v, star);
         if (star.size() == degree[v]) continue;
-        refuse(name, "torn_star",
+        refuse(name, "mesh.torn_star",
                "the tets at vertex " + std::to_string(v) + " " + point_text(c.position(v)) + " are not joined through faces",
                "the mesh must be conforming");
     }

@@ -38,12 +38,22 @@ void declare_sample(config::ParamSchema<SampleInput>& s) {
 
 void declare_cloud(config::ParamSchema<CloudInput>& s) {
     s.file("file", &CloudInput::file)
-        .doc("Point cloud: .obj, .ply, .pcd, .xyz, .txt, .asc, .pts or .csv. Only positions are read.");
+        .doc(
+            "Point cloud: .obj, .ply, .pcd, .xyz, .txt, .asc, .pts or .csv. Positions are read, and colours for "
+            "the surface to carry.");
+    s.strings("columns", &CloudInput::columns)
+        .or_integers()
+        .size(0, 6)
+        .doc(
+            "Columns of a text cloud: x, y, z, or these and red, green, blue, by their names in the header or "
+            "by numbers from 1. Empty: the columns with these names, else the first three.");
     s.object("sample", &CloudInput::sample, declare_sample).doc("A cloud sampled from a built-in shape.");
     s.strategies("filters", &CloudInput::filters, "filter")
         .doc("Filters of the cloud, in the order in which they work.");
     s.check([](const CloudInput& p) { return p.file.has_value() != p.sample.has_value(); },
             "exactly one of 'file' and 'sample' must be given");
+    s.check([](const CloudInput& p) { return p.columns.empty() || (p.file && p.columns.size() % 3 == 0); },
+            "'columns' belongs to a 'file' and names 3 columns or 6");
 }
 
 void declare_normalize(config::ParamSchema<NormalizeInput>& s) {
@@ -102,7 +112,16 @@ void declare_output(config::ParamSchema<Output>& s) {
         .choices({"obj", "ply", "off", "stl"})
         .size(1, 4)
         .doc("Formats of the surface.");
-    s.strings("volume", &Output::volume).choices({"vtu", "dsc"}).size(1, 2).doc("Formats of the volume.");
+    s.strings("volume", &Output::volume)
+        .choices({"vtu", "dsc", "msh", "mesh"})
+        .size(1, 4)
+        .doc("Formats of the volume, vtu or dsc among them; msh is Gmsh's, mesh that of MEDIT.");
+    s.check(
+        [](const Output& p) {
+            return std::any_of(p.volume.begin(), p.volume.end(),
+                               [](const std::string& format) { return format == "vtu" || format == "dsc"; });
+        },
+        "'volume' needs vtu or dsc: the result is judged on the file as read back, and msh and mesh are only written");
     s.object("checkpoint", &Output::checkpoint, declare_checkpoint)
         .doc("States to resume from. Accepted, not written by this version.");
     s.object("series", &Output::series, declare_states)

@@ -137,7 +137,7 @@ cloud::Cloud read_points(const CloudInput& input, std::uint64_t seed, InputRepor
     }
     report.source = input.file.value();
     cloud::ReadReport read;
-    cloud::Cloud cloud = cloud::read_cloud(*input.file, &read);
+    cloud::Cloud cloud = cloud::read_cloud(*input.file, &read, {input.columns});
     report.format = read.format;
     report.points = read.points;
     report.dropped = read.dropped_non_finite;

@@ -1,14 +1,20 @@
+#include <pwd.h>
 #include <sys/resource.h>
 #include <sys/utsname.h>
+#include <unistd.h>
 
 #include <Eigen/Core>
 #include <array>
 #include <boost/version.hpp>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <ctime>
 #include <dsc/base/version.hpp>
 #include <dsc/plugin/fingerprint.hpp>
 #include <dsc/run/provenance.hpp>
 #include <dsc/run/sha256.hpp>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -28,11 +34,58 @@ std::string cpu_model() {
     return "unknown";
 }
 
+double memory_mb() {
+    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+/// What decides how fast a run is. The name of the host is nobody's business.
 ordered_json machine(unsigned threads) {
     utsname name{};
     uname(&name);
-    return {{"host", name.nodename},        {"system", name.sysname}, {"release", name.release},
-            {"architecture", name.machine}, {"cpu", cpu_model()},     {"threads", threads}};
+    return {{"system", name.sysname},
+            {"kernel", name.release},
+            {"architecture", name.machine},
+            {"cpu", cpu_model()},
+            {"cores", sysconf(_SC_NPROCESSORS_ONLN)},
+            {"memory_mb", std::floor(memory_mb())},
+            {"threads", threads}};
+}
+
+/// Times and memory so far, this process as a whole.
+ordered_json usage(double wall_seconds) {
+    const Usage so_far = process_usage();
+    return {{"wall_s", wall_seconds}, {"cpu_s", so_far.cpu_seconds}, {"peak_rss_mb", so_far.peak_rss_mb}};
+}
+
+/// The home folder by the environment, the same without symbolic links, and by the user's entry: their names tell the
+/// user's.
+std::vector<std::string> home_folders() {
+    std::vector<std::string> folders;
+    const auto add = [&](std::string folder) {
+        while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
+        folders.push_back(std::move(folder));
+    };
+    if (const char* const home = std::getenv("HOME"); home != nullptr) {
+        std::error_code error;
+        add(home);
+        add(std::filesystem::weakly_canonical(home, error).string());
+    }
+    if (const passwd* const entry = getpwuid(getuid()); entry != nullptr && entry->pw_dir != nullptr) add(entry->pw_dir);
+    return folders;
+}
+
+std::string without_homes(std::string text, const std::vector<std::string>& homes) {
+    for (const std::string& home : homes) text = without_home(std::move(text), home);
+    return text;
+}
+
+/// A file as it would be typed here: relative below the current folder, else below "~" or absolute.
+std::string shown(const std::filesystem::path& file, const std::vector<std::string>& homes) {
+    std::error_code error;
+    const std::filesystem::path here = std::filesystem::current_path(error);
+    const std::filesystem::path relative = error ? file : file.lexically_relative(here);
+    const bool below = !relative.empty() && *relative.begin() != "..";
+    return below ? relative.string() : without_homes(file.string(), homes);
 }
 
 ordered_json versions() {
@@ -69,29 +122,51 @@ Usage process_usage() {
     return {seconds(usage.ru_utime) + seconds(usage.ru_stime), static_cast<double>(usage.ru_maxrss) / 1024.0};
 }
 
+std::string without_home(std::string text, const std::string& home) {
+    if (home.size() < 2) return text;
+    for (std::size_t at = text.find(home); at != std::string::npos; at = text.find(home, at + 1)) {
+        // A whole folder's name: the home of ann is not that of anna, nor a folder of another place that ends like it.
+        const std::size_t end = at + home.size();
+        const auto part_of_name = [](char c) {
+            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
+        };
+        if (end < text.size() && text[end] != '/' && part_of_name(text[end])) continue;
+        if (at > 0 && part_of_name(text[at - 1])) continue;
+        text.replace(at, home.size(), "~");
+    }
+    return text;
+}
+
 std::string provenance_json(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
                             const std::string& hash, const std::vector<std::string>& command,
-                            unsigned threads, const std::string& started, const std::string& finished) {
+                            unsigned threads, const std::string& started, const std::string& finished,
+                            double wall_seconds) {
+    const std::vector<std::string> homes = home_folders();
     ordered_json plugins = ordered_json::array();
     for (const plugin::PluginInfo& plugin : catalogue.plugins()) {
         plugins.push_back({{"name", plugin.name},
                            {"version", plugin.version},
                            {"license", plugin.license},
-                           {"file", plugin.file.string()},
+                           {"file", shown(plugin.file, homes)},
                            {"sha256", sha256_of_file(plugin.file)},
                            {"fingerprint", plugin.fingerprint}});
     }
     ordered_json inputs = ordered_json::array();
     for (const std::string& file : input_files(loaded, catalogue)) {
-        inputs.push_back({{"file", file}, {"sha256", sha256_of_file(file)}});
+        inputs.push_back({{"file", shown(file, homes)},
+                          {"bytes", std::filesystem::file_size(file)},
+                          {"sha256", sha256_of_file(file)}});
     }
+    ordered_json typed = ordered_json::array();
+    for (const std::string& word : command) typed.push_back(without_homes(word, homes));
     const ordered_json root = {{"format", "dsc-provenance-1"},
                                {"name", loaded.experiment.name},
                                {"config_sha256", hash},
                                {"seed", loaded.experiment.seed},
-                               {"command", command},
+                               {"command", typed},
                                {"started", started},
                                {"finished", finished.empty() ? ordered_json() : ordered_json(finished)},
+                               {"usage", usage(wall_seconds)},
                                {"versions", versions()},
                                {"fingerprint", std::string(plugin::core_fingerprint())},
                                {"machine", machine(threads)},

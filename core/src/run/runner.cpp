@@ -12,6 +12,7 @@
 #include <dsc/surface/surface_view.hpp>
 
 #include "checkpoints.hpp"
+#include "colours.hpp"
 #include "run_log.hpp"
 #include "state_series.hpp"
 #include "stopwatch.hpp"
@@ -29,10 +30,11 @@ public:
         : folder_(folder), output_(output), workers_(workers) {}
 
     /// Where all vanished, a motion has come to its end, with a volume and no surface; a cloud has got no surface.
-    void write(const mesh::TetMesh& mesh, bool may_vanish, RunOutcome& outcome) const {
+    void write(const mesh::TetMesh& mesh, const cloud::TargetCloud* target, RunOutcome& outcome) const {
         folder_.open_staging();
-        const surface::TriangleMesh surface = surface::extract_interface(mesh);
-        if (surface.faces.empty() && !may_vanish) {
+        surface::TriangleMesh surface = surface::extract_interface(mesh);
+        if (target != nullptr) paint(surface, *target);
+        if (surface.faces.empty() && target != nullptr) {
             throw GeometryError(
                 "run.vanished",
                 "the surface vanished: no tet with a label above 0 is left, so there is no result; the "
@@ -45,7 +47,8 @@ public:
             outcome.surfaces.push_back(folder_.file("result") / ("surface." + extension));
         }
         for (const mesh::Label label : several_phases(mesh)) {
-            const surface::TriangleMesh phase = surface::extract_phase(mesh, label);
+            surface::TriangleMesh phase = surface::extract_phase(mesh, label);
+            if (target != nullptr) paint(phase, *target);
             for (const std::string& extension : output_.surface) {
                 io::write_surface(staged(label_stem(label), extension), phase);
                 outcome.surfaces.push_back(folder_.file("result") / (label_stem(label) + extension));
@@ -238,7 +241,7 @@ private:
         outcome.totals = driven.totals;
         const Stopwatch io_watch;
         const ResultFiles files(folder, experiment.output, workers_);
-        files.write(to_input(driven.mesh, to_normalised), target == nullptr, outcome);
+        files.write(to_input(driven.mesh, to_normalised), target, outcome);
         files.measure_files(outcome);
         require_valid(outcome);
         if (!outcome.surfaces.empty()) {
@@ -282,7 +285,7 @@ private:
 
     std::string provenance(const std::string& finished) const {
         return provenance_json(loaded_, catalogue_, state_.hash, options_.command, workers_.threads(),
-                               state_.started, finished);
+                               state_.started, finished, watch_.seconds());
     }
 
     static void report_input(const InputReport& report) {

@@ -11,7 +11,7 @@ namespace dsc::strategies::from_surface {
 namespace {
 
 [[noreturn]] void refuse(const std::string& file, const char* code, const std::string& cause, const std::string& remedy) {
-    throw GeometryError(std::string("surface.") + code, file + ": " + cause + "; " + remedy);
+    throw GeometryError(code, file + ": " + cause + "; " + remedy);
 }
 
 std::string place(const Vec3& p) {
@@ -56,20 +56,20 @@ surface::TriangleMesh require_solid(const surface::TriangleMesh& given, const st
                                     Workers* workers) {
     surface::TriangleMesh mesh = surface::weld(given);
     const surface::SurfaceReport report = surface::analyse(mesh);
-    if (report.faces == 0) refuse(file, "empty", "no face has three different corners", "export the surface again");
+    if (report.faces == 0) refuse(file, "surface.empty", "no face has three different corners", "export the surface again");
     if (report.boundary_edges > 0) {
-        refuse(file, "open",
+        refuse(file, "surface.open",
                "the surface is open: " + edges(report.boundary_edges) + " with one face, the first at " +
                    place(first_bad_edge(mesh)),
                "close its holes, or take its points as a cloud and reconstruct");
     }
     if (report.nonmanifold_edges > 0) {
-        refuse(file, "not_manifold",
+        refuse(file, "surface.not_manifold",
                edges(report.nonmanifold_edges) + " with more than two faces, the first at " + place(first_bad_edge(mesh)),
                "separate the parts that touch there");
     }
     if (report.misoriented_edges > 0) {
-        refuse(file, "misoriented",
+        refuse(file, "surface.misoriented",
                edges(report.misoriented_edges) + " whose faces look to opposite sides, the first at " +
                    place(first_bad_edge(mesh)),
                "orient all faces outwards");
@@ -77,7 +77,7 @@ surface::TriangleMesh require_solid(const surface::TriangleMesh& given, const st
     const surface::IntersectionReport crossed = surface::self_intersections(mesh, 1, workers);
     if (crossed.count > intersections) {
         const auto& first = mesh.faces[crossed.pairs.front()[0]];
-        refuse(file, "self_intersecting",
+        refuse(file, "surface.self_intersecting",
                std::to_string(crossed.count) + (crossed.count == 1 ? " pair" : " pairs") +
                    " of faces intersect, the first at " + place(mesh.points[first[0]]) + ", and " +
                    std::to_string(intersections) + " may",

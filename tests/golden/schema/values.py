@@ -56,7 +56,8 @@ class Values:
             return self.random.choice(field["choices"])
         if kind == "file":
             return self._file(field)
-        return self.random.choice(["text", "12", "true", "with: colon", "", "${DSC_TEST_TEXT}"])
+        numbers = [7] if "or_integers" in field.get("tags", []) else []
+        return self.random.choice(["text", "12", "true", "with: colon", "", "${DSC_TEST_TEXT}", *numbers])
 
     def _file(self, field):
         extension = self.random.choice(field.get("extensions", [".any"]))
@@ -120,7 +121,9 @@ class Values:
         elif field.get("choices"):
             yield from (field["choices"][0] + "x", field["choices"][0].upper(), 3, True, [field["choices"][0]])
         else:
-            yield from (3, 2.5, False, ["text"], {"a": "text"})
+            yield from (2.5, False, ["text"], {"a": "text"})
+            if "or_integers" not in field.get("tags", []):
+                yield 3
             if kind == "file":
                 yield from (["file.bad"] if field.get("extensions") else []) + ([""] if field["default"] != "" else [])
 
@@ -185,6 +188,8 @@ def fields_of_schema(schema):
                 field.update(type="list of strategies", kind=inner.rsplit("/", 1)[1])
             elif items.get("type") == "object":
                 field.update(type="list of maps", fields=fields_of_schema(items))
+            elif items["type"] == ["string", "integer"]:
+                field.update(type="list of strings", tags=["or_integers"])
             else:
                 field.update(type={"string": "list of strings", "integer": "list of integers", "number": "list of reals"}[items["type"]])
             for key, size in (("min_size", "minItems"), ("max_size", "maxItems")):

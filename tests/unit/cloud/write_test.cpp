@@ -19,15 +19,19 @@ TEST_CASE("what is written reads back bit for bit") {
         for (std::uint8_t& c : colour) c = static_cast<std::uint8_t>(random.index(256));
         cloud.colours.push_back(colour);
     }
-    for (const std::string name : {"a.xyz", "a.obj", "a.ply", "a.PLY"}) {
+    for (const std::string name :
+         {"a.xyz", "a.txt", "a.asc", "a.pts", "a.csv", "a.obj", "a.ply", "a.PLY", "a.pcd"}) {
         CAPTURE(name);
         dsc::cloud::write_cloud(folder.path(name), cloud);
         const Cloud again = dsc::cloud::read_cloud(folder.path(name));
         CHECK(again.points == cloud.points);
-        if (name != "a.xyz") CHECK(again.colours == cloud.colours);
+        CHECK(again.colours == cloud.colours);
+        const std::string first = test::slurp(folder.path(name));
+        dsc::cloud::write_cloud(folder.path(name), again);
+        CHECK(test::slurp(folder.path(name)) == first);
     }
     cloud.colours.clear();
-    for (const std::string name : {"a.xyz", "a.obj", "a.ply"}) {  // over the old files
+    for (const std::string name : {"a.xyz", "a.csv", "a.obj", "a.ply", "a.pcd"}) {  // over the old files
         dsc::cloud::write_cloud(folder.path(name), cloud);
         const Cloud again = dsc::cloud::read_cloud(folder.path(name));
         CHECK(again.points == cloud.points);
@@ -41,9 +45,10 @@ TEST_CASE("a failed write names its cause and leaves nothing behind") {
     const auto error = [&](std::string_view name) {
         return folder.strip(test::error_of([&] { dsc::cloud::write_cloud(folder.path(name), cloud); }));
     };
+    const std::string accepted = "accepted are .pcd .ply .obj .xyz .txt .asc .pts .csv";
     CHECK(error("a.stl") ==
-          "io.format 6: a.stl: clouds are not written as '.stl'; accepted are .xyz .obj .ply");
-    CHECK(error("a") == "io.format 6: a: the file's name has no extension; accepted are .xyz .obj .ply");
+          "io.format 6: a.stl: clouds are not written as '.stl'; " + accepted);
+    CHECK(error("a") == "io.format 6: a: the file's name has no extension; " + accepted);
     CHECK(error("none/a.xyz") ==
           "io.write 6: none/a.xyz: cannot be written: No such file or directory; check the folder, its "
           "permissions and "

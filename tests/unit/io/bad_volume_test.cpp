@@ -73,8 +73,14 @@ TEST_CASE("bad dsc") {
     check_bad("a.dsc", "v 0 0 0\n# tets\n", "io.syntax",
               "FILE:2: '#' is neither 'v' nor 't'; correct the line or export the file again");
     check_bad("a.dsc", "\n\n", "io.empty", "FILE: the file is empty; copy or export it again");
+    check_bad("a.msh", "$MeshFormat\n", "io.write_only",
+              "FILE: Gmsh MSH 4.1 files are written here and not read; convert it with meshio to one of .vtu, .dsc, as "
+              "share/doc/formats.md shows");
+    check_bad("a.MESH", "MeshVersionFormatted 2\n", "io.write_only",
+              "FILE: MEDIT mesh files are written here and not read; convert it with meshio to one of .vtu, .dsc, as "
+              "share/doc/formats.md shows");
     check_bad(
-        "a.msh", "x", "io.format",
+        "a.tet", "x", "io.format",
         "FILE: the extension is not that of a volume file; give it one of .vtu, .dsc or convert the file");
 }
 

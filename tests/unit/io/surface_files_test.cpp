@@ -26,12 +26,13 @@ TriangleMesh read_text(const std::string& name, const std::string& content) {
 
 TEST_CASE("format table") {
     CHECK(surface_extensions() == ".obj, .ply, .off, .stl");
-    CHECK(volume_extensions() == ".vtu, .dsc");
+    CHECK(volume_extensions() == ".vtu, .dsc, .msh, .mesh");
+    CHECK(readable_volume_extensions() == ".vtu, .dsc");
     CHECK(find_format("a/b.OBJ")->name == "Wavefront OBJ");
     CHECK(find_format("x.vtu")->volume);
     CHECK(find_format("x.xyz") == nullptr);
     CHECK(find_format("obj") == nullptr);
-    CHECK(formats().size() == 6);
+    CHECK(formats().size() == 8);
 }
 
 TEST_CASE("obj, off and ply keep every bit") {

@@ -151,5 +151,5 @@ TEST_CASE("arrays and indices that do not fit are refused") {
     CHECK(folder.files() == 0);
     const auto found =
         test::refusal(folder / "m.obj", [&](const auto& f) { write_volume(f, test::cube_of_tets()); });
-    CHECK(found.message == "FILE: a volume cannot be written with this extension; use one of .vtu, .dsc");
+    CHECK(found.message == "FILE: a volume cannot be written with this extension; use one of .vtu, .dsc, .msh, .mesh");
 }

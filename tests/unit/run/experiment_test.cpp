@@ -57,6 +57,25 @@ TEST_CASE("a minimal experiment gets its defaults, its name from the file") {
     CHECK(loaded.warnings.empty());
 }
 
+TEST_CASE("columns: names and numbers, three or six of them, for a file alone") {
+    const auto cloud = [](const std::string& text) { return minimal + "input: {cloud: {" + text + "}}\n"; };
+    const run::LoadedExperiment loaded = load_text(cloud("file: a.csv, columns: [x, 3, '2']"));
+    CHECK(loaded.experiment.input->cloud.columns == std::vector<std::string>{"x", "3", "2"});
+    CHECK(contains(run::resolved_text(loaded), "columns: [x, \"3\", \"2\"]"));
+    const std::string rule = "'columns' belongs to a 'file' and names 3 columns or 6";
+    CHECK(contains(fault(cloud("file: a.csv, columns: [1, 2]")), rule));
+    CHECK(contains(fault(cloud("sample: {}, columns: [1, 2, 3]")), rule));
+    CHECK(contains(fault(cloud("file: a.csv, columns: [1, 2, 2.5]")), "must be a string, not 2.5"));
+    CHECK(load_text(cloud("file: a.csv")).experiment.input->cloud.columns.empty());
+}
+
+TEST_CASE("volumes: every format, one that can be read back among them") {
+    CHECK(load_text(minimal + "output: {volume: [mesh, msh, dsc]}\n").experiment.output.volume ==
+          std::vector<std::string>{"mesh", "msh", "dsc"});
+    CHECK(contains(fault(minimal + "output: {volume: [msh, mesh]}\n"), "'volume' needs vtu or dsc"));
+    CHECK(contains(fault(minimal + "output: {volume: [mdpa]}\n"), "is not one of vtu, dsc, msh, mesh"));
+}
+
 TEST_CASE("the resolved text reproduces the experiment") {
     const std::string text =
         minimal +

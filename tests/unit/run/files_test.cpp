@@ -73,6 +73,25 @@ TEST_CASE("input: without normalize a cloud outside the box is refused") {
     CHECK(run::load_input(input, 1).target.size() == 4);
 }
 
+TEST_CASE("input: the columns of a text cloud, and its colours all the way to the target") {
+    const Folder folder;
+    run::Input input;
+    input.cloud.file = folder.write("a.csv",
+                                    "id,north,east,up,r,g,b\n1,0,0,0,255,0,0\n2,0,1,0,0,255,0\n3,1,0,0,0,0,255\n"
+                                    "4,0,0,1,9,8,7\n5,0,0,1,1,2,3\n");
+    input.cloud.columns = {"east", "north", "4", "r", "g", "b"};
+    input.cloud.filters = {filter("duplicates")};
+    input.normalize = run::NormalizeInput{};
+    const run::LoadedInput loaded = run::load_input(input, 1);
+    CHECK(loaded.report.format == "CSV");
+    CHECK(loaded.cloud.points[1] == Vec3(1, 0, 0));
+    REQUIRE(loaded.target.colours().size() == 4);
+    CHECK(loaded.target.colours()[1] == cloud::Colour{0, 255, 0});
+    CHECK(loaded.target.colours()[3] == cloud::Colour{9, 8, 7});
+    input.cloud.columns = {"2", "3", "4"};
+    CHECK(run::load_input(input, 1).target.colours().empty());
+}
+
 TEST_CASE("run folder: takes an empty folder or one of ours, refuses all others untouched") {
     const Folder folder;
     const fs::path ours = folder.path() / "a" / "b";

@@ -26,6 +26,7 @@ inline Box3 simulation_box() { return {Vec3::Constant(-1.5), Vec3::Constant(1.5)
 struct Normalized {
     std::vector<Vec3> points;  ///< in normalised units, in the order of the cloud
     Transform transform;
+    std::vector<Colour> colours{};  ///< empty, or one a point
 };
 
 /// Refuses points that bound no volume: fewer than 4, all equal, all on a line, all on a plane; "all on" is

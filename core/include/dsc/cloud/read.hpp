@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <dsc/cloud/cloud.hpp>
 
@@ -11,21 +13,37 @@ namespace dsc::cloud {
 
 /// What reading a file met.
 struct ReadReport {
-    std::string format;                  ///< "PCD", "PLY", "OBJ" or "XYZ"
+    std::string format;                  ///< "PCD", "PLY", "OBJ", "XYZ" or "CSV"
     std::size_t points = 0;              ///< points of the file, dropped ones included
     std::size_t dropped_non_finite = 0;  ///< points with NaN or infinity, left out (PCD and PLY only)
+};
+
+/// Which columns of a text cloud hold the coordinates, and the colours if there are six.
+struct ReadOptions {
+    /// 3 (x, y, z) or 6 (x, y, z, red, green, blue) names of the header, in any case, or numbers from 1; empty:
+    /// by the header's names, else the first three.
+    std::vector<std::string> columns{};
 };
 
 /// Reads a cloud; the extension, in any case, decides the format:
 /// - .pcd (ascii, binary, binary_compressed) and .ply (ascii, binary of both byte orders) with x y z of any
 ///   numeric type; points with NaN or infinity are left out and counted;
 /// - .obj: `v x y z` or `v x y z r g b`, other statements are skipped;
-/// - .xyz .txt .asc .pts .csv: x y z and any further columns, separated by blanks, tabs, commas or
-///   semicolons;
-///   a header line, comments (# or //), empty lines and the count lines of .pts are skipped.
+/// - .xyz .txt .asc .pts .csv: columns separated by blanks, tabs, commas or semicolons, quoted or not. Those
+///   that a header line or a comment before the first point calls x, y, z, else the first three; colours from
+///   r, g, b or red, green, blue, without such a header from columns 4 to 6 where there are six and these
+///   hold whole numbers from 0 to 255 (one above 1). Comments (# or //), empty lines and the count lines of
+///   .pts are skipped.
 /// Throws IoError for a file that is missing, not readable, empty, without points, truncated or malformed,
-/// for NaN and infinity in text, and for what is not read here (.las, .laz, .e57, range grids in PLY, ...).
-/// [setup]
-Cloud read_cloud(const std::filesystem::path& path, ReadReport* report = nullptr);
+/// for NaN and infinity in text, for what is not read here (.las, .laz, .e57, range grids in PLY, ...), and
+/// "io.columns" for chosen columns that are not 3 or 6, not there, or of a format without columns. [setup]
+Cloud read_cloud(const std::filesystem::path& path, ReadReport* report = nullptr,
+                 const ReadOptions& options = {});
+
+/// ".pcd .ply .obj .xyz .txt .asc .pts .csv": what read_cloud() and write_cloud() take. [parallel]
+std::string_view cloud_extensions();
+
+/// Whether the extension, in any case, is one of them. [parallel]
+bool is_cloud_file(const std::filesystem::path& path);
 
 }  // namespace dsc::cloud

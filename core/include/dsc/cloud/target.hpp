@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include <dsc/cloud/normalize.hpp>
 #include <dsc/cloud/search.hpp>
@@ -13,7 +14,7 @@ namespace dsc::cloud {
 /// Immutable; copies share the points and the tree. All methods may be called from several threads at once.
 class TargetCloud {
 public:
-    /// Builds the search tree. Throws as NearestSearch. [setup]
+    /// Builds the search tree. Colours that are not one a point are left out. Throws as NearestSearch. [setup]
     explicit TargetCloud(const Normalized& normalized);
 
     /// Normalised points, in the order of the cloud. [parallel]
@@ -28,6 +29,8 @@ public:
     double spacing(std::size_t index) const;
     /// From the input's units to normalised ones. [parallel]
     const Transform& transform() const noexcept { return transform_; }
+    /// Of the points, in their order; empty where the input has none. [parallel]
+    std::span<const Colour> colours() const noexcept { return *colours_; }
     /// Of the normalised points. [parallel]
     const Box3& box() const noexcept { return box_; }
 
@@ -37,6 +40,7 @@ private:
     std::shared_ptr<Spacings> spacings_;
     Transform transform_;
     Box3 box_;
+    std::shared_ptr<const std::vector<Colour>> colours_;
 };
 
 }  // namespace dsc::cloud

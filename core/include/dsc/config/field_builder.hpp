@@ -40,6 +40,8 @@ public:
     }
     /// Accepted items of a list of strings.
     FieldBuilder& choices(std::vector<std::string> list) { return field().choices = std::move(list), *this; }
+    /// A list of strings takes integers, too, as their digits.
+    FieldBuilder& or_integers() { return tag("or_integers"); }
     FieldBuilder& tag(std::string name) { return field().tags.push_back(std::move(name)), *this; }
     /// Time or memory grow with it: tests leave it at or below its default.
     FieldBuilder& costly() { return tag("costly"); }

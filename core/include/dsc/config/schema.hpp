@@ -59,7 +59,7 @@ struct Field {
     bool required = false;                 ///< must be given, has no default
     bool optional = false;                 ///< may stay unset, which `null` says explicitly
     ConfigNode default_value;              ///< null for a required or an unset optional field
-    std::vector<std::string> tags;         ///< "advanced": not for the first page of the documentation; "costly"
+    std::vector<std::string> tags;         ///< "advanced": not for the first page of the documentation; "costly"; "or_integers"
     std::shared_ptr<const Schema> object;  ///< of an object or of each item of an object_list
     std::string kind;                      ///< of a strategy or of each item of a strategy_list
     std::int64_t storage_min = std::numeric_limits<std::int64_t>::min();  ///< what the bound member can hold

@@ -9,8 +9,8 @@
 namespace dsc::io {
 
 /// Reads .obj, .ply (ASCII and binary), .off or .stl (ASCII and binary). Polygons become fans of triangles,
-/// coordinates keep every bit of the file's numbers, points of an STL are joined where they are equal. At
-/// least one face is required.
+/// coordinates keep every bit of the file's numbers, points of an STL are joined where they are equal. The
+/// vertices of an .obj or .ply keep their colours where all have one. At least one face is required.
 ///
 /// Throws IoError: "io.missing", "io.directory", "io.unreadable", "io.empty", "io.format" (unknown
 /// extension), "io.syntax", "io.truncated", "io.index", "io.not_finite", "io.count", "io.no_faces". [setup]
@@ -19,7 +19,8 @@ surface::TriangleMesh read_surface(const std::filesystem::path& file);
 /// Reads .dsc or .vtu. Tets come in the file's order and orientation; a .vtu needs an integer cell array
 /// "label" and holds tets only. At least one tet is required.
 ///
-/// Throws IoError with the codes of read_surface() and "io.no_tets", "io.no_labels", "io.cell_type". [setup]
+/// Throws IoError with the codes of read_surface() and "io.no_tets", "io.no_labels", "io.cell_type", and
+/// "io.write_only" for .msh and .mesh. [setup]
 mesh::TetMesh read_volume(const std::filesystem::path& file);
 
 }  // namespace dsc::io

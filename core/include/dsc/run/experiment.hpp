@@ -26,6 +26,7 @@ struct SampleInput {
 /// Where the points come from: exactly one of `file` and `sample`.
 struct CloudInput {
     std::optional<std::string> file;  ///< absolute
+    std::vector<std::string> columns;  ///< of a text cloud (cloud::ReadOptions); empty: by its header, else the first three
     std::optional<SampleInput> sample;
     std::vector<config::StrategyConfig> filters;  ///< of kind "filter", in the order in which they work
 };

@@ -18,11 +18,17 @@ struct Usage {
 };
 Usage process_usage();
 
-/// Text of provenance.json (without a user name or the environment). `finished` is empty while the run goes on.
-/// Throws IoError for an input or plugin that cannot be read. [setup]
+/// `text` with the user's home folder (`home`, without a slash at its end) written as "~" wherever a path in it begins
+/// with it; as it is where `home` is empty or "/".
+std::string without_home(std::string text, const std::string& home);
+
+/// Text of provenance.json: no name of a user or a host, no environment; files of the current folder by their relative
+/// names, the home folder as "~". `finished` is empty while the run goes on. `wall_seconds` counts from its start. Throws
+/// IoError for an input or plugin that cannot be read. [setup]
 std::string provenance_json(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
                             const std::string& hash, const std::vector<std::string>& command,
-                            unsigned threads, const std::string& started, const std::string& finished);
+                            unsigned threads, const std::string& started, const std::string& finished,
+                            double wall_seconds);
 
 /// Several lines: version, compiler, fingerprint, libraries; for `dsc --version`.
 std::string version_text();

@@ -1,0 +1,173 @@
+#include "columns.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <dsc/base/error.hpp>
+
+#include "text.hpp"
+
+namespace dsc::cloud {
+
+namespace {
+
+/// Position of the first `wanted` outside of double quotes.
+std::size_t find_outside_quotes(std::string_view text, char wanted) {
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '"') quoted = !quoted;
+        if (text[i] == wanted && !quoted) return i;
+    }
+    return std::string_view::npos;
+}
+
+/// "a ""b""" without its quotes: a "b".
+std::string unquoted(std::string_view column) {
+    if (column.size() < 2 || column.front() != '"' || column.back() != '"') return std::string(column);
+    column = column.substr(1, column.size() - 2);
+    std::string text;
+    for (std::size_t i = 0; i < column.size(); ++i) {
+        text += column[i];
+        if (column[i] == '"' && i + 1 < column.size() && column[i + 1] == '"') ++i;
+    }
+    return text;
+}
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    std::transform(out.begin(), out.end(), out.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return out;
+}
+
+/// The column of that name: as it is written, else in any case.
+std::optional<std::size_t> find_name(const std::vector<std::string>& header, const std::string& name) {
+    auto found = std::find(header.begin(), header.end(), name);
+    if (found == header.end())
+        found = std::find_if(header.begin(), header.end(),
+                             [&](const std::string& other) { return lower(other) == lower(name); });
+    if (found == header.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - header.begin());
+}
+
+std::optional<std::array<std::size_t, 3>> find_names(const std::vector<std::string>& header,
+                                                     const std::array<const char*, 3>& names) {
+    std::array<std::size_t, 3> columns{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::optional<std::size_t> found = find_name(header, names[k]);
+        if (!found) return std::nullopt;
+        columns[k] = *found;
+    }
+    return columns;
+}
+
+bool is_number(const std::string& column) {
+    std::size_t value = 0;
+    return parse_count(column, value);
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 12;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+        text += (i > 0 ? ", " : "") + in_quotes(names[i]);
+    return names.size() > most ? text + ", ..." : text;
+}
+
+}  // namespace
+
+char separator_of(std::string_view line, bool tabs) {
+    if (find_outside_quotes(line, ';') != std::string_view::npos) return ';';
+    if (find_outside_quotes(line, ',') != std::string_view::npos) return ',';
+    if (tabs && find_outside_quotes(line, '\t') != std::string_view::npos) return '\t';
+    return ' ';
+}
+
+void split_columns(std::string_view line, char separator, std::vector<std::string>& columns) {
+    columns.clear();
+    if (separator == ' ') {
+        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line))
+            columns.push_back(unquoted(word));
+        return;
+    }
+    while (!trim(line).empty()) {
+        const std::size_t end = find_outside_quotes(line, separator);
+        columns.push_back(unquoted(trim(line.substr(0, end))));
+        line.remove_prefix(end == std::string_view::npos ? line.size() : end + 1);
+    }
+}
+
+ColumnChoice::ColumnChoice(const std::string& file, const ReadOptions& options)
+    : file_(file), options_(options) {
+    wants_names_ = !std::all_of(options.columns.begin(), options.columns.end(), is_number);
+    if (wants_names_ || options.columns.empty()) return;
+    std::string missing;
+    take(resolve({}, missing).value());
+}
+
+std::optional<std::vector<std::size_t>> ColumnChoice::resolve(const std::vector<std::string>& header,
+                                                              std::string& missing) const {
+    std::vector<std::size_t> columns;
+    for (const std::string& wanted : options_.columns) {
+        std::size_t number = 0;
+        if (parse_count(wanted, number)) {
+            if (number == 0) throw IoError("io.columns", file_, "", "column 0 is chosen", "count columns from 1");
+            columns.push_back(number - 1);
+        } else if (const auto found = find_name(header, wanted)) {
+            columns.push_back(*found);
+        } else {
+            missing = wanted;
+            return std::nullopt;
+        }
+    }
+    return columns;
+}
+
+void ColumnChoice::take(const std::vector<std::size_t>& columns) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const auto end = columns.begin() + static_cast<std::ptrdiff_t>(i);
+        if (std::find(columns.begin(), end, columns[i]) != end)
+            throw IoError("io.columns", file_, "", "column " + in_quotes(options_.columns[i]) + " is chosen twice",
+                          "choose another one for each coordinate and colour");
+    }
+    std::copy_n(columns.begin(), 3, coordinates_.begin());
+    if (columns.size() == 6) std::copy_n(columns.begin() + 3, 3, colours_.emplace().begin());
+    wants_names_ = false;
+}
+
+bool ColumnChoice::knows(const std::vector<std::string>& words) const {
+    std::string missing;
+    return chosen() ? resolve(words, missing).has_value() : find_names(words, {"x", "y", "z"}).has_value();
+}
+
+void ColumnChoice::take_names(const std::vector<std::string>& names) {
+    if (!knows(names)) return;
+    if (chosen()) {
+        std::string missing;
+        if (wants_names_) take(resolve(names, missing).value());
+        return;
+    }
+    named_ = true;
+    coordinates_ = find_names(names, {"x", "y", "z"}).value();
+    colours_ = find_names(names, {"red", "green", "blue"});
+    if (!colours_) colours_ = find_names(names, {"r", "g", "b"});
+}
+
+void ColumnChoice::require_names(const std::vector<std::string>& header, std::size_t line) const {
+    if (!wants_names_ || knows(header)) return;
+    std::string missing;
+    resolve(header, missing);
+    double value = 0.0;
+    const bool numbers = std::any_of(header.begin(), header.end(), [&](const std::string& word) {
+        return parse_number(word, value) == Number::ok;
+    });
+    throw IoError("io.columns", file_, std::to_string(line), "no column is called " + in_quotes(missing),
+                  numbers ? "the file seems to have no header, choose columns by their numbers from 1"
+                          : "choose of " + listed(header) + " or a number from 1");
+}
+
+std::string ColumnChoice::of_needed(std::size_t last) const {
+    return chosen() || named_ ? ", column " + std::to_string(last + 1) + " is needed" : "";
+}
+
+}  // namespace dsc::cloud

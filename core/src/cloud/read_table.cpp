@@ -1,0 +1,201 @@
+// XYZ, CSV and the like: a point a line. Our own reader because PCL's round every coordinate to float.
+#include <algorithm>
+#include <optional>
+
+#include <dsc/base/error.hpp>
+
+#include "columns.hpp"
+#include "formats.hpp"
+#include "text.hpp"
+
+namespace dsc::cloud {
+
+namespace {
+
+/// A block of points that a count line announced.
+struct Announced {
+    bool any = false;
+    std::size_t line = 0;
+    std::size_t count = 0;
+    std::size_t first = 0;  ///< number of points before it
+};
+
+class TableReader {
+public:
+    TableReader(const std::string& file, std::string_view text, const ReadOptions& options)
+        : file_(file), lines_(text), choice_(file, options) {}
+
+    Cloud read() {
+        for (std::string_view whole; lines_.next(whole);) {
+            const std::string_view line = trim(whole);
+            if (line.empty()) continue;
+            if (const std::size_t mark = comment_mark(line); mark > 0) {
+                comment(line.substr(mark));
+                continue;
+            }
+            const char separator = separator_for(line);
+            split_columns(separator == '\t' ? whole : line, separator, words_);  // a tab may end an empty column
+            if (count_line(line)) continue;
+            if (cloud_.points.empty() && take_names()) continue;
+            point();
+        }
+        check_announced();
+        if (cloud_.points.empty()) no_points(file_, "a cloud in text has a line 'x y z' for each point");
+        finish_colours();
+        return std::move(cloud_);
+    }
+
+private:
+    [[noreturn]] void syntax(const std::string& cause, std::string_view remedy) const {
+        throw IoError("io.syntax", file_, std::to_string(lines_.number()), cause, remedy);
+    }
+
+    static std::size_t comment_mark(std::string_view line) {
+        if (line.front() == '#') return std::min(line.find_first_not_of('#'), line.size());
+        return line.substr(0, 2) == "//" ? 2 : 0;
+    }
+
+    /// The names of the columns may stand in a comment above the points.
+    void comment(std::string_view text) {
+        if (!cloud_.points.empty()) return;
+        text = trim(text);
+        split_columns(text, separator_of(text, choice_.chosen()), words_);
+        if (choice_.knows(words_)) comment_ = words_;
+    }
+
+    /// Before the first point: settles what the columns are called. True for a header, which is no point. Words are
+    /// names of columns only where there are as many as columns: prose may speak of x y z, too.
+    bool take_names() {
+        const std::vector<std::string>& above = header_.empty() ? comment_ : header_;
+        if (!above.empty() && above.size() == words_.size()) choice_.take_names(above);
+        if (header_.empty() && is_header()) {
+            header_ = words_;
+            choice_.require_names(header_, lines_.number());
+            return true;
+        }
+        if (choice_.wants_names())
+            syntax("the header has " + counted(header_.size(), "column") + ", the line " + std::to_string(words_.size()),
+                   "choose columns by their numbers from 1");
+        return false;
+    }
+
+    /// Of chosen columns, the separator of the first line holds for all: a text among them may have others.
+    char separator_for(std::string_view line) {
+        if (!choice_.chosen()) return separator_of(line, false);
+        if (!separator_) separator_ = separator_of(line, true);
+        return *separator_;
+    }
+
+    bool count_line(std::string_view line) {
+        std::size_t count = 0;
+        const bool block_full =
+            cloud_.points.empty() || (block_.any && cloud_.points.size() - block_.first == block_.count);
+        if (words_.size() != 1 || !block_full || !parse_count(line, count)) return false;
+        check_announced();
+        block_ = {true, lines_.number(), count, cloud_.points.size()};
+        separator_.reset();
+        return true;
+    }
+
+    void check_announced() const {
+        const std::size_t got = cloud_.points.size() - block_.first;
+        if (!block_.any || got == block_.count) return;
+        throw IoError(got < block_.count ? "io.truncated" : "io.syntax", file_, std::to_string(block_.line),
+                      "the count line promises " + counted(block_.count, "point") + ", the file has " +
+                          std::to_string(got),
+                      got < block_.count ? "the file is cut off, write it again" : "correct the count");
+    }
+
+    std::string_view word(std::size_t column) const {
+        return column < words_.size() ? std::string_view(words_[column]) : std::string_view();
+    }
+
+    bool is_header() const {
+        if (choice_.wants_names()) return true;  // there must be one
+        double value = 0.0;
+        return parse_number(word(choice_.coordinates()[0]), value) == Number::not_a_number;
+    }
+
+    void point() {
+        const std::array<std::size_t, 3>& columns = choice_.coordinates();
+        const bool cut = !lines_.terminated() && words_.size() < previous_;
+        const std::size_t last = *std::max_element(columns.begin(), columns.end());
+        if (words_.size() <= last || cut)
+            syntax("the line has " + counted(words_.size(), "column") +
+                       (words_.size() <= last ? choice_.of_needed(last) : ", the one before has more"),
+                   "a point needs x, y and z, divided by blanks, commas or semicolons; the file may be cut off");
+        Vec3 point;
+        for (int k = 0; k < 3; ++k) {
+            const std::size_t column = columns[static_cast<std::size_t>(k)];
+            if (word(column).empty())
+                syntax("column " + std::to_string(column + 1) + " is empty", "a point needs x, y and z");
+            point[k] = coordinate(file_, lines_.number(), word(column));
+        }
+        cloud_.points.push_back(point);
+        previous_ = words_.size();
+        if (choice_.colours())
+            named_colour(*choice_.colours());
+        else
+            guessed_colour();
+    }
+
+    /// Of columns that are called so, or chosen; only chosen ones must hold a colour in every line.
+    void named_colour(const std::array<std::size_t, 3>& columns) {
+        Vec3 colour;
+        for (int k = 0; k < 3; ++k) {
+            const std::string_view text = word(columns[static_cast<std::size_t>(k)]);
+            if (parse_number(text, colour[k]) == Number::ok && colour[k] >= 0.0) {
+                whole_ = whole_ && text.find_first_not_of("+0123456789") == std::string_view::npos;
+                continue;
+            }
+            if (choice_.chosen())
+                syntax("colour " + in_quotes(text) + " is no number from 0 up",
+                       "choose three columns of coordinates only, or correct the line");
+            return;
+        }
+        colours_.push_back(colour);
+    }
+
+    /// Without names: six columns, the last three whole numbers that fit a byte.
+    void guessed_colour() {
+        if (!header_.empty() || choice_.chosen() || choice_.named() || words_.size() != 6) return;
+        Vec3 colour;
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::size_t value = 0;
+            if (!parse_count(words_[3 + k], value) || value > 255) return;
+            colour[static_cast<int>(k)] = static_cast<double>(value);
+        }
+        colours_.push_back(colour);
+    }
+
+    void finish_colours() {
+        if (colours_.size() != cloud_.points.size()) return;
+        double largest = 0.0;
+        for (const Vec3& c : colours_) largest = std::max(largest, c.maxCoeff());
+        // Unit normals along the axes are whole numbers, too.
+        if (!choice_.colours() && largest <= 1.0) return;
+        const bool fractions = !whole_ && largest <= 1.0;
+        cloud_.colours = to_bytes(colours_, fractions ? 1.0 : largest > 255.0 ? 65535.0 : 255.0);
+    }
+
+    const std::string& file_;
+    Lines lines_;
+    ColumnChoice choice_;
+    Cloud cloud_;
+    Announced block_;
+    std::vector<std::string> words_;    ///< of the line
+    std::vector<std::string> comment_;  ///< the last that has the names
+    std::vector<std::string> header_;   ///< empty where there is none
+    std::optional<char> separator_;   ///< of chosen columns
+    std::vector<Vec3> colours_;
+    std::size_t previous_ = 0;  ///< columns of the point before
+    bool whole_ = true;  ///< no colour has a fraction
+};
+
+}  // namespace
+
+Cloud read_table(const std::string& file, std::string_view text, const ReadOptions& options) {
+    return TableReader(file, text, options).read();
+}
+
+}  // namespace dsc::cloud

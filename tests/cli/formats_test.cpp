@@ -1,0 +1,127 @@
+// Every format through the real command: what is written is read again, and says the same.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "process.hpp"
+
+using dsc::test::Cli;
+using dsc::test::Result;
+using nlohmann::json;
+
+namespace {
+
+/// A coloured cloud in text: the corners of a box and points on its sides, red below, blue above.
+std::string coloured_csv() {
+    std::string text = "id;east;north;up;red;green;blue\n";
+    int id = 0;
+    for (int x = -6; x <= 6; ++x)
+        for (int y = -6; y <= 6; ++y)
+            for (int z = -6; z <= 6; ++z) {
+                if (std::max({std::abs(x), std::abs(y), std::abs(z)}) < 6) continue;
+                text += std::to_string(id++) + ";" + std::to_string(x) + ".1;" + std::to_string(y) + ".2;" +
+                        std::to_string(z) + ".3;" + (z < 0 ? "255;0;0\n" : "0;0;255\n");
+            }
+    return text;
+}
+
+const std::string experiment =
+    "dsc: 1\ninput: {cloud: {file: cloud.csv, columns: [east, north, 4, red, green, blue]}, normalize: {}}\n"
+    "initial_mesh: {type: grid, cells: 12}\nvelocity: {type: point_cloud}\nimprovement: {type: dsc}\n"
+    "schedule: [{steps: 8}]\noutput: {surface: [obj, ply, off, stl], volume: [vtu, dsc, msh, mesh]}\n";
+
+}  // namespace
+
+TEST_CASE("a cloud goes through every format and comes back, colours and all") {
+    const Cli cli;
+    cli.write("cloud.csv", coloured_csv());
+    const Result first = cli.dsc({"convert", "cloud.csv", "a.csv", "--columns", "east,north,up,red,green,blue"});
+    CHECK(first.err == "");
+    REQUIRE(first.code == 0);
+    CHECK(cli.read("a.csv").substr(0, 21) == "x,y,z,red,green,blue\n");
+    std::string from = "a.csv";
+    for (const std::string to : {"b.ply", "c.pcd", "d.obj", "e.xyz", "f.txt", "g.asc", "h.pts", "z.csv"}) {
+        CAPTURE(to);
+        REQUIRE(cli.dsc({"convert", from, to}).code == 0);
+        const json figures = json::parse(cli.dsc({"info", to, "--json"}).out);
+        CHECK(figures["kind"] == "cloud");
+        CHECK(figures["points"] == 13 * 13 * 13 - 11 * 11 * 11);
+        CHECK(figures["coloured"] == true);
+        from = to;
+    }
+    CHECK(cli.read("z.csv") == cli.read("a.csv"));
+
+    CHECK(json::parse(cli.dsc({"info", "cloud.csv", "--columns", "2,3,4", "--json"}).out)["coloured"] == false);
+    CHECK(cli.dsc({"info", "cloud.csv", "--columns", "east,north,height"}).err ==
+          "error: cloud.csv:1: no column is called 'height'; choose of 'id', 'east', 'north', 'up', 'red', 'green', "
+          "'blue' or a number from 1\n");
+    CHECK(cli.dsc({"reconstruct", "cloud.csv", "--columns", "east,north"}).err ==
+          "error: cloud.csv: 2 columns chosen; choose 3 (x, y, z) or 6 (x, y, z, red, green, blue)\n");
+}
+
+TEST_CASE("a run carries the colours to the surface and writes every format; all kinds are converted") {
+    const Cli cli;
+    cli.write("cloud.csv", coloured_csv());
+    cli.write("a.yaml", experiment);
+    const Result run = cli.dsc({"run", "a.yaml", "-o", "out", "-q"});
+    CHECK(run.err == "");
+    REQUIRE(run.code == 0);
+    const json solid = json::parse(cli.dsc({"info", "out/result/surface.ply", "--json"}).out);
+    CHECK(solid["solid"] == true);
+    for (const std::string extension : {"obj", "ply", "off", "stl"}) {
+        CAPTURE(extension);
+        const json figures = json::parse(cli.dsc({"info", "out/result/surface." + extension, "--json"}).out);
+        CHECK(figures["faces"] == solid["faces"]);
+        CHECK(figures["coloured"] == (extension == "obj" || extension == "ply"));
+    }
+    // Vertices below are red and those above blue, as the points that are nearest to them.
+    std::istringstream lines(cli.read("out/result/surface.obj"));
+    int red = 0, blue = 0;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string tag;
+        double x = 0, y = 0, z = 0;
+        if (!(words >> tag >> x >> y >> z) || tag != "v") continue;
+        std::string colour;
+        std::getline(words, colour);
+        CHECK((colour == " 1 0 0" || colour == " 0 0 1"));
+        if (z < -1.0) CHECK(colour == " 1 0 0");
+        if (z > 1.0) CHECK(colour == " 0 0 1");
+        ++(colour == " 1 0 0" ? red : blue);
+    }
+    CHECK(red > 50);
+    CHECK(blue > 50);
+    // Surface to surface, surface to cloud.
+    CHECK(cli.dsc({"convert", "out/result/surface.obj", "s.ply"}).code == 0);
+    CHECK(cli.read("s.ply") == cli.read("out/result/surface.ply"));
+    CHECK(cli.dsc({"convert", "s.ply", "s.csv"}).code == 0);
+    CHECK(json::parse(cli.dsc({"info", "s.csv", "--json"}).out)["coloured"] == true);
+    // Volume to volume.
+    CHECK(cli.dsc({"convert", "out/result/volume.vtu", "v.dsc"}).code == 0);
+    CHECK(cli.read("v.dsc") == cli.read("out/result/volume.dsc"));
+    for (const std::string extension : {"msh", "mesh"}) {
+        CAPTURE(extension);
+        CHECK(cli.dsc({"convert", "v.dsc", "v." + extension}).code == 0);
+        CHECK(cli.read("v." + extension) == cli.read("out/result/volume." + extension));
+        const Result read = cli.dsc({"info", "v." + extension});
+        CHECK(read.code == 6);
+        CHECK(read.err.find("files are written here and not read; convert it with meshio") != std::string::npos);
+    }
+}
+
+TEST_CASE("reconstruct writes a volume for Gmsh and one for MEDIT") {
+    const Cli cli;
+    cli.write("cloud.csv", coloured_csv());
+    const Result run = cli.dsc({"reconstruct", "cloud.csv", "--columns", "east,north,up,red,green,blue", "--detail", "low",
+                                "-o", "v.msh", "-o", "v.mesh", "-o", "s.ply", "-o", "v.dsc", "-q"});
+    CHECK(run.err == "");
+    CHECK(run.out == "v.msh\nv.mesh\ns.ply\nv.dsc\n");
+    CHECK(json::parse(cli.dsc({"info", "s.ply", "--json"}).out)["coloured"] == true);
+    for (const std::string extension : {"msh", "mesh"}) {
+        CHECK(cli.dsc({"convert", "v.dsc", "again." + extension}).code == 0);
+        CHECK(cli.read("again." + extension) == cli.read("v." + extension));
+    }
+}
