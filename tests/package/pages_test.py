@@ -49,6 +49,15 @@ class Pages(unittest.TestCase):
             self.assertLess(abs((folder / name).stat().st_size - size), 0.2 * size, name)
         self.assertEqual(self.info(folder, "after/result/volume.dsc")["inverted_tets"], 0)
 
+    def test_tutorial(self):
+        folder, commands = follow("tutorial")
+        self.assertEqual(commands, 11)
+        self.assertEqual(self.info(folder, "torus.obj")["genus"], 1)
+        status = json.loads((folder / "run/status.json").read_text())
+        self.assertEqual(status["state"], "done")
+        self.assertLess((folder / "run/report.html").stat().st_size, 5e6)
+        self.assertTrue((folder / "comparison.html").exists())
+
     def test_citing(self):
         _, commands = follow("citing")
         self.assertEqual(commands, 1)
