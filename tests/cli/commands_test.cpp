@@ -169,7 +169,7 @@ TEST_CASE("reconstruct: names of outputs are judged before anything is computed"
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "./x/../cloud.obj"}).code == 2);
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.doc"}).err ==
           "error: a.doc has no extension that is written; use .obj, .ply, .off, .stl for the surface, .vtu, "
-          ".dsc for the volume\n");
+          ".dsc, .msh, .mesh for the volume\n");
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.obj", "-o", "a.obj"}).code == 2);
     const Result folder = cli.dsc({"reconstruct", "cloud.obj", "-o", "none/a.obj"});
     CHECK(folder.code == 6);
