@@ -7,7 +7,8 @@
 namespace dsc::app {
 namespace {
 
-constexpr double memory = 0.95;        // weight of a step against the one after it
+constexpr std::size_t remembered = 20;  // steps whose cost counts
+constexpr double cheap = 0.15;          // part of them that cost less than what is reckoned with
 constexpr double usual_growth = 1.35;  // of the vertices by a refinement, until one was seen
 
 }  // namespace
@@ -36,8 +37,8 @@ void TimeEstimate::add(std::uint64_t step, std::size_t interface_vertices, doubl
             growths_ += refined;
             growth_ += std::log(vertices / vertices_);
         }
-        cost_ = memory * cost_ + (seconds - seconds_);
-        work_ = memory * work_ + vertices * static_cast<double>(step - *step_);
+        costs_.push_back((seconds - seconds_) / (std::max(vertices, 1.0) * static_cast<double>(step - *step_)));
+        if (costs_.size() > remembered) costs_.erase(costs_.begin());
     }
     step_ = step;
     vertices_ = vertices;
@@ -45,7 +46,10 @@ void TimeEstimate::add(std::uint64_t step, std::size_t interface_vertices, doubl
 }
 
 std::optional<double> TimeEstimate::remaining() const {
-    if (!step_ || work_ <= 0) return std::nullopt;
+    if (costs_.empty()) return std::nullopt;
+    std::vector<double> sorted = costs_;
+    std::sort(sorted.begin(), sorted.end());
+    const double cost = sorted[static_cast<std::size_t>(cheap * static_cast<double>(sorted.size() - 1))];
     const double factor = growths_ > 0 ? std::exp(growth_ / growths_) : usual_growth;
     double vertices = vertices_;
     double work = 0;
@@ -53,7 +57,7 @@ std::optional<double> TimeEstimate::remaining() const {
         vertices *= std::pow(factor, refinements_[step]);
         work += vertices;
     }
-    return work * cost_ / work_;
+    return work * cost;
 }
 
 }  // namespace dsc::app

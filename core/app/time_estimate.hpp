@@ -9,7 +9,8 @@
 namespace dsc::app {
 
 /// A step costs so much for each interface vertex; refinements make more of them, each by the same factor. Both are learned
-/// from the steps behind, the last ones counting most.
+/// from the steps behind. Of the last costs the cheaper ones count: steps are dear where a run or a series begins, and
+/// become cheap as the surface settles.
 class TimeEstimate {
 public:
     /// The steps and refinements of this schedule.
@@ -26,8 +27,8 @@ private:
     std::vector<std::uint32_t> refinements_;  ///< right after each step, 0 before the first one
     std::optional<std::uint64_t> step_;
     double vertices_ = 0, seconds_ = 0;
-    double cost_ = 0, work_ = 0;       ///< seconds and vertices of the steps behind, weighed
-    double growths_ = 0, growth_ = 0;  ///< refinements seen, and the sum of the logarithms of their factors
+    std::vector<double> costs_;         ///< seconds a vertex of the last steps
+    double growths_ = 0, growth_ = 0;   ///< refinements seen, and the sum of the logarithms of their factors
 };
 
 }  // namespace dsc::app
