@@ -13,6 +13,7 @@
 #include <dsc/surface/decimate.hpp>
 #include <dsc/surface/distance.hpp>
 #include <dsc/surface/measure.hpp>
+#include <filesystem>
 
 #include "report_html.hpp"
 #include "state_series.hpp"
@@ -191,16 +192,21 @@ private:
         scene_.empty = false;
     }
 
-    /// A report of yesterday's run must not show today's file.
+    /// A report of yesterday's run must not show today's file. The provenance has paths as they were typed, so files of the
+    /// same name are compared.
     void require_same_file(const Input& input) const {
         const ordered_json* inputs = find(record_.provenance, "inputs");
         if (!input.cloud.file || inputs == nullptr || !inputs->is_array()) return;
-        for (const ordered_json& known : *inputs) {
-            if (!known.is_object() || known.value("file", "") != *input.cloud.file) continue;
-            if (known.value("sha256", "") == sha256_of_file(*input.cloud.file)) return;
-            throw IoError("report.changed", *input.cloud.file, "", "is not the file that the run read",
-                          "bring it back to see the cloud");
+        const std::filesystem::path name = std::filesystem::path(*input.cloud.file).filename();
+        bool known = false;
+        for (const ordered_json& read : *inputs) {
+            if (!read.is_object() || std::filesystem::path(read.value("file", "")).filename() != name) continue;
+            if (read.value("sha256", "") == sha256_of_file(*input.cloud.file)) return;
+            known = true;
         }
+        if (!known) return;
+        throw IoError("report.changed", *input.cloud.file, "", "is not the file that the run read",
+                      "bring it back to see the cloud");
     }
 
     std::vector<double> distances(const std::vector<Vec3>& points, double scale) const {
