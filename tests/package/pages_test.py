@@ -15,7 +15,7 @@ BLOCK = re.compile(r"(?:<!-- file: (\S+) -->\n)?```(\w+)\n(.*?)^```$", re.M | re
 
 def follow(page):
     """Runs the page; its folder, and how many commands it had."""
-    folder = package.fresh_folder(page)
+    folder = package.fresh_folder(f"page_{page}")
     commands = 0
     text = (package.SOURCE / "share/doc" / f"{page}.md").read_text(encoding="utf-8")
     for file, language, block in BLOCK.findall(text):
