@@ -1,0 +1,59 @@
+// What crosses the plugins' door by its memory layout: a change of it needs another DSC_ABI_MAJOR, and this test notices.
+#include <doctest/doctest.h>
+
+#include <dsc/plugin/catalogue.hpp>
+#include <dsc/plugin/entry.hpp>
+#include <string>
+
+namespace {
+
+using namespace dsc;
+
+#define DSC_SIZE(type) (std::string(#type " ") + std::to_string(sizeof(type)) + "\n")
+
+std::string layout() {
+    return DSC_SIZE(plugin::PluginEntry) + DSC_SIZE(plugin::StrategyRecord) + DSC_SIZE(plugin::Setup) +
+           DSC_SIZE(config::Field) + DSC_SIZE(config::Schema) + DSC_SIZE(config::ConfigNode) +
+           DSC_SIZE(hooks::StepContext) + DSC_SIZE(hooks::RefinementContext) +
+           DSC_SIZE(hooks::RefinementRequests) + DSC_SIZE(hooks::InitialMeshContext) +
+           DSC_SIZE(hooks::StepFigures) + DSC_SIZE(surface::SurfaceView) + DSC_SIZE(surface::TriangleMesh) +
+           DSC_SIZE(cloud::TargetCloud) + DSC_SIZE(mesh::TetMesh) + DSC_SIZE(mesh::Complex) +
+           DSC_SIZE(mesh::RepairRound) + DSC_SIZE(mesh::Request) + DSC_SIZE(mesh::TopologyCandidate) +
+           DSC_SIZE(mesh::TopologyLimits) + DSC_SIZE(RandomStream) + DSC_SIZE(Workers) +
+           DSC_SIZE(CancelToken);
+}
+
+}  // namespace
+
+// Not noticed: members that change places, and virtual functions; these are for the one who changes them.
+TEST_CASE("the layout of what crosses the door is that of its ABI number") {
+    const std::string recorded =
+        "plugin::PluginEntry 824\n"
+        "plugin::StrategyRecord 104\n"
+        "plugin::Setup 48\n"
+        "config::Field 344\n"
+        "config::Schema 72\n"
+        "config::ConfigNode 16\n"
+        "hooks::StepContext 144\n"
+        "hooks::RefinementContext 16\n"
+        "hooks::RefinementRequests 96\n"
+        "hooks::InitialMeshContext 48\n"
+        "hooks::StepFigures 40\n"
+        "surface::SurfaceView 272\n"
+        "surface::TriangleMesh 72\n"
+        "cloud::TargetCloud 128\n"
+        "mesh::TetMesh 72\n"
+        "mesh::Complex 496\n"
+        "mesh::RepairRound 96\n"
+        "mesh::Request 44\n"
+        "mesh::TopologyCandidate 48\n"
+        "mesh::TopologyLimits 24\n"
+        "RandomStream 44\n"
+        "Workers 8\n"
+        "CancelToken 1\n";
+    INFO(
+        "give DSC_ABI_MAJOR in dsc/plugin/fingerprint.hpp another number, say so in CHANGELOG.md, and record "
+        "the new layout here");
+    CHECK(DSC_ABI_MAJOR == 1);
+    CHECK(layout() == recorded);
+}
