@@ -146,7 +146,6 @@ TEST_CASE("40 steps against 20 and 20, with every built-in strategy") {
 }
 
 TEST_CASE("a run may be interrupted at every step") {
-    Runner runner(experiments.begin()->second);
     const std::string text =
         "initial_mesh: {type: grid, cells: 10}\nvelocity: {type: average}\nimprovement: {type: dsc}\n"
         "schedule: [{steps: 3}, {refine: {type: average_area}}, {steps: 4}]\n";

@@ -27,8 +27,7 @@ public:
     /// Writes it, then removes those that are too old. Throws IoError. [step]
     void write(const Checkpoint& checkpoint) const;
 
-    /// The last one that is whole, of this experiment and of this build; warns of each that is not. `usable` may refuse one.
-    /// [setup]
+    /// The last one that is whole, of this experiment and of this build; warns of each that is not. [setup]
     std::optional<Checkpoint> last(const std::string& hash) const;
 
 private:

@@ -62,7 +62,10 @@ public:
         try {
             options_.resume.empty() ? begin() : go_on();
             while (place_.item < experiment_.schedule.size() && !over_) series();
-            if (result_.totals.status == Status::cancelled) checkpoint();
+            if (stopped_) {
+                checkpoint();
+                result_.totals.status = Status::cancelled;
+            }
             finish();
         } catch (const StrategyError&) {
             if (options_.on_strategy_failure)
@@ -136,14 +139,14 @@ private:
     void series() {
         const Series& item = experiment_.schedule[place_.item];
         hooks::RefinementPolicy* refinement = strategies_.refinements[place_.item].get();
-        if (stop_asked()) return end(Status::cancelled);
+        if (stop_asked()) return stop();
         if (!item.steps) {
             refine(*refinement);
             return next_item();
         }
         if (place_.steps == 0) result_.totals.status = Status::max_steps;
         while (place_.steps < *item.steps) {
-            if (stop_asked()) return end(Status::cancelled);
+            if (stop_asked()) return stop();
             const bool slow = advance();
             place_.quiet = slow ? place_.quiet + 1 : 0;
             ++place_.steps;
@@ -162,12 +165,11 @@ private:
         next_item();
     }
 
-    void next_item() { place_ = {.item = place_.item + 1, .status = result_.totals.status}; }
+    void next_item() { place_ = {.item = place_.item + 1}; }
 
     /// What a run depends on: the strategies' state, and how far it has come.
     void checkpoint() {
         if (!options_.on_checkpoint || deformer_.step_count() == 0) return;
-        if (result_.totals.status != Status::cancelled) place_.status = result_.totals.status;
         StateWriter out;
         deformer_.save(out);
         out.value(place_);
@@ -180,7 +182,6 @@ private:
         resumed_.value(place_);
         load(resumed_, result_.totals);
         load(resumed_, strategies_);
-        result_.totals.status = place_.status;
         refresh_view();
         over_ = view_.vertex_count() == 0;
     }
@@ -363,9 +364,8 @@ private:
                (options_.out_of_time && options_.out_of_time());
     }
 
-    void end(Status status) {
-        place_.status = result_.totals.status;
-        result_.totals.status = status;
+    void stop() {
+        stopped_ = true;
         over_ = true;
     }
 
@@ -384,6 +384,7 @@ private:
     surface::SurfaceView view_;
     std::vector<Vec3> displacements_;
     const hooks::StepContext* context_ = nullptr;  // of the step under way, for the policy
+    bool stopped_ = false;  // before the end of the schedule
     bool over_ = false;
 };
 

@@ -25,6 +25,7 @@ void load(StateReader& in, hooks::Figures& figures) {
 template <class Totals, class Visit>
 void each_plain(Totals& t, Visit&& visit) {
     visit(t.steps);
+    visit(t.status);
     visit(t.volume_initial);
     visit(t.rounds);
     visit(t.requested);

@@ -12,7 +12,7 @@ struct SchedulePlace {
     std::uint32_t steps = 0;            ///< of it that are done
     std::uint32_t quiet = 0;            ///< of the last steps, those below the stop criterion
     std::uint32_t stuck = 0;            ///< of the last steps, those in which next to nothing moved
-    Status status = Status::max_steps;  ///< of the last series, for one that has no step left
+    std::uint32_t unused = 0;
 };
 
 void save(StateWriter& out, const RunTotals& totals);

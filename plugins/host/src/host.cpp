@@ -76,8 +76,10 @@ bool Host::is_loaded(const fs::path& real) const {
 void Host::load(const fs::path& file) {
     const fs::path real = real_path(file);
     if (is_loaded(real)) return;
-    require_admissible(real);
-    if (rehearsed_.count(real) == 0) rehearse({&real, 1});
+    if (rehearsed_.count(real) == 0) {
+        require_admissible(real);
+        rehearse({&real, 1});
+    }
     if (const std::optional<Fault>& fault = rehearsed_.at(real))
         throw PluginError(fault->code, fault->message);
 

@@ -1,0 +1,20 @@
+#pragma once
+// Numbers of many things at once.
+
+#include <cstddef>
+#include <dsc/base/workers.hpp>
+#include <vector>
+
+namespace dsc::run {
+
+/// value(i) for all i below `count`, computed in blocks that no number of threads changes; `workers` null: one thread.
+template <class Value>
+std::vector<double> table(Workers* workers, std::size_t count, const Value& value) {
+    std::vector<double> values(count);
+    for_blocks(workers, count, 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) values[i] = value(i);
+    });
+    return values;
+}
+
+}  // namespace dsc::run
