@@ -4,16 +4,13 @@
     share/manual.py [--dsc build/dev/bin/dsc]                    writes them
     share/manual.py [--dsc build/dev/bin/dsc] --check FOLDER     writes them below FOLDER, exits 1 if those here differ
 """
-import argparse
-import difflib
 import re
 import subprocess
 import sys
 from dataclasses import dataclass, field
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-SHARE = ROOT / "share"
+import generated
+
 SECTION = re.compile(r"^(Positionals|Options|Subcommands):$")
 ENTRY = re.compile(r"^  (\S.*?)(?:\s{2,}(\S.*))?$")
 
@@ -216,35 +213,11 @@ def completion(root):
     return COMPLETION.format(words="\n".join(words), values="\n".join(values), groups=groups)
 
 
-# ---- main ---------------------------------------------------------------------------------------------------------------
-
-def differences(files):
-    for path, text in files.items():
-        there = (SHARE / path).read_text(encoding="utf-8") if (SHARE / path).exists() else ""
-        if there != text:
-            lines = difflib.unified_diff(there.splitlines(), text.splitlines(), f"share/{path}", "generated", lineterm="", n=1)
-            yield "\n".join(list(lines)[:30])
-
-
-def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--dsc", default=str(ROOT / "build" / "dev" / "bin" / "dsc"), help="the command; default that of the preset dev")
-    parser.add_argument("--check", metavar="FOLDER", type=Path, help="write below FOLDER and compare")
-    options = parser.parse_args(arguments)
-    root = read_command(options.dsc, [])
-    files = {"man/dsc.1": man_page(root), "completion/dsc": completion(root)}
-    for path, text in files.items():
-        file = (options.check or SHARE) / path
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text, encoding="utf-8")
-    found = list(differences(files)) if options.check else []
-    if found:
-        print("\n".join(found))
-        print(f"man page or completion are not current; renew them with\n    share/manual.py --dsc {options.dsc}")
-        return 1
-    print(f"{len(list(all_commands(root)))} commands, {len(list(leaves(root)))} of them without others below")
-    return 0
+def manual(dsc):
+    """{path below share/: text} of everything that is generated."""
+    root = read_command(dsc, [])
+    return {"man/dsc.1": man_page(root), "completion/dsc": completion(root)}
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(generated.main("manual.py", __doc__, manual, ["man/*", "completion/*"]))

@@ -6,16 +6,13 @@
 
 Only strategies that come with dsc count, not those that DSC_PLUGIN_PATH or a user's folder add.
 """
-import argparse
-import difflib
 import json
 import os
 import subprocess
 import sys
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-SHARE = ROOT / "share"
+import generated
+
 KINDS = {
     "initial_mesh": ("Initial meshes", "what a run starts from; key `initial_mesh`"),
     "velocity": ("Velocities", "where the interface wants to go; key `velocity`"),
@@ -54,7 +51,7 @@ def index(strategies):
         lines += ["", f'<a id="{kind}"></a>', f"## {title}", f"{meaning[0].upper()}{meaning[1:]}.", "", "| | |", "| --- | --- |"]
         for s in of_kind:
             method = f"strategies/{kind}/{s['id']}/README.md"
-            link = f"; [method](../../../{method})" if (ROOT / method).exists() else ""
+            link = f"; [method](../../../{method})" if (generated.ROOT / method).exists() else ""
             lines.append(f"| [{s['id']}]({page_name(s)}) | {s['summary']}{link} |")
     return "\n".join(lines) + "\n"
 
@@ -71,50 +68,5 @@ def reference(dsc):
     return files
 
 
-def write(files, folder):
-    for path, text in files.items():
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / path).write_text(text, encoding="utf-8")
-
-
-def present():
-    """{path below share/: text} of what is there now."""
-    paths = [*SHARE.glob("doc/strategies/*.md"), *SHARE.glob("schema/*.json")]
-    return {path.relative_to(SHARE).as_posix(): path.read_text(encoding="utf-8") for path in paths}
-
-
-def differences(files, here):
-    for path in sorted(files.keys() | here.keys()):
-        if path not in files:
-            yield f"share/{path} is not generated any more"
-        elif path not in here:
-            yield f"share/{path} is missing"
-        elif files[path] != here[path]:
-            lines = difflib.unified_diff(here[path].splitlines(), files[path].splitlines(), f"share/{path}", "generated", lineterm="", n=1)
-            yield "\n".join(list(lines)[:30])
-
-
-def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--dsc", default=str(ROOT / "build" / "dev" / "bin" / "dsc"), help="the command; default that of the preset dev")
-    parser.add_argument("--check", metavar="FOLDER", type=Path, help="write below FOLDER and compare")
-    options = parser.parse_args(arguments)
-    files = reference(Command(options.dsc))
-    if options.check is None:
-        for path in present().keys() - files.keys():
-            (SHARE / path).unlink()
-        write(files, SHARE)
-        print(f"{len(files)} files below share/ written")
-        return 0
-    write(files, options.check)
-    found = list(differences(files, present()))
-    if found:
-        print("\n".join(found))
-        print(f"{len(found)} of {len(files)} files below share/ are not current; renew them with\n    share/reference.py --dsc {options.dsc}")
-        return 1
-    print(f"{len(files)} files below share/ are current")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(generated.main("reference.py", __doc__, lambda dsc: reference(Command(dsc)), ["doc/strategies/*.md", "schema/*.json"]))

@@ -43,7 +43,7 @@ std::string class_name(const std::string& name, plugin::Kind kind) {
 }
 
 /// Puts the values in the place of @NAME@ and the like. A word between two @ that is no value is a mistake in the template.
-std::string filled(const TemplateFile& file, const Values& values) {
+std::string filled(const EmbeddedFile& file, const Values& values) {
     std::string out;
     std::string_view rest = file.text;
     for (std::size_t at = rest.find('@'); at != std::string_view::npos; at = rest.find('@')) {
@@ -74,11 +74,11 @@ void require_plugin_name(const std::string& name) {
 std::vector<ProjectFile> plugin_project(const std::string& name, plugin::Kind kind) {
     Values values = {{"NAME", name}, {"CLASS", class_name(name, kind)}, {"DSC_VERSION", DSC_VERSION}};
     const std::string own = std::string(plugin::kind_name(kind)) + "/";
-    for (const TemplateFile& file : plugin_templates()) {
+    for (const EmbeddedFile& file : plugin_templates()) {
         if (file.path == own + "page.md") values["PAGE"] = filled(file, values);
     }
     std::vector<ProjectFile> files;
-    for (const TemplateFile& file : plugin_templates()) {
+    for (const EmbeddedFile& file : plugin_templates()) {
         const std::size_t slash = file.path.find('/');
         const std::string_view folder = file.path.substr(0, slash + 1);
         const std::string_view base = file.path.substr(slash + 1);

@@ -1,7 +1,7 @@
-# cmake -DFOLDER=... [-DMORE=FILE|FILE...] -DHEADER=x.hpp -DNAMESPACE=dsc::app -DTYPE=T -DFUNCTION=f -DOUTPUT=file.cpp -P dsc_embed.cmake
+# cmake -DFOLDER=... [-DMORE=FILE|FILE...] -DHEADER=x.hpp -DNAMESPACE=dsc::app -DFUNCTION=f -DOUTPUT=file.cpp -P dsc_embed.cmake
 #
 # Writes a source with the files below FOLDER, and those of MORE by their names alone, as text: the function FUNCTION, which
-# HEADER declares, returns a span of TYPE {path, text}.
+# HEADER declares, returns a span of dsc::EmbeddedFile.
 file(GLOB_RECURSE files RELATIVE ${FOLDER} ${FOLDER}/*)
 list(SORT files)
 string(REPLACE "|" ";" more "${MORE}")
@@ -25,11 +25,11 @@ file(WRITE ${OUTPUT} "// Written by share/cmake/dsc_embed.cmake.
 namespace ${NAMESPACE} {
 namespace {
 using namespace std::literals;  // a long text has its length without counting
-constexpr ${TYPE} files[] = {
+constexpr dsc::EmbeddedFile files[] = {
 ${entries}};
 }  // namespace
 
-std::span<const ${TYPE}> ${FUNCTION}() { return files; }
+std::span<const dsc::EmbeddedFile> ${FUNCTION}() { return files; }
 
 }  // namespace ${NAMESPACE}
 ")

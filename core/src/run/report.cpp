@@ -10,7 +10,7 @@ namespace dsc::run {
 namespace {
 
 std::string file(std::string_view name) {
-    for (const ReportFile& known : report_files()) {
+    for (const EmbeddedFile& known : report_files()) {
         if (known.path == name) return std::string(known.text);
     }
     throw Error(ExitCode::internal, "report.template", "the program has no file " + std::string(name) + " for reports");

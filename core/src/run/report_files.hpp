@@ -1,17 +1,12 @@
 #pragma once
-// The files of share/report and of three.js, part of the library: an installation may be moved anywhere.
+// The files of share/report and of three.js, part of the library.
 
+#include <dsc/base/embedded_file.hpp>
 #include <span>
-#include <string_view>
 
 namespace dsc::run {
 
-struct ReportFile {
-    std::string_view path;  ///< "viewer.js"
-    std::string_view text;
-};
-
 /// All of them. The build writes its source.
-std::span<const ReportFile> report_files();
+std::span<const EmbeddedFile> report_files();
 
 }  // namespace dsc::run

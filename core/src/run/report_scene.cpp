@@ -17,6 +17,7 @@
 
 #include "report_html.hpp"
 #include "state_series.hpp"
+#include "table.hpp"
 
 namespace dsc::run {
 namespace {
@@ -211,11 +212,7 @@ private:
 
     std::vector<double> distances(const std::vector<Vec3>& points, double scale) const {
         const surface::TriangleTree tree(surface_);
-        std::vector<double> out(points.size());
-        for_blocks(workers_, points.size(), 256, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) out[i] = scale * tree.nearest(points[i]).distance;
-        });
-        return out;
+        return table(workers_, points.size(), [&](std::size_t i) { return scale * tree.nearest(points[i]).distance; });
     }
 
     /// Tets round the surface: all that are not outside, and those outside whose centre is near its box.

@@ -8,11 +8,10 @@ namespace dsc::run {
 
 /// Where a run goes on.
 struct SchedulePlace {
-    std::uint64_t item = 0;             ///< of the schedule
-    std::uint32_t steps = 0;            ///< of it that are done
-    std::uint32_t quiet = 0;            ///< of the last steps, those below the stop criterion
-    std::uint32_t stuck = 0;            ///< of the last steps, those in which next to nothing moved
-    std::uint32_t unused = 0;
+    std::uint32_t item = 0;   ///< of the schedule
+    std::uint32_t steps = 0;  ///< of it that are done
+    std::uint32_t quiet = 0;  ///< of the last steps, those below the stop criterion
+    std::uint32_t stuck = 0;  ///< of the last steps, those in which next to nothing moved
 };
 
 void save(StateWriter& out, const RunTotals& totals);

@@ -8,6 +8,8 @@
 #include <dsc/base/error.hpp>
 #include <dsc/run/driver.hpp>
 
+#include "table.hpp"
+
 namespace dsc::run {
 namespace {
 
@@ -47,19 +49,9 @@ std::unique_ptr<hooks::CurvatureEstimator> make_curvature(const Experiment& expe
     return nullptr;
 }
 
-/// value(i) for all i.
-template <class Value>
-std::vector<double> table(const hooks::StepContext& context, std::size_t count, const Value& value) {
-    std::vector<double> values(count);
-    for_blocks(context.workers, count, block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) values[i] = value(i);
-    });
-    return values;
-}
-
 /// From each point to the nearest of the cloud, in the units of the input.
 std::vector<double> distances(const hooks::StepContext& context, const std::vector<Vec3>& points) {
-    return table(context, points.size(), [&](std::size_t i) {
+    return table(context.workers, points.size(), [&](std::size_t i) {
         return context.cloud->search().nearest(points[i]).distance / context.to_normalised.scale;
     });
 }
@@ -145,10 +137,10 @@ std::vector<double> StateSeries::curvatures(const hooks::StepContext& context) {
 void StateSeries::write_surface(const hooks::StepContext& context, const mesh::Complex& complex) {
     const surface::SurfaceView& view = context.surface;
     io::SurfaceData data;
-    data.cells.push_back({"label", table(context, view.face_count(), [&](std::size_t f) {
+    data.cells.push_back({"label", table(context.workers, view.face_count(), [&](std::size_t f) {
                               return static_cast<double>(complex.label(view.face_tets[f]));
                           })});
-    data.cells.push_back({"quality", table(context, view.face_count(), [&](std::size_t f) {
+    data.cells.push_back({"quality", table(context.workers, view.face_count(), [&](std::size_t f) {
                               const auto& [a, b, c] = view.faces[f];
                               return triangle_quality(view.face_areas[f], view.positions[a], view.positions[b],
                                                       view.positions[c]);

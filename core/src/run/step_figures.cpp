@@ -3,20 +3,10 @@
 #include <algorithm>
 #include <dsc/surface/distance.hpp>
 
+#include "table.hpp"
+
 namespace dsc::run {
 namespace {
-
-constexpr std::size_t block = 256;
-
-/// value(i) for all i, computed in blocks; sums are then taken in order, so threads do not matter.
-template <class Value>
-std::vector<double> table(std::size_t count, Workers& workers, const Value& value) {
-    std::vector<double> values(count);
-    workers.for_blocks(count, block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) values[i] = value(i);
-    });
-    return values;
-}
 
 double mean(const std::vector<double>& values) {
     double sum = 0.0;
@@ -57,7 +47,7 @@ void measure_state(const mesh::Complex& complex, const surface::SurfaceView& vie
     row.min_tet_quality = static_cast<double>(std::min(1.0F, complex.least_quality()));
     if (cloud == nullptr || view.face_count() == 0) return;
 
-    const std::vector<double> to_cloud = table(view.vertex_count(), workers, [&](std::size_t i) {
+    const std::vector<double> to_cloud = table(&workers, view.vertex_count(), [&](std::size_t i) {
         return cloud->search().nearest(view.positions[i]).distance;
     });
     row.vertex_to_cloud_mean = mean(to_cloud);
@@ -65,7 +55,7 @@ void measure_state(const mesh::Complex& complex, const surface::SurfaceView& vie
 
     const surface::TriangleTree tree(surface::TriangleMesh{view.positions, view.faces});
     const std::size_t probes = std::min(cloud->size(), cloud_probes);
-    row.cloud_to_surface_mean = mean(table(probes, workers, [&](std::size_t i) {
+    row.cloud_to_surface_mean = mean(table(&workers, probes, [&](std::size_t i) {
         return tree.nearest((*cloud)[i * cloud->size() / probes]).distance;
     }));
 }

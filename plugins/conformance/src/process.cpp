@@ -1,24 +1,20 @@
 #include "process.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <signal.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <dsc/base/error.hpp>
+#include <dsc/host/child_process.hpp>
 #include <filesystem>
 #include <iostream>
-#include <vector>
 
 namespace dsc::conformance {
 namespace {
@@ -64,45 +60,14 @@ private:
 
 [[noreturn]] void live(const std::function<Verdict()>& body, int to, int output, const fs::path& folder) {
     setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const rlimit no_core{0, 0};
-    setrlimit(RLIMIT_CORE, &no_core);
-    for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL})
-        signal(number, SIG_DFL);
-    const int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
-    dup2(null, STDIN_FILENO);
-    dup2(output, STDOUT_FILENO);
-    dup2(output, STDERR_FILENO);
+    host::keep_to_itself(output);
     printed = output;
     if (chdir(folder.c_str()) != 0) _exit(1);
     const Verdict verdict = body();
     std::cout.flush();
     std::fflush(nullptr);
-    const std::string bytes = std::string(1, static_cast<char>(verdict.status)) + verdict.message;
-    std::size_t done = 0;
-    while (done < bytes.size()) {
-        const ssize_t count = write(to, bytes.data() + done, bytes.size() - done);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) break;
-        done += static_cast<std::size_t>(count);
-    }
+    host::write_all(to, std::string(1, static_cast<char>(verdict.status)) + verdict.message);
     _exit(0);
-}
-
-// All that the child writes until it closes its end; false where the time is over first.
-bool read_until(int from, Clock::time_point until, std::string& bytes) {
-    std::array<char, 4096> buffer{};
-    for (;;) {
-        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now());
-        pollfd waiting{from, POLLIN, 0};
-        const int ready = poll(&waiting, 1, static_cast<int>(std::max<std::int64_t>(0, left.count())));
-        if (ready < 0 && errno == EINTR) continue;
-        if (ready == 0) return false;
-        const ssize_t count = read(from, buffer.data(), buffer.size());
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return true;
-        bytes.append(buffer.data(), static_cast<std::size_t>(count));
-    }
 }
 
 std::string last_line(const std::string& text) {
@@ -132,14 +97,10 @@ Verdict judge(int status, bool in_time, const std::string& bytes, const std::str
     if (const std::string report = sanitizer_report(output); !report.empty()) return {Status::fail, report};
     const std::string said = last_line(output);
     const std::string last_words = said.empty() ? "" : ", its last words: " + said;
-    if (WIFSIGNALED(status)) {
-        const int number = WTERMSIG(status);
-        return {Status::crash,
-                "signal " + std::to_string(number) + " (" + strsignal(number) + ")" + last_words};
-    }
+    if (WIFSIGNALED(status)) return {Status::crash, host::end_text(status) + last_words};
     if (bytes.empty() || WEXITSTATUS(status) != 0)
         return {Status::crash,
-                "it ended the process with exit code " + std::to_string(WEXITSTATUS(status)) + last_words};
+                "it ended the process with " + host::end_text(status) + last_words};
     return {static_cast<Status>(bytes[0]), bytes.substr(1)};
 }
 
@@ -179,12 +140,11 @@ Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::millisec
     }
     close(ends[1]);
     std::string bytes;
-    const bool in_time = child > 0 && read_until(ends[0], Clock::now() + limit, bytes);
+    const bool in_time = child > 0 && host::read_to_end(ends[0], bytes, Clock::now() + limit) == host::ReadEnd::closed;
     int status = 0;
     if (child > 0) {
         if (!in_time) kill(child, SIGKILL);
-        while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-        }
+        status = host::wait_for(child);
         kill(-child, SIGKILL);  // whatever it has started
     }
     const std::string said = read_file(output, 0, std::size_t{1} << 20U);
