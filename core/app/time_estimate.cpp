@@ -2,31 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace dsc::app {
 namespace {
 
 constexpr std::size_t remembered = 20;  // steps whose cost counts
 constexpr double cheap = 0.15;          // part of them that cost less than what is reckoned with
-constexpr double usual_growth = 1.35;  // of the vertices by a refinement, until one was seen
+constexpr double usual_growth = 1.35;   // of the vertices by a refinement, until one was seen
 
 }  // namespace
 
-TimeEstimate::TimeEstimate(const std::vector<run::Series>& schedule) : refinements_(1, 0) {
+TimeEstimate::TimeEstimate(const std::vector<run::Series>& schedule) {
     for (const run::Series& item : schedule) {
-        if (!item.steps) ++refinements_.back();
-        for (std::uint32_t step = 1; step <= item.steps.value_or(0); ++step)
-            refinements_.push_back(item.every && step % *item.every == 0 ? 1 : 0);
+        if (!item.steps) refinements_.push_back(planned_);
+        for (std::uint32_t step = item.every.value_or(0); step != 0 && step <= item.steps.value_or(0);
+             step += *item.every)
+            refinements_.push_back(planned_ + step);
+        planned_ += item.steps.value_or(0);
     }
 }
 
 std::uint64_t TimeEstimate::refinements_between(std::uint64_t from, std::uint64_t to) const {
     const auto at = [this](std::uint64_t step) {
-        return refinements_.begin() +
-               static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(step, refinements_.size()));
+        return std::lower_bound(refinements_.begin(), refinements_.end(), step);
     };
-    return std::accumulate(at(from), at(to), std::uint64_t{0});
+    return static_cast<std::uint64_t>(at(to) - at(from));
 }
 
 void TimeEstimate::add(std::uint64_t step, std::size_t interface_vertices, double seconds) {
@@ -37,7 +37,8 @@ void TimeEstimate::add(std::uint64_t step, std::size_t interface_vertices, doubl
             growths_ += refined;
             growth_ += std::log(vertices / vertices_);
         }
-        costs_.push_back((seconds - seconds_) / (std::max(vertices, 1.0) * static_cast<double>(step - *step_)));
+        costs_.push_back((seconds - seconds_) /
+                         (std::max(vertices, 1.0) * static_cast<double>(step - *step_)));
         if (costs_.size() > remembered) costs_.erase(costs_.begin());
     }
     step_ = step;
@@ -53,10 +54,14 @@ std::optional<double> TimeEstimate::remaining() const {
     const double factor = growths_ > 0 ? std::exp(growth_ / growths_) : usual_growth;
     double vertices = vertices_;
     double work = 0;
-    for (std::uint64_t step = *step_; step + 1 < refinements_.size(); ++step) {
-        vertices *= std::pow(factor, refinements_[step]);
-        work += vertices;
+    std::uint64_t reached = *step_;
+    for (auto next = std::lower_bound(refinements_.begin(), refinements_.end(), reached);
+         next != refinements_.end() && *next < planned_; ++next) {
+        work += vertices * static_cast<double>(*next - reached);
+        reached = *next;
+        vertices *= factor;
     }
+    work += vertices * static_cast<double>(planned_ - std::min(reached, planned_));
     return work * cost;
 }
 

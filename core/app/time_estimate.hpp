@@ -24,7 +24,8 @@ public:
 private:
     std::uint64_t refinements_between(std::uint64_t from, std::uint64_t to) const;
 
-    std::vector<std::uint32_t> refinements_;  ///< right after each step, 0 before the first one
+    std::uint64_t planned_ = 0;               ///< steps
+    std::vector<std::uint64_t> refinements_;  ///< the step that each comes right after, ascending; 0: before the first one
     std::optional<std::uint64_t> step_;
     double vertices_ = 0, seconds_ = 0;
     std::vector<double> costs_;         ///< seconds a vertex of the last steps
