@@ -15,7 +15,7 @@ constexpr double usual_growth = 1.35;   // of the vertices by a refinement, unti
 TimeEstimate::TimeEstimate(const std::vector<run::Series>& schedule) {
     for (const run::Series& item : schedule) {
         if (!item.steps) refinements_.push_back(planned_);
-        for (std::uint32_t step = item.every.value_or(0); step != 0 && step <= item.steps.value_or(0);
+        for (std::uint64_t step = item.every.value_or(0); step != 0 && step <= item.steps.value_or(0);
              step += *item.every)
             refinements_.push_back(planned_ + step);
         planned_ += item.steps.value_or(0);
