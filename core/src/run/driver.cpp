@@ -98,6 +98,7 @@ private:
         return {.step = step,
                 .surface = view_,
                 .cloud = cloud_,
+                .nearest = nearest_,
                 .target_length = deformer_.target_length(),
                 .box = deformer_.complex().box(),
                 .to_normalised = cloud_ != nullptr ? cloud_->transform() : cloud::Transform{},
@@ -107,9 +108,15 @@ private:
                 .workers = &workers_};
     }
 
+    /// The nearest points serve the velocity of the next step and the figures of this one.
     void refresh_view() {
         const Timed timed(result_.totals.seconds.velocity);
         surface::build_view(deformer_.complex(), view_, &workers_);
+        if (cloud_ == nullptr) return;
+        nearest_.resize(view_.vertex_count());
+        workers_.for_blocks(nearest_.size(), block, [this](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) nearest_[i] = cloud_->search().nearest(view_.positions[i]);
+        });
     }
 
     void begin() {
@@ -320,7 +327,7 @@ private:
 
     void measure_row(StepMetrics& row) {
         const Timed timed(result_.totals.seconds.measure);
-        measure_state(deformer_.complex(), view_, cloud_, workers_, row);
+        measure_state(deformer_.complex(), view_, cloud_, nearest_, workers_, row);
     }
 
     void observe(StepMetrics& row) {
@@ -382,6 +389,7 @@ private:
     kernel::Deformer deformer_;
     kernel::RepairPolicy policy_;
     surface::SurfaceView view_;
+    std::vector<cloud::Neighbour> nearest_;
     std::vector<Vec3> displacements_;
     const hooks::StepContext* context_ = nullptr;  // of the step under way, for the policy
     bool stopped_ = false;  // before the end of the schedule

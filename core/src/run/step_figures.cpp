@@ -35,7 +35,8 @@ double enclosed_volume(const mesh::Complex& complex, const surface::SurfaceView&
 }
 
 void measure_state(const mesh::Complex& complex, const surface::SurfaceView& view,
-                   const cloud::TargetCloud* cloud, Workers& workers, StepMetrics& row) {
+                   const cloud::TargetCloud* cloud, std::span<const cloud::Neighbour> nearest, Workers& workers,
+                   StepMetrics& row) {
     row.interface_vertices = view.vertex_count();
     row.interface_faces = view.face_count();
     row.junction_vertices = static_cast<std::size_t>(
@@ -47,11 +48,13 @@ void measure_state(const mesh::Complex& complex, const surface::SurfaceView& vie
     row.min_tet_quality = static_cast<double>(std::min(1.0F, complex.least_quality()));
     if (cloud == nullptr || view.face_count() == 0) return;
 
-    const std::vector<double> to_cloud = table(&workers, view.vertex_count(), [&](std::size_t i) {
-        return cloud->search().nearest(view.positions[i]).distance;
-    });
-    row.vertex_to_cloud_mean = mean(to_cloud);
-    row.vertex_to_cloud_max = *std::max_element(to_cloud.begin(), to_cloud.end());
+    double sum = 0.0, largest = 0.0;
+    for (const cloud::Neighbour& point : nearest) {
+        sum += point.distance;
+        largest = std::max(largest, point.distance);
+    }
+    row.vertex_to_cloud_mean = sum / static_cast<double>(nearest.size());
+    row.vertex_to_cloud_max = largest;
 
     const surface::TriangleTree tree(surface::TriangleMesh{view.positions, view.faces});
     const std::size_t probes = std::min(cloud->size(), cloud_probes);

@@ -6,12 +6,15 @@
 #include <dsc/mesh/complex.hpp>
 #include <dsc/run/figures.hpp>
 #include <dsc/surface/surface_view.hpp>
+#include <span>
 
 namespace dsc::run {
 
-/// Fills the figures that the state alone gives: sizes, mean edge, distances, volume, quality. `cloud` may be null.
+/// Fills the figures that the state alone gives: sizes, mean edge, distances, volume, quality. `cloud` may be null;
+/// `nearest` holds the cloud point nearest to each view vertex.
 void measure_state(const mesh::Complex& complex, const surface::SurfaceView& view,
-                   const cloud::TargetCloud* cloud, Workers& workers, StepMetrics& row);
+                   const cloud::TargetCloud* cloud, std::span<const cloud::Neighbour> nearest, Workers& workers,
+                   StepMetrics& row);
 
 /// Volume of all labels above 0 by the divergence theorem over the interface: the cost grows with the interface only.
 double enclosed_volume(const mesh::Complex& complex, const surface::SurfaceView& view);

@@ -85,6 +85,7 @@ void PointCloud::prepare(const hooks::StepContext& context) {
     }
     surface_ = &context.surface;
     cloud_ = context.cloud;
+    nearest_ = context.nearest;
     carving_speed_ = unsupported_.carve * context.target_length;
     if (curvature_ && beta_ > 0) curvature_->prepare(context);
 }
@@ -105,8 +106,8 @@ Vec3 PointCloud::mean_target(const Vec3& point, const cloud::Neighbour& nearest)
     return sum / weights;
 }
 
-PointCloud::DataTerm PointCloud::data_term(const Vec3& point, const Vec3& unit_normal) const {
-    const cloud::Neighbour nearest = cloud_->search().nearest(point);
+PointCloud::DataTerm PointCloud::data_term(const Vec3& point, const Vec3& unit_normal,
+                                           const cloud::Neighbour& nearest) const {
     const Vec3 target = target_.neighbours > 1 ? mean_target(point, nearest) : (*cloud_)[nearest.index];
     const double ahead = unit_normal.dot(target - point);
     const double attraction = alpha_ * ahead;
@@ -132,7 +133,9 @@ void PointCloud::evaluate_piece(hooks::Range range, std::span<Vec3> out) const {
         const std::size_t v = range.begin + i;
         out[i] = Vec3::Zero();
         if (!surface_->movable[v]) continue;
-        const DataTerm term = data_term(surface_->positions[v], surface_->normals[v]);
+        const Vec3& point = surface_->positions[v];
+        const DataTerm term =
+            data_term(point, surface_->normals[v], nearest_.empty() ? cloud_->search().nearest(point) : nearest_[v]);
         out[i] = term.speed * surface_->normals[v];
         const bool curved = curvature_at_ == CurvatureAt::everywhere || !term.supported;
         acts[i] = curved ? 1 : 0;
@@ -152,7 +155,10 @@ void PointCloud::subtract_curvature(hooks::Range range, std::span<const std::uin
 
 void PointCloud::sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals,
                         std::span<Vec3> out) const {
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = data_term(points[i], unit_normals[i]).speed * unit_normals[i];
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const cloud::Neighbour nearest = cloud_->search().nearest(points[i]);
+        out[i] = data_term(points[i], unit_normals[i], nearest).speed * unit_normals[i];
+    }
 }
 
 }  // namespace dsc::strategies

@@ -57,7 +57,7 @@ private:
         double speed = 0.0;      ///< along the normal
         bool supported = true;  ///< a point is near, or the surface is on its way to one
     };
-    DataTerm data_term(const Vec3& point, const Vec3& unit_normal) const;
+    DataTerm data_term(const Vec3& point, const Vec3& unit_normal, const cloud::Neighbour& nearest) const;
     Vec3 mean_target(const Vec3& point, const cloud::Neighbour& nearest) const;
     void evaluate_piece(hooks::Range range, std::span<Vec3> out) const;
     void subtract_curvature(hooks::Range range, std::span<const std::uint8_t> acts, std::span<Vec3> out) const;
@@ -70,6 +70,7 @@ private:
     std::unique_ptr<hooks::CurvatureEstimator> curvature_;
     const surface::SurfaceView* surface_ = nullptr;
     const cloud::TargetCloud* cloud_ = nullptr;
+    std::span<const cloud::Neighbour> nearest_;  // of the vertices; empty where the host has not looked
     double carving_speed_ = 0.0;  // length a step
 };
 

@@ -37,8 +37,11 @@ struct Bench {
             .step = 3, .surface = view, .cloud = cloud, .target_length = 0.1, .box = {}, .to_normalised = {}};
     }
     std::vector<Vec3> displacements(dsc::hooks::VelocityField& field, const dsc::cloud::TargetCloud* cloud,
-                                    unsigned threads = 1, std::size_t block = 64) const {
-        field.prepare(context(cloud));
+                                    unsigned threads = 1, std::size_t block = 64,
+                                    std::span<const dsc::cloud::Neighbour> nearest = {}) const {
+        dsc::hooks::StepContext step = context(cloud);
+        step.nearest = nearest;
+        field.prepare(step);
         std::vector<Vec3> out(view.vertex_count());
         dsc::Workers workers(threads);
         workers.for_blocks(out.size(), block, [&](std::size_t begin, std::size_t end) {
@@ -52,6 +55,22 @@ struct Bench {
 };
 
 }  // namespace
+
+TEST_CASE("what the host has found is taken for the nearest points, and asked for where it has not looked") {
+    const Bench bench(dsc::sdk::square(8, 0.5));
+    dsc::cloud::Normalized slope;
+    for (double x = -1; x <= 1; x += 0.1) {
+        for (double y = -1; y <= 1; y += 0.1) slope.points.emplace_back(x, y, 0.5 + 0.4 * x);
+    }
+    const dsc::cloud::TargetCloud cloud(slope);
+    const auto field = bench.make(ConfigNode::map());
+    const std::vector<Vec3> asked = bench.displacements(*field, &cloud);
+    std::vector<dsc::cloud::Neighbour> nearest;
+    for (const Vec3& p : bench.view.positions) nearest.push_back(cloud.search().nearest(p));
+    CHECK(bench.displacements(*field, &cloud, 1, 64, nearest) == asked);
+    for (auto& n : nearest) n = {0, (cloud[0] - bench.view.positions[0]).norm()};
+    CHECK(bench.displacements(*field, &cloud, 1, 64, nearest) != asked);
+}
 
 TEST_CASE("a plane goes the part alpha of the way to a parallel plane of points") {
     const Bench bench(dsc::sdk::square(8, 0.5));

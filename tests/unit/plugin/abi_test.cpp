@@ -34,7 +34,7 @@ TEST_CASE("the layout of what crosses the door is that of its ABI number") {
         "config::Field 344\n"
         "config::Schema 72\n"
         "config::ConfigNode 16\n"
-        "hooks::StepContext 144\n"
+        "hooks::StepContext 160\n"
         "hooks::RefinementContext 16\n"
         "hooks::RefinementRequests 96\n"
         "hooks::InitialMeshContext 48\n"

@@ -36,7 +36,68 @@ Driven drive(const std::vector<std::string>& overrides, Workers* workers = nullp
     return driven;
 }
 
+// Goes half of the way to the nearest point, and counts where the host's answer is not the search's.
+class Homing final : public hooks::VelocityField {
+public:
+    void prepare(const hooks::StepContext& context) override {
+        surface_ = &context.surface;
+        cloud_ = context.cloud;
+        nearest_ = context.nearest;
+        wrong += nearest_.size() == surface_->vertex_count() ? 0 : 1;
+        for (std::size_t i = 0; i < nearest_.size(); ++i) {
+            const cloud::Neighbour asked = cloud_->search().nearest(surface_->positions[i]);
+            wrong += nearest_[i].index == asked.index && nearest_[i].distance == asked.distance ? 0 : 1;
+        }
+    }
+    void evaluate(hooks::Range range, std::span<Vec3> out) const override {
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            const std::size_t v = range.begin + i;
+            out[i] = 0.5 * ((*cloud_)[nearest_[v].index] - surface_->positions[v]);
+        }
+    }
+    std::size_t wrong = 0;
+
+private:
+    const surface::SurfaceView* surface_ = nullptr;
+    const cloud::TargetCloud* cloud_ = nullptr;
+    std::span<const cloud::Neighbour> nearest_;
+};
+
 }  // namespace
+
+TEST_CASE("strategies find the cloud point nearest to each vertex, also after a refinement, and the figures are theirs") {
+    cloud::Normalized points;
+    for (const double x : {-0.4, 0.0, 0.4}) {
+        for (const double y : {-0.4, 0.0, 0.4}) points.points.emplace_back(x, y, 0.1 * x - 0.3);
+    }
+    const cloud::TargetCloud target(points);
+    const dsc::test::Strategies catalogue;
+    const run::LoadedExperiment loaded =
+        load_text(minimal, {"schedule=[{steps: 2}, {refine: {type: all}}, {steps: 2}]"});
+    run::Strategies strategies = run::make_strategies(loaded.experiment, catalogue);
+    auto homing = std::make_unique<Homing>();
+    const Homing& velocity = *homing;
+    strategies.velocity = std::move(homing);
+    std::size_t wrong = 0, states = 0;
+    run::DriveOptions options;
+    run::StepMetrics last;
+    options.on_step = [&](const run::StepMetrics& row, std::uint64_t) { last = row; };
+    options.on_state = [&](const hooks::StepContext& context, const mesh::Complex&) {
+        double sum = 0, largest = 0;
+        for (const Vec3& p : context.surface.positions) {
+            const double distance = target.search().nearest(p).distance;
+            sum += distance;
+            largest = std::max(largest, distance);
+        }
+        wrong += last.vertex_to_cloud_mean == sum / static_cast<double>(context.surface.vertex_count()) ? 0 : 1;
+        wrong += last.vertex_to_cloud_max == largest ? 0 : 1;
+        ++states;
+    };
+    run::drive(loaded.experiment, strategies, &target, options);
+    CHECK(states == 5);
+    CHECK(wrong == 0);
+    CHECK(velocity.wrong == 0);
+}
 
 TEST_CASE("steps shrink the cube as the velocity says") {
     const Driven d = drive({"velocity.factor=-0.05", "schedule.0.steps=2"});

@@ -28,6 +28,7 @@ struct StepContext {
     std::uint64_t step = 0;
     const surface::SurfaceView& surface;
     const cloud::TargetCloud* cloud = nullptr;  ///< null when the experiment has no input cloud
+    std::span<const cloud::Neighbour> nearest = {};  ///< cloud point nearest to each view vertex; empty where nobody has looked yet
     double target_length = 0.0;                 ///< L
     Box3 box;
     cloud::Transform to_normalised;             ///< input to normalised units; the identity without input

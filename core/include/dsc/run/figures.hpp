@@ -48,7 +48,7 @@ struct StepMetrics {
 };
 
 /// Cloud points at which cloud_to_surface_mean is measured each step; the summary uses all of them.
-inline constexpr std::size_t cloud_probes = 250;
+inline constexpr std::size_t cloud_probes = 150;
 
 /// First line of metrics.csv for rows like `row`, with its newline.
 std::string csv_header(const StepMetrics& row);
