@@ -20,6 +20,7 @@ struct EvaluateArguments {
     std::string result;
     std::string truth;
     std::string cloud;
+    std::vector<std::string> columns;
     std::size_t samples = 100000;
     bool json = false;
 };
@@ -76,7 +77,7 @@ ordered_json distances(const surface::DistanceFigures& f, double factor) {
 
 ordered_json against_cloud(const surface::TriangleMesh& result, const EvaluateArguments& arguments,
                            Workers& workers) {
-    const cloud::Cloud cloud = cloud::read_cloud(arguments.cloud);
+    const cloud::Cloud cloud = cloud::read_cloud(arguments.cloud, nullptr, {arguments.columns});
     const surface::CloudEvaluation e = surface::evaluate_cloud(result, cloud.points, &workers);
     const double diagonal = bounding_box(cloud.points).diagonal();
     ordered_json figures = {{"file", arguments.cloud},
@@ -133,6 +134,7 @@ void add_evaluate(CLI::App& app, Context& context) {
     command->add_option("RESULT", arguments->result, "Surface, volume or run folder")->required();
     command->add_option("--truth", arguments->truth, "True surface");
     command->add_option("--cloud", arguments->cloud, "Point cloud");
+    add_columns(*command, arguments->columns);
     command->add_option("--samples", arguments->samples, "Samples on each surface")
         ->check(CLI::Range(1000, 100000000))
         ->capture_default_str();

@@ -120,6 +120,13 @@ TEST_CASE("reconstruct writes a volume for Gmsh and one for MEDIT") {
     CHECK(run.err == "");
     CHECK(run.out == "v.msh\nv.mesh\ns.ply\nv.dsc\n");
     CHECK(json::parse(cli.dsc({"info", "s.ply", "--json"}).out)["coloured"] == true);
+    REQUIRE(cli.dsc({"convert", "cloud.csv", "xyz.csv", "--columns", "east,north,up"}).code == 0);
+    const auto judged = [&](std::vector<std::string> cloud) {
+        cloud.insert(cloud.begin(), {"evaluate", "s.ply", "--json", "--cloud"});
+        return json::parse(cli.dsc(cloud).out)["cloud"]["vertex_to_cloud"]["mean"].get<double>();
+    };
+    CHECK(judged({"cloud.csv", "--columns", "east,north,up"}) == judged({"xyz.csv"}));
+    CHECK(judged({"cloud.csv", "--columns", "id,north,up"}) != judged({"xyz.csv"}));
     for (const std::string extension : {"msh", "mesh"}) {
         CHECK(cli.dsc({"convert", "v.dsc", "again." + extension}).code == 0);
         CHECK(cli.read("again." + extension) == cli.read("v." + extension));
