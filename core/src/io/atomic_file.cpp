@@ -6,9 +6,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <cerrno>
 #include <system_error>
+#include <vector>
 
 namespace dsc::io {
 namespace {
@@ -37,6 +40,21 @@ std::string remedy_for(int error) {
     }
 }
 
+/// A temporary file's name is .NAME.PROCESS-NUMBER.tmp, beside NAME.
+std::string temporary_name(const std::filesystem::path& file, unsigned number) {
+    return "." + file.filename().string() + "." + std::to_string(::getpid()) + "-" + std::to_string(number) + ".tmp";
+}
+
+bool is_temporary(const std::filesystem::path& file) {
+    const auto is_number = [](std::string_view text) {
+        return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+    };
+    const std::string name = file.stem().string();
+    const std::size_t dot = name.rfind('.'), dash = name.rfind('-');
+    return file.extension() == ".tmp" && name.front() == '.' && dot > 0 && dash != std::string::npos && dash > dot &&
+           is_number(std::string_view(name).substr(dot + 1, dash - dot - 1)) && is_number(std::string_view(name).substr(dash + 1));
+}
+
 /// Closes the descriptor and removes the file unless told that it has its final name.
 class TemporaryFile {
 public:
@@ -44,9 +62,7 @@ public:
         static std::atomic<unsigned> number{0};
         // Process and counter make the name unique among ourselves; O_EXCL makes it so among all.
         for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
-            path_ =
-                beside.parent_path() / ("." + beside.filename().string() + "." + std::to_string(::getpid()) +
-                                        "-" + std::to_string(number++) + ".tmp");
+            path_ = beside.parent_path() / temporary_name(beside, number++);
             descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
             if (descriptor_ < 0 && errno != EEXIST) break;
         }
@@ -122,6 +138,26 @@ void write_file(const std::filesystem::path& file, std::string_view content) {
         fail_write(file, "cannot be written: " + reason(code), remedy_for(code));
     }
     sync_folder(target.parent_path());
+}
+
+bool nothing_but_leftovers(const std::filesystem::path& folder, std::error_code& error) {
+    std::filesystem::directory_iterator entry(folder, error);
+    while (!error && entry != std::filesystem::directory_iterator()) {
+        if (!is_temporary(entry->path())) return false;
+        entry.increment(error);
+    }
+    return !error;
+}
+
+void remove_leftovers(const std::filesystem::path& folder) {
+    std::error_code error, ignored;
+    std::vector<std::filesystem::path> found;
+    std::filesystem::directory_iterator entry(folder, error);
+    while (!error && entry != std::filesystem::directory_iterator()) {
+        if (is_temporary(entry->path()) && entry->is_regular_file(ignored)) found.push_back(entry->path());
+        entry.increment(error);
+    }
+    for (const auto& file : found) std::filesystem::remove(file, ignored);
 }
 
 std::string read_file(const std::filesystem::path& file) {

@@ -53,7 +53,7 @@ RunFolder::RunFolder(fs::path folder, Keep keep) : folder_(std::move(folder)) {
         throw UsageError("run.folder", folder_.string() + " is a file; name a folder with -o");
     }
     if (fs::is_directory(status)) {
-        const bool empty = fs::is_empty(folder_, error);
+        const bool empty = io::nothing_but_leftovers(folder_, error);
         if (error) cannot(folder_, "cannot be read", error);
         if (!empty && !is_ours(folder_)) {
             throw UsageError("run.folder",
@@ -65,6 +65,8 @@ RunFolder::RunFolder(fs::path folder, Keep keep) : folder_(std::move(folder)) {
     fs::create_directories(folder_, error);
     if (error) cannot(folder_, "cannot be made", error);
     remove_results();
+    io::remove_leftovers(folder_);
+    io::remove_leftovers(folder_ / "checkpoint");
     if (keep == Keep::progress) return;
     for (const char* name : other_names) discard(folder_ / name);
 }

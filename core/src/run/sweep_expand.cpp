@@ -26,11 +26,12 @@ std::vector<SweepJob> open_table(const fs::path& folder) {
     std::error_code error;
     if (fs::exists(table_file(folder), error)) return read_table(folder);
     const bool file = fs::exists(folder, error) && !fs::is_directory(folder, error);
-    if (file || (fs::is_directory(folder, error) && !fs::is_empty(folder, error))) {
+    if (file || (fs::is_directory(folder, error) && !io::nothing_but_leftovers(folder, error))) {
         throw UsageError("sweep.folder", folder.string() + (file ? " is a file" : " is not empty and no sweep") +
                                              "; nothing in it was changed; name another folder with -o or empty it");
     }
     make_folder(folder);
+    io::remove_leftovers(folder);
     io::write_file(table_file(folder), table_text({}));
     return {};
 }

@@ -113,6 +113,28 @@ TEST_CASE("run folder: takes an empty folder or one of ours, refuses all others 
     CHECK_FALSE(fs::exists(ours / "summary.json"));
     CHECK(fs::exists(ours / "notes.txt"));
 
+    // A run that is killed at its very first moment leaves this and no status.json.
+    folder.write("killed/.status.json.4711-0.tmp", "{\"for");
+    folder.write("killed/checkpoint/.step_3.dscstate.4711-9.tmp", "dsc");
+    CHECK_THROWS_AS(run::RunFolder(folder.path() / "killed"), UsageError);  // no run makes a checkpoint before its status
+    fs::remove_all(folder.path() / "killed/checkpoint");
+    const run::RunFolder begun(folder.path() / "killed");
+    CHECK(fs::is_empty(begun.path()));
+    begun.write("status.json", "{\"format\": \"dsc-run-1\", \"state\": \"running\"}");
+    folder.write("killed/checkpoint/.step_3.dscstate.4711-9.tmp", "dsc");
+    folder.write("killed/checkpoint/step_3.dscstate", "dsc");
+    folder.write("killed/.metrics.csv.4711-12.tmp", "step");
+    const run::RunFolder resumed = run::RunFolder::resumed(folder.path() / "killed");
+    CHECK_FALSE(fs::exists(resumed.file(".metrics.csv.4711-12.tmp")));
+    CHECK(fs::exists(resumed.file("checkpoint/step_3.dscstate")));
+    CHECK_FALSE(fs::exists(resumed.file("checkpoint/.step_3.dscstate.4711-9.tmp")));
+    for (const std::string name : {".notes.tmp", ".notes.1-2x.tmp", "notes.1-2.tmp", ".1-2.tmp", "a.tmp", ".tmp"}) {
+        CAPTURE(name);
+        folder.write("notes_" + name + "/" + name, "mine");
+        CHECK_THROWS_AS(run::RunFolder(folder.path() / ("notes_" + name)), UsageError);
+        CHECK(folder.read("notes_" + name + "/" + name) == "mine");
+    }
+
     folder.write("other/thesis.tex", "text");
     CHECK_THROWS_AS(run::RunFolder(folder.path() / "other"), UsageError);
     folder.write("status/status.json", "{\"state\": \"done\"}");

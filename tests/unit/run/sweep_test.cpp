@@ -305,6 +305,11 @@ TEST_CASE("a folder with something else in it, or a damaged table, is refused") 
     bench.folder.write("out/mine.txt", "precious");
     CHECK(contains(bench.expand_fault(six), "DIR/out is not empty and no sweep"));
     CHECK(bench.folder.read("out/mine.txt") == "precious");
+    std::filesystem::remove(bench.folder.path() / "out/mine.txt");
+    bench.folder.write("out/.jobs.tsv.4711-0.tmp", "ind");  // of a call that was killed
+    CHECK(bench.expand(six).added == 6);
+    CHECK_FALSE(std::filesystem::exists(bench.folder.path() / "out/.jobs.tsv.4711-0.tmp"));
+    std::filesystem::remove_all(bench.folder.path() / "out");
     for (const char* text : {"", "index\tfolder\n", "index\tfolder\toverrides\n1\tpoints/0123456789ab\t{a: 1}\n",
                              "index\tfolder\toverrides\n0\t../0123456789ab\t{a: 1}\n",
                              "index\tfolder\toverrides\n0\tpoints/0123456789ab\t[1]\n",

@@ -13,7 +13,8 @@ namespace dsc::run {
 /// result/ appears whole by a rename. A folder whose run failed holds no result, no summary and no picture.
 class RunFolder {
 public:
-    /// Creates the folder, or takes over a run folder of ours whose results it removes. Files that no run writes stay.
+    /// Creates the folder, or takes over a run folder of ours whose results it removes. Files that no run writes stay,
+    /// temporary ones that a killed run has left do not.
     /// Throws UsageError "run.folder" for a file or any other folder that is not empty, IoError "run.folder" when it
     /// cannot be made. [setup]
     explicit RunFolder(std::filesystem::path folder);
