@@ -36,32 +36,28 @@ elseif(NOT DSC_SANITIZE STREQUAL "")
   message(FATAL_ERROR "DSC_SANITIZE=${DSC_SANITIZE}: accepted are address and thread")
 endif()
 
-# dsc_precompile(TARGET): Eigen and the common standard headers are read once, not in each of the target's sources, which takes
-# a third off a build. Libraries and programs differ in their flags, so there are two. Off where warnings count, as in the
-# preset dev: a source must include what it uses, and g++ 12 sees overflows in std::string's operator+ once it is precompiled.
+# dsc_precompile(TARGET [HEADERS...]): Eigen and the common standard headers, and those named, are read once, not in each of the
+# target's sources, which takes a third off a build. Off where warnings count, as in the preset dev: a source must include what
+# it uses, and g++ 12 sees overflows in std::string's operator+ once it is precompiled.
 option(DSC_PRECOMPILE "Read the common headers once for all sources" OFF)
+set(dsc_common_headers <Eigen/Core> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
+  <optional> <span> <sstream> <string> <string_view> <unordered_map> <utility> <vector>)
 function(dsc_precompile target)
   if(NOT DSC_PRECOMPILE)
     return()
   endif()
-  get_target_property(type ${target} TYPE)
-  set(common dsc_headers_of_libraries)
-  if(type STREQUAL "EXECUTABLE")
-    set(common dsc_headers_of_programs)
-  endif()
-  if(NOT TARGET ${common})
-    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${common}.cpp CONTENT "")
-    add_library(${common} OBJECT ${PROJECT_BINARY_DIR}/${common}.cpp)
-    target_link_libraries(${common} PRIVATE Eigen3::Eigen dsc_flags)
-    if(type STREQUAL "EXECUTABLE")
-      set_target_properties(${common} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
-      target_compile_options(${common} PRIVATE -fPIE)
-    endif()
-    target_precompile_headers(${common} PRIVATE <Eigen/Core> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional>
-      <limits> <map> <memory> <optional> <span> <sstream> <string> <string_view> <unordered_map> <utility> <vector>)
-  endif()
-  target_precompile_headers(${target} REUSE_FROM ${common})
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-array-bounds>)
+  if(ARGN)
+    target_precompile_headers(${target} PRIVATE ${dsc_common_headers} ${ARGN})
+    return()
+  endif()
+  if(NOT TARGET dsc_precompiled)
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "")
+    add_library(dsc_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
+    target_link_libraries(dsc_precompiled PRIVATE Eigen3::Eigen dsc_flags)
+    target_precompile_headers(dsc_precompiled PRIVATE ${dsc_common_headers})
+  endif()
+  target_precompile_headers(${target} REUSE_FROM dsc_precompiled)
 endfunction()
 
 # dsc_module(NAME SOURCES ... [USES modules...] [LINK third-party targets...])
