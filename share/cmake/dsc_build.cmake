@@ -37,8 +37,8 @@ elseif(NOT DSC_SANITIZE STREQUAL "")
 endif()
 
 # dsc_precompile(TARGET [HEADERS...]): Eigen and the common standard headers, and those named, are read once, not in each of the
-# target's sources, which takes a quarter off the time in the compiler. Off where warnings count, as in the preset dev: a source must include what
-# it uses, and g++ 12 sees overflows in std::string's operator+ once it is precompiled.
+# target's sources, which takes a quarter off the time in the compiler. Off where warnings count, as in the preset dev: a source
+# must include what it uses, and g++ 12 sees overflows in std::string's operator+ once it is precompiled.
 option(DSC_PRECOMPILE "Read the common headers once for all sources" OFF)
 set(dsc_common_headers <Eigen/Core> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
   <optional> <span> <sstream> <string> <string_view> <unordered_map> <utility> <vector>)
