@@ -66,9 +66,9 @@ RunFolder::RunFolder(fs::path folder, Keep keep) : folder_(std::move(folder)) {
     if (error) cannot(folder_, "cannot be made", error);
     remove_results();
     io::remove_leftovers(folder_);
-    io::remove_leftovers(folder_ / "checkpoint");
-    if (keep == Keep::progress) return;
-    for (const char* name : other_names) discard(folder_ / name);
+    for (const char* name : other_names) {
+        keep == Keep::progress ? io::remove_leftovers(folder_ / name) : discard(folder_ / name);
+    }
 }
 
 void RunFolder::write(std::string_view name, std::string_view content) const {

@@ -49,13 +49,6 @@ std::unique_ptr<hooks::CurvatureEstimator> make_curvature(const Experiment& expe
     return nullptr;
 }
 
-/// From each point to the nearest of the cloud, in the units of the input.
-std::vector<double> distances(const hooks::StepContext& context, const std::vector<Vec3>& points) {
-    return table(context.workers, points.size(), [&](std::size_t i) {
-        return context.cloud->search().nearest(points[i]).distance / context.to_normalised.scale;
-    });
-}
-
 /// 1 for an equilateral triangle, 0 for a flat one.
 double triangle_quality(double area, const Vec3& a, const Vec3& b, const Vec3& c) {
     const double squares = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
@@ -145,7 +138,11 @@ void StateSeries::write_surface(const hooks::StepContext& context, const mesh::C
                               return triangle_quality(view.face_areas[f], view.positions[a], view.positions[b],
                                                       view.positions[c]);
                           })});
-    if (context.cloud != nullptr) data.points.push_back({"distance", distances(context, view.positions)});
+    const double scale = context.to_normalised.scale;
+    if (context.cloud != nullptr) {
+        data.points.push_back({"distance", table(context.workers, view.vertex_count(),
+                                                 [&](std::size_t i) { return context.nearest[i].distance / scale; })});
+    }
     if (curvature_ != nullptr) data.points.push_back({"curvature", curvatures(context)});
     data.vectors.push_back({"normal", view.normals});
     surface::TriangleMesh mesh{view.positions, view.faces};
@@ -159,7 +156,12 @@ void StateSeries::write_surface(const hooks::StepContext& context, const mesh::C
 void StateSeries::write_volume(const hooks::StepContext& context, const mesh::Complex& complex) {
     mesh::TetMesh mesh = complex.to_mesh();
     io::VolumeData data;
-    if (context.cloud != nullptr) data.points.push_back({"distance", distances(context, mesh.points)});
+    const double scale = context.to_normalised.scale;
+    if (context.cloud != nullptr) {
+        data.points.push_back({"distance", table(context.workers, mesh.points.size(), [&](std::size_t i) {
+                                   return context.cloud->search().nearest(mesh.points[i]).distance / scale;
+                               })});
+    }
     to_input(mesh.points, context.to_normalised);
     const std::string name = file_name("volume", context.step);
     io::write_volume(folder_ / name, mesh, data);

@@ -123,11 +123,13 @@ TEST_CASE("run folder: takes an empty folder or one of ours, refuses all others 
     begun.write("status.json", "{\"format\": \"dsc-run-1\", \"state\": \"running\"}");
     folder.write("killed/checkpoint/.step_3.dscstate.4711-9.tmp", "dsc");
     folder.write("killed/checkpoint/step_3.dscstate", "dsc");
+    folder.write("killed/series/.step_3.vtp.4711-3.tmp", "<?xml");
     folder.write("killed/.metrics.csv.4711-12.tmp", "step");
     const run::RunFolder resumed = run::RunFolder::resumed(folder.path() / "killed");
     CHECK_FALSE(fs::exists(resumed.file(".metrics.csv.4711-12.tmp")));
     CHECK(fs::exists(resumed.file("checkpoint/step_3.dscstate")));
     CHECK_FALSE(fs::exists(resumed.file("checkpoint/.step_3.dscstate.4711-9.tmp")));
+    CHECK_FALSE(fs::exists(resumed.file("series/.step_3.vtp.4711-3.tmp")));
     for (const std::string name : {".notes.tmp", ".notes.1-2x.tmp", "notes.1-2.tmp", ".1-2.tmp", "a.tmp", ".tmp"}) {
         CAPTURE(name);
         folder.write("notes_" + name + "/" + name, "mine");

@@ -16,7 +16,7 @@ void write_file(const std::filesystem::path& file, std::string_view content);
 /// Whether the folder is empty but for temporary files that write_file() left when its process was killed. [step]
 bool nothing_but_leftovers(const std::filesystem::path& folder, std::error_code& error);
 
-/// Removes such files from the folder, if there is one; nobody may be writing in it. [step]
+/// Removes such files from the folder, if it is one; nobody may be writing in it. [step]
 void remove_leftovers(const std::filesystem::path& folder);
 
 /// The whole file. Throws IoError "io.missing", "io.directory", "io.unreadable". [step]
