@@ -13,10 +13,31 @@ namespace dsc::cloud {
 /// Red, green, blue.
 using Colour = std::array<std::uint8_t, 3>;
 
-/// Points in the units of their file. No normals are used anywhere.
+/// A piece of surface that stands for one point or for several: what the winding field is made of.
+struct SurfaceSample {
+    Vec3 position = Vec3::Zero();
+    Vec3 area = Vec3::Zero();  ///< area vector: along the normal that points out of the solid, as long as the area
+    double width = 0.0;        ///< root of the area that one sample stands for there (label_width of statistics.hpp)
+};
+
+/// Inside and outside of a cloud, as cloud/orientation.hpp estimates them.
+struct Orientation {
+    std::vector<SurfaceSample> samples{};  ///< all points that are kept, or the means of a large cloud's cells
+    double residual = 0.0;    ///< root mean square of 1/2 - w at the samples; w is their winding field
+    double noise = 0.0;       ///< noise scale of the samples (sigma_q), in the cloud's units
+    bool all_points = false;  ///< the coarse stage used every sample, so no finer orientation can be asked for
+    bool empty() const { return samples.empty(); }
+};
+
+/// Points in the units of their file, with the attributes that files and filters give them. Each attribute is empty or
+/// has one entry per point.
 struct Cloud {
     std::vector<Vec3> points;
-    std::vector<Colour> colours{};  ///< empty, or one a point
+    std::vector<Colour> colours{};
+    std::vector<Vec3> normals{};       ///< unit vectors that point out of the solid
+    std::vector<Vec3> areas{};         ///< area vectors, in squared units
+    std::vector<double> confidence{};  ///< of the normals, 0 to 1
+    Orientation orientation{};         ///< empty before the filter `orient`
     std::string source{};  ///< the file or shape that they come from, named in error messages; may be empty
 };
 

@@ -4,15 +4,26 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <dsc/cloud/cloud.hpp>
 
 namespace dsc::cloud {
 
+/// How many points were removed for one reason.
+struct RemovedPoints {
+    std::string reason;  ///< "farther than 2.5 widths from its neighbours", ...
+    std::size_t count = 0;
+};
+
+/// What a filter did.
 struct FilterReport {
-    std::string filter;  ///< its name in an experiment: "duplicates", ...
+    std::string filter{};  ///< its name in an experiment: "duplicates", ...
     std::size_t kept = 0;
     std::size_t removed = 0;
+    std::vector<RemovedPoints> reasons{};  ///< empty where there is only one; else their counts add up to `removed`
+    std::vector<std::pair<std::string, double>> figures{};  ///< further figures for summary.json: snake_case name and value
 };
 
 struct Filtered {

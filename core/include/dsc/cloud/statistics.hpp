@@ -1,0 +1,34 @@
+#pragma once
+// Statistics of a cloud from which all lengths of a reconstruction derive: how wide apart its points are, how noisy it is.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <dsc/base/workers.hpp>
+#include <dsc/geometry/vec.hpp>
+
+namespace dsc::cloud {
+
+/// Lengths in the units of the points.
+struct Statistics {
+    std::vector<double> point_width;    ///< per point: root of the area per point, from the 12th neighbour
+    std::vector<double> label_width;    ///< per point: the same from the 8th neighbour, averaged; 0.92 of the true value
+    std::vector<double> outlier_score;  ///< per point: distance to the 8th neighbour over the median of its neighbours' ones
+    double width = 0.0;                 ///< median of point_width
+    double median_label_width = 0.0;
+    double noise = 0.0;                 ///< standard deviation of the points across the surface
+    double noise_ratio = 0.0;           ///< noise / width, 0 where the width is 0
+    double spread = 1.0;                ///< 0.9-quantile of point_width over its 0.1-quantile; below 3 the spacing is even
+    double area = 0.0;                  ///< sum of min(point_width, 2 width)^2: area of the surface
+    std::size_t duplicates = 0;         ///< points that repeat an earlier one
+};
+
+/// Distance to the k-th of the nearest other points as the root of an area: sqrt(pi r^2 / k).
+double width_of(double distance, double neighbours);
+
+/// Measures the points. The result does not depend on the order of the points, except for the order of the vectors, nor on
+/// the number of threads. `workers` may be null: one thread. Throws GeometryError as NearestSearch. [setup]
+Statistics measure_cloud(std::span<const Vec3> points, Workers* workers = nullptr);
+
+}  // namespace dsc::cloud
