@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <dsc/base/workers.hpp>
+#include <dsc/cloud/search.hpp>
 #include <dsc/geometry/vec.hpp>
 
 namespace dsc::cloud {
@@ -24,11 +25,14 @@ struct Statistics {
     std::size_t duplicates = 0;         ///< points that repeat an earlier one
 };
 
-/// Distance to the k-th of the nearest other points as the root of an area: sqrt(pi r^2 / k).
+/// The root of the area that one point stands for where `neighbours` others lie within `distance`: sqrt(pi r^2 / k). [parallel]
 double width_of(double distance, double neighbours);
 
-/// Measures the points. The result does not depend on the order of the points, except for the order of the vectors, nor on
-/// the number of threads. `workers` may be null: one thread. Throws GeometryError as NearestSearch. [setup]
+/// Measures the points. The number of threads changes nothing. The noise is measured at 2,000 points at most, evenly spread
+/// over their order; all else does not depend on the order. A cloud of fewer than 12 points has no noise that could be
+/// measured: 0. `workers` may be null: one thread. Throws GeometryError as NearestSearch. [setup]
 Statistics measure_cloud(std::span<const Vec3> points, Workers* workers = nullptr);
+/// The same with a search that exists already. [setup]
+Statistics measure_cloud(const NearestSearch& search, Workers* workers = nullptr);
 
 }  // namespace dsc::cloud
