@@ -1,7 +1,9 @@
 // dsc info
+#include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/search.hpp>
+#include <dsc/cloud/statistics.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/run/measure.hpp>
 #include <memory>
@@ -89,7 +91,20 @@ ordered_json volume_figures(const std::filesystem::path& file, const run::Volume
     return figures;
 }
 
-ordered_json cloud_figures(const Content& content) {
+/// How wide apart the points are, how noisy they are, how many stand apart; lengths in the units of the file.
+ordered_json statistics_figures(const cloud::Statistics& s) {
+    const double farthest = *std::max_element(s.outlier_score.begin(), s.outlier_score.end());
+    return {{"point_width", s.width},
+            {"label_width", s.median_label_width},
+            {"width_spread", s.spread},
+            {"noise", s.noise},
+            {"noise_to_width", s.noise_ratio},
+            {"area", s.area},
+            {"duplicates", s.duplicates},
+            {"largest_outlier_score", farthest}};
+}
+
+ordered_json cloud_figures(const Content& content, Workers& workers) {
     const std::vector<Vec3>& points = content.cloud->points;
     const cloud::NearestSearch search(points);
     std::vector<cloud::Neighbour> neighbours;
@@ -106,6 +121,7 @@ ordered_json cloud_figures(const Content& content) {
             {"dropped_not_finite", content.dropped},
             {"points_with_a_twin", repeated},
             {"mean_spacing", spacing / static_cast<double>(points.size())},
+            {"statistics", statistics_figures(cloud::measure_cloud(search, &workers))},
             {"box", box_figures(bounding_box(points))},
             {"solid", false}};
 }
@@ -123,7 +139,7 @@ int execute(const InfoArguments& arguments) {
         figures.update(volume_figures(arguments.file, run::measure(*content.volume, &workers)));
     } else {
         figures["kind"] = "cloud";
-        figures.update(cloud_figures(content));
+        figures.update(cloud_figures(content, workers));
     }
     print_figures(figures, arguments.json);
     if (arguments.require_solid && !figures["solid"].get<bool>()) {

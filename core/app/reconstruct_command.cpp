@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
-#include <dsc/cloud/read.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/io/formats.hpp>
 #include <dsc/run/reconstruct.hpp>
@@ -30,6 +29,7 @@ struct ReconstructArguments {
     std::vector<std::string> outputs;
     std::string detail = "medium";
     std::string keep_run;
+    bool print_config = false;
     unsigned threads = 0;
     std::vector<std::string> plugins;
     TerminalOptions terminal;
@@ -89,24 +89,15 @@ fs::path source_of(const Target& target, const run::RunOutcome& outcome) {
     throw Error(ExitCode::internal, "reconstruct.format", "the run wrote no ." + target.format);
 }
 
-config::ConfigNode with_columns(const config::ConfigNode& root, const std::vector<std::string>& columns) {
-    if (columns.empty()) return root;
-    const config::ConfigNode& input = root.at("input");
-    const config::ConfigNode list =
-        config::ConfigNode::list(std::vector<config::ConfigNode>(columns.begin(), columns.end()));
-    return root.with("input", input.with("cloud", input.at("cloud").with("columns", list)));
-}
-
 int execute(const ReconstructArguments& arguments, const std::vector<std::string>& command) {
     start_log(arguments.terminal);
     if (!fs::exists(arguments.cloud)) {
         throw IoError("io.missing", arguments.cloud, "", "does not exist", "check the name of the cloud");
     }
     const std::vector<Target> list = targets(arguments);
-    const run::Detail detail = run::detail_from_name(arguments.detail).value();
-    config::ConfigNode root = run::derive_experiment(fs::absolute(arguments.cloud).string(),
-                                                     cloud::read_cloud(arguments.cloud, nullptr, {arguments.columns}), detail);
-    root = with_columns(root, arguments.columns);
+    config::ConfigNode root =
+        run::reconstruction_of(fs::absolute(arguments.cloud).string(),
+                               {run::detail_from_name(arguments.detail).value(), arguments.columns});
     const bool kept = !arguments.keep_run.empty();
     root = root.with("output",
                      config::ConfigNode::map({{"report", kept},
@@ -118,6 +109,10 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
                                                                      : std::vector<std::string>{"dsc"})}}));
     Plugins plugins(arguments.plugins);
     const run::LoadedExperiment loaded = run::resolve_experiment(root, plugins.loader());
+    if (arguments.print_config) {
+        std::cout << run::resolved_text(loaded);
+        return 0;
+    }
 
     std::optional<TemporaryFolder> temporary;
     if (!kept) temporary.emplace();
@@ -153,6 +148,7 @@ void add_reconstruct(CLI::App& app, Context& context) {
     command->add_option("--detail", arguments->detail, "low, medium or high")
         ->check(CLI::IsMember({"low", "medium", "high"}))
         ->capture_default_str();
+    command->add_flag("--print-config", arguments->print_config, "Print the experiment that would be run; run nothing");
     command->add_option("--keep-run", arguments->keep_run, "Keep the run folder here");
     command
         ->add_option("--threads", arguments->threads,

@@ -1,19 +1,27 @@
 #pragma once
-// The main job: an experiment derived from a cloud, the thesis' pipeline without a knob but the level of detail.
+// The main job: the experiment that turns a cloud into a surface and a volume, with no knob but the level of detail.
 
-#include <dsc/cloud/cloud.hpp>
 #include <dsc/config/node.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace dsc::run {
 
+/// How many vertices the surface gets: half, all or twice the budget that the number of points gives.
 enum class Detail { low, medium, high };
-/// Empty for any other word.
+/// Empty for any other word. [parallel]
 std::optional<Detail> detail_from_name(std::string_view name);
+/// "low", "medium", "high". [parallel]
+std::string_view detail_name(Detail detail);
 
-/// The configuration for `file`, whose points are `cloud`. Throws GeometryError as cloud::require_volume. [setup]
-config::ConfigNode derive_experiment(const std::string& file, const cloud::Cloud& cloud, Detail detail);
+struct ReconstructOptions {
+    Detail detail = Detail::medium;
+    std::vector<std::string> columns{};  ///< of a text cloud (cloud::ReadOptions)
+};
+
+/// The experiment in configs/reconstruct/default.yaml with `file`, an absolute name, as its cloud. [setup]
+config::ConfigNode reconstruction_of(const std::string& file, const ReconstructOptions& options = {});
 
 }  // namespace dsc::run
