@@ -5,74 +5,94 @@
 namespace dsc::mesh::lattice {
 namespace {
 
-// Bits 0, 2, 4, ... of a word, moved together into its lower half.
-std::uint64_t even_bits(std::uint64_t w) {
-    w &= 0x5555555555555555U;
-    w = (w | w >> 1U) & 0x3333333333333333U;
-    w = (w | w >> 2U) & 0x0f0f0f0f0f0f0f0fU;
-    w = (w | w >> 4U) & 0x00ff00ff00ff00ffU;
-    w = (w | w >> 8U) & 0x0000ffff0000ffffU;
-    return (w | w >> 16U) & 0x00000000ffffffffU;
-}
+// Cells of a brick whose index along an axis is 0.
+constexpr std::array<std::uint64_t, 3> first_cells = {0x1111111111111111U, 0x000f000f000f000fU, 0xffffU};
 
 }  // namespace
 
-CellSet::CellSet(unsigned side) : side_(side), row_((side + 63U) / 64U), words_(row_ * side * side, 0) {}
-
 std::size_t CellSet::count() const {
     std::size_t sum = 0;
-    for (const std::uint64_t w : words_) sum += static_cast<std::size_t>(std::popcount(w));
+    for (const Brick& b : slots_) sum += static_cast<std::size_t>(std::popcount(b.cells));
     return sum;
 }
 
-// Each word with the bits of its cells' neighbours along an axis; both ends of a row have one neighbour.
-std::vector<std::uint64_t> CellSet::spread(const std::vector<std::uint64_t>& from, unsigned axis) const {
-    std::vector<std::uint64_t> out = from;
-    if (axis > 0) {
-        // Along y a row's neighbours are a row away, along z a plane.
-        const std::size_t stride = axis == 1 ? row_ : row_ * side_;
-        for (std::size_t i = 0; i < out.size(); ++i) {
-            const std::size_t at = i / stride % side_;
-            if (at > 0) out[i] |= from[i - stride];
-            if (at + 1 < side_) out[i] |= from[i + stride];
+void CellSet::add(const Cell& brick, std::uint64_t cells) {
+    std::size_t at = slot_of(key_of(brick));
+    if (slots_[at].key == unused) {
+        if (2 * (bricks_ + 1) > slots_.size()) {
+            std::vector<Brick> old(2 * slots_.size(), Brick{unused, 0});
+            old.swap(slots_);
+            for (const Brick& b : old) {
+                if (b.key != unused) slots_[slot_of(b.key)] = b;
+            }
+            at = slot_of(key_of(brick));
         }
-        return out;
+        slots_[at].key = key_of(brick);
+        ++bricks_;
     }
-    const std::uint64_t last = side_ % 64U == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (side_ % 64U)) - 1;
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const std::size_t at = i % row_;
-        const std::uint64_t before = at > 0 ? from[i - 1] : 0, after = at + 1 < row_ ? from[i + 1] : 0;
-        out[i] |= from[i] << 1U | before >> 63U | from[i] >> 1U | after << 63U;
-        if (at + 1 == row_) out[i] &= last;
+    slots_[at].cells |= cells;
+}
+
+void CellSet::add(const CellSet& other) {
+    for (const Brick& b : other.slots_) {
+        if (b.key != unused) add(brick_of(b.key), b.cells);
+    }
+}
+
+// With the neighbours along an axis; the cells at both ends of a row have one neighbour.
+CellSet CellSet::spread(unsigned axis) const {
+    const unsigned step = 1U << 2U * axis;
+    const std::uint64_t first = first_cells[axis], last = first << 3U * step;
+    CellSet out = *this;
+    for (const Brick& b : slots_) {
+        if (b.key == unused) continue;
+        Cell at = brick_of(b.key);
+        // Of the last brick only the cells within the box count.
+        const unsigned width = side_ - 4U * static_cast<unsigned>(at[axis]);
+        std::uint64_t inner = (b.cells & ~last) << step | (b.cells & ~first) >> step;
+        if (width < 4) inner &= ~(first << width * step);
+        out.add(at, inner);
+        if ((b.cells & first) != 0 && at[axis] > 0) {
+            --at[axis];
+            out.add(at, (b.cells & first) << 3U * step);
+            ++at[axis];
+        }
+        if ((b.cells & last) != 0 && width > 4) {
+            ++at[axis];
+            out.add(at, (b.cells & last) >> 3U * step);
+        }
     }
     return out;
 }
 
-void CellSet::grow() {
-    // Over edges: neighbours along two axes, for every pair of them.
-    const auto x = spread(words_, 0), y = spread(words_, 1);
-    const auto xy = spread(x, 1), xz = spread(x, 2), yz = spread(y, 2);
-    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] = xy[i] | xz[i] | yz[i];
-}
-
 CellSet CellSet::grown(unsigned layers) const {
     CellSet out = *this;
-    for (unsigned n = 0; n < layers && n < side_; ++n) out.grow();
+    for (unsigned n = 0; n < layers && n < side_; ++n) {
+        // Over edges: neighbours along two axes, for every pair of them.
+        const CellSet x = out.spread(0), y = out.spread(1);
+        out = x.spread(1);
+        out.add(x.spread(2));
+        out.add(y.spread(2));
+    }
     return out;
 }
 
 CellSet CellSet::parents() const {
     CellSet out(side_ / 2);
-    for (std::size_t z = 0; z < side_; ++z) {
-        for (std::size_t y = 0; y < side_; ++y) {
-            const std::uint64_t* from = &words_[(z * side_ + y) * row_];
-            std::uint64_t* to = &out.words_[(z / 2 * out.side_ + y / 2) * out.row_];
-            for (std::size_t i = 0; i < row_; ++i) {
-                const std::uint64_t half = even_bits(from[i] | from[i] >> 1U);
-                // An odd number of words leaves the upper half of the last one empty.
-                if (half != 0) to[i / 2] |= half << (i % 2 == 0 ? 0U : 32U);
-            }
+    for (const Brick& b : slots_) {
+        if (b.key == unused) continue;
+        std::uint64_t w = b.cells;
+        w |= w >> 1U;
+        w |= w >> 4U;
+        w |= w >> 16U;
+        const Cell at = brick_of(b.key);
+        std::uint64_t cells = 0;
+        for (int n = 0; n < 8; ++n) {
+            const int i = n & 1, j = n >> 1 & 1, k = n >> 2;
+            if ((w >> static_cast<unsigned>(2 * i + 8 * j + 32 * k) & 1U) == 0) continue;
+            cells |= bit_of({2 * at[0] + i, 2 * at[1] + j, 2 * at[2] + k});
         }
+        out.add({at[0] >> 1, at[1] >> 1, at[2] >> 1}, cells);
     }
     return out;
 }

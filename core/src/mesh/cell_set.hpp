@@ -1,5 +1,5 @@
 #pragma once
-// A set of cells of a cubic array, one bit a cell.
+// A set of cells of a cubic array, which takes memory only where it has cells.
 
 #include <array>
 #include <cstddef>
@@ -11,11 +11,12 @@ namespace dsc::mesh::lattice {
 /// Indices x, y, z of a cell; -1 and `side` name the cells beyond the box.
 using Cell = std::array<int, 3>;
 
-/// Rows run along x and are packed into words, so that whole sets are grown and coarsened a word at a time.
+/// Bricks of 4 x 4 x 4 cells, one word each, in a hash table with open addressing. Whole sets are grown and coarsened
+/// a brick at a time. Sides are below 2^21.
 class CellSet {
 public:
     /// An empty set of the side^3 cells.
-    explicit CellSet(unsigned side);
+    explicit CellSet(unsigned side) : side_(side), slots_(16, Brick{unused, 0}) {}
 
     unsigned side() const { return side_; }
     /// False beyond the box.
@@ -25,11 +26,9 @@ public:
             cell[2] >= side) {
             return false;
         }
-        return (words_[word_of(cell)] >> (static_cast<unsigned>(cell[0]) % 64U) & 1U) != 0;
+        return (slots_[slot_of(key_of({cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}))].cells & bit_of(cell)) != 0;
     }
-    void add(const Cell& cell) {
-        words_[word_of(cell)] |= std::uint64_t{1} << (static_cast<unsigned>(cell[0]) % 64U);
-    }
+    void add(const Cell& cell) { add({cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}, bit_of(cell)); }
     std::size_t count() const;
 
     /// With all cells that share an edge with one of the set's, `layers` times.
@@ -38,16 +37,37 @@ public:
     CellSet parents() const;
 
 private:
-    std::size_t word_of(const Cell& c) const {
-        return (static_cast<std::size_t>(c[2]) * side_ + static_cast<std::size_t>(c[1])) * row_ +
-               static_cast<std::size_t>(c[0]) / 64U;
+    struct Brick {
+        std::uint64_t key, cells;
+    };
+    static constexpr std::uint64_t unused = ~std::uint64_t{0};
+
+    static std::uint64_t bit_of(const Cell& c) {
+        return std::uint64_t{1} << static_cast<unsigned>((c[0] & 3) | (c[1] & 3) << 2 | (c[2] & 3) << 4);
     }
-    std::vector<std::uint64_t> spread(const std::vector<std::uint64_t>& from, unsigned axis) const;
-    void grow();
+    static std::uint64_t key_of(const Cell& brick) {
+        return static_cast<std::uint64_t>(brick[0]) | static_cast<std::uint64_t>(brick[1]) << 21U |
+               static_cast<std::uint64_t>(brick[2]) << 42U;
+    }
+    static Cell brick_of(std::uint64_t key) {
+        constexpr std::uint64_t low = (1U << 21U) - 1;
+        return {static_cast<int>(key & low), static_cast<int>(key >> 21U & low), static_cast<int>(key >> 42U)};
+    }
+    // The brick's slot, or the unused one where it belongs.
+    std::size_t slot_of(std::uint64_t key) const {
+        const std::size_t mask = slots_.size() - 1;
+        // Fibonacci hashing: the upper bits of the product depend on all bits of the key.
+        std::size_t at = static_cast<std::size_t>(key * 0x9e3779b97f4a7c15U >> 24U) & mask;
+        while (slots_[at].key != unused && slots_[at].key != key) at = (at + 1) & mask;
+        return at;
+    }
+    void add(const Cell& brick, std::uint64_t cells);
+    void add(const CellSet& other);
+    CellSet spread(unsigned axis) const;
 
     unsigned side_;
-    std::size_t row_;  // words of a row
-    std::vector<std::uint64_t> words_;
+    std::size_t bricks_ = 0;
+    std::vector<Brick> slots_;  // a power of two, at most half of them used
 };
 
 }  // namespace dsc::mesh::lattice

@@ -4,21 +4,24 @@
 #include <dsc/mesh/lattice.hpp>
 #include <string>
 
+#include "mesh/lattice_frame.hpp"
 #include "mesh/lattice_octree.hpp"
 #include "mesh/lattice_tiling.hpp"
 
 namespace dsc::mesh {
 namespace {
 
-constexpr unsigned cells_of_top = 6;             // largest cells along the box, at least
-constexpr std::size_t most_leaves = 12'000'000;  // some 60 to 150 million tets
+constexpr unsigned cells_of_top = 6;  // largest cells along the box, at least
 
 // Layers of equal cells, so many that their size grows by `growth` from layer to layer on average.
 unsigned coarse_layers(double growth) {
     return static_cast<unsigned>(std::ceil(std::log(2.0) / std::log(growth) - 1e-9));
 }
 
-// Level of the largest cells.
+}  // namespace
+
+namespace lattice {
+
 unsigned top_level(const LatticeOptions& options) {
     unsigned top = 0;
     if (options.growth > 1.0) {
@@ -27,11 +30,11 @@ unsigned top_level(const LatticeOptions& options) {
     return top;
 }
 
-lattice::Frame frame_of(const LatticeOptions& options) {
+Frame frame_of(const LatticeOptions& options) {
     // Even, so that the centre of the box is a corner of cells, as a cube's half_width expects.
     const auto cells = static_cast<unsigned>(options.wanted_cells());
     const unsigned step = std::max(2U, 1U << top_level(options));
-    lattice::Frame frame{(cells + step - 1) / step * step, options.box, static_cast<double>(options.cells),
+    Frame frame{(cells + step - 1) / step * step, options.box, static_cast<double>(options.cells),
                          options.box_centre};
     if (options.cell) {
         frame.length = *options.cell;
@@ -40,30 +43,33 @@ lattice::Frame frame_of(const LatticeOptions& options) {
     return frame;
 }
 
-}  // namespace
+ConfigError too_large(std::string_view name, std::size_t leaves, std::string_view remedy) {
+    return ConfigError("lattice.size", std::string(name) + ": " + std::to_string(leaves) + " cells, more than the " +
+                                           std::to_string(most_leaves) + " that it makes; " + std::string(remedy));
+}
+
+}  // namespace lattice
 
 double LatticeOptions::wanted_cells() const {
     return cell ? std::ceil(2 * box / *cell - 1e-9) : static_cast<double>(cells);
 }
 
-double finest_cell(const LatticeOptions& options) { return frame_of(options).cell(); }
+double finest_cell(const LatticeOptions& options) { return lattice::frame_of(options).cell(); }
 
 Box3 box_of(const LatticeOptions& options) {
-    const lattice::Frame frame = frame_of(options);
+    const lattice::Frame frame = lattice::frame_of(options);
     const auto end = static_cast<int>(2 * frame.side);
     return {frame.point({0, 0, 0}), frame.point({end, end, end})};
 }
 
 TetMesh make_lattice(const LatticeOptions& options, const SameWithin& same, std::string_view name,
                      const CancelToken* cancel) {
-    const unsigned top = top_level(options);
-    const lattice::Frame frame = frame_of(options);
+    const unsigned top = lattice::top_level(options);
+    const lattice::Frame frame = lattice::frame_of(options);
     const lattice::Octree octree(frame, top, same, static_cast<unsigned>(options.layers),
                                  top > 0 ? coarse_layers(options.growth) : 0);
-    if (octree.leaves() > most_leaves) {
-        throw ConfigError("lattice.size", std::string(name) + ": " + std::to_string(octree.leaves()) +
-                                              " cells, more than the " + std::to_string(most_leaves) +
-                                              " that it makes; use fewer `cells` or `layers`, or a larger `growth`");
+    if (octree.leaves() > lattice::most_leaves) {
+        throw lattice::too_large(name, octree.leaves(), "use fewer `cells` or `layers`, or a larger `growth`");
     }
     return lattice::tile(octree, frame, options.finest, cancel);
 }

@@ -50,6 +50,29 @@ Octree::Octree(const Frame& frame, unsigned top, const SameWithin& same, unsigne
     while (divided_.size() <= top) divided_.push_back(divided_.back().grown(coarse_layers).parents());
 }
 
+Octree::Octree(const Frame& frame, unsigned top) {
+    for (unsigned level = 0; level <= top; ++level) divided_.emplace_back(frame.side >> level);
+}
+
+void Octree::surround(unsigned level, const Cell& cell) {
+    if (level >= top()) return;
+    const auto parents = static_cast<int>(side(level + 1));
+    // Three cells in a row have two parents.
+    for (int n = 0; n < 8; ++n) {
+        const Cell parent = {(n & 1) != 0 ? (cell[0] + 1) >> 1 : (cell[0] - 1) >> 1,
+                             (n & 2) != 0 ? (cell[1] + 1) >> 1 : (cell[1] - 1) >> 1,
+                             (n & 4) != 0 ? (cell[2] + 1) >> 1 : (cell[2] - 1) >> 1};
+        const auto within = [&](int x) { return x >= 0 && x < parents; };
+        if (within(parent[0]) && within(parent[1]) && within(parent[2])) divide(level + 1, parent);
+    }
+}
+
+void Octree::divide(unsigned level, const Cell& cell) {
+    if (level == 0 || divided_[level].has(cell)) return;
+    surround(level, cell);
+    divided_[level].add(cell);
+}
+
 bool Octree::leaf(unsigned level, const Cell& cell) const {
     if (divided(level, cell)) return false;
     return level == top() || divided(level + 1, {cell[0] >> 1, cell[1] >> 1, cell[2] >> 1});

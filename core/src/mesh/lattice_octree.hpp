@@ -1,5 +1,6 @@
 #pragma once
-// Which cells of the octree are divided: all where labels may differ, fewer away from there.
+// Which cells of the octree are divided: all where labels may differ or where small cells are asked for, fewer away
+// from there.
 
 #include <dsc/geometry/vec.hpp>
 #include <dsc/mesh/lattice.hpp>
@@ -31,6 +32,16 @@ public:
     /// Of level 0 are all cells less than `layers` - 1 of their edges away from places where labels differ; then come at
     /// least `coarse_layers` of each further level up to `top`. The side must be a multiple of 2^top.
     Octree(const Frame& frame, unsigned top, const SameWithin& same, unsigned layers, unsigned coarse_layers);
+
+    /// Cells of the top level only, for divide().
+    Octree(const Frame& frame, unsigned top);
+
+    /// Divides cells until there are cells of this level or of finer ones in the places of this cell and of its 26
+    /// neighbours.
+    void surround(unsigned level, const Cell& cell);
+    /// Divides a cell, and before that whatever is larger than it in its place or beside it: afterwards cells that share
+    /// a corner differ by at most one level, if they did before. Cells of level 0 stay as they are.
+    void divide(unsigned level, const Cell& cell);
 
     unsigned top() const { return static_cast<unsigned>(divided_.size()) - 1; }
     unsigned side(unsigned level) const { return divided_[level].side(); }

@@ -15,14 +15,14 @@ Cell moved(Cell x, std::size_t axis, int by) {
 
 class Tiling {
 public:
-    Tiling(const Octree& octree, const Frame& frame, LatticePattern finest, const CancelToken* cancel)
-        : octree_(octree), frame_(frame), finest_(finest), cancel_(cancel) {}
+    Tiling(const Octree& octree, LatticePattern finest, VertexTable& table,
+           std::vector<std::array<std::uint32_t, 4>>& tets, const CancelToken* cancel)
+        : octree_(octree), finest_(finest), table_(table), tets_(tets), cancel_(cancel) {}
 
-    TetMesh fill() {
+    void fill() {
         const unsigned top = octree_.top();
         // Five to twelve of a cell, more where sizes change.
-        out_.tets.reserve(10 * octree_.leaves());
-        for (int x = 0; x <= 2 * static_cast<int>(frame_.side); ++x) at_.push_back(frame_.at(x));
+        tets_.reserve(10 * octree_.leaves());
         const auto roots = static_cast<int>(octree_.side(top));
         for (int k = 0; k < roots; ++k) {
             for (int j = 0; j < roots; ++j) {
@@ -34,10 +34,6 @@ public:
                 }
             }
         }
-        out_.points.reserve(table_.points().size());
-        for (const Cell& x : table_.points()) out_.points.push_back(point(x));
-        out_.labels.assign(out_.tets.size(), 0);
-        return std::move(out_);
     }
 
 private:
@@ -142,27 +138,31 @@ private:
             sign += minus(b, i) * (minus(c, j) * minus(d, k) - minus(c, k) * minus(d, j));
         }
         if (sign < 0) std::swap(c, d);
-        out_.tets.push_back({table_.number(a), table_.number(b), table_.number(c), table_.number(d)});
-    }
-
-    Vec3 point(const Cell& x) const {
-        return frame_.centre + Vec3(at_[static_cast<std::size_t>(x[0])], at_[static_cast<std::size_t>(x[1])],
-                                    at_[static_cast<std::size_t>(x[2])]);
+        tets_.push_back({table_.number(a), table_.number(b), table_.number(c), table_.number(d)});
     }
 
     const Octree& octree_;
-    const Frame& frame_;
     LatticePattern finest_;
+    VertexTable& table_;
+    std::vector<std::array<std::uint32_t, 4>>& tets_;
     const CancelToken* cancel_;
-    std::vector<double> at_;  // the frame's coordinates in space
-    VertexTable table_;
-    TetMesh out_;
 };
 
 }  // namespace
 
+void tile(const Octree& octree, LatticePattern finest, VertexTable& table,
+          std::vector<std::array<std::uint32_t, 4>>& tets, const CancelToken* cancel) {
+    Tiling(octree, finest, table, tets, cancel).fill();
+}
+
 TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, const CancelToken* cancel) {
-    return Tiling(octree, frame, finest, cancel).fill();
+    TetMesh out;
+    VertexTable table;
+    tile(octree, finest, table, out.tets, cancel);
+    out.points.reserve(table.points().size());
+    for (const Cell& x : table.points()) out.points.push_back(frame.point(x));
+    out.labels.assign(out.tets.size(), 0);
+    return out;
 }
 
 }  // namespace dsc::mesh::lattice

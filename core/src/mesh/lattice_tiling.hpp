@@ -5,6 +5,7 @@
 #include <dsc/mesh/tet_mesh.hpp>
 
 #include "mesh/lattice_octree.hpp"
+#include "mesh/vertex_table.hpp"
 
 namespace dsc::mesh::lattice {
 
@@ -15,5 +16,9 @@ namespace dsc::mesh::lattice {
 /// halved. A face that is a quarter of a larger cell's is joined to the centre as two triangles. All labels are 0.
 /// Throws CancelledError.
 TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, const CancelToken* cancel);
+
+/// The same tets with the numbers that the table has for their vertices; those it does not have get the next ones.
+void tile(const Octree& octree, LatticePattern finest, VertexTable& table,
+          std::vector<std::array<std::uint32_t, 4>>& tets, const CancelToken* cancel);
 
 }  // namespace dsc::mesh::lattice

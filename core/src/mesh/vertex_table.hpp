@@ -17,8 +17,7 @@ public:
 
     /// Number of the point, a new one at its first call.
     std::uint32_t number(const Cell& x) {
-        const std::uint64_t key = static_cast<std::uint64_t>(x[0]) | static_cast<std::uint64_t>(x[1]) << 21U |
-                                  static_cast<std::uint64_t>(x[2]) << 42U;
+        const std::uint64_t key = key_of(x);
         Slot& seen = recent_[static_cast<std::size_t>(spread(key) >> (64U - recent_bits))];
         if (seen.key == key) return seen.number;
         if (2 * points_.size() > slots_.size()) grow();
@@ -30,6 +29,8 @@ public:
         seen = slot;
         return slot.number;
     }
+    /// Number of a point that has one.
+    std::uint32_t known(const Cell& x) const { return slots_[slot_of(key_of(x))].number; }
     /// All points by their numbers.
     const std::vector<Cell>& points() const { return points_; }
 
@@ -44,12 +45,17 @@ private:
     // Fibonacci hashing: the upper bits of the product depend on all bits of the key.
     static std::uint64_t spread(std::uint64_t key) { return key * 0x9e3779b97f4a7c15U; }
 
-    Slot& find(std::uint64_t key) {
+    static std::uint64_t key_of(const Cell& x) {
+        return static_cast<std::uint64_t>(x[0]) | static_cast<std::uint64_t>(x[1]) << 21U |
+               static_cast<std::uint64_t>(x[2]) << 42U;
+    }
+    std::size_t slot_of(std::uint64_t key) const {
         const std::size_t mask = slots_.size() - 1;
         std::size_t at = static_cast<std::size_t>(spread(key) >> 24U) & mask;
         while (slots_[at].key != unused && slots_[at].key != key) at = (at + 1) & mask;
-        return slots_[at];
+        return at;
     }
+    Slot& find(std::uint64_t key) { return slots_[slot_of(key)]; }
     void grow() {
         std::vector<Slot> old(2 * slots_.size(), Slot{unused, 0});
         old.swap(slots_);

@@ -1,0 +1,21 @@
+#pragma once
+// The box of a lattice and the number of its cells, from the options.
+
+#include <dsc/base/error.hpp>
+#include <dsc/mesh/lattice.hpp>
+#include <string_view>
+
+#include "mesh/lattice_octree.hpp"
+
+namespace dsc::mesh::lattice {
+
+inline constexpr std::size_t most_leaves = 12'000'000;  // some 60 to 150 million tets
+
+/// Level of the largest cells.
+unsigned top_level(const LatticeOptions& options);
+/// The box in finest cells, as many as the largest cells need.
+Frame frame_of(const LatticeOptions& options);
+/// The refusal of more than most_leaves cells.
+ConfigError too_large(std::string_view name, std::size_t leaves, std::string_view remedy);
+
+}  // namespace dsc::mesh::lattice
