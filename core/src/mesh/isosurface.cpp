@@ -8,6 +8,7 @@
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 
+#include "mesh/stuff_collapse.hpp"
 #include "mesh/stuff_cut.hpp"
 #include "mesh/stuff_smooth.hpp"
 #include "mesh/stuff_snap.hpp"
@@ -90,8 +91,12 @@ TetMesh stuff_interface(const TetMesh& lattice, std::span<const double> values, 
     const std::vector<Snapped> snapped = snap_vertices(lattice, edges, signs, out, cancel);
     Stuffed stuffed = cut_tets(lattice, edges, table, signs);
     out.cut_vertices = stuffed.mesh.points.size() - lattice.points.size();
-    smooth_interface(stuffed, snapped, options, out, cancel);
-    out.interface_vertices = out.snapped_vertices + out.cut_vertices;
+    move_to_targets(stuffed, snapped, options, out);
+    if (out.snapped_vertices + out.cut_vertices > options.most_interface_vertices) {
+        collapse_interface(stuffed, options, out, cancel);
+    }
+    smooth_interface(stuffed, options, out, cancel);
+    out.interface_vertices = out.snapped_vertices + out.cut_vertices - out.collapsed_edges;
     out.interface_faces = stuffed.faces.size();
     out.least_quality = least_quality(stuffed.mesh, workers);
     return std::move(stuffed.mesh);

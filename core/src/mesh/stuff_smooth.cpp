@@ -46,8 +46,16 @@ private:
 
 }  // namespace
 
-void smooth_interface(Stuffed& stuffed, std::span<const Snapped> snapped, const StuffOptions& options, StuffReport& report,
-                      const CancelToken* cancel) {
+void move_to_targets(Stuffed& stuffed, std::span<const Snapped> snapped, const StuffOptions& options, StuffReport& report) {
+    std::vector<char> marks(stuffed.mesh.points.size(), 0);
+    for (const Snapped& s : snapped) marks[s.vertex] = 1;
+    Mover mover(stuffed, marks, options.least_quality);
+    for (const Snapped& s : snapped) {
+        if (!mover.move(s.vertex, s.target)) ++report.clipped_moves;
+    }
+}
+
+void smooth_interface(Stuffed& stuffed, const StuffOptions& options, StuffReport& report, const CancelToken* cancel) {
     const std::size_t points = stuffed.mesh.points.size();
     std::vector<char> on_interface(points, 0);
     std::vector<std::uint32_t> degree(points, 0);
@@ -58,9 +66,6 @@ void smooth_interface(Stuffed& stuffed, std::span<const Snapped> snapped, const 
         }
     }
     Mover mover(stuffed, on_interface, options.least_quality);
-    for (const Snapped& s : snapped) {
-        if (!mover.move(s.vertex, s.target)) ++report.clipped_moves;
-    }
     std::vector<Vec3> sums(points);
     for (unsigned sweep = 0; sweep < options.smoothing_sweeps; ++sweep) {
         if (cancel != nullptr && cancel->cancelled()) throw CancelledError("the initial mesh was not finished");
