@@ -20,7 +20,9 @@ namespace {
 // interface lies outside the open star: the interface before and after is the same up to a motion within this ball, and p is a
 // regular vertex, as its link is cut into two discs. If one part is not connected, or there is none of it, p is not regular.
 //
-// A tet of four snapped vertices would have no sign, and all of it would be drawn into the interface: it is refused.
+// Two more snaps are refused that would do no harm to the topology. A tet of four snapped vertices would have no sign, and all
+// of it would be drawn into the interface. And a patch P that touches the link in a snapped vertex amid M would be drawn off it:
+// that vertex would be on the interface no more, and perhaps on the other side than its value says.
 class CutLink {
 public:
     explicit CutLink(std::size_t points) : stamps_(points, 0), places_(points, 0) {}
@@ -42,7 +44,11 @@ public:
                 if (sign[i] != 0) {
                     const std::uint32_t place = place_of(corner[i], sign[i]);
                     if (sign[j] == sign[i]) join(place, place_of(corner[j], sign[j]));
-                } else if (sign[j] == 0) {
+                    continue;
+                }
+                const std::uint32_t place = place_of(corner[i], 0);
+                nodes_[place].beside |= bit(sign[j]) | bit(sign[k]);
+                if (sign[j] == 0) {
                     // Across an edge of snapped vertices two equal signs are joined.
                     across_.push_back({std::min(corner[i], corner[j]), std::max(corner[i], corner[j]), place_of(corner[k], sign[k])});
                 }
@@ -56,7 +62,9 @@ public:
         }
         std::size_t plus = 0, minus = 0;
         for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-            if (nodes_[i].parent == i) ++(nodes_[i].sign > 0 ? plus : minus);
+            const Node& node = nodes_[i];
+            if (node.sign == 0 && node.beside == bit(-signs[p])) return false;
+            if (node.sign != 0 && node.parent == i) ++(node.sign > 0 ? plus : minus);
         }
         return plus == 1 && minus == 1;
     }
@@ -65,7 +73,9 @@ private:
     struct Node {
         std::uint32_t parent;
         int sign;
+        unsigned beside;  // signs in the triangles of a snapped vertex, as bits
     };
+    static unsigned bit(int sign) { return sign > 0 ? 1U : sign < 0 ? 2U : 0U; }
     struct Across {
         std::uint32_t low, high, place;
     };
@@ -81,7 +91,7 @@ private:
         if (stamps_[v] != stamp_) {
             stamps_[v] = stamp_;
             places_[v] = static_cast<std::uint32_t>(nodes_.size());
-            nodes_.push_back({places_[v], sign});
+            nodes_.push_back({places_[v], sign, 0});
         }
         return places_[v];
     }
