@@ -5,8 +5,6 @@
 #include <string>
 
 #include <dsc/base/error.hpp>
-#include <dsc/geometry/predicates.hpp>
-#include <dsc/geometry/quality.hpp>
 
 #include "mesh/stuff_collapse.hpp"
 #include "mesh/stuff_cut.hpp"
@@ -61,20 +59,6 @@ std::vector<MixedEdge> mixed_edges(const TetMesh& lattice, std::span<const doubl
     return edges;
 }
 
-double least_quality(const TetMesh& mesh, Workers* workers) {
-    constexpr std::size_t block = 16384;
-    std::vector<double> least(mesh.tets.size() / block + 1, 1.0);
-    for_blocks(workers, mesh.tets.size(), block, [&](std::size_t begin, std::size_t end) {
-        double& own = least[begin / block];
-        const auto& p = mesh.points;
-        for (std::size_t t = begin; t < end; ++t) {
-            const auto& [a, b, c, d] = mesh.tets[t];
-            own = std::min(own, geometry::tet_quality(p[a], p[b], p[c], p[d]));
-        }
-    });
-    return *std::min_element(least.begin(), least.end());
-}
-
 }  // namespace
 
 TetMesh stuff_interface(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options,
@@ -94,8 +78,10 @@ TetMesh stuff_interface(const TetMesh& lattice, std::span<const double> values, 
     move_to_targets(stuffed, snapped, options, out);
     if (out.snapped_vertices + out.cut_vertices > options.most_interface_vertices) {
         collapse_interface(stuffed, options, out, cancel);
+        improve_free_vertices(stuffed, workers);
     }
     smooth_interface(stuffed, options, out, cancel);
+    improve_free_vertices(stuffed, workers);
     out.interface_vertices = out.snapped_vertices + out.cut_vertices - out.collapsed_edges;
     out.interface_faces = stuffed.faces.size();
     out.least_quality = least_quality(stuffed.mesh, workers);

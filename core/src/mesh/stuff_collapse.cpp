@@ -234,6 +234,13 @@ private:
             }
         });
         if (nearest == no_vertex) return;
+        // A tet of four interface vertices becomes flat when the interface is smoothed.
+        bool flat = false;
+        tets_.each(v, [&](std::uint32_t, const Corners& tet) {
+            if (has(tet, nearest) || faces_.empty(nearest)) return;
+            flat = flat || std::count_if(tet.begin(), tet.end(), [&](std::uint32_t w) { return !faces_.empty(w); }) == 3;
+        });
+        if (flat) return;
         if (least_quality(v, nearest, at(nearest), options_.collapse_quality) <= options_.collapse_quality) return;
         tets_.merge(nearest, v);
         ++report_.removed_free_vertices;

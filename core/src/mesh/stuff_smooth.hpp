@@ -3,6 +3,8 @@
 
 #include <span>
 
+#include <dsc/base/workers.hpp>
+
 #include "mesh/stuff_cut.hpp"
 
 namespace dsc::mesh::stuffing {
@@ -13,5 +15,11 @@ void move_to_targets(Stuffed& stuffed, std::span<const Snapped> snapped, const S
 
 /// Smooths all interface vertices, x <- x / 2 + mean of the ring / 2, in sweeps; moves are clipped as above.
 void smooth_interface(Stuffed& stuffed, const StuffOptions& options, StuffReport& report, const CancelToken* cancel);
+
+/// Moves free vertices of bad tets towards the means of their neighbours where this raises the least quality round them.
+void improve_free_vertices(Stuffed& stuffed, Workers* workers);
+
+/// Of all tets. [parallel]
+double least_quality(const TetMesh& mesh, Workers* workers);
 
 }  // namespace dsc::mesh::stuffing
