@@ -1,0 +1,49 @@
+#pragma once
+// From one number per vertex of a lattice to labelled tets: isosurface stuffing [LabelleShewchuk2007] that keeps the
+// topology of the signs.
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string_view>
+
+#include <dsc/base/progress.hpp>
+#include <dsc/base/workers.hpp>
+#include <dsc/mesh/tet_mesh.hpp>
+
+namespace dsc::mesh {
+
+/// How the interface is laid through a lattice. Qualities are those of geometry::tet_quality().
+struct StuffOptions {
+    /// Interface vertices that may be left; more are left only where no collapse is possible any more.
+    std::size_t most_interface_vertices = std::numeric_limits<std::size_t>::max();
+    unsigned smoothing_sweeps = 3;
+    double cut_low = 0.25, cut_high = 0.75;  ///< range of a cut point along its edge, inside (0, 1)
+    double collapse_quality = 0.05;          ///< of all tets that a collapse changes, at least
+    double least_quality = 0.02;             ///< to which a tet may fall when a vertex moves, unless it is lower already
+};
+
+/// What stuff_interface() did.
+struct StuffReport {
+    std::size_t mixed_edges = 0;         ///< lattice edges whose ends differ in sign: vertices of the interface of all cuts
+    std::size_t snapped_vertices = 0;    ///< lattice vertices that became interface vertices
+    std::size_t refused_snaps = 0;       ///< vertices that stayed off because the topology would have changed
+    std::size_t cut_vertices = 0;        ///< cut points that are left after snapping
+    std::size_t collapsed_edges = 0;     ///< of the interface, after cutting
+    std::size_t removed_free_vertices = 0;  ///< that were collapsed onto neighbours, after cutting
+    std::size_t interface_vertices = 0;  ///< at the end
+    std::size_t interface_faces = 0;     ///< at the end
+    std::size_t clipped_moves = 0;       ///< moves that were shortened or given up for quality's sake
+    double least_quality = 1.0;          ///< of all tets at the end
+};
+
+/// Cuts a positive, conforming, box-filling lattice along the zero set of `values` (one a point, linear in each tet;
+/// positive is inside, label 1, the rest is label 0). The interface has the topology of the linear zero set exactly, every
+/// vertex of it is regular, all tets are positive. Vertices: those of the lattice in their order, as far as they are still
+/// used, then the cut points. Old labels are ignored. `name` is the generator named in messages.
+/// Throws ConfigError "stuff.options"; GeometryError "stuff.values" for a wrong number of values or one that is 0 or not
+/// finite, "stuff.box" for a positive one on the box; CancelledError. [setup]
+TetMesh stuff_interface(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options,
+                        StuffReport* report, Workers* workers, const CancelToken* cancel, std::string_view name);
+
+}  // namespace dsc::mesh

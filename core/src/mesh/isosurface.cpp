@@ -1,0 +1,91 @@
+#include <dsc/mesh/isosurface.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <dsc/base/error.hpp>
+
+#include "mesh/stuff_collapse.hpp"
+#include "mesh/stuff_cut.hpp"
+#include "mesh/stuff_smooth.hpp"
+#include "mesh/stuff_snap.hpp"
+
+namespace dsc::mesh {
+namespace {
+
+using namespace stuffing;
+
+void check(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options, std::string_view name) {
+    const auto text = [name](const std::string& cause) { return std::string(name) + ": " + cause; };
+    if (!(options.cut_low > 0 && options.cut_low <= options.cut_high && options.cut_high < 1)) {
+        throw ConfigError("stuff.options", text("cuts are asked for outside their edges; use 0 < cut_low <= cut_high < 1"));
+    }
+    if (values.size() != lattice.points.size()) {
+        throw GeometryError("stuff.values", text(std::to_string(values.size()) + " values for " + std::to_string(lattice.points.size()) +
+                                                 " points; give one value per point"));
+    }
+    const Box3 box = bounding_box(lattice.points);
+    for (std::size_t v = 0; v < values.size(); ++v) {
+        if (!std::isfinite(values[v]) || values[v] == 0) {
+            throw GeometryError("stuff.values", text("the value of vertex " + std::to_string(v) +
+                                                     " is 0 or not finite; every vertex must be on one side"));
+        }
+        const auto p = lattice.points[v].array();
+        if (values[v] > 0 && ((p <= box.low.array()).any() || (p >= box.high.array()).any())) {
+            throw GeometryError("stuff.box", text("vertex " + std::to_string(v) +
+                                                  " on the box is inside; use a larger box, so that the interface is closed"));
+        }
+    }
+}
+
+std::vector<MixedEdge> mixed_edges(const TetMesh& lattice, std::span<const double> values, const Signs& signs,
+                                   const StuffOptions& options, EdgeTable& table) {
+    std::vector<MixedEdge> edges;
+    for (const Corners& tet : lattice.tets) {
+        const int sum = signs[tet[0]] + signs[tet[1]] + signs[tet[2]] + signs[tet[3]];
+        if (sum == 4 || sum == -4) continue;
+        for (const std::uint32_t plus : tet) {
+            if (signs[plus] < 0) continue;
+            for (const std::uint32_t minus : tet) {
+                if (signs[minus] < 0) table.number(plus, minus, edges);
+            }
+        }
+    }
+    for (MixedEdge& edge : edges) {
+        const double at_plus = values[edge.plus], at_minus = -values[edge.minus];
+        edge.t = std::clamp(at_plus / (at_plus + at_minus), options.cut_low, options.cut_high);
+    }
+    return edges;
+}
+
+}  // namespace
+
+TetMesh stuff_interface(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options,
+                        StuffReport* report, Workers* workers, const CancelToken* cancel, std::string_view name) {
+    StuffReport local;
+    StuffReport& out = report != nullptr ? *report : local;
+    out = {};
+    check(lattice, values, options, name);
+    Signs signs(values.size());
+    for (std::size_t v = 0; v < signs.size(); ++v) signs[v] = values[v] > 0 ? 1 : -1;
+    EdgeTable table(lattice.points.size() / 2);
+    const std::vector<MixedEdge> edges = mixed_edges(lattice, values, signs, options, table);
+    out.mixed_edges = edges.size();
+    const std::vector<Snapped> snapped = snap_vertices(lattice, edges, signs, out, cancel);
+    Stuffed stuffed = cut_tets(lattice, edges, table, signs);
+    out.cut_vertices = stuffed.mesh.points.size() - lattice.points.size();
+    move_to_targets(stuffed, snapped, options, out);
+    if (out.snapped_vertices + out.cut_vertices > options.most_interface_vertices) {
+        collapse_interface(stuffed, options, out, cancel);
+        improve_free_vertices(stuffed, workers);
+    }
+    smooth_interface(stuffed, options, out, cancel);
+    improve_free_vertices(stuffed, workers);
+    out.interface_vertices = out.snapped_vertices + out.cut_vertices - out.collapsed_edges;
+    out.interface_faces = stuffed.faces.size();
+    out.least_quality = least_quality(stuffed.mesh, workers);
+    return std::move(stuffed.mesh);
+}
+
+}  // namespace dsc::mesh

@@ -1,0 +1,25 @@
+#pragma once
+// Moves of the vertices of a new interface that no tet suffers from.
+
+#include <span>
+
+#include <dsc/base/workers.hpp>
+
+#include "mesh/stuff_cut.hpp"
+
+namespace dsc::mesh::stuffing {
+
+/// Moves snapped vertices to their targets. Each move is halved until no tet falls below least_quality or what it had before,
+/// or given up. Counts clipped moves.
+void move_to_targets(Stuffed& stuffed, std::span<const Snapped> snapped, const StuffOptions& options, StuffReport& report);
+
+/// Smooths all interface vertices, x <- x / 2 + mean of the ring / 2, in sweeps; moves are clipped as above.
+void smooth_interface(Stuffed& stuffed, const StuffOptions& options, StuffReport& report, const CancelToken* cancel);
+
+/// Moves free vertices of bad tets towards the means of their neighbours where this raises the least quality round them.
+void improve_free_vertices(Stuffed& stuffed, Workers* workers);
+
+/// Of all tets. [parallel]
+double least_quality(const TetMesh& mesh, Workers* workers);
+
+}  // namespace dsc::mesh::stuffing

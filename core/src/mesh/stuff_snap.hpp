@@ -1,0 +1,63 @@
+#pragma once
+// Which vertices of a lattice become vertices of its interface.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <dsc/base/progress.hpp>
+#include <dsc/mesh/isosurface.hpp>
+
+#include "mesh/star_table.hpp"
+
+namespace dsc::mesh::stuffing {
+
+/// An edge whose ends differ in sign, and where the interface cuts it.
+struct MixedEdge {
+    std::uint32_t plus, minus;
+    double t;  ///< 0 at `plus`, 1 at `minus`
+};
+
+/// Finds mixed edges by their ends.
+class EdgeTable {
+public:
+    explicit EdgeTable(std::size_t expected);
+    /// Index of the edge, that of the new one at its first call.
+    std::uint32_t number(std::uint32_t plus, std::uint32_t minus, std::vector<MixedEdge>& edges);
+    /// Index of an edge that is in the table.
+    std::uint32_t find(std::uint32_t plus, std::uint32_t minus) const { return slots_[slot_of(key_of(plus, minus))].number; }
+
+private:
+    struct Slot {
+        std::uint64_t key;
+        std::uint32_t number;
+    };
+    static constexpr std::uint64_t unused = ~std::uint64_t{0};
+    static std::uint64_t key_of(std::uint32_t plus, std::uint32_t minus) { return std::uint64_t{plus} << 32U | minus; }
+    std::size_t slot_of(std::uint64_t key) const {
+        const std::size_t mask = slots_.size() - 1;
+        std::size_t at = static_cast<std::size_t>((key * 0x9e3779b97f4a7c15U) >> 24U) & mask;
+        while (slots_[at].key != unused && slots_[at].key != key) at = (at + 1) & mask;
+        return at;
+    }
+    void grow();
+
+    std::vector<Slot> slots_;  // a power of two
+    std::size_t size_ = 0;
+};
+
+/// A vertex that lies on the interface from now on, and where it would like to be.
+struct Snapped {
+    std::uint32_t vertex;
+    Vec3 target;  ///< mean of the cut points of its mixed edges
+};
+
+/// Signs of all vertices: 1 inside, -1 outside, 0 on the interface.
+using Signs = std::vector<std::int8_t>;
+
+/// Sets the sign of snapped vertices to 0, nearest to their cut points first. Sets the counters of the report that belong to
+/// it.
+std::vector<Snapped> snap_vertices(const TetMesh& lattice, std::span<const MixedEdge> edges, Signs& signs, StuffReport& report,
+                                   const CancelToken* cancel);
+
+}  // namespace dsc::mesh::stuffing
