@@ -50,7 +50,8 @@ void add_report(CLI::App& app, Context& context) {
                      "Page; default DIR/report.html, for several runs comparison.html in the current folder")
         ->expected(1);
     command->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
-        ->expected(1);
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }
