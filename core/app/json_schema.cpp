@@ -19,7 +19,7 @@ std::string joined(const std::string& text, const std::string& more) {
 
 /// All strategies by kind; also those kinds that an experiment names but that have none.
 std::map<std::string, std::vector<Described>> by_kind(const std::vector<Described>& strategies) {
-    std::map<std::string, std::vector<Described>> kinds = {{"filter", {}}};
+    std::map<std::string, std::vector<Described>> kinds;
     for (const plugin::Kind kind : plugin::all_kinds) kinds[std::string(plugin::kind_name(kind))];
     for (const Described& d : strategies) kinds[d.kind].push_back(d);
     return kinds;

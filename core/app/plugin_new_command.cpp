@@ -76,7 +76,7 @@ void add_plugin_new(CLI::App& plugin, Context& context) {
     const auto arguments = std::make_shared<NewArguments>();
     command->add_option("NAME", arguments->name, "Lower case letters, digits and _; the library will be libdsc_NAME.so")
         ->required();
-    command->add_option("--kind", arguments->kind, "velocity, curvature, refinement, initial_mesh, improvement or observer")
+    command->add_option("--kind", arguments->kind, "velocity, curvature, refinement, initial_mesh, improvement, observer or filter")
         ->required();
     command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

@@ -1,7 +1,5 @@
 #include "plugins.hpp"
 
-#include <dsc/run/input.hpp>
-
 namespace dsc::app {
 
 Plugins::Plugins(std::vector<std::string> command_line) : command_line_(std::move(command_line)) {}
@@ -18,8 +16,8 @@ const host::Host& Plugins::load(const std::vector<std::string>& experiment) {
     return host_;
 }
 
-const host::Host& Plugins::load_what_works() {
-    host_.load_all(search_path(), host::OnFault::collect);
+const host::Host& Plugins::load_what_works(const std::vector<std::string>& experiment) {
+    host_.load_all(search_path(experiment), host::OnFault::collect);
     return host_;
 }
 
@@ -36,8 +34,6 @@ std::vector<Described> all_strategies(const host::Host& host) {
                        info.strategy->summary, info.plugin->name, info.plugin->version,
                        info.plugin->file.string(), info.strategy->schema.get()});
     }
-    for (const std::string& id : run::filter_ids())
-        all.push_back({"filter", id, run::filter_summary(id), "core", "", "", run::filter_schema(id)});
     return all;
 }
 

@@ -20,7 +20,7 @@ public:
     /// Loads everything on the search path and what an experiment names. Throws PluginError.
     const host::Host& load(const std::vector<std::string>& experiment = {});
     /// The same, but what is refused is collected (Host::faults) and stops nothing.
-    const host::Host& load_what_works();
+    const host::Host& load_what_works(const std::vector<std::string>& experiment = {});
     /// load() in the form that run::load_experiment takes; this object must outlive it.
     run::PluginLoader loader();
     const host::Host& host() const { return host_; }
@@ -31,7 +31,7 @@ private:
     host::Host host_;
 };
 
-/// All strategies of a host and the core's cloud filters; valid as long as the host.
+/// All strategies of a host; valid as long as the host.
 std::vector<Described> all_strategies(const host::Host& host);
 
 }  // namespace dsc::app

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "commands.hpp"
+#include "plugins.hpp"
 
 namespace dsc::app {
 namespace {
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 struct ReportArguments {
     std::vector<std::string> folders;
     std::string output;
+    std::vector<std::string> plugins;
 };
 
 fs::path output_of(const ReportArguments& arguments) {
@@ -27,8 +29,11 @@ int execute(const ReportArguments& arguments) {
     const std::vector<fs::path> folders(arguments.folders.begin(), arguments.folders.end());
     const fs::path output = output_of(arguments);
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));
-    const std::string page =
-        folders.size() == 1 ? run::report_html(folders.front(), &workers) : run::comparison_html(folders, &workers);
+    // They make the cloud's filters. A run whose plugins are gone still has its page, and it says what is not shown.
+    Plugins plugins(arguments.plugins);
+    const host::Host& host = plugins.load_what_works(run::plugins_of_runs(folders));
+    const std::string page = folders.size() == 1 ? run::report_html(folders.front(), host, &workers)
+                                                 : run::comparison_html(folders, host, &workers);
     io::write_file(output, page);
     std::cout << output.string() << "\n";
     return 0;
@@ -44,6 +49,9 @@ void add_report(CLI::App& app, Context& context) {
         ->add_option("-o,--output", arguments->output,
                      "Page; default DIR/report.html, for several runs comparison.html in the current folder")
         ->expected(1);
+    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

@@ -17,7 +17,7 @@ std::size_t entries(const Cli& cli) {
 }  // namespace
 
 TEST_CASE("a project for each kind, its names filled in, nothing beside it") {
-    for (const char* kind : {"velocity", "curvature", "refinement", "initial_mesh", "improvement", "observer"}) {
+    for (const char* kind : {"velocity", "curvature", "refinement", "initial_mesh", "improvement", "observer", "filter"}) {
         const Cli cli;
         const Result result = cli.dsc({"plugin", "new", "my_flow2", "--kind", kind});
         CAPTURE(result.err);
@@ -58,7 +58,7 @@ TEST_CASE("wrong names and kinds: exit 2, one line, nothing written") {
     CHECK(refused(std::string(64, 'a'), "velocity").find("at most 63") != std::string::npos);
     CHECK(refused("flow2", "velocty") ==
           "error: there is no kind of strategy 'velocty'; did you mean 'velocity'?; the kinds are velocity, curvature, "
-          "refinement, initial_mesh, improvement, observer\n");
+          "refinement, initial_mesh, improvement, observer, filter\n");
     CHECK(refused("point_cloud", "velocity").find("is the name of a plugin that dsc brings") != std::string::npos);
     CHECK(cli.dsc({"plugin", "new", "flow2"}).code == 2);
     CHECK(entries(cli) == 0);

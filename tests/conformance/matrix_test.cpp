@@ -81,6 +81,7 @@ constexpr Witness witnesses[] = {
     {"cloud.hostile", "hostile"},
     {"mesh.topology", "hostile", Kind::initial_mesh},
     {"policy.progress", "hostile", Kind::refinement},
+    {"cloud.attributes", "filter", Kind::filter},
     {"cancel", "resources"},
     {"leak", "resources"},
     {"thr.race", "resources"},

@@ -69,7 +69,7 @@ public:
         loaded_ = run::resolve_experiment(
             root, [this](const std::vector<std::string>&) -> const config::StrategyLookup& { return host_; });
         if (loaded_.experiment.input)
-            input_ = run::load_input(*loaded_.experiment.input, loaded_.experiment.seed);
+            input_ = run::load_input(*loaded_.experiment.input, loaded_.experiment.seed, host_);
     }
 
     Outcome run(std::string_view resume, std::uint64_t every, unsigned threads = 1) {

@@ -26,8 +26,7 @@ class Install(unittest.TestCase):
         for kind in package.KINDS:
             self.assertTrue([s for s in strategies if s["kind"] == kind], kind)
         for strategy in strategies:
-            if strategy["kind"] != "filter":
-                self.assertTrue(strategy["file"].startswith(str(package.PREFIX)), strategy)
+            self.assertTrue(strategy["file"].startswith(str(package.PREFIX)), strategy)
         self.assertTrue((package.PREFIX / "share/dsc/data/teapot.bpt").is_file())
 
     def test_man_page_completion_and_workflow_are_there(self):

@@ -89,6 +89,10 @@ class New(unittest.TestCase):
         self.assertGreater(vertices[-1], vertices[0])
         self.assertEqual(summary("initial_mesh")["genus"], 1)
         self.assertGreater(summary("improvement")["min_tet_quality"], 0.01)
+        told = summary("filter")["input"]["filters"][0]
+        self.assertEqual(told["type"], "my_filter")
+        self.assertGreater(told["removed"], 0)
+        self.assertEqual(sum(told["reasons"].values()), told["removed"])
         self.assertGreater(float(rows("observer")[-1]["observers.my_observer.sphericity"]),
                            float(rows("observer")[1]["observers.my_observer.sphericity"]))
 

@@ -11,7 +11,7 @@ BUILD = Path(os.environ["DSC_PACKAGE_BUILD"])
 SOURCE = Path(os.environ["DSC_PACKAGE_SOURCE"])
 SCRATCH = Path(os.environ["DSC_PACKAGE_SCRATCH"])
 PREFIX = SCRATCH / "moved prefix"
-KINDS = ["velocity", "curvature", "refinement", "initial_mesh", "improvement", "observer"]
+KINDS = ["velocity", "curvature", "refinement", "initial_mesh", "improvement", "observer", "filter"]
 
 
 def install():

@@ -11,6 +11,7 @@
 #include <dsc/cloud/search.hpp>
 
 #include "filtering.hpp"
+#include "order.hpp"
 #include "pcl_filters.hpp"
 #include "text.hpp"
 
@@ -59,6 +60,14 @@ void mark_close(const std::vector<Vec3>& points, double distance, std::vector<bo
     }
 }
 
+/// False for points that repeat an earlier one or lie within the distance of an earlier one that stays.
+std::vector<bool> first_of_each(const std::vector<Vec3>& points, double distance) {
+    std::vector<bool> keep(points.size(), true);
+    mark_exact_duplicates(points, keep);
+    if (distance > 0.0) mark_close(points, distance, keep);
+    return keep;
+}
+
 }  // namespace
 
 Filtered remove_duplicates(const Cloud& cloud, const DuplicatesOptions& options) {
@@ -66,10 +75,17 @@ Filtered remove_duplicates(const Cloud& cloud, const DuplicatesOptions& options)
     const Box3 box = checked_box(cloud, filter);
     require_option(options.tolerance >= 0.0 && options.tolerance <= 1.0, cloud, filter,
                    "tolerance is " + short_number(options.tolerance) + "; it must lie in [0, 1]");
-    std::vector<bool> keep(cloud.points.size(), true);
-    mark_exact_duplicates(cloud.points, keep);
-    if (options.tolerance > 0.0) mark_close(cloud.points, options.tolerance * box.diagonal(), keep);
-    return take(cloud, filter, keep);
+    if (!options.sort) return take(cloud, filter, first_of_each(cloud.points, options.tolerance * box.diagonal()));
+    // The points are in an order of their own before the first of each is looked for, so it is the same one always.
+    const std::vector<std::size_t> order = lexicographic_order(cloud);
+    std::vector<Vec3> points;
+    points.reserve(order.size());
+    for (const std::size_t i : order) points.push_back(cloud.points[i]);
+    const std::vector<bool> keep = first_of_each(points, options.tolerance * box.diagonal());
+    std::vector<std::size_t> kept;
+    for (std::size_t n = 0; n < order.size(); ++n)
+        if (keep[n]) kept.push_back(order[n]);
+    return take(cloud, filter, kept);
 }
 
 // The distance at which points that are spread evenly over a surface would lie comes from so many neighbours that a

@@ -14,7 +14,7 @@ Box3 checked_box(const Cloud& cloud, const std::string& filter);
 /// Throws GeometryError "cloud.option" with the cause unless `valid`.
 void require_option(bool valid, const Cloud& cloud, const std::string& filter, const std::string& cause);
 
-/// The points that stay, in the order of the cloud, by flag or by index. Throws GeometryError "cloud.filtered_out" if
+/// The points that stay with their attributes: by flag in the order of the cloud, or by index in the order of the indices. Throws GeometryError "cloud.filtered_out" if
 /// there are none.
 Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<bool>& keep);
 Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<std::size_t>& kept);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include <dsc/base/error.hpp>
 #include <dsc/cloud/target.hpp>
 
 #include "filtering.hpp"
@@ -119,7 +120,7 @@ private:
 };
 
 /// How many of the views see each point.
-std::vector<std::size_t> count_views(const std::vector<Disc>& discs, std::size_t views) {
+std::vector<std::size_t> count_views(const std::vector<Disc>& discs, std::size_t views, const CancelToken* cancel) {
     std::vector<std::size_t> counts(discs.size(), 0);
     double half_width = 0.0;
     for (const Disc& disc : discs) half_width = std::max(half_width, disc.centre.norm());
@@ -127,6 +128,7 @@ std::vector<std::size_t> count_views(const std::vector<Disc>& discs, std::size_t
     DepthBuffer buffer(half_width, 0.25 * median_radius(discs));
     std::vector<Vec3> centres(discs.size());
     for (std::size_t view = 0; view < views; ++view) {
+        if (cancel != nullptr && cancel->cancelled()) throw CancelledError("the filter hidden was not finished");
         const Eigen::Matrix3d to_viewer =
             Eigen::Quaterniond::FromTwoVectors(direction(view, views), Vec3::UnitZ()).toRotationMatrix();
         buffer.clear();
@@ -141,7 +143,7 @@ std::vector<std::size_t> count_views(const std::vector<Disc>& discs, std::size_t
 
 }  // namespace
 
-Filtered remove_hidden(const Cloud& cloud, const HiddenOptions& options) {
+Filtered remove_hidden(const Cloud& cloud, const HiddenOptions& options, const CancelToken* cancel) {
     const std::string filter = "hidden";
     const Box3 box = checked_box(cloud, filter);
     require_option(options.views >= 1 && options.views <= 10000, cloud, filter,
@@ -152,7 +154,7 @@ Filtered remove_hidden(const Cloud& cloud, const HiddenOptions& options) {
                    "depth is " + short_number(options.depth) + "; it must be above 0 and at most 10");
     require_option(options.share >= 0.0 && options.share < 1.0, cloud, filter,
                    "share is " + short_number(options.share) + "; it must be at least 0 and below 1");
-    const std::vector<std::size_t> counts = count_views(discs_of(cloud, box.centre(), options), options.views);
+    const std::vector<std::size_t> counts = count_views(discs_of(cloud, box.centre(), options), options.views, cancel);
     const double bound = options.share * static_cast<double>(options.views);
     std::vector<bool> keep(counts.size());
     for (std::size_t i = 0; i < counts.size(); ++i) keep[i] = static_cast<double>(counts[i]) > bound;

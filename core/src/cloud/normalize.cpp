@@ -89,6 +89,28 @@ void require_volume(std::span<const Vec3> points, std::string_view name) {
         refuse("cloud.coplanar", "lie on one plane");
 }
 
+namespace {
+
+// Directions stay, since the transform turns nothing; areas grow with the square of its scale.
+void set_attributes(const Cloud& cloud, Normalized& result) {
+    const Transform& transform = result.transform;
+    const double area_scale = transform.scale * transform.scale;
+    result.colours = cloud.colours;
+    result.normals = cloud.normals;
+    result.confidence = cloud.confidence;
+    result.areas = cloud.areas;
+    for (Vec3& area : result.areas) area *= area_scale;
+    result.orientation = cloud.orientation;
+    result.orientation.noise *= transform.scale;
+    for (SurfaceSample& sample : result.orientation.samples) {
+        sample.position = transform.apply(sample.position);
+        sample.area *= area_scale;
+        sample.width *= transform.scale;
+    }
+}
+
+}  // namespace
+
 Normalized normalize(const Cloud& cloud, double scale_target) {
     const double most = simulation_box().high.x();
     if (!(scale_target > 0.0 && scale_target <= most))
@@ -103,7 +125,7 @@ Normalized normalize(const Cloud& cloud, double scale_target) {
     result.transform.scale = scale_target / (0.5 * box.size().maxCoeff());
     result.points.reserve(cloud.points.size());
     for (const Vec3& p : cloud.points) result.points.push_back(result.transform.apply(p));
-    result.colours = cloud.colours;
+    set_attributes(cloud, result);
     return result;
 }
 
@@ -122,7 +144,9 @@ Normalized keep_coordinates(const Cloud& cloud, const Box3& box) {
                                 interval(bounding_box(cloud.points)) + ", the box is " + interval(box) +
                                 "; normalise the cloud (normalize: {scale: 0.9}) or scale it into the box");
     }
-    return {cloud.points, Transform{}, cloud.colours};
+    Normalized result{cloud.points, Transform{}};
+    set_attributes(cloud, result);
+    return result;
 }
 
 }  // namespace dsc::cloud

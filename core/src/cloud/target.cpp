@@ -10,7 +10,17 @@ struct TargetCloud::Spacings {
     std::vector<double> values;
 };
 
+struct TargetCloud::Measured {
+    std::once_flag once;
+    Statistics statistics;
+};
+
 namespace {
+
+template <class T>
+std::vector<T> one_per_point(const std::vector<T>& values, const Normalized& normalized) {
+    return values.size() == normalized.points.size() ? values : std::vector<T>();
+}
 
 constexpr std::size_t wanted = 6;
 constexpr std::size_t searched = 16, searched_again = 128;  // more where many points coincide
@@ -40,8 +50,19 @@ TargetCloud::TargetCloud(const Normalized& normalized)
       spacings_(std::make_shared<Spacings>()),
       transform_(normalized.transform),
       box_(bounding_box(search_->points())),
-      colours_(std::make_shared<const std::vector<Colour>>(
-          normalized.colours.size() == normalized.points.size() ? normalized.colours : std::vector<Colour>())) {}
+      attributes_(attributes_of(normalized)),
+      measured_(std::make_shared<Measured>()) {}
+
+std::shared_ptr<const TargetCloud::Attributes> TargetCloud::attributes_of(const Normalized& normalized) {
+    return std::make_shared<const Attributes>(Attributes{
+        one_per_point(normalized.colours, normalized), one_per_point(normalized.normals, normalized),
+        one_per_point(normalized.areas, normalized), one_per_point(normalized.confidence, normalized), normalized.orientation});
+}
+
+const Statistics& TargetCloud::statistics(Workers* workers) const {
+    std::call_once(measured_->once, [this, workers] { measured_->statistics = measure_cloud(points(), workers); });
+    return measured_->statistics;
+}
 
 double TargetCloud::spacing(std::size_t index) const {
     std::call_once(spacings_->once, [this] {

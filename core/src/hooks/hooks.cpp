@@ -1,5 +1,6 @@
 // The one home of the hooks' virtual tables: a type made by a plugin is the type that the host knows.
 #include <dsc/base/error.hpp>
+#include <dsc/hooks/cloud_filter.hpp>
 #include <dsc/hooks/context.hpp>
 #include <dsc/hooks/curvature_estimator.hpp>
 #include <dsc/hooks/improvement.hpp>
@@ -32,5 +33,6 @@ void Improvement::select(const StepContext&, std::span<const mesh::TopologyCandi
 }
 
 Observer::~Observer() = default;
+CloudFilter::~CloudFilter() = default;
 
 }  // namespace dsc::hooks

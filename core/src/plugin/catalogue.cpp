@@ -27,6 +27,8 @@ std::unique_ptr<hooks::Strategy> check(std::unique_ptr<hooks::Strategy> made, At
             return check_improvement(as<hooks::Improvement>(std::move(made)), std::move(attribution));
         case Kind::observer:
             return check_observer(as<hooks::Observer>(std::move(made)), std::move(attribution));
+        case Kind::filter:
+            return check_filter(as<hooks::CloudFilter>(std::move(made)), std::move(attribution));
     }
     throw Error(ExitCode::internal, "plugin.kind", "a strategy of no kind");
 }

@@ -62,5 +62,9 @@ std::unique_ptr<hooks::Strategy> check_improvement(std::unique_ptr<hooks::Improv
                                                    Attribution attribution);
 std::unique_ptr<hooks::Strategy> check_observer(std::unique_ptr<hooks::Observer> inner,
                                                 Attribution attribution);
+std::unique_ptr<hooks::Strategy> check_filter(std::unique_ptr<hooks::CloudFilter> inner, Attribution attribution);
+
+/// Refuses figures whose names are not in snake_case or not all different, and values that are not finite.
+void judge(const Call& current, const hooks::Figures& figures);
 
 }  // namespace dsc::plugin

@@ -21,22 +21,6 @@ bool plain_name(std::string_view name) {
     });
 }
 
-// Figures for columns and keys: named in snake_case, each once, finite.
-void judge(const Call& current, const hooks::Figures& figures) {
-    std::vector<std::string_view> seen;
-    for (const auto& [name, value] : figures) {
-        if (!plain_name(name) || std::find(seen.begin(), seen.end(), name) != seen.end()) {
-            fail(current, "strategy.range", "gave a figure the name '" + name + "'",
-                 "names are snake_case and differ; report this to the plugin's authors");
-        }
-        seen.push_back(name);
-        if (!std::isfinite(value)) {
-            fail(current, "strategy.not_finite", "gave the figure '" + name + "' the value " + std::to_string(value),
-                 report);
-        }
-    }
-}
-
 class CheckedRefinement final : public Checked<hooks::RefinementPolicy> {
 public:
     using Checked::Checked;
@@ -271,6 +255,22 @@ private:
 };
 
 }  // namespace
+
+// Figures for columns and keys: named in snake_case, each once, finite.
+void judge(const Call& current, const hooks::Figures& figures) {
+    std::vector<std::string_view> seen;
+    for (const auto& [name, value] : figures) {
+        if (!plain_name(name) || std::find(seen.begin(), seen.end(), name) != seen.end()) {
+            fail(current, "strategy.range", "gave a figure the name '" + name + "'",
+                 "names are snake_case and differ; report this to the plugin's authors");
+        }
+        seen.push_back(name);
+        if (!std::isfinite(value)) {
+            fail(current, "strategy.not_finite", "gave the figure '" + name + "' the value " + std::to_string(value),
+                 report);
+        }
+    }
+}
 
 std::unique_ptr<hooks::Strategy> check_refinement(std::unique_ptr<hooks::RefinementPolicy> inner,
                                                   Attribution attribution) {

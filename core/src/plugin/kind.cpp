@@ -16,6 +16,8 @@ std::string_view kind_name(Kind kind) noexcept {
             return "improvement";
         case Kind::observer:
             return "observer";
+        case Kind::filter:
+            return "filter";
     }
     return {};
 }

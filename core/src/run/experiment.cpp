@@ -124,7 +124,7 @@ void require_files(const ConfigNode& resolved, const StrategyLookup& lookup) {
 
 LoadedExperiment resolve_experiment(const ConfigNode& root, const PluginLoader& load_plugins) {
     const std::vector<std::string> plugins = plugin_paths(root);
-    const ExperimentLookup lookup(load_plugins(plugins));
+    const StrategyLookup& lookup = load_plugins(plugins);
     config::Diagnostics diagnostics;
     const std::shared_ptr<const Schema> schema = experiment_schema();
     LoadedExperiment loaded;
@@ -157,9 +157,8 @@ LoadedExperiment load_experiment(const std::string& file, std::span<const std::s
 std::string resolved_text(const LoadedExperiment& loaded) { return config::to_yaml(loaded.resolved); }
 
 std::string config_hash(const LoadedExperiment& loaded, const StrategyLookup& lookup) {
-    const ExperimentLookup all(lookup);
-    require_files(loaded.resolved, all);
-    ConfigNode canonical = map_files(loaded.resolved, *experiment_schema(), all, [](const ConfigNode& file) {
+    require_files(loaded.resolved, lookup);
+    ConfigNode canonical = map_files(loaded.resolved, *experiment_schema(), lookup, [](const ConfigNode& file) {
         return ConfigNode("sha256:" + sha256_of_file(file.as_string()));
     });
     std::vector<ConfigNode> plugins;
@@ -170,8 +169,7 @@ std::string config_hash(const LoadedExperiment& loaded, const StrategyLookup& lo
 
 std::vector<std::string> input_files(const LoadedExperiment& loaded, const StrategyLookup& lookup) {
     std::vector<std::string> files;
-    const ExperimentLookup all(lookup);
-    map_files(loaded.resolved, *experiment_schema(), all, [&](const ConfigNode& file) {
+    map_files(loaded.resolved, *experiment_schema(), lookup, [&](const ConfigNode& file) {
         const std::string& name = file.as_string();
         if (std::find(files.begin(), files.end(), name) == files.end()) files.push_back(name);
         return file;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <dsc/cloud/shapes.hpp>
 #include <dsc/run/experiment.hpp>
-#include <dsc/run/input.hpp>
 
 namespace dsc::run {
 namespace {
@@ -169,29 +168,15 @@ std::shared_ptr<const config::Schema> experiment_schema() {
     return schema;
 }
 
-std::optional<Input> input_of(const config::ConfigNode& resolved) {
+std::optional<Input> input_of(const config::ConfigNode& resolved, const config::StrategyLookup& lookup) {
     const config::ConfigNode* node = resolved.find("input");
     if (node == nullptr || node->is_null()) return std::nullopt;
     config::ParamSchema<Input> schema;
     declare_input(schema);
-    const config::NoStrategies none;
     config::Diagnostics diagnostics;
-    const config::ConfigNode checked = config::validate(*node, schema.schema(), ExperimentLookup(none), diagnostics, "input");
+    const config::ConfigNode checked = config::validate(*node, schema.schema(), lookup, diagnostics, "input");
     diagnostics.throw_if_errors();
     return schema.read(checked);
-}
-
-// ---- lookup -------------------------------------------------------------------------------------------------------
-
-ExperimentLookup::ExperimentLookup(const config::StrategyLookup& host) : host_(&host) {}
-ExperimentLookup::~ExperimentLookup() = default;
-
-const config::Schema* ExperimentLookup::find_schema(const std::string& kind, const std::string& id) const {
-    return kind == "filter" ? filter_schema(id) : host_->find_schema(kind, id);
-}
-
-std::vector<std::string> ExperimentLookup::ids(const std::string& kind) const {
-    return kind == "filter" ? filter_ids() : host_->ids(kind);
 }
 
 }  // namespace dsc::run

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <dsc/base/error.hpp>
+#include <dsc/config/yaml.hpp>
 #include <dsc/run/report.hpp>
 
 #include "report_files.hpp"
@@ -48,15 +50,32 @@ std::string guarded_report(const std::function<std::string()>& make) {
     }
 }
 
-std::string report_html(const std::filesystem::path& run_folder, Workers* workers) {
+std::string report_html(const std::filesystem::path& run_folder, const plugin::Catalogue& catalogue, Workers* workers) {
     return guarded_report([&] {
         const RunRecord record = read_record(run_folder);
-        const Scene scene = make_scene(record, {}, workers);
+        const Scene scene = make_scene(record, {}, catalogue, workers);
         const std::string body = headline_section(record) + warnings_section(record) + viewer_section(record, scene) +
                                  thesis_section(record) + plots_section(record, scene) + time_section(record) +
                                  topology_section(record) + config_section(record) + provenance_section(record);
         return report_page(record.name(), subtitle(record), body);
     });
+}
+
+std::vector<std::string> plugins_of_runs(std::span<const std::filesystem::path> run_folders) {
+    std::vector<std::string> all;
+    for (const std::filesystem::path& folder : run_folders) {
+        try {
+            const config::ConfigNode resolved = config::load_yaml((folder / "config.resolved.yaml").string());
+            const config::ConfigNode* list = resolved.is_map() ? resolved.find("plugins") : nullptr;
+            if (list == nullptr || !list->is_list()) continue;
+            for (const config::ConfigNode& item : list->items()) {
+                if (item.is_string() && std::find(all.begin(), all.end(), item.as_string()) == all.end()) all.push_back(item.as_string());
+            }
+        } catch (const Error&) {
+            // report_html tells what is wrong with the folder
+        }
+    }
+    return all;
 }
 
 }  // namespace dsc::run

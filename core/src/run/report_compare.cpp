@@ -119,7 +119,7 @@ std::string plot(const std::vector<Column>& columns, const std::string& title, c
     return svg_plot(out);
 }
 
-std::string viewers(const std::vector<Column>& columns, Workers* workers) {
+std::string viewers(const std::vector<Column>& columns, const plugin::Catalogue& catalogue, Workers* workers) {
     // All runs together may weigh what one does in its own report.
     SceneLimits limits;
     limits.frames = 0;
@@ -128,7 +128,7 @@ std::string viewers(const std::vector<Column>& columns, Workers* workers) {
     limits.points = std::clamp<std::size_t>(60000 / columns.size(), 2000, 20000);
     std::string out;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        const Scene scene = make_scene(columns[i].record, limits, workers);
+        const Scene scene = make_scene(columns[i].record, limits, catalogue, workers);
         const std::string body = viewer(columns[i].record, scene, "view-" + std::to_string(i));
         out += tag("div", tag("h3", text(columns[i].name)) + "\n" + (body.empty() ? tag("p", "nothing to show") : body), "run") + "\n";
     }
@@ -164,7 +164,7 @@ std::string all_warnings(const std::vector<Column>& columns) {
 
 }  // namespace
 
-std::string comparison_html(std::span<const fs::path> run_folders, Workers* workers) {
+std::string comparison_html(std::span<const fs::path> run_folders, const plugin::Catalogue& catalogue, Workers* workers) {
     if (run_folders.empty()) throw UsageError("report.no_run", "a comparison needs runs; name their folders");
     return guarded_report([&] {
         const std::vector<Column> columns = read_columns(run_folders);
@@ -175,7 +175,7 @@ std::string comparison_html(std::span<const fs::path> run_folders, Workers* work
                                   plot(columns, "Mean speed, normalised units a step", "mean_speed", true) +
                                   plot(columns, "Volume, normalised units", "volume", false);
         const std::string body = section("In short", figures(columns)) + all_warnings(columns) +
-                                 section("The surfaces", viewers(columns, workers)) +
+                                 section("The surfaces", viewers(columns, catalogue, workers)) +
                                  section("Convergence", tag("div", plots, "plots")) + section("Time by phase", times(columns)) +
                                  section("What differs in the experiments", differences(columns));
         return report_page(std::to_string(columns.size()) + (columns.size() == 1 ? " run" : " runs") + " compared",

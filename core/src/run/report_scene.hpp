@@ -3,6 +3,7 @@
 
 #include <dsc/base/workers.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
+#include <dsc/plugin/catalogue.hpp>
 #include <dsc/surface/triangle_mesh.hpp>
 #include <filesystem>
 #include <string>
@@ -30,7 +31,7 @@ struct Scene {
 };
 
 /// Reads result/, series/ and the cloud that the configuration names. What cannot be read becomes a note. [setup]
-Scene make_scene(const RunRecord& record, const SceneLimits& limits, Workers* workers);
+Scene make_scene(const RunRecord& record, const SceneLimits& limits, const plugin::Catalogue& catalogue, Workers* workers);
 
 /// The first file of the result with one of these extensions; empty where there is none.
 std::filesystem::path result_file(const std::filesystem::path& run_folder, const std::string& stem,

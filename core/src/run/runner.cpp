@@ -200,7 +200,7 @@ private:
         folder.write("provenance.json", provenance(""));
         std::optional<LoadedInput> input;
         if (experiment.input) {
-            input = load_input(*experiment.input, experiment.seed);
+            input = load_input(*experiment.input, experiment.seed, catalogue_, &workers_, options_.cancel);
             report_input(input->report);
         }
         const cloud::TargetCloud* target = input ? &input->target : nullptr;
@@ -263,7 +263,7 @@ private:
     /// Made from the folder, as `dsc report` does. A result without its page is still a result.
     void write_report(const RunFolder& folder, RunOutcome& outcome) {
         try {
-            folder.write("report.html", report_html(folder.path(), &workers_));
+            folder.write("report.html", report_html(folder.path(), catalogue_, &workers_));
             outcome.report = folder.file("report.html");
         } catch (const Error& error) {
             log(LogLevel::warning, std::string("the report could not be written: ") + error.what());

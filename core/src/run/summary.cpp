@@ -58,7 +58,10 @@ ordered_json input(const LoadedInput* loaded) {
     const InputReport& report = loaded->report;
     ordered_json filters = ordered_json::array();
     for (const cloud::FilterReport& f : report.filters) {
-        filters.push_back({{"type", f.filter}, {"kept", f.kept}, {"removed", f.removed}});
+        ordered_json row = {{"type", f.filter}, {"kept", f.kept}, {"removed", f.removed}};
+        for (const cloud::RemovedPoints& removed : f.reasons) row["reasons"][removed.reason] = removed.count;
+        for (const auto& [figure, value] : f.figures) row["figures"][figure] = value;
+        filters.push_back(std::move(row));
     }
     return {{"source", report.source},    {"format", report.format}, {"points", report.points},
             {"dropped", report.dropped},  {"filters", filters},      {"used", report.used},

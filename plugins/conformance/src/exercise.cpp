@@ -56,6 +56,12 @@ std::string difference(const Fixture& before, const Fixture& after) {
     return {};
 }
 
+bool same_bytes(const cloud::Cloud& a, const cloud::Cloud& b) {
+    return same_bytes(a.points, b.points) && same_bytes(a.colours, b.colours) && same_bytes(a.normals, b.normals) &&
+           same_bytes(a.areas, b.areas) && same_bytes(a.confidence, b.confidence) &&
+           same_bytes(a.orientation.samples, b.orientation.samples) && a.source == b.source;
+}
+
 // Goes along the normals, less where it is far from the middle: what refinements look at.
 class Breathing final : public hooks::VelocityField {
 public:
@@ -87,6 +93,10 @@ public:
             build(static_cast<hooks::InitialMesh&>(strategy));
             return std::move(answers_);
         }
+        if (kind == plugin::Kind::filter) {
+            filter(static_cast<hooks::CloudFilter&>(strategy));
+            return std::move(answers_);
+        }
         for (std::uint64_t step = how_.first_step; step < how_.first_step + how_.steps; ++step) {
             const Fixture before = at_step(fixture_, step);
             const Fixture now = before;
@@ -113,6 +123,7 @@ private:
             case plugin::Kind::observer:
                 return observer(static_cast<hooks::Observer&>(strategy), context);
             case plugin::Kind::initial_mesh:
+            case plugin::Kind::filter:
                 return;
         }
     }
@@ -278,6 +289,39 @@ private:
         for (const mesh::Label label : mesh.labels) answers_.trace.add(label);
     }
 
+    void filter(hooks::CloudFilter& filter) {
+        const cloud::Cloud cloud = cloud_of(fixture_);
+        if (cloud.points.empty()) return;  // a run has at least one point
+        const cloud::Cloud before = cloud;
+        const cloud::Filtered result = filter.apply(cloud, filter_context(how_, &workers_));
+        if (!same_bytes(before, cloud)) answers_.changed = "the cloud";
+        record("points", std::span<const Vec3>(result.cloud.points), 3);
+        part("colours", 3);
+        for (const cloud::Colour& colour : result.cloud.colours) {
+            for (const std::uint8_t value : colour) answers_.trace.add(value);
+        }
+        record("normals", std::span<const Vec3>(result.cloud.normals), 3);
+        record("areas", std::span<const Vec3>(result.cloud.areas), 3);
+        record("confidences", std::span<const double>(result.cloud.confidence), 1);
+        part("orientation", 1);
+        for (const cloud::SurfaceSample& sample : result.cloud.orientation.samples) {
+            for (const Vec3& v : {sample.position, sample.area}) answers_.trace.add(std::span<const double>(v.data(), 3));
+            answers_.trace.add(sample.width);
+        }
+        add(result.report);
+    }
+
+    void add(const cloud::FilterReport& report) {
+        part("counts", 1);
+        answers_.trace.add(static_cast<double>(report.kept));
+        answers_.trace.add(static_cast<double>(report.removed));
+        for (const cloud::RemovedPoints& removed : report.reasons) {
+            answers_.trace.add(static_cast<double>(stream_id(removed.reason) >> 12U));
+            answers_.trace.add(static_cast<double>(removed.count));
+        }
+        add("figures", report.figures);
+    }
+
     void part(const std::string& name, std::size_t width) { answers_.trace.part(name + at_, width); }
     void add_pair(std::uint32_t a, std::uint32_t b) {
         answers_.trace.add(a);
@@ -297,6 +341,31 @@ private:
 };
 
 }  // namespace
+
+cloud::Cloud cloud_of(const Fixture& fixture) {
+    cloud::Cloud cloud;
+    cloud.source = "the fixture's cloud";
+    if (!fixture.cloud) return cloud;
+    cloud.points.assign(fixture.cloud->points().begin(), fixture.cloud->points().end());
+    const Vec3 middle = bounding_box(cloud.points).centre();
+    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+        const Vec3 outwards = cloud.points[i] - middle;
+        cloud.colours.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i >> 8U), 0});
+        cloud.normals.push_back(outwards.norm() > 0.0 ? Vec3(outwards.normalized()) : Vec3(Vec3::UnitZ()));
+        cloud.areas.push_back(0.01 * cloud.normals.back());
+        cloud.confidence.push_back(0.25 * static_cast<double>(i % 5));
+    }
+    return cloud;
+}
+
+hooks::FilterContext filter_context(const Exercise& how, Workers* workers) {
+    hooks::FilterContext context;
+    context.seed = how.seed;
+    context.instance = stream_id("conformance");
+    context.cancel = how.cancel;
+    context.workers = workers;
+    return context;
+}
 
 hooks::StepContext context_of(const Fixture& fixture, std::uint64_t step, const Exercise& how,
                               Workers* workers) {

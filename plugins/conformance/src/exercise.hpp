@@ -2,6 +2,8 @@
 // Calls a strategy of any kind as a run would, and keeps all that it answers.
 
 #include <dsc/base/progress.hpp>
+#include <dsc/cloud/cloud.hpp>
+#include <dsc/hooks/cloud_filter.hpp>
 #include <dsc/plugin/kind.hpp>
 
 #include "fixtures.hpp"
@@ -30,6 +32,12 @@ struct Answers {
 /// what it throws comes out of here. A strategy whose first step is not 1 goes on (observers get no begin()).
 Answers exercise(plugin::Kind kind, hooks::Strategy& strategy, const Fixture& fixture,
                  const Exercise& how = {});
+
+/// The fixture's cloud as filters see it: its points with a colour, a normal, an area and a confidence each, and no orientation.
+/// Without points where the fixture has no cloud.
+cloud::Cloud cloud_of(const Fixture& fixture);
+/// The context of a filter.
+hooks::FilterContext filter_context(const Exercise& how, Workers* workers);
 
 /// The context of a step on the fixture.
 hooks::StepContext context_of(const Fixture& fixture, std::uint64_t step, const Exercise& how,

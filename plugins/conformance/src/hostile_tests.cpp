@@ -66,7 +66,7 @@ void add_hostile_tests(std::vector<Test>& table) {
          "No cloud, one point, points on a line or in one place give finite answers or an exception."},
         clouds,
         {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement, plugin::Kind::observer,
-         plugin::Kind::initial_mesh});
+         plugin::Kind::initial_mesh, plugin::Kind::filter});
     add(table, {"err.throw", Level::standard, false, "After an exception it is as good as new."}, throws);
 }
 

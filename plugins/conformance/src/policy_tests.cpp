@@ -1,9 +1,11 @@
-// mesh.topology, policy.*: what generators make and what policies ask for.
+// mesh.topology, policy.*, cloud.attributes: what generators make, what policies ask for, what filters leave.
 #include <algorithm>
+#include <cstring>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/validate.hpp>
 #include <dsc/run/mesh_files.hpp>
+#include <map>
 
 #include "test_table.hpp"
 
@@ -121,6 +123,41 @@ void improvement(const Subject& subject) {
     }
 }
 
+std::string bits_of(const Vec3& point) {
+    std::string bits(3 * sizeof(double), '\0');
+    std::memcpy(bits.data(), point.data(), bits.size());
+    return bits;
+}
+
+void require_size(std::size_t size, std::size_t points, const char* what) {
+    require(size == 0 || size == points, "it gives " + std::to_string(size) + " " + what + " for " + std::to_string(points) + " points");
+}
+
+// Attributes fit the points, a point that stays keeps its colour, and the report adds up.
+void attributes(const Subject& subject) {
+    const auto strategy = subject.make();
+    const cloud::Cloud given = cloud_of(subject.fixture());
+    const cloud::Filtered result = static_cast<hooks::CloudFilter&>(*strategy).apply(given, filter_context({}, nullptr));
+    const std::size_t points = result.cloud.points.size();
+    require(points > 0, "it leaves no point of an ordinary cloud");
+    require_size(result.cloud.normals.size(), points, "normals");
+    require_size(result.cloud.areas.size(), points, "areas");
+    require_size(result.cloud.confidence.size(), points, "confidences");
+    require(result.cloud.colours.size() == points,
+            "the cloud has a colour for each of its points, and it gives " + std::to_string(result.cloud.colours.size()) +
+                " colours for " + std::to_string(points) + " points");
+    std::map<std::string, cloud::Colour> colours;
+    for (std::size_t i = 0; i < given.points.size(); ++i) colours[bits_of(given.points[i])] = given.colours[i];
+    for (std::size_t i = 0; i < points; ++i) {
+        const auto found = colours.find(bits_of(result.cloud.points[i]));
+        require(found == colours.end() || found->second == result.cloud.colours[i],
+                "point " + std::to_string(i) + " has the colour of another point");
+    }
+    require(result.report.kept == points && result.report.kept + result.report.removed == given.points.size(),
+            "its report has " + std::to_string(result.report.kept) + " points kept and " + std::to_string(result.report.removed) +
+                " removed, of " + std::to_string(given.points.size()) + " given and " + std::to_string(points) + " left");
+}
+
 void progress(const Subject& subject) {
     if (subject.kind() == plugin::Kind::refinement) {
         refinement(subject);
@@ -140,6 +177,10 @@ void add_policy_tests(std::vector<Test>& table) {
         {"policy.progress", Level::standard, false,
          "Requests end: refinement asks for nothing twice, improvement leaves valid meshes."},
         progress, {plugin::Kind::refinement, plugin::Kind::improvement});
+    add(table,
+        {"cloud.attributes", Level::standard, false,
+         "A filter's points keep their attributes, and its report counts them."},
+        attributes, {plugin::Kind::filter});
 }
 
 }  // namespace dsc::conformance

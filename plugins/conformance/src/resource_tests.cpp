@@ -45,8 +45,8 @@ void use_once(const Subject& subject, const Fixture& fixture) {
 
 // Made, used and destroyed many times, it holds no more memory than after a few times.
 void leak(const Subject& subject) {
-    const bool costly =
-        subject.kind() == plugin::Kind::initial_mesh || subject.kind() == plugin::Kind::improvement;
+    const bool costly = subject.kind() == plugin::Kind::initial_mesh || subject.kind() == plugin::Kind::improvement ||
+                        subject.kind() == plugin::Kind::filter;
     const unsigned repeats = costly ? 5 : 100;
     const Fixture small = costly ? subject.fixture() : triangles(2);
     for (unsigned i = 0; i < 3; ++i) use_once(subject, small);

@@ -78,6 +78,7 @@ TEST_CASE("kinds have the names of the experiment and follow from the hook") {
     CHECK_FALSE(dsc::plugin::find_kind("velocities"));
     CHECK(dsc::plugin::kind_of<Outer>() == Kind::velocity);
     CHECK(dsc::plugin::kind_of<dsc::hooks::InitialMesh>() == Kind::initial_mesh);
+    CHECK(dsc::plugin::kind_of<dsc::hooks::CloudFilter>() == Kind::filter);
 }
 
 TEST_CASE("a catalogue looks strategies up for the configuration") {

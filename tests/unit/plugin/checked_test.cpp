@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/random.hpp>
 #include <dsc/plugin/guarded.hpp>
 #include <functional>
 #include <limits>
@@ -54,6 +55,18 @@ struct Curvature final : Base<hooks::CurvatureEstimator> {
     void prepare(const hooks::StepContext&) override {}
     void evaluate(hooks::Range, std::span<double> scalar, std::span<Vec3> vector) const override {
         Act::act(scalar, vector);
+    }
+};
+
+struct Filter final : Base<hooks::CloudFilter> {
+    using Act = Behaviour<dsc::cloud::Filtered&, const hooks::FilterContext&>;
+    Filter(const Params&, const dsc::plugin::Setup&) {}
+    // Without a fault: the cloud as it is.
+    dsc::cloud::Filtered apply(const dsc::cloud::Cloud& cloud, const hooks::FilterContext& context) override {
+        dsc::cloud::Filtered result{cloud, {}};
+        result.report.kept = cloud.points.size();
+        Act::act(result, context);
+        return result;
     }
 };
 
@@ -130,6 +143,7 @@ struct Bench {
         catalogue.add<InitialMesh>("faulty", "an initial mesh");
         catalogue.add<Improvement>("faulty", "an improvement");
         catalogue.add<Observer>("faulty", "an observer");
+        catalogue.add<Filter>("faulty", "a filter");
         view.vertex_ids = {0, 1, 2, 3};
         view.births = {10, 11, 12, 13};
         view.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
@@ -437,4 +451,115 @@ TEST_CASE("observer: figures of changing, bad or repeated names and without a va
               "the plugin's authors");
     CHECK(step(*bench.make<hooks::Observer>(), {{"a", 1.0}, {"a", 2.0}}).code == "strategy.range");
     CHECK(step(*bench.make<hooks::Observer>(), {{"a", no_number}}).code == "strategy.not_finite");
+}
+
+namespace {
+
+dsc::cloud::Cloud three_points() {
+    dsc::cloud::Cloud cloud;
+    cloud.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+    cloud.source = "a.xyz";
+    return cloud;
+}
+
+using Filtered = dsc::cloud::Filtered;
+
+void drop_last(Filtered& f) {
+    f.cloud.points.pop_back();
+    f.report.kept = 2;
+    f.report.removed = 1;
+}
+
+}  // namespace
+
+TEST_CASE("filter: attributes that do not fit the points or are out of range") {
+    const Bench bench;
+    const auto filter = bench.make<hooks::CloudFilter>();
+    const auto apply = [&](const std::function<void(Filtered&)>& act) {
+        Filter::Act::act = [&](Filtered& result, const hooks::FilterContext&) { act(result); };
+        return caught([&] { filter->apply(three_points(), {}); });
+    };
+    const std::string gave = who("filter") + "apply gave ";
+    const std::string sizes = "; an attribute is empty or has one entry per point" + report;
+    CHECK(apply([](Filtered&) {}).text.empty());
+    CHECK(apply([](Filtered& f) { f.cloud.points.clear(); }).text ==
+          gave + "a cloud without points; at least one point must be left; relax its parameters or leave it out");
+    CHECK(apply([](Filtered& f) { f.cloud.colours.resize(2); }).text == gave + "2 colours for 3 points" + sizes);
+    CHECK(apply([](Filtered& f) { f.cloud.normals.assign(4, Vec3::UnitX()); }).text == gave + "4 normals for 3 points" + sizes);
+    CHECK(apply([](Filtered& f) { f.cloud.areas.assign(1, Vec3::UnitX()); }).text == gave + "1 areas for 3 points" + sizes);
+    CHECK(apply([](Filtered& f) { f.cloud.confidence.assign(5, 0.5); }).text == gave + "5 confidences for 3 points" + sizes);
+    CHECK(apply([](Filtered& f) { f.cloud.points[1].z() = no_number; }).text == gave + "point 1 a coordinate that is not finite" + report);
+    CHECK(apply([](Filtered& f) { f.cloud.areas.assign(3, Vec3::Constant(no_number)); }).code == "strategy.not_finite");
+    CHECK(apply([](Filtered& f) { f.cloud.normals = {Vec3::UnitX(), Vec3(0, 0, 0.5), Vec3::UnitX()}; }).text ==
+          gave + "normal 1 the length 0.5; normals are unit vectors" + report);
+    CHECK(apply([](Filtered& f) { f.cloud.normals.assign(3, Vec3(0, 0, 1 + 1e-8)); }).text.empty());
+    CHECK(apply([](Filtered& f) { f.cloud.confidence = {0, 1, 1.5}; }).code == "strategy.range");
+    CHECK(apply([](Filtered& f) { f.cloud.confidence = {0, no_number, 1}; }).code == "strategy.range");
+    CHECK(apply([](Filtered& f) { f.cloud.confidence = {0, 0.5, 1}; }).text.empty());
+    const auto sample = [&](const dsc::cloud::SurfaceSample& s) {
+        return apply([&](Filtered& f) { f.cloud.orientation.samples = {s}; }).code;
+    };
+    CHECK(sample({Vec3::Zero(), Vec3::UnitZ(), 1.0}).empty());
+    CHECK(sample({Vec3::Zero(), Vec3::Constant(no_number), 1.0}) == "strategy.not_finite");
+    CHECK(sample({Vec3::Zero(), Vec3::UnitZ(), -1.0}) == "strategy.range");
+    CHECK(apply([](Filtered& f) { f.cloud.orientation.residual = no_number; }).code == "strategy.range");
+
+    // What is wrong with the user's cloud is not the filter's fault.
+    Filter::Act::act = [](Filtered&, const hooks::FilterContext&) { throw dsc::GeometryError("cloud.filtered_out", "a.xyz: no point is left"); };
+    CHECK_THROWS_WITH_AS(filter->apply(three_points(), {}), "a.xyz: no point is left", dsc::GeometryError);
+}
+
+TEST_CASE("filter: a report that does not count what happened") {
+    const Bench bench;
+    const auto filter = bench.make<hooks::CloudFilter>();
+    const auto apply = [&](const std::function<void(Filtered&)>& act) {
+        Filter::Act::act = [&](Filtered& result, const hooks::FilterContext&) {
+            drop_last(result);
+            act(result);
+        };
+        return caught([&] { filter->apply(three_points(), {}); });
+    };
+    CHECK(apply([](Filtered&) {}).text.empty());
+    CHECK(apply([](Filtered& f) { f.report.kept = 3; }).text ==
+          who("filter") +
+              "apply reported 3 points as kept and 1 as removed, where it was given 3 and gave 2; a filter adds no points, and kept "
+              "and removed together are those given" +
+              report);
+    CHECK(apply([](Filtered& f) { f.report.removed = 0; }).code == "strategy.size");
+    CHECK(apply([](Filtered& f) { f.report.removed = std::numeric_limits<std::size_t>::max(); }).code == "strategy.size");
+    CHECK(apply([](Filtered& f) { f.report.reasons = {{"far", 1}, {"near", 0}}; }).text.empty());
+    CHECK(apply([](Filtered& f) { f.report.reasons = {{"far", 1}, {"near", 1}}; }).text ==
+          who("filter") + "apply gave reasons whose counts do not add up to the 1 removed point" + report);
+    CHECK(apply([](Filtered& f) { f.report.reasons = {{"far", 0}}; }).code == "strategy.size");
+    CHECK(apply([](Filtered& f) { f.report.reasons = {{"", 1}}; }).code == "strategy.range");
+    CHECK(apply([](Filtered& f) { f.report.figures = {{"Width", 1.0}}; }).code == "strategy.range");
+    CHECK(apply([](Filtered& f) { f.report.figures = {{"width", no_number}}; }).code == "strategy.not_finite");
+}
+
+TEST_CASE("filter: it has its own instance number, its name stands in the report, and a stale orientation goes") {
+    const Bench bench;
+    const auto filter = bench.make<hooks::CloudFilter>();
+    std::uint64_t instance = 0;
+    dsc::cloud::Cloud cloud = three_points();
+    cloud.orientation.samples = {{Vec3::Zero(), Vec3::UnitZ(), 1.0}};
+    const auto apply = [&](const std::function<void(Filtered&)>& act) {
+        Filter::Act::act = [&](Filtered& result, const hooks::FilterContext& context) {
+            instance = context.instance;
+            result.cloud.source = "elsewhere";
+            act(result);
+        };
+        return filter->apply(cloud, {});
+    };
+    const Filtered same = apply([](Filtered&) {});
+    CHECK(instance == dsc::stream_id("here"));
+    CHECK(same.report.filter == "faulty");
+    CHECK(same.cloud.source == "a.xyz");
+    CHECK(same.cloud.orientation.samples.size() == 1);
+    CHECK(apply(drop_last).cloud.orientation.empty());
+    CHECK(apply([](Filtered& f) { f.cloud.points[0].x() = 7; }).cloud.orientation.empty());
+    // A new one is its own affair.
+    CHECK_FALSE(apply([](Filtered& f) {
+                    drop_last(f);
+                    f.cloud.orientation.samples[0].width = 2.0;
+                }).cloud.orientation.empty());
 }

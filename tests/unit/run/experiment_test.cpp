@@ -80,7 +80,7 @@ TEST_CASE("the resolved text reproduces the experiment") {
     const std::string text =
         minimal +
         "name: a.b-c_1\nseed: 7\nstop: {speed: 0.5}\nobservers: [{type: counter}]\n"
-        "input: {cloud: {sample: {n: 50}, filters: [{type: voxel_grid}]}, normalize: {}}\n";
+        "input: {cloud: {sample: {n: 50}, filters: [{type: every_nth}]}, normalize: {}}\n";
     const run::LoadedExperiment loaded = load_text(text, {"velocity.factor=0.25", "schedule.0.steps=9"});
     CHECK(loaded.experiment.velocity.params.at("factor").as_real() == 0.25);
     CHECK(loaded.experiment.schedule[0].steps == 9U);
@@ -113,7 +113,7 @@ TEST_CASE("faults name the place and what is accepted") {
     CHECK(contains(fault(minimal, {"input={cloud: {sample: {shape: cup}}}"}),
                    "'cup' is not one of teapot, sphere"));
     CHECK(contains(fault(minimal, {"input={cloud: {sample: {}}, normalize: {scale: 2}}"}), "(0, 1.5]"));
-    CHECK(contains(fault(minimal, {"input={cloud: {sample: {}, filters: [{type: voxels}]}}"}), "voxel_grid"));
+    CHECK(contains(fault(minimal, {"input={cloud: {sample: {}, filters: [{type: voxels}]}}"}), "every_nth"));
     CHECK(contains(fault(minimal, {"output.surface=[dxf]"}), "dxf"));
     CHECK(contains(fault(minimal, {"output.surface=[]"}), "surface"));
 }

@@ -3,7 +3,9 @@
 
 #include <stdlib.h>
 
+#include <dsc/cloud/filter.hpp>
 #include <dsc/geometry/quality.hpp>
+#include <dsc/hooks/cloud_filter.hpp>
 #include <dsc/plugin/catalogue.hpp>
 #include <dsc/run/experiment.hpp>
 #include <filesystem>
@@ -225,6 +227,47 @@ private:
     int count_ = 0;
 };
 
+/// Keeps every so many points, the first among them, and tells why the others go.
+class EveryNth final : public hooks::CloudFilter {
+public:
+    struct Params {
+        std::size_t nth = 2;
+    };
+    static void declare(config::ParamSchema<Params>& s) {
+        s.integer("nth", &Params::nth).range(1, 1000).unit("points").doc("Of so many points one stays.");
+    }
+    EveryNth(const Params& params, const plugin::Setup&) : params_(params) {}
+    cloud::Filtered apply(const cloud::Cloud& cloud, const hooks::FilterContext&) override {
+        std::vector<std::size_t> kept;
+        for (std::size_t i = 0; i < cloud.points.size(); i += params_.nth) kept.push_back(i);
+        cloud::Filtered result{cloud::pick(cloud, kept), {}};
+        result.report.kept = kept.size();
+        result.report.removed = cloud.points.size() - kept.size();
+        result.report.reasons = {{"in between", result.report.removed}};
+        result.report.figures = {{"part_kept", static_cast<double>(kept.size()) / static_cast<double>(cloud.points.size())}};
+        return result;
+    }
+
+private:
+    Params params_;
+};
+
+/// cloud::remove_duplicates.
+class Distinct final : public hooks::CloudFilter {
+public:
+    using Params = cloud::DuplicatesOptions;
+    static void declare(config::ParamSchema<Params>& s) {
+        s.boolean("sort", &Params::sort).doc("Whether the points are sorted.");
+    }
+    Distinct(const Params& params, const plugin::Setup&) : params_(params) {}
+    cloud::Filtered apply(const cloud::Cloud& cloud, const hooks::FilterContext&) override {
+        return cloud::remove_duplicates(cloud, params_);
+    }
+
+private:
+    Params params_;
+};
+
 class Strategies : public FakeCatalogue {
 public:
     Strategies() {
@@ -235,6 +278,8 @@ public:
         registrar.add<Counted>("counted", "counts its requests");
         registrar.add<SplitAll>("all", "splits all");
         registrar.add<Counter>("counter", "counts");
+        registrar.add<EveryNth>("every_nth", "keeps every so many points");
+        registrar.add<Distinct>("distinct", "removes repeated points");
     }
     run::PluginLoader loader() const {
         return [this](const std::vector<std::string>& paths) -> const config::StrategyLookup& {

@@ -22,12 +22,14 @@ run::Input sampled(std::uint64_t n) {
     return input;
 }
 
-config::StrategyConfig filter(const std::string& type) {
-    const config::ConfigNode resolved =
-        config::validate(config::ConfigNode::map(), *run::filter_schema(type), config::NoStrategies(),
-                         *std::make_unique<config::Diagnostics>());
-    return {type, resolved};
+config::StrategyConfig filter(const std::string& type) { return {type, config::ConfigNode::map()}; }
+
+const test::Strategies& catalogue() {
+    static const test::Strategies strategies;
+    return strategies;
 }
+
+run::LoadedInput load(const run::Input& input, std::uint64_t seed) { return run::load_input(input, seed, catalogue()); }
 
 mesh::TetMesh box_mesh(int cells) {
     const dsc::test::Strategies strategies;
@@ -40,23 +42,41 @@ mesh::TetMesh box_mesh(int cells) {
 
 TEST_CASE("input: the same sample for the same seed, filters in order, normalised") {
     run::Input input = sampled(500);
-    const run::LoadedInput plain = run::load_input(input, 3);
+    const run::LoadedInput plain = load(input, 3);
     CHECK(plain.report.points == 500);
     CHECK(plain.report.used == 500);
     CHECK(plain.target.transform().identity());
-    CHECK(run::load_input(input, 3).cloud.points == plain.cloud.points);
-    CHECK(run::load_input(input, 4).cloud.points != plain.cloud.points);
+    CHECK(load(input, 3).cloud.points == plain.cloud.points);
+    CHECK(load(input, 4).cloud.points != plain.cloud.points);
 
     input.normalize = run::NormalizeInput{0.5};
-    input.cloud.filters = {filter("duplicates"), filter("voxel_grid")};
-    const run::LoadedInput small = run::load_input(input, 3);
+    input.cloud.filters = {filter("distinct"), filter("every_nth")};
+    const run::LoadedInput small = load(input, 3);
     REQUIRE(small.report.filters.size() == 2);
-    CHECK(small.report.filters[0].filter == "duplicates");
+    CHECK(small.report.filters[0].filter == "distinct");
     CHECK(small.report.filters[0].removed == 0);
     CHECK(small.report.used == small.report.filters[1].kept);
+    CHECK(small.report.used == 250);
+    CHECK(small.cloud.points[1] == plain.cloud.points[2]);
+    REQUIRE(small.report.filters[1].reasons.size() == 1);
+    CHECK(small.report.filters[1].reasons[0].count == 250);
+    CHECK(small.report.filters[1].figures == std::vector<std::pair<std::string, double>>{{"part_kept", 0.5}});
     CHECK(small.target.box().high.maxCoeff() == doctest::Approx(0.5));
     const Vec3 back = small.target.transform().inverse(small.target[0]);
     CHECK((back - small.cloud.points[0]).norm() < 1e-14);
+}
+
+TEST_CASE("input: a filter that cannot be made is told before the cloud is read") {
+    run::Input input;
+    input.cloud.file = "/nonexistent/cloud.xyz";
+    input.cloud.filters = {filter("distinct"), filter("voxels")};
+    try {
+        load(input, 1);
+        FAIL("no error");
+    } catch (const PluginError& error) {
+        CHECK(error.code() == "plugin.unknown_strategy");
+        CHECK(std::string(error.what()).find("input.cloud.filters.1: there is no filter 'voxels'") == 0);
+    }
 }
 
 TEST_CASE("input: without normalize a cloud outside the box is refused") {
@@ -64,13 +84,13 @@ TEST_CASE("input: without normalize a cloud outside the box is refused") {
     run::Input input;
     input.cloud.file = folder.write("far.xyz", "0 0 0\n1 0 0\n0 1 0\n0 0 9\n");
     try {
-        run::load_input(input, 1);
+        load(input, 1);
         FAIL("no error");
     } catch (const GeometryError& error) {
         CHECK(error.code() == "cloud.outside_box");
     }
     input.normalize = run::NormalizeInput{};
-    CHECK(run::load_input(input, 1).target.size() == 4);
+    CHECK(load(input, 1).target.size() == 4);
 }
 
 TEST_CASE("input: the columns of a text cloud, and its colours all the way to the target") {
@@ -80,16 +100,16 @@ TEST_CASE("input: the columns of a text cloud, and its colours all the way to th
                                     "id,north,east,up,r,g,b\n1,0,0,0,255,0,0\n2,0,1,0,0,255,0\n3,1,0,0,0,0,255\n"
                                     "4,0,0,1,9,8,7\n5,0,0,1,1,2,3\n");
     input.cloud.columns = {"east", "north", "4", "r", "g", "b"};
-    input.cloud.filters = {filter("duplicates")};
+    input.cloud.filters = {filter("distinct")};
     input.normalize = run::NormalizeInput{};
-    const run::LoadedInput loaded = run::load_input(input, 1);
+    const run::LoadedInput loaded = load(input, 1);
     CHECK(loaded.report.format == "CSV");
     CHECK(loaded.cloud.points[1] == Vec3(1, 0, 0));
     REQUIRE(loaded.target.colours().size() == 4);
     CHECK(loaded.target.colours()[1] == cloud::Colour{0, 255, 0});
     CHECK(loaded.target.colours()[3] == cloud::Colour{9, 8, 7});
     input.cloud.columns = {"2", "3", "4"};
-    CHECK(run::load_input(input, 1).target.colours().empty());
+    CHECK(load(input, 1).target.colours().empty());
 }
 
 TEST_CASE("run folder: takes an empty folder or one of ours, refuses all others untouched") {

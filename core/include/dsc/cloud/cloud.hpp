@@ -34,11 +34,11 @@ struct Orientation {
 struct Cloud {
     std::vector<Vec3> points;
     std::vector<Colour> colours{};
+    std::string source{};  ///< the file or shape that they come from, named in error messages; may be empty
     std::vector<Vec3> normals{};       ///< unit vectors that point out of the solid
     std::vector<Vec3> areas{};         ///< area vectors, in squared units
     std::vector<double> confidence{};  ///< of the normals, 0 to 1
     Orientation orientation{};         ///< empty before the filter `orient`
-    std::string source{};  ///< the file or shape that they come from, named in error messages; may be empty
 };
 
 }  // namespace dsc::cloud

@@ -1,12 +1,16 @@
 #pragma once
 // Filters that thin a cloud, remove its outliers or what lies inside. Lengths are fractions of the diagonal of the cloud's
-// box, unless they say otherwise. Every filter keeps the order of the input and returns points of the input, bit for bit.
+// box, unless they say otherwise. Every filter returns points of the input, bit for bit, with all their attributes, in the
+// order of the input unless it says otherwise. Only an orientation that the cloud brings is lost with the first point that
+// is removed or changes its place in the order: its samples stood for the points that there were.
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <dsc/base/progress.hpp>
 #include <dsc/cloud/cloud.hpp>
 
 namespace dsc::cloud {
@@ -33,6 +37,7 @@ struct Filtered {
 
 struct DuplicatesOptions {
     double tolerance = 0.0;  ///< a point this close to an earlier kept one is removed; 0: only equal points
+    bool sort = false;       ///< the kept points lexicographically by x, y and z, whatever their order was
 };
 
 struct VoxelGridOptions {
@@ -60,7 +65,16 @@ struct HiddenOptions {
     double share = 0.04;      ///< a point that this part of the views or fewer see is removed
 };
 
-/// Removes repeated points, the first of each stays. -0 equals 0. [setup]
+/// The points with these indices and all their attributes, in this order. The orientation stays only where these are all
+/// points in their own order. Attributes of a wrong size are left out. Throws std::out_of_range. [setup]
+Cloud pick(const Cloud& cloud, std::span<const std::size_t> indices);
+
+/// Removes repeated points, the first of each stays. -0 equals 0.
+///
+/// With `sort`, the points are ordered before any is removed: by x, y and z, equal points by their colours, normals, areas
+/// and confidences in this order, then by the sign of their zeros. Only points that agree in every bit of all of these keep
+/// no order, and it does not matter which of them stays: the result is the same, bit for bit, in whatever order the points
+/// came. Of equal points, the one with the least attributes stays. [setup]
 Filtered remove_duplicates(const Cloud& cloud, const DuplicatesOptions& options = {});
 
 /// Keeps one point of every occupied cell: the one nearest to the centroid of the cell's points. [setup]
@@ -82,8 +96,9 @@ Filtered remove_clusters(const Cloud& cloud, const ClustersOptions& options = {}
 /// visibility splatting [Pfister2000], and a point is seen where no disc lies in front of it. It needs no surface and no
 /// normals; where the cloud is sparse, only what lies deeper than about half a spacing can be told from the surface.
 /// (The spherical flipping of [Katz2007], from 60 views, took the thesis' clouds for wholly visible or removed 14 to 21
-/// visible points with every hidden one: they are too sparse for it.) The cost grows with points times views. [setup]
-Filtered remove_hidden(const Cloud& cloud, const HiddenOptions& options = {});
+/// visible points with every hidden one: they are too sparse for it.) The cost grows with points times views.
+/// `cancel` is asked between views and may be null; throws CancelledError. [setup]
+Filtered remove_hidden(const Cloud& cloud, const HiddenOptions& options = {}, const CancelToken* cancel = nullptr);
 
 // Each filter throws GeometryError: "cloud.empty" for a cloud without points, "cloud.non_finite" for NaN or
 // infinity, "cloud.option" for an option out of range, "cloud.filtered_out" if no point would be left.

@@ -27,6 +27,10 @@ struct Normalized {
     std::vector<Vec3> points;  ///< in normalised units, in the order of the cloud
     Transform transform;
     std::vector<Colour> colours{};  ///< empty, or one a point
+    std::vector<Vec3> normals{};       ///< empty, or one per point; unit vectors
+    std::vector<Vec3> areas{};         ///< empty, or one per point, in squared normalised units
+    std::vector<double> confidence{};  ///< empty, or one per point
+    Orientation orientation{};         ///< in normalised units
 };
 
 /// Refuses points that bound no volume: fewer than 4, all equal, all on a line, all on a plane; "all on" is

@@ -8,13 +8,14 @@
 
 #include <dsc/cloud/normalize.hpp>
 #include <dsc/cloud/search.hpp>
+#include <dsc/cloud/statistics.hpp>
 
 namespace dsc::cloud {
 
 /// Immutable; copies share the points and the tree. All methods may be called from several threads at once.
 class TargetCloud {
 public:
-    /// Builds the search tree. Colours that are not one a point are left out. Throws as NearestSearch. [setup]
+    /// Builds the search tree. Attributes that are not one per point are left out. Throws as NearestSearch. [setup]
     explicit TargetCloud(const Normalized& normalized);
 
     /// Normalised points, in the order of the cloud. [parallel]
@@ -30,17 +31,44 @@ public:
     /// From the input's units to normalised ones. [parallel]
     const Transform& transform() const noexcept { return transform_; }
     /// Of the points, in their order; empty where the input has none. [parallel]
-    std::span<const Colour> colours() const noexcept { return *colours_; }
+    std::span<const Colour> colours() const noexcept { return attributes_->colours; }
+    /// Unit vectors that point out of the solid, areas in squared normalised units, and the confidence of the normals, 0 to 1;
+    /// each per point, or empty where no filter gave them. [parallel]
+    std::span<const Vec3> normals() const noexcept { return attributes_->normals; }
+    std::span<const Vec3> areas() const noexcept { return attributes_->areas; }
+    std::span<const double> confidence() const noexcept { return attributes_->confidence; }
+    /// In normalised units; empty without the filter `orient`. [parallel]
+    const Orientation& orientation() const noexcept { return attributes_->orientation; }
+
+    /// Statistics of the points, in normalised units. The first call computes all, with the workers that it is given: one
+    /// that comes out of a block of a loop gives none. The result does not depend on them. [parallel]
+    const Statistics& statistics(Workers* workers = nullptr) const;
+    /// Root of the area per point round a point, from its 12th neighbour, and from its 8th, see Statistics. [parallel]
+    double point_width(std::size_t index) const { return statistics().point_width[index]; }
+    double label_width(std::size_t index) const { return statistics().label_width[index]; }
+    /// Standard deviation of the points across the surface. [parallel]
+    double noise() const { return statistics().noise; }
+
     /// Of the normalised points. [parallel]
     const Box3& box() const noexcept { return box_; }
 
 private:
     struct Spacings;
+    struct Measured;
+    struct Attributes {
+        std::vector<Colour> colours;
+        std::vector<Vec3> normals;
+        std::vector<Vec3> areas;
+        std::vector<double> confidence;
+        Orientation orientation;
+    };
+    static std::shared_ptr<const Attributes> attributes_of(const Normalized& normalized);
     std::shared_ptr<const NearestSearch> search_;
     std::shared_ptr<Spacings> spacings_;
     Transform transform_;
     Box3 box_;
-    std::shared_ptr<const std::vector<Colour>> colours_;
+    std::shared_ptr<const Attributes> attributes_;
+    std::shared_ptr<Measured> measured_;
 };
 
 }  // namespace dsc::cloud

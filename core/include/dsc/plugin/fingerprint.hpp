@@ -50,7 +50,7 @@
 #endif
 
 /// Major: any change that old plugins cannot follow. Minor: virtual functions or fields added at the end.
-#define DSC_ABI_MAJOR 1
+#define DSC_ABI_MAJOR 2
 #define DSC_ABI_MINOR 0
 
 /// Of the translation unit in which it stands. `align` changes with -mavx, which moves every Eigen member.

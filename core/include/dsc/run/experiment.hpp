@@ -93,18 +93,6 @@ struct Experiment {
 /// The schema of format 1. [setup]
 std::shared_ptr<const config::Schema> experiment_schema();
 
-/// The strategies of a host plus kind "filter", the cloud filters that are part of the core. `host` must outlive it.
-class ExperimentLookup : public config::StrategyLookup {
-public:
-    explicit ExperimentLookup(const config::StrategyLookup& host);
-    ~ExperimentLookup() override;
-    const config::Schema* find_schema(const std::string& kind, const std::string& id) const override;
-    std::vector<std::string> ids(const std::string& kind) const override;
-
-private:
-    const config::StrategyLookup* host_;
-};
-
 /// A validated experiment.
 struct LoadedExperiment {
     Experiment experiment;
@@ -124,8 +112,9 @@ LoadedExperiment load_experiment(const std::string& file, std::span<const std::s
 /// The same for a tree made by code. [setup]
 LoadedExperiment resolve_experiment(const config::ConfigNode& root, const PluginLoader& load_plugins);
 
-/// The input of a resolved configuration, which needs no plugin to be read; empty without one. Throws ConfigError. [setup]
-std::optional<Input> input_of(const config::ConfigNode& resolved);
+/// The input of a resolved configuration; `lookup` knows its filters. Empty without one. Throws ConfigError, also for a filter
+/// that the lookup does not know. [setup]
+std::optional<Input> input_of(const config::ConfigNode& resolved, const config::StrategyLookup& lookup);
 
 /// What `--print-config` prints and config.resolved.yaml holds.
 std::string resolved_text(const LoadedExperiment& loaded);

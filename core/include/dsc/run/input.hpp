@@ -2,9 +2,12 @@
 // From the input of an experiment to the cloud that strategies see.
 
 #include <cstddef>
+#include <dsc/base/progress.hpp>
+#include <dsc/base/workers.hpp>
 #include <dsc/cloud/cloud.hpp>
 #include <dsc/cloud/filter.hpp>
 #include <dsc/cloud/target.hpp>
+#include <dsc/plugin/catalogue.hpp>
 #include <dsc/run/experiment.hpp>
 #include <optional>
 #include <string>
@@ -29,17 +32,10 @@ struct LoadedInput {
     InputReport report;
 };
 
-/// Reads or samples, filters and normalises. `seed` is that of the experiment. Throws IoError, GeometryError as the
-/// parts of the cloud module. [setup]
-LoadedInput load_input(const Input& input, std::uint64_t seed);
-
-/// Applies one filter of an experiment. [setup]
-cloud::Filtered apply_filter(const cloud::Cloud& cloud, const config::StrategyConfig& filter);
-
-/// The schema of a filter by its id, null for an unknown one; what it is for, on one line, empty for an unknown one; the
-/// ids in alphabetical order. [setup]
-const config::Schema* filter_schema(const std::string& id);
-std::string filter_summary(const std::string& id);
-std::vector<std::string> filter_ids();
+/// Reads or samples, filters and normalises. `seed` is that of the experiment; `catalogue` makes the filters, which see
+/// `workers` (null: one thread) and `cancel` (may be null). The result depends on neither. Throws IoError, GeometryError as the
+/// parts of the cloud module, and as Catalogue::create and the filters: PluginError, StrategyError, CancelledError. [setup]
+LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Catalogue& catalogue, Workers* workers = nullptr,
+                       const CancelToken* cancel = nullptr);
 
 }  // namespace dsc::run

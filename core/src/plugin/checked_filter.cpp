@@ -1,0 +1,139 @@
+// Filter: called once per run with the whole cloud; its answer is a cloud with attributes and a report.
+#include <algorithm>
+#include <cmath>
+#include <dsc/config/yaml.hpp>
+
+#include "plugin/checked.hpp"
+
+namespace dsc::plugin {
+namespace {
+
+constexpr std::string_view report = "report this to the plugin's authors";
+
+std::string at(std::string_view what, std::size_t index) { return std::string(what) + " " + std::to_string(index); }
+
+std::string count_of(std::size_t count, std::string_view what) {
+    return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
+}
+
+void judge_size(const Call& current, std::string_view what, std::size_t size, std::size_t points) {
+    if (size == 0 || size == points) return;
+    fail(current, "strategy.size",
+         "gave " + std::to_string(size) + " " + std::string(what) + " for " + count_of(points, "point"),
+         "an attribute is empty or has one entry per point; report this to the plugin's authors");
+}
+
+void judge_finite(const Call& current, std::string_view what, const std::vector<Vec3>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i].allFinite()) continue;
+        fail(current, "strategy.not_finite", "gave " + at(what, i) + " a coordinate that is not finite", report);
+    }
+}
+
+void judge_normals(const Call& current, const std::vector<Vec3>& normals) {
+    constexpr double tolerance = 1e-6;  // wide enough for normals that went through floats
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        if (std::abs(normals[i].norm() - 1.0) <= tolerance) continue;
+        fail(current, "strategy.range", "gave " + at("normal", i) + " the length " + config::real_text(normals[i].norm()),
+             "normals are unit vectors; report this to the plugin's authors");
+    }
+}
+
+void judge_confidence(const Call& current, const std::vector<double>& confidence) {
+    for (std::size_t i = 0; i < confidence.size(); ++i) {
+        if (confidence[i] >= 0.0 && confidence[i] <= 1.0) continue;  // false for NaN
+        fail(current, "strategy.range", "gave point " + std::to_string(i) + " the confidence " + std::to_string(confidence[i]),
+             "confidences lie in [0, 1]; report this to the plugin's authors");
+    }
+}
+
+void judge_orientation(const Call& current, const cloud::Orientation& orientation) {
+    for (const double value : {orientation.residual, orientation.noise}) {
+        if (std::isfinite(value) && value >= 0.0) continue;
+        fail(current, "strategy.range", "gave the orientation the residual " + std::to_string(orientation.residual) +
+             " and the noise " + std::to_string(orientation.noise), "both are finite and at least 0; report this to the plugin's authors");
+    }
+    for (std::size_t i = 0; i < orientation.samples.size(); ++i) {
+        const cloud::SurfaceSample& sample = orientation.samples[i];
+        if (!sample.position.allFinite() || !sample.area.allFinite() || !std::isfinite(sample.width)) {
+            fail(current, "strategy.not_finite", "gave " + at("sample", i) + " of the orientation a value that is not finite", report);
+        }
+        if (sample.width < 0.0) {
+            fail(current, "strategy.range", "gave " + at("sample", i) + " of the orientation the width " + std::to_string(sample.width),
+                 "widths are at least 0; report this to the plugin's authors");
+        }
+    }
+}
+
+void judge_cloud(const Call& current, const cloud::Cloud& cloud) {
+    const std::size_t points = cloud.points.size();
+    if (points == 0) fail(current, "strategy.size", "gave a cloud without points", "at least one point must be left; relax its parameters or leave it out");
+    judge_size(current, "colours", cloud.colours.size(), points);
+    judge_size(current, "normals", cloud.normals.size(), points);
+    judge_size(current, "areas", cloud.areas.size(), points);
+    judge_size(current, "confidences", cloud.confidence.size(), points);
+    judge_finite(current, "point", cloud.points);
+    judge_finite(current, "normal", cloud.normals);
+    judge_finite(current, "area", cloud.areas);
+    judge_normals(current, cloud.normals);
+    judge_confidence(current, cloud.confidence);
+    judge_orientation(current, cloud.orientation);
+}
+
+void judge_report(const Call& current, const cloud::FilterReport& told, std::size_t given, std::size_t left) {
+    // Compared without the sum, which might overflow.
+    if (told.kept != left || told.removed > given || given - told.removed != told.kept) {
+        fail(current, "strategy.size",
+             "reported " + std::to_string(told.kept) + " points as kept and " + std::to_string(told.removed) +
+                 " as removed, where it was given " + std::to_string(given) + " and gave " + std::to_string(left),
+             "a filter adds no points, and kept and removed together are those given; report this to the plugin's authors");
+    }
+    std::size_t rest = told.removed;
+    bool adds_up = true;
+    for (const cloud::RemovedPoints& removed : told.reasons) {
+        if (removed.reason.empty() || removed.reason.find('\n') != std::string::npos) {
+            fail(current, "strategy.range", "gave a reason that is not one line of text", report);
+        }
+        adds_up = adds_up && removed.count <= rest;
+        rest -= std::min(rest, removed.count);
+    }
+    if (!told.reasons.empty() && (!adds_up || rest != 0)) {
+        fail(current, "strategy.size", "gave reasons whose counts do not add up to the " + count_of(told.removed, "removed point"), report);
+    }
+    judge(current, told.figures);
+}
+
+bool same(const cloud::Orientation& a, const cloud::Orientation& b) {
+    return a.samples.size() == b.samples.size() &&
+           std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), [](const auto& x, const auto& y) {
+               return x.position == y.position && x.area == y.area && x.width == y.width;
+           });
+}
+
+class CheckedFilter final : public Checked<hooks::CloudFilter> {
+public:
+    using Checked::Checked;
+
+    cloud::Filtered apply(const cloud::Cloud& cloud, const hooks::FilterContext& context) override {
+        hooks::FilterContext own_context = context;
+        own_context.instance = instance();
+        const Call current = call("apply");
+        cloud::Filtered result = guarded(current, [&] { return inner().apply(cloud, own_context); });
+        judge_cloud(current, result.cloud);
+        judge_report(current, result.report, cloud.points.size(), result.cloud.points.size());
+        result.report.filter = current.who.id;
+        result.cloud.source = cloud.source;  // the points still come from there
+        // An orientation that was only passed on does not hold for other points than those it was estimated from.
+        cloud::Orientation& orientation = result.cloud.orientation;
+        if (!orientation.empty() && result.cloud.points != cloud.points && same(orientation, cloud.orientation)) orientation = {};
+        return result;
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<hooks::Strategy> check_filter(std::unique_ptr<hooks::CloudFilter> inner, Attribution attribution) {
+    return std::make_unique<CheckedFilter>(std::move(inner), std::move(attribution));
+}
+
+}  // namespace dsc::plugin

@@ -1,0 +1,33 @@
+#include "strategy.hpp"
+
+namespace dsc::strategies {
+
+void Hidden::declare(config::ParamSchema<Params>& schema) {
+    schema.integer("views", &Params::views)
+        .range(1, 10000)
+        .unit("directions")
+        .doc("From so many directions all round the cloud is looked at.");
+    schema.real("radius", &Params::radius)
+        .range(0, 10)
+        .open_low()
+        .unit("point spacings")
+        .doc("Radius of the disc that stands for the surface round a point.");
+    schema.real("depth", &Params::depth)
+        .range(0, 10)
+        .open_low()
+        .unit("point spacings")
+        .doc("A point this far behind a disc is hidden by it.");
+    schema.real("share", &Params::share)
+        .range(0, 1)
+        .open_high()
+        .unit("1")
+        .doc("A point that this part of the views or fewer see is removed.");
+}
+
+Hidden::Hidden(const Params& params, const plugin::Setup&) : params_(params) {}
+
+cloud::Filtered Hidden::apply(const cloud::Cloud& cloud, const hooks::FilterContext& context) {
+    return cloud::remove_hidden(cloud, params_, context.cancel);
+}
+
+}  // namespace dsc::strategies

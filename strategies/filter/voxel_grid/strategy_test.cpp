@@ -1,0 +1,52 @@
+#include "strategy.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <dsc/host/host.hpp>
+
+namespace {
+
+using dsc::Vec3;
+using dsc::cloud::Cloud;
+using dsc::cloud::Filtered;
+using dsc::config::ConfigNode;
+
+Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map()) {
+    dsc::host::Host host;
+    host.load(DSC_TEST_PLUGIN);
+    return host.create<dsc::hooks::CloudFilter>({"voxel_grid", params}, "input.cloud.filters.0")->apply(cloud, {});
+}
+
+
+/// The corners of a square grid of side 1 in the plane z = 0; each point has its index as confidence, in hundredths.
+Cloud grid(int side) {
+    Cloud cloud;
+    for (int j = 0; j < side; ++j) {
+        for (int i = 0; i < side; ++i) {
+            cloud.confidence.push_back(0.001 * static_cast<double>(cloud.points.size()));
+            cloud.points.emplace_back(i, j, 0);
+        }
+    }
+    return cloud;
+}
+
+}  // namespace
+
+TEST_CASE("of each cell the point nearest to the middle of its points stays, with its attributes") {
+    Cloud cloud = grid(9);
+    // The box is 8 wide, its diagonal 8 sqrt 2: cells of 3 by 3 points.
+    const double size = 3.0 / (8.0 * std::sqrt(2.0));
+    const Filtered result = filtered(cloud, ConfigNode::map({{"size", size}}));
+    std::vector<Vec3> expected;
+    for (const double y : {1.0, 4.0, 7.0}) {
+        for (const double x : {1.0, 4.0, 7.0}) expected.emplace_back(x, y, 0);
+    }
+    CHECK(result.cloud.points == expected);
+    CHECK(result.report.removed == 72);
+    REQUIRE(result.cloud.confidence.size() == 9);
+    for (std::size_t i = 0; i < 9; ++i) {
+        const double index = expected[i].x() + 9.0 * expected[i].y();
+        CHECK(result.cloud.confidence[i] == 0.001 * index);
+    }
+}
