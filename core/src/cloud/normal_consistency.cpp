@@ -23,9 +23,10 @@ struct Buffers {
     std::vector<Vec3> direction;
 };
 
-/// mu += s g with g = A^T r and the s that makes |r - s A g| least.
-void descend(WindingField& field, std::vector<Vec3>& vectors, Buffers& buffers, Workers* workers) {
+/// mu += s g with g = A^T r and the s that makes |r - s A g| least. Returns the root mean square of r.
+double descend(WindingField& field, std::vector<Vec3>& vectors, Buffers& buffers, Workers* workers) {
     field.winding(buffers.w, workers);
+    const double residual = winding_residual(buffers.w);
     for (std::size_t i = 0; i < vectors.size(); ++i) buffers.r[i] = 0.5 - buffers.w[i];
     field.adjoint(buffers.r, buffers.direction, workers);
     field.set_vectors(buffers.direction);
@@ -38,6 +39,7 @@ void descend(WindingField& field, std::vector<Vec3>& vectors, Buffers& buffers, 
     const double step = square > 0.0 ? along / square : 0.0;
     for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] += step * buffers.direction[i];
     field.set_vectors(vectors);
+    return residual;
 }
 
 void turn_to_gradient(WindingField& field, std::vector<Vec3>& vectors, Buffers& buffers, Workers* workers) {
@@ -67,14 +69,14 @@ double make_consistent(WindingField& field, std::span<const double> widths, cons
                        std::vector<Vec3>& vectors, Workers* workers, const CancelToken* cancel) {
     Buffers buffers(vectors.size());
     field.set_vectors(vectors);
+    double residual = 0.0;
     for (std::size_t t = 0; t < schedule.iterations; ++t) {
         if (cancel != nullptr && cancel->cancelled()) throw CancelledError("the cloud was not oriented");
         set_smoothing(field, widths, smoothing_at(schedule, t));
-        descend(field, vectors, buffers, workers);
+        residual = descend(field, vectors, buffers, workers);
         turn_to_gradient(field, vectors, buffers, workers);
     }
-    field.winding(buffers.w, workers);
-    return winding_residual(buffers.w);
+    return residual;
 }
 
 }  // namespace dsc::cloud

@@ -19,7 +19,7 @@ struct ConsistencySchedule {
 
 /// Improves `vectors` by steps of steepest descent on |1/2 - A mu|^2, each with the best length, after each of which every
 /// vector turns to the direction of the field's negative gradient and keeps its length. The field is left with the last
-/// smoothing and the result. Returns the root mean square of 1/2 - A mu. Throws CancelledError. [setup]
+/// smoothing and the result. Returns the root mean square of 1/2 - A mu at the beginning of the last iteration. Throws CancelledError. [setup]
 double make_consistent(WindingField& field, std::span<const double> widths, const ConsistencySchedule& schedule,
                        std::vector<Vec3>& vectors, Workers* workers, const CancelToken* cancel);
 
