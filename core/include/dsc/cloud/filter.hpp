@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <dsc/base/progress.hpp>
+#include <dsc/base/workers.hpp>
 #include <dsc/cloud/cloud.hpp>
 
 namespace dsc::cloud {
@@ -54,6 +55,12 @@ struct RadiusOutliersOptions {
     std::size_t neighbours = 4;  ///< a point with fewer other points within the radius is removed
 };
 
+struct OutliersOptions {
+    double isolated = 2.5;  ///< how many times as far apart as its neighbours and as most points an outlier lies
+    double far = 8.0;       ///< how many times as far apart as most points a point may lie at all
+    double most = 0.2;      ///< if more than this part of the points would go, none goes: the cloud is uneven, not dirty
+};
+
 struct ClustersOptions {
     double closer = 0.3;  ///< a point this close to an earlier kept one is removed; 1: as far as evenly spread points are
 };
@@ -85,6 +92,12 @@ Filtered remove_statistical_outliers(const Cloud& cloud, const StatisticalOutlie
 
 /// Removes points with few neighbours within a radius. [setup]
 Filtered remove_radius_outliers(const Cloud& cloud, const RadiusOutliersOptions& options = {});
+
+/// Removes points far from all others. How far apart points lie is the distance to their 8th neighbour; "isolated" ones
+/// exceed `isolated` times both the median of their 8 neighbours' distances and that of all points, "far" ones exceed
+/// `far` times the median of all. Where more than half of the points repeat others, that median is 0 and none goes. The
+/// number of threads changes nothing. `workers` may be null: one thread. [setup]
+Filtered remove_outliers(const Cloud& cloud, const OutliersOptions& options = {}, Workers* workers = nullptr);
 
 /// Thins places where points crowd together: of points that lie much closer to each other than the points round them
 /// are apart, the first stays. Lengths count in the distance that the 24 nearest points would have from each other if

@@ -1,0 +1,63 @@
+#pragma once
+// The winding number of area vectors, by clusters: 1 inside a solid, 0 outside, 1/2 on its surface.
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <dsc/base/workers.hpp>
+#include <dsc/cloud/cloud.hpp>
+#include <dsc/geometry/vec.hpp>
+
+namespace dsc::cloud {
+
+/// The field of vectors mu_j at positions y_j, and the operators that orient a cloud with it. With d = y_j - x and
+/// rho^2 = |d|^2 + (eps^2 + eps_j^2) / 2,
+///   w(x)       = 1/(4 pi) sum_j mu_j . d / rho^3                              (A mu at the positions),
+///   -grad w(x) = 1/(4 pi) sum_j [mu_j / rho^3 - 3 (mu_j . d) d / rho^5]       (G mu at the positions),
+///   (A^T r)_j  = 1/(4 pi) sum_i r_i (y_j - x_i) / rho^3.
+/// Sources that are far from a group of targets count as one, at their weighted mean. The sums are taken in float after
+/// moving and scaling the positions, so coordinates may be large; an error of about 1e-3 of w is usual. The same bits come out
+/// for any number of threads and with registers of any width.
+class WindingField {
+public:
+    /// `weights`: one per position, positive, such as areas; they say where the middle of a cluster is. A cluster is taken
+    /// together where its radius is below `opening` times the distance from all targets of a group; 0: never. Throws
+    /// GeometryError "cloud.empty" without positions, "cloud.non_finite", "cloud.large" above 2^31 - 1 positions. [setup]
+    WindingField(std::span<const Vec3> positions, std::span<const double> weights, double opening = 0.5);
+    ~WindingField();
+    WindingField(WindingField&&) noexcept;
+    WindingField& operator=(WindingField&&) noexcept;
+
+    std::size_t size() const noexcept;
+
+    /// Smoothing length eps_j of each position, in the units of the positions. 0 before the first call. [step]
+    void set_smoothing(std::span<const double> lengths);
+    /// Vectors mu_j, in squared units. Zero before the first call. [step]
+    void set_vectors(std::span<const Vec3> vectors);
+
+    /// w at the positions, their own smoothing as that of the targets. [step]
+    void winding(std::span<double> w, Workers* workers = nullptr);
+    /// -grad w at the positions, likewise: along the normal that points out of the solid. Per unit of length. [step]
+    void gradient(std::span<Vec3> g, Workers* workers = nullptr);
+    /// A^T r, in 1 / squared units, for one number per position. The vectors stay as they are. [step]
+    void adjoint(std::span<const double> r, std::span<Vec3> g, Workers* workers = nullptr);
+
+    /// w at other places. `smoothing`: one length per point, or empty for 0. Throws GeometryError "cloud.non_finite",
+    /// "cloud.large". [step]
+    void evaluate(std::span<const Vec3> points, std::span<const double> smoothing, std::span<double> w,
+                  Workers* workers = nullptr) const;
+    /// -grad w at other places. Throws as evaluate. [step]
+    void evaluate_gradient(std::span<const Vec3> points, std::span<const double> smoothing, std::span<Vec3> g,
+                           Workers* workers = nullptr) const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The field of a cloud's samples; `smoothing` counts in their widths. Throws as the constructor. [setup]
+WindingField winding_field(std::span<const SurfaceSample> samples, double smoothing = 0.5);
+
+}  // namespace dsc::cloud

@@ -1,0 +1,257 @@
+#include <dsc/cloud/orientation.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <dsc/base/error.hpp>
+#include <dsc/cloud/normalize.hpp>
+#include <dsc/cloud/statistics.hpp>
+#include <dsc/cloud/winding_field.hpp>
+
+#include "cells.hpp"
+#include "checks.hpp"
+#include "normal_consistency.hpp"
+#include "samples.hpp"
+#include "text.hpp"
+
+namespace dsc::cloud {
+
+namespace {
+
+constexpr double most_representatives = 8000.0;
+constexpr std::size_t few_samples = 10000;  // up to here every sample is a representative
+constexpr double coarse_first = 6.0, coarse_last = 1.0;
+constexpr double fine_first = 2.0, fine_last = 0.5, fine_last_noisy = 1.1;
+constexpr double field_smoothing = 0.5;    // of the finished field
+constexpr double normal_smoothing = 0.7;   // where normals between the samples are read from it
+constexpr double far_from_surface = 0.45;  // |w - 1/2| of what lies inside or outside
+constexpr double off_surface = 0.3;        // the same where the point lies apart from its neighbours as well
+constexpr double apart = 1.25;
+constexpr std::size_t width_neighbours = 12;
+
+std::vector<double> squares_of(std::span<const double> widths) {
+    std::vector<double> out(widths.begin(), widths.end());
+    for (double& width : out) width *= width;
+    return out;
+}
+
+Vec3 direction_or(const Vec3& v, const Vec3& other) {
+    const double length = v.norm();
+    return length > 0.0 && std::isfinite(length) ? Vec3(v / length) : other;
+}
+
+/// Samples of the coarse stage.
+struct Representatives {
+    std::vector<Vec3> positions;
+    std::vector<double> widths, weights;
+    double edge = 0.0;  ///< of the cells that they are means of; 0 if they are the samples
+};
+
+Representatives representatives_of(const ScaledSamples& samples, bool all, Workers* workers) {
+    Representatives out;
+    if (all || samples.size() <= few_samples) {
+        out.positions = samples.positions;
+        out.widths = samples.widths;
+        out.weights = squares_of(samples.widths);
+        return out;
+    }
+    out.edge = samples.width * std::sqrt(1.5 * static_cast<double>(samples.size()) / most_representatives);
+    const Cells cells = cells_of(samples.positions, out.edge);
+    out.positions = means_of(cells, samples.positions);
+    out.weights.assign(out.positions.size(), 0.0);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        out.weights[cells.of_point[i]] += samples.widths[i] * samples.widths[i];
+    out.widths = label_widths(find_neighbours(out.positions, reach_neighbours, workers), workers);
+    return out;
+}
+
+/// Both stages; what they find for the samples.
+class Orienter {
+public:
+    Orienter(const ScaledSamples& samples, Workers* workers, const CancelToken* cancel)
+        : vectors(samples.size(), Vec3::Zero()),
+          w(samples.size()),
+          dropped(samples.size(), false),
+          samples_(samples),
+          field_(samples.positions, squares_of(samples.widths)),
+          workers_(workers),
+          cancel_(cancel) {}
+
+    void coarse(const OrientOptions& options) {
+        const Representatives chosen = representatives_of(samples_, options.all_points, workers_);
+        representatives = chosen.positions.size();
+        std::vector<Vec3> found(representatives, Vec3::Zero());
+        WindingField field(chosen.positions, chosen.weights);
+        coarse_residual = make_consistent(field, chosen.widths, {options.coarse_iterations, coarse_first, coarse_last}, found,
+                                          workers_, cancel_);
+        std::vector<double> smoothing(samples_.widths);
+        for (double& length : smoothing) length = std::max(length, 0.5 * chosen.edge);
+        field.evaluate_gradient(samples_.positions, smoothing, vectors, workers_);
+        for (std::size_t i = 0; i < vectors.size(); ++i)
+            vectors[i] = direction_or(vectors[i], samples_.normals[i]) * (samples_.widths[i] * samples_.widths[i]);
+    }
+
+    void fine(const OrientOptions& options) {
+        residual = make_consistent(field_, samples_.widths,
+                                   {options.fine_iterations, fine_first, samples_.noisy() ? fine_last_noisy : fine_last},
+                                   vectors, workers_, cancel_);
+        measure_winding();
+    }
+
+    /// w at the samples, of vectors that are there already.
+    void measure_winding() {
+        set_smoothing(field_, samples_.widths, field_smoothing);
+        field_.set_vectors(vectors);
+        field_.winding(w, workers_);
+    }
+
+    void drop_outliers() {
+        const std::vector<double> around = median_reaches(samples_.neighbours, workers_);
+        for (std::size_t i = 0; i < w.size(); ++i) {
+            const double off = std::abs(w[i] - 0.5);
+            dropped[i] = off > far_from_surface || (off > off_surface && samples_.neighbours.reach[i] > apart * around[i]);
+        }
+    }
+
+    /// Turns the vectors towards the normals of the planes; `agreement` is |cosine| between the two.
+    void refine_directions() {
+        agreement.resize(vectors.size());
+        for (std::size_t i = 0; i < vectors.size(); ++i) {
+            const double length = vectors[i].norm();
+            const Vec3 normal = direction_or(vectors[i], samples_.normals[i]);
+            const double cosine = normal.dot(samples_.normals[i]);
+            agreement[i] = std::min(1.0, std::abs(cosine));
+            Vec3 turned = normal;
+            if (agreement[i] > 0.5) {
+                const Vec3 plane = cosine < 0.0 ? Vec3(-samples_.normals[i]) : samples_.normals[i];
+                turned = samples_.noisy() ? plane : Vec3((normal + plane).normalized());
+            }
+            normals.push_back(turned);
+            vectors[i] = turned * length;
+            if (dropped[i]) vectors[i].setZero();
+        }
+    }
+
+    /// Normals between the samples.
+    std::vector<Vec3> normals_at(std::span<const Vec3> places, std::span<const std::uint32_t> sample) {
+        set_smoothing(field_, samples_.widths, normal_smoothing);
+        field_.set_vectors(vectors);
+        std::vector<double> smoothing(places.size());
+        for (std::size_t i = 0; i < places.size(); ++i) smoothing[i] = normal_smoothing * samples_.widths[sample[i]];
+        std::vector<Vec3> out(places.size());
+        field_.evaluate_gradient(places, smoothing, out, workers_);
+        for (std::size_t i = 0; i < places.size(); ++i) out[i] = direction_or(out[i], normals[sample[i]]);
+        return out;
+    }
+
+    std::vector<Vec3> vectors;
+    std::vector<Vec3> normals;
+    std::vector<double> w;
+    std::vector<double> agreement;
+    std::vector<bool> dropped;
+    double coarse_residual = 0.0, residual = 0.0;
+    std::size_t representatives = 0;
+
+private:
+    const ScaledSamples& samples_;
+    WindingField field_;
+    Workers* workers_;
+    const CancelToken* cancel_;
+};
+
+Orientation orientation_of(const ScaledSamples& samples, std::span<const Vec3> points, const Orienter& found) {
+    Orientation out;
+    const double area = samples.diagonal * samples.diagonal;
+    for (std::size_t s = 0; s < samples.size(); ++s) {
+        if (found.dropped[s]) continue;
+        const Vec3 position = samples.clustered ? Vec3(samples.positions[s] * samples.diagonal + samples.centre)
+                                                : points[samples.first_point[s]];
+        out.samples.push_back({position, found.vectors[s] * area, samples.widths[s] * samples.diagonal});
+    }
+    out.residual = found.residual;
+    out.noise = samples.noise * samples.diagonal;
+    out.all_points = found.representatives == samples.size();
+    return out;
+}
+
+/// Normals, areas and confidence of the given points; `normals` in their order.
+OrientedPoints spread(const ScaledSamples& samples, std::vector<Vec3> normals, const Orienter& found) {
+    OrientedPoints out;
+    out.normals = std::move(normals);
+    out.areas.resize(out.normals.size());
+    out.confidence.resize(out.normals.size());
+    const double area = samples.diagonal * samples.diagonal;
+    for (std::size_t i = 0; i < out.normals.size(); ++i) {
+        const std::size_t s = samples.of_point[i];
+        out.areas[i] = out.normals[i] * (found.vectors[s].norm() * area / static_cast<double>(samples.counts[s]));
+        if (found.dropped[s]) continue;
+        const double on_surface = std::clamp(1.0 - 2.0 * std::abs(found.w[s] - 0.5), 0.0, 1.0);
+        out.confidence[i] = on_surface * (found.agreement.empty() ? 1.0 : found.agreement[s]);
+    }
+    out.representatives = found.representatives;
+    out.dropped = static_cast<std::size_t>(std::count(found.dropped.begin(), found.dropped.end(), true));
+    out.coarse_residual = found.coarse_residual;
+    return out;
+}
+
+/// Normals of the given points, scaled to the samples' units where they are not the samples themselves.
+std::vector<Vec3> point_normals(const ScaledSamples& samples, std::span<const Vec3> points, Orienter& found) {
+    std::vector<Vec3> out(points.size());
+    if (samples.clustered) {
+        for (std::size_t i = 0; i < points.size(); ++i) out[i] = (points[i] - samples.centre) / samples.diagonal;
+        return found.normals_at(out, samples.of_point);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) out[i] = found.normals[samples.of_point[i]];
+    return out;
+}
+
+}  // namespace
+
+OrientedPoints orient_points(std::span<const Vec3> points, const OrientOptions& options, Workers* workers,
+                             const CancelToken* cancel, std::string_view name) {
+    require_volume(points, name);
+    const ScaledSamples samples = scaled_samples(points, workers);
+    Orienter orienter(samples, workers, cancel);
+    orienter.coarse(options);
+    orienter.fine(options);
+    orienter.drop_outliers();
+    orienter.refine_directions();
+    OrientedPoints out = spread(samples, point_normals(samples, points, orienter), orienter);
+    out.orientation = orientation_of(samples, points, orienter);
+    return out;
+}
+
+OrientedPoints orient_by_normals(std::span<const Vec3> points, std::span<const Vec3> normals, Workers* workers,
+                                 const CancelToken* cancel, std::string_view name) {
+    require_volume(points, name);
+    if (normals.size() != points.size())
+        throw GeometryError("cloud.normals", named(name) + ": there are " + counted(normals.size(), "normal") + " for " +
+                                                 counted(points.size(), "point") + "; let the filter orient estimate them");
+    std::vector<Vec3> unit(normals.size());
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        unit[i] = direction_or(normals[i], Vec3::Zero());
+        if (unit[i].isZero(0.0))
+            throw GeometryError("cloud.normals", named(name) + ": the normal of point " + std::to_string(i) +
+                                                     " has no direction; let the filter orient estimate the normals");
+    }
+    if (cancel != nullptr && cancel->cancelled()) throw CancelledError("the cloud was not oriented");
+    const ScaledSamples samples = scaled_samples(points, workers);
+    Orienter orienter(samples, workers, cancel);
+    for (std::size_t i = 0; i < points.size(); ++i) orienter.vectors[samples.of_point[i]] += unit[i];
+    const Neighbours& around = samples.neighbours;
+    for (std::size_t s = 0; s < samples.size(); ++s) {
+        const std::size_t last = std::min(width_neighbours, around.each);
+        const double reach = (samples.positions[around.of(s)[last - 1]] - samples.positions[s]).norm();
+        const double width = width_of(reach, static_cast<double>(last));
+        orienter.vectors[s] = direction_or(orienter.vectors[s], unit[samples.first_point[s]]) * (width * width);
+    }
+    orienter.measure_winding();
+    orienter.residual = winding_residual(orienter.w);
+    OrientedPoints out = spread(samples, std::move(unit), orienter);
+    out.orientation = orientation_of(samples, points, orienter);
+    out.orientation.all_points = true;  // a finer stage would not change normals that are given
+    return out;
+}
+
+}  // namespace dsc::cloud
