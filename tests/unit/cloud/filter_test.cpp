@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <stdexcept>
 
 #include <doctest/doctest.h>
 #include <dsc/base/random.hpp>
@@ -205,4 +206,85 @@ TEST_CASE("filters refuse what they cannot work on") {
           }) ==
           "cloud.filtered_out 5: scan.xyz: filter radius_outliers removes all 20 points; relax its options "
           "or leave it out");
+}
+
+namespace {
+
+/// `scan` with every attribute, each a function of the point's index.
+Cloud attributed(std::size_t count) {
+    Cloud cloud = scan(count, 9);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double angle = 0.1 * static_cast<double>(i);
+        cloud.normals.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+        cloud.areas.emplace_back(static_cast<double>(i), 0.0, 1.0);
+        cloud.confidence.push_back(static_cast<double>(i) / static_cast<double>(count));
+    }
+    cloud.orientation.samples = {{cloud.points[0], Vec3::UnitZ(), 0.5}};
+    return cloud;
+}
+
+/// Index of a point of the cloud, which has no point twice.
+std::size_t index_of(const Cloud& cloud, const Vec3& point) {
+    return static_cast<std::size_t>(std::find(cloud.points.begin(), cloud.points.end(), point) - cloud.points.begin());
+}
+
+}  // namespace
+
+TEST_CASE("every filter takes all attributes along, and the orientation goes with the first point that does") {
+    const Cloud cloud = attributed(400);
+    const std::vector<Filtered> results = {remove_duplicates(cloud, {0.02}), remove_duplicates(cloud, {0.02, true}),
+                                           voxel_grid(cloud, {0.05}),        remove_statistical_outliers(cloud),
+                                           remove_radius_outliers(cloud),    remove_clusters(cloud, {0.9}),
+                                           remove_hidden(cloud)};
+    for (const Filtered& result : results) {
+        CAPTURE(result.report.filter);
+        CHECK(result.report.removed > 0);
+        const std::size_t kept = result.cloud.points.size();
+        REQUIRE(result.cloud.colours.size() == kept);
+        REQUIRE(result.cloud.normals.size() == kept);
+        REQUIRE(result.cloud.areas.size() == kept);
+        REQUIRE(result.cloud.confidence.size() == kept);
+        bool all = true;
+        for (std::size_t i = 0; i < kept; ++i) {
+            const std::size_t from = index_of(cloud, result.cloud.points[i]);
+            all = all && result.cloud.colours[i] == cloud.colours[from] && result.cloud.normals[i] == cloud.normals[from] &&
+                  result.cloud.areas[i] == cloud.areas[from] && result.cloud.confidence[i] == cloud.confidence[from];
+        }
+        CHECK(all);
+        CHECK(result.cloud.orientation.empty());
+    }
+}
+
+TEST_CASE("an orientation stays with all points in their order, and only then") {
+    const Cloud cloud = attributed(50);
+    CHECK(remove_duplicates(cloud).cloud.orientation.samples.size() == 1);
+    CHECK(remove_duplicates(cloud, {0.0, true}).cloud.orientation.empty());  // in another order
+    const Cloud sorted = remove_duplicates(cloud, {0.0, true}).cloud;
+    Cloud again = sorted;
+    again.orientation = cloud.orientation;
+    CHECK(remove_duplicates(again, {0.0, true}).cloud.orientation.samples.size() == 1);
+}
+
+TEST_CASE("picked points may come in any order and more than once, but must be there") {
+    const Cloud cloud = attributed(10);
+    const Cloud picked = pick(cloud, std::vector<std::size_t>{7, 0, 7});
+    CHECK(picked.points == std::vector<Vec3>{cloud.points[7], cloud.points[0], cloud.points[7]});
+    CHECK(picked.confidence == std::vector<double>{0.7, 0.0, 0.7});
+    CHECK(picked.source == "scan.xyz");
+    CHECK_THROWS_AS(pick(cloud, std::vector<std::size_t>{10}), std::out_of_range);
+    Cloud damaged = cloud;
+    damaged.normals.pop_back();
+    CHECK(pick(damaged, std::vector<std::size_t>{1}).normals.empty());
+}
+
+TEST_CASE("duplicates, sorted: -0 and 0 are one place, and the sign of the one that stays does not hang on the order") {
+    const auto sign_of = [](const std::vector<Vec3>& points) {
+        const Filtered result = remove_duplicates(Cloud{points}, {0.0, true});
+        REQUIRE(result.cloud.points.size() == 2);
+        return std::signbit(result.cloud.points[0].x());
+    };
+    const Vec3 minus(-0.0, 0, 0), plus(0, 0, 0), other(1, 0, 0);
+    CHECK(sign_of({minus, other, plus}));
+    CHECK(sign_of({plus, minus, other}));
+    CHECK_FALSE(sign_of({plus, plus, other}));
 }

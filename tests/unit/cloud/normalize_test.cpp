@@ -146,3 +146,63 @@ TEST_CASE("a target cloud has the normalised points, their box and the way back"
     CHECK(copy.box().high == dsc::bounding_box(normalized.points).high);
     CHECK(copy.transform().scale == normalized.transform.scale);
 }
+
+TEST_CASE("attributes come into normalised units: areas with the square of the scale, lengths with it, directions as they are") {
+    Cloud cloud{random_points(60, 5)};
+    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+        cloud.points[i] = Vec3(100, -20, 3) + 50.0 * cloud.points[i];
+        cloud.normals.push_back(Vec3(1, static_cast<double>(i), 2).normalized());
+        cloud.areas.push_back(4.0 * cloud.normals.back());
+        cloud.confidence.push_back(static_cast<double>(i) / 60.0);
+    }
+    cloud.orientation = {{{cloud.points[3], Vec3(0, 8, 0), 3.0}}, 0.125, 0.5, true};
+    const TargetCloud target(normalize(cloud));
+    const double scale = target.transform().scale;
+    REQUIRE(std::abs(scale - 1.0) > 0.1);
+    REQUIRE(target.normals().size() == 60);
+    REQUIRE(target.areas().size() == 60);
+    REQUIRE(target.confidence().size() == 60);
+    for (std::size_t i = 0; i < 60; ++i) {
+        CHECK(target.normals()[i] == cloud.normals[i]);
+        CHECK((target.areas()[i] - scale * scale * cloud.areas[i]).norm() < 1e-15);
+        CHECK(target.confidence()[i] == cloud.confidence[i]);
+    }
+    REQUIRE(target.orientation().samples.size() == 1);
+    const SurfaceSample& sample = target.orientation().samples[0];
+    CHECK(sample.position == target[3]);
+    CHECK((sample.area - Vec3(0, 8 * scale * scale, 0)).norm() < 1e-15);
+    CHECK(sample.width == doctest::Approx(3 * scale).epsilon(1e-15));
+    CHECK(target.orientation().residual == 0.125);
+    CHECK(target.orientation().noise == doctest::Approx(0.5 * scale).epsilon(1e-15));
+    CHECK(target.orientation().all_points);
+
+    Cloud damaged = cloud;
+    damaged.normals.pop_back();
+    CHECK(TargetCloud(normalize(damaged)).normals().empty());
+    CHECK(TargetCloud(normalize(Cloud{cloud.points})).orientation().empty());
+
+    // Without normalisation all stays as it is.
+    Cloud small{random_points(20, 6)};
+    small.areas.assign(20, Vec3(1, 2, 3));
+    small.orientation = cloud.orientation;
+    const TargetCloud kept(keep_coordinates(small));
+    CHECK(kept.areas()[7] == Vec3(1, 2, 3));
+    CHECK(kept.orientation().samples[0].position == cloud.points[3]);
+}
+
+TEST_CASE("statistics of a target are those of its normalised points, with any number of threads") {
+    Cloud cloud{random_points(300, 8)};
+    for (Vec3& p : cloud.points) p = Vec3(1000, 0, 0) + 70.0 * p.normalized();
+    const TargetCloud target(normalize(cloud));
+    dsc::Workers three(3);
+    const Statistics direct = measure_cloud(target.points());
+    CHECK(target.statistics(&three).point_width == direct.point_width);
+    CHECK(&target.statistics() == &TargetCloud(target).statistics());  // measured once
+    for (std::size_t i = 0; i < 300; i += 37) {
+        CHECK(target.point_width(i) == direct.point_width[i]);
+        CHECK(target.label_width(i) == direct.label_width[i]);
+    }
+    CHECK(target.noise() == direct.noise);
+    // Widths are lengths: those in the units of the file, times the scale.
+    CHECK(direct.width == doctest::Approx(target.transform().scale * measure_cloud(cloud.points).width).epsilon(1e-9));
+}
