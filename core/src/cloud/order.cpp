@@ -41,7 +41,8 @@ public:
 private:
     // Of points with equal coordinates.
     int attributes(std::size_t i, std::size_t j) const {
-        if (whole(cloud_.colours) && cloud_.colours[i] != cloud_.colours[j]) return cloud_.colours[i] < cloud_.colours[j] ? -1 : 1;
+        if (whole(cloud_.colours) && cloud_.colours[i] != cloud_.colours[j])
+            return cloud_.colours[i] < cloud_.colours[j] ? -1 : 1;
         if (const int order = vectors(cloud_.normals, i, j); order != 0) return order;
         if (const int order = vectors(cloud_.areas, i, j); order != 0) return order;
         if (whole(cloud_.confidence)) {

@@ -50,16 +50,20 @@ void judge_confidence(const Call& current, const std::vector<double>& confidence
 void judge_orientation(const Call& current, const cloud::Orientation& orientation) {
     for (const double value : {orientation.residual, orientation.noise}) {
         if (std::isfinite(value) && value >= 0.0) continue;
-        fail(current, "strategy.range", "gave the orientation the residual " + std::to_string(orientation.residual) +
-             " and the noise " + std::to_string(orientation.noise), "both are finite and at least 0; report this to the plugin's authors");
+        fail(current, "strategy.range",
+             "gave the orientation the residual " + std::to_string(orientation.residual) + " and the noise " +
+                 std::to_string(orientation.noise),
+             "both are finite and at least 0; report this to the plugin's authors");
     }
     for (std::size_t i = 0; i < orientation.samples.size(); ++i) {
         const cloud::SurfaceSample& sample = orientation.samples[i];
         if (!sample.position.allFinite() || !sample.area.allFinite() || !std::isfinite(sample.width)) {
-            fail(current, "strategy.not_finite", "gave " + at("sample", i) + " of the orientation a value that is not finite", report);
+            fail(current, "strategy.not_finite", "gave " + at("sample", i) + " of the orientation a value that is not finite",
+                 report);
         }
         if (sample.width < 0.0) {
-            fail(current, "strategy.range", "gave " + at("sample", i) + " of the orientation the width " + std::to_string(sample.width),
+            fail(current, "strategy.range",
+                 "gave " + at("sample", i) + " of the orientation the width " + std::to_string(sample.width),
                  "widths are at least 0; report this to the plugin's authors");
         }
     }
@@ -67,7 +71,9 @@ void judge_orientation(const Call& current, const cloud::Orientation& orientatio
 
 void judge_cloud(const Call& current, const cloud::Cloud& cloud) {
     const std::size_t points = cloud.points.size();
-    if (points == 0) fail(current, "strategy.size", "gave a cloud without points", "at least one point must be left; relax its parameters or leave it out");
+    if (points == 0)
+        fail(current, "strategy.size", "gave a cloud without points",
+             "at least one point must be left; relax its parameters or leave it out");
     judge_size(current, "colours", cloud.colours.size(), points);
     judge_size(current, "normals", cloud.normals.size(), points);
     judge_size(current, "areas", cloud.areas.size(), points);
@@ -98,7 +104,8 @@ void judge_report(const Call& current, const cloud::FilterReport& told, std::siz
         rest -= std::min(rest, removed.count);
     }
     if (!told.reasons.empty() && (!adds_up || rest != 0)) {
-        fail(current, "strategy.size", "gave reasons whose counts do not add up to the " + count_of(told.removed, "removed point"), report);
+        fail(current, "strategy.size",
+             "gave reasons whose counts do not add up to the " + count_of(told.removed, "removed point"), report);
     }
     judge(current, told.figures);
 }
@@ -125,7 +132,8 @@ public:
         result.cloud.source = cloud.source;  // the points still come from there
         // An orientation that was only passed on does not hold for other points than those it was estimated from.
         cloud::Orientation& orientation = result.cloud.orientation;
-        if (!orientation.empty() && result.cloud.points != cloud.points && same(orientation, cloud.orientation)) orientation = {};
+        if (!orientation.empty() && result.cloud.points != cloud.points && same(orientation, cloud.orientation))
+            orientation = {};
         return result;
     }
 };

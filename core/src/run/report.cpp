@@ -69,7 +69,8 @@ std::vector<std::string> plugins_of_runs(std::span<const std::filesystem::path> 
             const config::ConfigNode* list = resolved.is_map() ? resolved.find("plugins") : nullptr;
             if (list == nullptr || !list->is_list()) continue;
             for (const config::ConfigNode& item : list->items()) {
-                if (item.is_string() && std::find(all.begin(), all.end(), item.as_string()) == all.end()) all.push_back(item.as_string());
+                if (!item.is_string() || std::find(all.begin(), all.end(), item.as_string()) != all.end()) continue;
+                all.push_back(item.as_string());
             }
         } catch (const Error&) {
             // report_html tells what is wrong with the folder

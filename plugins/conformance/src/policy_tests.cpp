@@ -130,7 +130,8 @@ std::string bits_of(const Vec3& point) {
 }
 
 void require_size(std::size_t size, std::size_t points, const char* what) {
-    require(size == 0 || size == points, "it gives " + std::to_string(size) + " " + what + " for " + std::to_string(points) + " points");
+    require(size == 0 || size == points,
+            "it gives " + std::to_string(size) + " " + what + " for " + std::to_string(points) + " points");
 }
 
 // Attributes fit the points, a point that stays keeps its colour, and the report adds up.

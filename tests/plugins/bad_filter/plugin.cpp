@@ -15,7 +15,8 @@ public:
         std::vector<std::size_t> every_second;
         for (std::size_t i = 0; i < cloud.points.size(); i += 2) every_second.push_back(i);
         dsc::cloud::Filtered result{dsc::cloud::pick(cloud, every_second), {}};
-        result.cloud.colours.assign(cloud.colours.begin(), cloud.colours.begin() + static_cast<std::ptrdiff_t>(every_second.size()));
+        result.cloud.colours.assign(cloud.colours.begin(),
+                                    cloud.colours.begin() + static_cast<std::ptrdiff_t>(every_second.size()));
         result.report.kept = every_second.size();
         result.report.removed = cloud.points.size() - every_second.size();
         return result;

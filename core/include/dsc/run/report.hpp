@@ -11,8 +11,9 @@
 namespace dsc::run {
 
 /// The HTML of a finished run, made from its folder alone and the cloud that its configuration names: the same bytes whenever
-/// it is asked for. `catalogue` makes the cloud's filters. A cloud that is gone, or whose filters are, is said to be missing. Throws IoError "report.no_run" for a folder without a finished
-/// run, "report.damaged", and what readers of its files throw. [setup]
+/// it is asked for. `catalogue` makes the cloud's filters. A cloud that is gone, or whose filters are, is said to be missing.
+/// Throws IoError "report.no_run" for a folder without a finished run, "report.damaged", and what readers of its files throw.
+/// [setup]
 std::string report_html(const std::filesystem::path& run_folder, const plugin::Catalogue& catalogue, Workers* workers = nullptr);
 
 /// Several runs side by side. Throws the same. [setup]
