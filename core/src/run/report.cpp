@@ -50,10 +50,11 @@ std::string guarded_report(const std::function<std::string()>& make) {
     }
 }
 
-std::string report_html(const std::filesystem::path& run_folder, const plugin::Catalogue& catalogue, Workers* workers) {
+std::string report_html(const std::filesystem::path& run_folder, const plugin::Catalogue& catalogue, Workers* workers,
+                        const LoadedInput* input) {
     return guarded_report([&] {
         const RunRecord record = read_record(run_folder);
-        const Scene scene = make_scene(record, {}, catalogue, workers);
+        const Scene scene = make_scene(record, {}, {catalogue, input}, workers);
         const std::string body = headline_section(record) + warnings_section(record) + viewer_section(record, scene) +
                                  thesis_section(record) + plots_section(record, scene) + time_section(record) +
                                  topology_section(record) + config_section(record) + provenance_section(record);

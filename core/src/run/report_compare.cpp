@@ -128,7 +128,7 @@ std::string viewers(const std::vector<Column>& columns, const plugin::Catalogue&
     limits.points = std::clamp<std::size_t>(60000 / columns.size(), 2000, 20000);
     std::string out;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-        const Scene scene = make_scene(columns[i].record, limits, catalogue, workers);
+        const Scene scene = make_scene(columns[i].record, limits, {catalogue, nullptr}, workers);
         const std::string body = viewer(columns[i].record, scene, "view-" + std::to_string(i));
         out += tag("div", tag("h3", text(columns[i].name)) + "\n" + (body.empty() ? tag("p", "nothing to show") : body), "run") + "\n";
     }

@@ -89,8 +89,8 @@ double quantile(std::vector<double> values, double part) {
 
 class SceneMaker {
 public:
-    SceneMaker(const RunRecord& record, const SceneLimits& limits, const plugin::Catalogue& catalogue, Workers* workers)
-        : record_(record), limits_(limits), catalogue_(catalogue), workers_(workers) {}
+    SceneMaker(const RunRecord& record, const SceneLimits& limits, const SceneInput& input, Workers* workers)
+        : record_(record), limits_(limits), input_(input), workers_(workers) {}
 
     Scene make() {
         json_["name"] = record_.name();
@@ -168,13 +168,13 @@ private:
 
     /// The cloud of the configuration, as the run saw it: filtered, in the input's coordinates.
     void add_cloud() {
-        const std::optional<Input> input = input_of(record_.resolved, catalogue_);
+        const std::optional<Input> input = input_of(record_.resolved, input_.catalogue);
         if (!input) return;
         if (input->cloud.sample) json_["up"] = "z";  // the built-in shapes stand along z
         require_same_file(*input);
-        const config::ConfigNode* seed = record_.resolved.find("seed");
-        const LoadedInput loaded =
-            load_input(*input, seed != nullptr ? static_cast<std::uint64_t>(seed->as_integer()) : 1, catalogue_, workers_);
+        std::optional<LoadedInput> again;
+        if (input_.loaded == nullptr) again = load(*input);
+        const LoadedInput& loaded = again ? *again : *input_.loaded;
         std::vector<Vec3> points = loaded.cloud.points;
         if (points.size() > limits_.points) {
             note("of the cloud's " + html::integer(static_cast<double>(points.size())) + " points " +
@@ -192,6 +192,11 @@ private:
         }
         json_["cloud"] = std::move(cloud);
         scene_.empty = false;
+    }
+
+    LoadedInput load(const Input& input) const {
+        const config::ConfigNode* seed = record_.resolved.find("seed");
+        return load_input(input, seed != nullptr ? static_cast<std::uint64_t>(seed->as_integer()) : 1, input_.catalogue, workers_);
     }
 
     /// A report of yesterday's run must not show today's file. The provenance has paths as they were typed, so files of the
@@ -266,7 +271,7 @@ private:
 
     const RunRecord& record_;
     const SceneLimits& limits_;
-    const plugin::Catalogue& catalogue_;
+    const SceneInput input_;
     Workers* workers_;
     Scene scene_;
     ordered_json json_;
@@ -276,8 +281,8 @@ private:
 
 }  // namespace
 
-Scene make_scene(const RunRecord& record, const SceneLimits& limits, const plugin::Catalogue& catalogue, Workers* workers) {
-    return SceneMaker(record, limits, catalogue, workers).make();
+Scene make_scene(const RunRecord& record, const SceneLimits& limits, const SceneInput& input, Workers* workers) {
+    return SceneMaker(record, limits, input, workers).make();
 }
 
 fs::path result_file(const fs::path& run_folder, const std::string& stem, const std::vector<std::string>& extensions) {

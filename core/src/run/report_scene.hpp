@@ -4,6 +4,7 @@
 #include <dsc/base/workers.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
 #include <dsc/plugin/catalogue.hpp>
+#include <dsc/run/input.hpp>
 #include <dsc/surface/triangle_mesh.hpp>
 #include <filesystem>
 #include <string>
@@ -22,6 +23,12 @@ struct SceneLimits {
     std::size_t tets = 120000;        ///< for the cut; 0: no cut
 };
 
+/// Where the cloud comes from: it is read and filtered again unless it is given.
+struct SceneInput {
+    const plugin::Catalogue& catalogue;  ///< makes the filters
+    const LoadedInput* loaded = nullptr;
+};
+
 struct Scene {
     std::string json;                ///< for viewer.js
     std::vector<std::string> notes;  ///< what is thinned or left out, and why
@@ -31,7 +38,7 @@ struct Scene {
 };
 
 /// Reads result/, series/ and the cloud that the configuration names. What cannot be read becomes a note. [setup]
-Scene make_scene(const RunRecord& record, const SceneLimits& limits, const plugin::Catalogue& catalogue, Workers* workers);
+Scene make_scene(const RunRecord& record, const SceneLimits& limits, const SceneInput& input, Workers* workers);
 
 /// The first file of the result with one of these extensions; empty where there is none.
 std::filesystem::path result_file(const std::filesystem::path& run_folder, const std::string& stem,

@@ -198,7 +198,7 @@ private:
         const Experiment& experiment = loaded_.experiment;
         folder.write("config.resolved.yaml", resolved_text(loaded_));
         folder.write("provenance.json", provenance(""));
-        std::optional<LoadedInput> input;
+        std::optional<LoadedInput>& input = input_;
         if (experiment.input) {
             input = load_input(*experiment.input, experiment.seed, catalogue_, &workers_, options_.cancel);
             report_input(input->report);
@@ -263,7 +263,7 @@ private:
     /// Made from the folder, as `dsc report` does. A result without its page is still a result.
     void write_report(const RunFolder& folder, RunOutcome& outcome) {
         try {
-            folder.write("report.html", report_html(folder.path(), catalogue_, &workers_));
+            folder.write("report.html", report_html(folder.path(), catalogue_, &workers_, input_ ? &*input_ : nullptr));
             outcome.report = folder.file("report.html");
         } catch (const Error& error) {
             log(LogLevel::warning, std::string("the report could not be written: ") + error.what());
@@ -321,6 +321,7 @@ private:
     Stopwatch watch_;
     RunState state_;
     std::optional<Checkpoint> resumed_;
+    std::optional<LoadedInput> input_;  // of work(), kept for the report
 };
 
 }  // namespace
