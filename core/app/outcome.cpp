@@ -39,6 +39,7 @@ void report(const run::RunOutcome& outcome) {
                                            s.boundary_edges, s.nonmanifold_edges, s.nonmanifold_vertices,
                                            outcome.surface.intersections.count));
     }
+    for (const hooks::Warning& warning : outcome.totals.warnings) log(LogLevel::warning, warning.text);
     if (!outcome.report.empty()) log(LogLevel::info, "report " + outcome.report.string());
     if (outcome.totals.status == run::Status::stalled) {
         log(LogLevel::warning, "stalled: the surface could not move on; the result is what was reached");

@@ -66,5 +66,7 @@ std::unique_ptr<hooks::Strategy> check_filter(std::unique_ptr<hooks::CloudFilter
 
 /// Refuses figures whose names are not in snake_case or not all different, and values that are not finite.
 void judge(const Call& current, const hooks::Figures& figures);
+/// Refuses warnings without a text, and codes that are not lower-case words joined by dots.
+void judge(const Call& current, const hooks::Warnings& warnings);
 
 }  // namespace dsc::plugin

@@ -114,6 +114,20 @@ public:
         judge(current, result);
         return result;
     }
+
+    hooks::Warnings warnings() const override {
+        const Call current = call("warnings");
+        hooks::Warnings result = guarded(current, [&] { return inner().warnings(); });
+        judge(current, result);
+        return result;
+    }
+
+    hooks::Figures seconds() const override {
+        const Call current = call("seconds");
+        hooks::Figures result = guarded(current, [&] { return inner().seconds(); });
+        judge(current, result);
+        return result;
+    }
 };
 
 class CheckedImprovement final : public Checked<hooks::Improvement> {
@@ -268,6 +282,19 @@ void judge(const Call& current, const hooks::Figures& figures) {
         if (!std::isfinite(value)) {
             fail(current, "strategy.not_finite", "gave the figure '" + name + "' the value " + std::to_string(value),
                  report);
+        }
+    }
+}
+
+// Warnings for people and programs: a code of lower-case words and dots, a text.
+void judge(const Call& current, const hooks::Warnings& warnings) {
+    for (const hooks::Warning& warning : warnings) {
+        const bool plain = std::all_of(warning.code.begin(), warning.code.end(), [](char c) {
+            return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+        });
+        if (warning.code.empty() || !plain || warning.text.empty()) {
+            fail(current, "strategy.range", "gave a warning with the code '" + warning.code + "' and the text '" + warning.text + "'",
+                 "a code has lower-case letters, digits, '_' and '.', a text is not empty; report this to the plugin's authors");
         }
     }
 }

@@ -86,6 +86,9 @@ private:
         context.workers = &workers_;
         const mesh::TetMesh mesh = strategies_.initial_mesh->build(context);
         result_.totals.initial_mesh = strategies_.initial_mesh->figures();
+        result_.totals.initial_mesh_seconds = strategies_.initial_mesh->seconds();
+        result_.totals.warnings = strategies_.initial_mesh->warnings();
+        const CpuTimed timed(result_.totals.seconds.adopt);
         mesh::Complex complex =
             mesh::adopt(mesh, "initial mesh '" + experiment_.initial_mesh.type + "'", &result_.totals.adopted,
                         strategies_.improvement->topology_limits().min_component);

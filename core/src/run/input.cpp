@@ -5,6 +5,8 @@
 #include <dsc/hooks/cloud_filter.hpp>
 #include <dsc/run/input.hpp>
 
+#include "stopwatch.hpp"
+
 namespace dsc::run {
 namespace {
 
@@ -50,10 +52,13 @@ LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Cat
     context.seed = seed;
     context.cancel = cancel;
     context.workers = workers;
-    for (const auto& filter : filters) {
-        cloud::Filtered filtered = filter->apply(cloud, context);
-        report.filters.push_back(std::move(filtered.report));
-        cloud = std::move(filtered.cloud);
+    {
+        const CpuTimed timed(report.filter_seconds);
+        for (const auto& filter : filters) {
+            cloud::Filtered filtered = filter->apply(cloud, context);
+            report.filters.push_back(std::move(filtered.report));
+            cloud = std::move(filtered.cloud);
+        }
     }
     report.used = cloud.points.size();
     report.diagonal = bounding_box(cloud.points).diagonal();

@@ -47,6 +47,11 @@ std::vector<Check> validity(const RunRecord& record) {
 
 std::vector<std::string> warnings(const RunRecord& record) {
     std::vector<std::string> out;
+    if (const ordered_json* told = find(record.summary, "warnings"); told != nullptr && told->is_array()) {
+        for (const ordered_json& warning : *told) {
+            if (warning.is_object()) out.push_back(warning.value("text", std::string()));
+        }
+    }
     const std::string status = record.word("status");
     if (status == "stalled") out.push_back("The run stalled: the surface could not move on; the result is what was reached.");
     if (status == "cancelled") out.push_back("The run was stopped before the end of its schedule; the result is what was reached.");

@@ -61,11 +61,25 @@ void each_strategy(Owner& all, Visit&& visit) {
 void save(StateWriter& out, const RunTotals& totals) {
     each_plain(totals, [&](const auto& value) { out.value(value); });
     save(out, totals.initial_mesh);
+    save(out, totals.initial_mesh_seconds);
+    out.value(static_cast<std::uint64_t>(totals.warnings.size()));
+    for (const hooks::Warning& warning : totals.warnings) {
+        out.text(warning.code);
+        out.text(warning.text);
+    }
 }
 
 void load(StateReader& in, RunTotals& totals) {
     each_plain(totals, [&](auto& value) { in.value(value); });
     load(in, totals.initial_mesh);
+    load(in, totals.initial_mesh_seconds);
+    std::uint64_t warnings = 0;
+    in.value(warnings);
+    totals.warnings.clear();
+    for (std::uint64_t i = 0; i < warnings; ++i) {
+        std::string code(in.text());
+        totals.warnings.push_back({std::move(code), std::string(in.text())});
+    }
 }
 
 void save(StateWriter& out, const Strategies& strategies) {

@@ -2,6 +2,7 @@
 // Wall time, for reports only: no result depends on it.
 
 #include <chrono>
+#include <ctime>
 
 namespace dsc::run {
 
@@ -26,6 +27,22 @@ public:
 private:
     double* sum_;
     Stopwatch watch_;
+};
+
+/// CPU seconds of this process so far, over all its threads.
+inline double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Adds the CPU time that the process spends during its life to a sum.
+class CpuTimed {
+public:
+    explicit CpuTimed(double& sum) : sum_(&sum) {}
+    ~CpuTimed() { *sum_ += cpu_seconds() - start_; }
+    CpuTimed(const CpuTimed&) = delete;
+    CpuTimed& operator=(const CpuTimed&) = delete;
+
+private:
+    double* sum_;
+    double start_ = cpu_seconds();
 };
 
 }  // namespace dsc::run

@@ -104,6 +104,28 @@ ordered_json initial_mesh(const RunTotals& totals) {
     return figures;
 }
 
+ordered_json warnings(const RunTotals& totals) {
+    ordered_json all = ordered_json::array();
+    for (const hooks::Warning& warning : totals.warnings) all.push_back({{"code", warning.code}, {"text", warning.text}});
+    return all;
+}
+
+/// CPU seconds before the first step.
+ordered_json start_seconds(const SummaryParts& parts) {
+    ordered_json all = {{"filters", parts.input == nullptr ? 0.0 : parts.input->report.filter_seconds}};
+    for (const auto& [part, seconds] : parts.totals.initial_mesh_seconds) all[part] = seconds;
+    all["adopt"] = parts.totals.seconds.adopt;
+    return all;
+}
+
+/// Of the filtered points, in normalised units.
+ordered_json statistics(const LoadedInput* loaded) {
+    if (loaded == nullptr) return nullptr;
+    const cloud::Statistics& s = loaded->target.statistics();
+    return {{"point_width", s.width},      {"label_width", s.median_label_width}, {"width_spread", s.spread}, {"noise", s.noise},
+            {"noise_to_width", s.noise_ratio}, {"area", s.area},                  {"duplicates", s.duplicates}};
+}
+
 ordered_json observers(const RunTotals& totals) {
     ordered_json all = ordered_json::object();
     for (const auto& [id, figures] : totals.observers) {
@@ -162,6 +184,8 @@ std::string summary_json(const SummaryParts& parts) {
          "(input - centre) * scale"},
         {"to_normalised", {{"centre", point(parts.to_normalised.centre)}, {"scale", scale}}},
         {"input", input(parts.input)},
+        {"cloud", statistics(parts.input)},
+        {"warnings", warnings(totals)},
         {"adopted",
          {{"reoriented_tets", totals.adopted.reoriented_tets},
           {"dropped_vertices", totals.adopted.dropped_vertices},
@@ -178,6 +202,7 @@ std::string summary_json(const SummaryParts& parts) {
         {"wall_s", parts.wall_seconds},
         {"cpu_s", parts.usage.cpu_seconds},
         {"peak_rss_mb", parts.usage.peak_rss_mb},
+        {"start_cpu_s", start_seconds(parts)},
         {"phase_s",
          {{"velocity", totals.seconds.velocity},
           {"move", totals.seconds.move},

@@ -28,6 +28,10 @@ struct Statistics {
 /// The root of the area that one point stands for where `neighbours` others lie within `distance`: sqrt(pi r^2 / k). [parallel]
 double width_of(double distance, double neighbours);
 
+/// Vertices that a surface through so many points deserves: 2 per point up to 3,000 points, 1 per point at 20,000, in
+/// proportion between, above that growing with the root of their number. [parallel]
+double vertex_budget(std::size_t points);
+
 /// Measures the points. The number of threads changes nothing. The noise is measured at 2,000 points at most, evenly spread
 /// over their order; all else does not depend on the order. A cloud of fewer than 12 points has no noise that could be
 /// measured: 0. `workers` may be null: one thread. Throws GeometryError as NearestSearch. [setup]

@@ -37,6 +37,10 @@ public:
     virtual mesh::TetMesh build(const InitialMeshContext& context) = 0;
     /// What there is to say about the mesh that build() made last, for summary.json.
     virtual Figures figures() const { return {}; }
+    /// What is doubtful about it, for the terminal, summary.json and the report. [setup]
+    virtual Warnings warnings() const { return {}; }
+    /// CPU seconds of the parts of build(), for summary.json; they differ from run to run. [setup]
+    virtual Figures seconds() const { return {}; }
 };
 
 }  // namespace dsc::hooks

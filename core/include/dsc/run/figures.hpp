@@ -76,6 +76,7 @@ struct PhaseSeconds {
     double refine = 0.0;
     double measure = 0.0;
     double io = 0.0;
+    double adopt = 0.0;  ///< CPU seconds
 };
 
 /// Sums over all steps, normalised units.
@@ -101,6 +102,8 @@ struct RunTotals {
     mesh::EventCounts events;
     mesh::AdoptReport adopted;
     hooks::Figures initial_mesh;  ///< what its generator told
+    hooks::Figures initial_mesh_seconds;  ///< CPU seconds of its parts
+    hooks::Warnings warnings;     ///< what the strategies told
     PhaseSeconds seconds;
     std::vector<std::pair<std::string, hooks::Figures>> observers;  ///< by observer id, from its end()
 

@@ -22,6 +22,7 @@ struct InputReport {
     std::size_t points = 0;   ///< of the source
     std::size_t dropped = 0;  ///< not finite, left out by the reader
     std::vector<cloud::FilterReport> filters;
+    double filter_seconds = 0.0;  ///< CPU seconds
     std::size_t used = 0;   ///< after the filters
     double diagonal = 0.0;  ///< of the used points' box, in the input's units
 };

@@ -1,0 +1,115 @@
+#include "confidence.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <dsc/cloud/search.hpp>
+#include <dsc/surface/surface_view.hpp>
+#include <string>
+
+namespace dsc::strategies {
+namespace {
+
+/// Local widths from the nearest sample beyond which the interface closes a gap of the data.
+constexpr double gap_widths = 3.0;
+
+std::size_t changed(const Labels& labels, bool inside) {
+    return static_cast<std::size_t>(std::count_if(labels.components.begin(), labels.components.end(), [&](const mesh::LabelComponent& c) {
+        return c.inside == inside && !c.kept;
+    }));
+}
+
+std::string counted(std::size_t count, const char* one, const char* many) { return std::to_string(count) + " " + (count == 1 ? one : many); }
+
+std::string in_words(const mesh::TopologyCounts& counts) {
+    return counted(counts.components, "component", "components") + ", " + counted(counts.cavities, "cavity", "cavities") + ", genus " +
+           std::to_string(counts.genus());
+}
+
+std::string rounded(double value, int digits) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return text;
+}
+
+}  // namespace
+
+bool doubtful(const Labels& labels, const cloud::Orientation& orientation) {
+    return labels.refused_share() > most_refused || orientation.residual > most_residual;
+}
+
+StartSurface measure_start(const mesh::TetMesh& mesh, const cloud::Orientation& orientation, double cloud_area) {
+    StartSurface out;
+    out.cloud_area = cloud_area;
+    std::vector<Vec3> places;
+    std::vector<double> widths;
+    for (const cloud::SurfaceSample& sample : orientation.samples) {
+        if (sample.area == Vec3::Zero()) continue;
+        places.push_back(sample.position);
+        widths.push_back(sample.width);
+    }
+    const cloud::NearestSearch search(places);
+    const surface::TriangleMesh interface = surface::extract_interface(mesh);
+    double gaps = 0.0;
+    for (const auto& face : interface.faces) {
+        const Vec3 &a = interface.points[face[0]], &b = interface.points[face[1]], &c = interface.points[face[2]];
+        const double area = 0.5 * (b - a).cross(c - a).norm();
+        const cloud::Neighbour near = search.nearest((a + b + c) / 3.0);
+        out.area += area;
+        if (near.distance > gap_widths * widths[near.index]) gaps += area;
+    }
+    out.gap_share = out.area > 0.0 ? gaps / out.area : 0.0;
+    return out;
+}
+
+hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orientation, const StartSurface& start) {
+    hooks::Warnings out;
+    const double area_ratio = start.cloud_area > 0.0 ? start.area / start.cloud_area : 0.0;
+    if (orientation.residual > open_residual || area_ratio > open_area) {
+        out.push_back({"cloud.open", "The cloud seems to be open, such as a scan of one side: the closed surface has " + rounded(area_ratio, 2) +
+                                         " times the area of the points, and the winding field has a residual of " +
+                                         rounded(orientation.residual, 3) + ". Where there are no points the surface is a guess."});
+    }
+    if (labels.refused_share() > most_refused) {
+        out.push_back({"topology.doubtful",
+                       "The topology is doubtful: at " + counted(labels.filter.clusters.size(), "place", "places") + " (" +
+                           rounded(100.0 * labels.refused_share(), 1) +
+                           " vertices per 100 points) the solid or a gap is thinner than about one spacing of the points. Without the "
+                           "filter: " + in_words(labels.filter.before) + "; with it: " + in_words(labels.counts) +
+                           ". A denser cloud decides these places."});
+    } else if (orientation.residual > most_residual) {
+        out.push_back({"topology.doubtful", "The topology is doubtful: the winding field has a residual of " +
+                                                rounded(orientation.residual, 3) +
+                                                " at the points, so the normals of some points may point to the wrong side. A denser or "
+                                                "less noisy cloud helps."});
+    }
+    return out;
+}
+
+void add_figures(const Labels& labels, const cloud::Orientation& orientation, const StartSurface& start, hooks::Figures& out) {
+    const auto add = [&out](const char* figure, double value) { out.emplace_back(figure, value); };
+    const auto whole = [&add](const char* figure, std::size_t value) { add(figure, static_cast<double>(value)); };
+    whole("samples", labels.samples);
+    add("residual", orientation.residual);
+    add("noise_to_width", labels.width > 0.0 ? orientation.noise / labels.width : 0.0);
+    whole("lattice_vertices", labels.lattice.points.size());
+    whole("lattice_tets", labels.lattice.tets.size());
+    whole("split_rounds", labels.rounds);
+    whole("refused_vertices", labels.filter.refused);
+    add("refused_share", labels.refused_share());
+    whole("refused_places", labels.filter.clusters.size());
+    whole("components_before_filter", labels.filter.before.components);
+    whole("cavities_before_filter", labels.filter.before.cavities);
+    add("genus_before_filter", static_cast<double>(labels.filter.before.genus()));
+    whole("components", labels.counts.components);
+    whole("cavities", labels.counts.cavities);
+    add("genus", static_cast<double>(labels.counts.genus()));
+    whole("islands_removed", changed(labels, true));
+    whole("cavities_filled", changed(labels, false));
+    // Parts that are connected by certain values have no weakest merge: 1/2 is the most that a value can be.
+    add("weakest_bridge", labels.filter.inside ? labels.filter.inside->level : 0.5);
+    add("weakest_gap", labels.filter.outside ? labels.filter.outside->level : 0.5);
+    add("area_ratio", start.cloud_area > 0.0 ? start.area / start.cloud_area : 0.0);
+    add("gap_share", start.gap_share);
+}
+
+}  // namespace dsc::strategies

@@ -1,0 +1,32 @@
+#pragma once
+// How far the labels of a cloud can be trusted: figures, and warnings where they pass a limit.
+
+#include <dsc/cloud/cloud.hpp>
+#include <dsc/hooks/figures.hpp>
+#include <dsc/mesh/tet_mesh.hpp>
+#include <vector>
+
+#include "labels.hpp"
+
+namespace dsc::strategies {
+
+/// Refused vertices per sample, and residuals of the winding field, above which the topology is doubtful; a residual above
+/// which the cloud is open; area of the start per area of the points above which it is.
+inline constexpr double most_refused = 0.011, most_residual = 0.135, open_residual = 0.17, open_area = 1.3;
+
+/// Whether a finer orientation may help.
+bool doubtful(const Labels& labels, const cloud::Orientation& orientation);
+
+/// What the start's interface says about the cloud.
+struct StartSurface {
+    double area = 0.0;           ///< of the interface
+    double cloud_area = 0.0;     ///< cloud::Statistics::area
+    double gap_share = 0.0;      ///< part of the interface's area farther than 3 local widths from every sample
+};
+/// Measures the interface of the labelled tets against the samples. [setup]
+StartSurface measure_start(const mesh::TetMesh& mesh, const cloud::Orientation& orientation, double cloud_area);
+
+hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orientation, const StartSurface& start);
+void add_figures(const Labels& labels, const cloud::Orientation& orientation, const StartSurface& start, hooks::Figures& out);
+
+}  // namespace dsc::strategies

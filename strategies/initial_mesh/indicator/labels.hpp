@@ -1,0 +1,44 @@
+#pragma once
+// From an oriented cloud to labelled lattice vertices: field, further splits, topology filter, islands and cavities.
+
+#include <dsc/base/progress.hpp>
+#include <dsc/base/workers.hpp>
+#include <dsc/cloud/cloud.hpp>
+#include <dsc/mesh/label_components.hpp>
+#include <dsc/mesh/tet_mesh.hpp>
+#include <dsc/mesh/topology_filter.hpp>
+#include <vector>
+
+namespace dsc::strategies {
+
+/// Constants of the labelling; lengths count in the widths of the samples (cloud::SurfaceSample::width).
+struct LabelOptions {
+    double cell = 1.2;          ///< edge of the cells at the samples, from this to 1.2 times this
+    double certain = 0.2;       ///< distance of the field from its value at the surface from which a label is certain
+    bool remove_islands = true;
+    mesh::CavityPolicy cavities = mesh::CavityPolicy::automatic;
+    double least_volume = 30.0;  ///< of islands and cavities that may stay, in cubed widths
+};
+
+/// A lattice and the number of each of its vertices, above 0 inside: the winding number less 1/2, as far as the filters
+/// left it.
+struct Labels {
+    mesh::TetMesh lattice;  ///< without labels of tets
+    std::vector<double> values;
+    mesh::TopologyFilterReport filter;
+    std::vector<mesh::LabelComponent> components;
+    mesh::TopologyCounts counts;  ///< of the labels as they are returned
+    std::size_t samples = 0;      ///< that the field is made of
+    double width = 0.0;           ///< median width of the samples
+    unsigned rounds = 0;          ///< of further splits
+
+    /// Refused vertices per sample: the share of the cloud whose topology is doubtful.
+    double refused_share() const { return samples == 0 ? 0.0 : static_cast<double>(filter.refused) / static_cast<double>(samples); }
+};
+
+/// Labels the box of half-width `half_box` round the origin, or a slightly larger one. The orientation is in normalised units and has samples. Throws ConfigError
+/// "lattice.size", GeometryError "indicator.nothing_inside", CancelledError. [setup]
+Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& options, double half_box,
+                     Workers* workers, const CancelToken* cancel);
+
+}  // namespace dsc::strategies

@@ -1,0 +1,136 @@
+#include "strategy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <dsc/base/error.hpp>
+#include <dsc/cloud/orientation.hpp>
+#include <dsc/cloud/statistics.hpp>
+#include <dsc/mesh/isosurface.hpp>
+
+#include "confidence.hpp"
+
+namespace dsc::strategies {
+namespace {
+
+constexpr const char* name = "initial mesh 'indicator'";
+/// Iterations of the coarse stage where all points take part in it.
+constexpr std::size_t retry_iterations = 24;
+
+/// CPU seconds of this process since the last call.
+class Lap {
+public:
+    double operator()() {
+        const std::clock_t now = std::clock();
+        const double seconds = static_cast<double>(now - last_) / CLOCKS_PER_SEC;
+        last_ = now;
+        return seconds;
+    }
+
+private:
+    std::clock_t last_ = std::clock();
+};
+
+const cloud::TargetCloud& cloud_of(const hooks::InitialMeshContext& context) {
+    if (context.cloud == nullptr) {
+        throw ConfigError("indicator.no_cloud",
+                          std::string(name) + ": the experiment has no cloud to label the box by; add input: {cloud: {file: ...}}");
+    }
+    return *context.cloud;
+}
+
+}  // namespace
+
+void Indicator::declare(config::ParamSchema<Params>& schema) {
+    schema.choice("detail", &Params::detail, {{"low", Detail::low}, {"medium", Detail::medium}, {"high", Detail::high}})
+        .doc("Half, all or twice the budget of vertices that the number of points gives: 2 per point up to 3,000 points, then less, "
+             "1 per point at 20,000 points, above that growing with the root of their number.");
+    schema.integer("vertices", &Params::vertices)
+        .range(100, 10000000)
+        .unit("vertices")
+        .doc("Budget of interface vertices, in place of the one that the number of points and `detail` give.");
+    schema.real("start", &Params::start)
+        .range(0.1, 2)
+        .unit("budgets")
+        .doc("Vertices of the interface that is handed over, at most, as a part of the budget.");
+    schema.real("cell", static_cast<double Params::*>(&LabelOptions::cell))
+        .range(0.3, 4)
+        .unit("point widths")
+        .doc("Edge of the lattice's cells at the points: up to 1.2 times this. Cells twice as large lose thin parts and gaps.");
+    schema.real("certain", static_cast<double Params::*>(&LabelOptions::certain))
+        .range(0, 0.5)
+        .open_low()
+        .open_high()
+        .unit("1")
+        .doc("A label is certain where the winding number is at least this far from 1/2. A handle stays only where both its body and "
+             "its hole are certain all along.");
+    schema.boolean("remove_islands", static_cast<bool Params::*>(&LabelOptions::remove_islands))
+        .doc("Bodies smaller than `least_volume` are left out, but never the largest one.");
+    schema.choice("cavities", static_cast<mesh::CavityPolicy Params::*>(&LabelOptions::cavities),
+                  {{"auto", mesh::CavityPolicy::automatic}, {"keep", mesh::CavityPolicy::keep}, {"fill", mesh::CavityPolicy::fill}})
+        .doc("Enclosed empty rooms: 'auto' keeps those that are certainly empty and whose wall at least 12 points lie at, 'keep' "
+             "keeps all above `least_volume`, 'fill' fills all.");
+    schema.real("least_volume", static_cast<double Params::*>(&LabelOptions::least_volume))
+        .at_least(0)
+        .unit("cubed point widths")
+        .doc("Volume below which islands are removed and cavities filled.");
+    schema.integer("smoothing", &Params::smoothing).range(0, 100).unit("sweeps").doc("Sweeps that smooth the interface at the end.");
+    schema.choice("retry", &Params::retry, {{"auto", Retry::automatic}, {"never", Retry::never}})
+        .doc("Where the labels are doubtful, 'auto' orients the cloud once more with all points in the first stage, which takes longer, "
+             "and keeps the better result.");
+}
+
+Indicator::Indicator(const Params& params, const plugin::Setup&) : params_(params) {}
+
+std::size_t Indicator::most_vertices(std::size_t points) const {
+    double budget = params_.vertices ? static_cast<double>(*params_.vertices) : cloud::vertex_budget(points);
+    if (!params_.vertices && params_.detail == Detail::low) budget *= 0.5;
+    if (!params_.vertices && params_.detail == Detail::high) budget *= 2.0;
+    return static_cast<std::size_t>(std::llround(std::max(4.0, params_.start * budget)));
+}
+
+mesh::TetMesh Indicator::build(const hooks::InitialMeshContext& context) {
+    const cloud::TargetCloud& cloud = cloud_of(context);
+    figures_.clear();
+    seconds_.clear();
+    warnings_.clear();
+    Lap lap;
+    const double half_box = cloud::simulation_box().high.x();
+    cloud::Orientation orientation = cloud.orientation();
+    if (orientation.empty()) orientation = cloud::orient_points(cloud.points(), {}, context.workers, context.cancel).orientation;
+    Labels labels = label_lattice(orientation, params_, half_box, context.workers, context.cancel);
+    const bool retry = params_.retry == Retry::automatic && doubtful(labels, orientation) && !orientation.all_points;
+    bool replaced = false;
+    if (retry) {
+        const cloud::OrientOptions finer{.all_points = true, .coarse_iterations = retry_iterations};
+        cloud::Orientation again = cloud::orient_points(cloud.points(), finer, context.workers, context.cancel).orientation;
+        Labels other = label_lattice(again, params_, half_box, context.workers, context.cancel);
+        if (other.refused_share() <= labels.refused_share()) {
+            replaced = true;
+            labels = std::move(other);
+            orientation = std::move(again);
+        }
+    }
+    seconds_.emplace_back("labels", lap());
+
+    mesh::StuffOptions options;
+    options.most_interface_vertices = most_vertices(cloud.size());
+    options.smoothing_sweeps = params_.smoothing;
+    mesh::StuffReport report;
+    mesh::TetMesh mesh =
+        mesh::stuff_interface(labels.lattice, labels.values, options, &report, context.workers, context.cancel, name);
+    seconds_.emplace_back("cut", lap());
+
+    const StartSurface start = measure_start(mesh, orientation, cloud.statistics(context.workers).area);
+    warnings_ = warnings_of(labels, orientation, start);
+    add_figures(labels, orientation, start, figures_);
+    figures_.emplace_back("retried", retry ? 1.0 : 0.0);
+    figures_.emplace_back("retry_taken", replaced ? 1.0 : 0.0);
+    figures_.emplace_back("interface_vertices", static_cast<double>(report.interface_vertices));
+    figures_.emplace_back("tets", static_cast<double>(mesh.tets.size()));
+    figures_.emplace_back("least_quality", report.least_quality);
+    seconds_.emplace_back("confidence", lap());
+    return mesh;
+}
+
+}  // namespace dsc::strategies

@@ -1,0 +1,162 @@
+#include "strategy.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <dsc/base/error.hpp>
+#include <dsc/cloud/orientation.hpp>
+#include <dsc/cloud/shapes.hpp>
+#include <dsc/host/host.hpp>
+#include <dsc/mesh/adopt.hpp>
+#include <dsc/mesh/validate.hpp>
+#include <dsc/surface/analysis.hpp>
+#include <dsc/surface/surface_view.hpp>
+#include <map>
+
+#include "confidence.hpp"
+
+namespace {
+
+using dsc::Vec3;
+using dsc::config::ConfigNode;
+
+dsc::cloud::TargetCloud target(const dsc::cloud::Cloud& cloud) { return dsc::cloud::TargetCloud(dsc::cloud::normalize(cloud)); }
+
+struct Built {
+    dsc::mesh::TetMesh mesh;
+    std::map<std::string, double> figures;
+    dsc::hooks::Warnings warnings;
+    dsc::surface::SurfaceReport surface;
+    dsc::mesh::AdoptReport adopted;
+};
+
+/// Builds, adopts and looks at the interface; what must hold of every start is checked here.
+Built build(const dsc::cloud::TargetCloud& cloud, const ConfigNode& params = ConfigNode::map(), dsc::Workers* workers = nullptr) {
+    dsc::host::Host host;
+    host.load(DSC_TEST_PLUGIN);
+    const auto strategy = host.create<dsc::hooks::InitialMesh>({"indicator", params}, "initial_mesh");
+    dsc::hooks::InitialMeshContext context;
+    context.cloud = &cloud;
+    context.workers = workers;
+    Built out;
+    out.mesh = strategy->build(context);
+    for (const auto& [name, value] : strategy->figures()) out.figures[name] = value;
+    out.warnings = strategy->warnings();
+    const dsc::mesh::Complex complex = dsc::mesh::adopt(out.mesh, "indicator", &out.adopted);
+    CHECK(out.adopted.reoriented_tets == 0);
+    CHECK(out.adopted.unpinched_vertices == 0);
+    CHECK(out.adopted.vanished_components == 0);
+    const auto found = dsc::mesh::validate(complex);
+    CHECK(found.valid());
+    CHECK(found.irregular_vertices == 0);
+    CHECK(complex.least_quality() >= 0.0199F);
+    out.surface = dsc::surface::analyse(dsc::surface::extract_interface(out.mesh));
+    CHECK(static_cast<double>(out.surface.components) == out.figures["components"]);
+    CHECK(static_cast<double>(out.surface.cavities) == out.figures["cavities"]);
+    CHECK(static_cast<double>(out.surface.genus) == out.figures["genus"]);
+    return out;
+}
+
+/// Spheres sampled at random, evenly by area.
+dsc::cloud::Cloud spheres(const std::vector<std::pair<Vec3, double>>& all, double per_area, double noise = 0.0) {
+    dsc::cloud::Cloud cloud;
+    std::uint64_t seed = 1;
+    for (const auto& [centre, radius] : all) {
+        const auto count = static_cast<std::size_t>(per_area * radius * radius);
+        dsc::cloud::Cloud part = dsc::cloud::sample_shape("sphere", count, ++seed, noise);
+        const dsc::Box3 box = dsc::bounding_box(part.points);
+        for (const Vec3& p : part.points) cloud.points.push_back(centre + radius * (p - box.centre()) / (0.5 * box.size().maxCoeff()));
+    }
+    return cloud;
+}
+
+}  // namespace
+
+TEST_CASE("a ball, a torus and the teapot get their topology, and a volume near the true one") {
+    const Built ball = build(target(spheres({{Vec3(5, 6, 7), 2.0}}, 1000)));
+    CHECK(ball.surface.components == 1);
+    CHECK(ball.surface.genus == 0);
+    // Radius 0.9 after normalisation.
+    CHECK(ball.surface.volume == doctest::Approx(4.0 / 3.0 * 3.14159265 * 0.729).epsilon(0.02));
+    CHECK(ball.warnings.empty());
+    const Built torus = build(target(dsc::cloud::sample_shape("torus", 4000, 1)));
+    CHECK(torus.surface.genus == 1);
+    CHECK(torus.surface.components == 1);
+    const Built teapot = build(target(dsc::cloud::sample_shape("teapot", 8000, 1)));
+    CHECK(teapot.surface.components == 1);
+}
+
+TEST_CASE("several bodies stay apart, and a hollow ball keeps its cavity unless it is to be filled") {
+    const Built two = build(target(spheres({{Vec3(0, 0, 0), 1.0}, {Vec3(2.5, 0, 0), 1.0}}, 2000)));
+    CHECK(two.surface.components == 2);
+    CHECK(two.surface.genus == 0);
+    const auto hollow = target(spheres({{Vec3(0, 0, 0), 1.0}, {Vec3(0.1, 0, 0), 0.6}}, 2500));
+    const Built kept = build(hollow);
+    CHECK(kept.surface.components == 1);
+    CHECK(kept.surface.cavities == 1);
+    const Built filled = build(hollow, ConfigNode::map({{"cavities", "fill"}}));
+    CHECK(filled.surface.cavities == 0);
+    CHECK(filled.figures.at("cavities_filled") == 1);
+}
+
+TEST_CASE("the number of vertices follows the budget, the detail and the wish") {
+    const auto cloud = target(spheres({{Vec3(0, 0, 0), 1.0}}, 4000));
+    const double budget = dsc::cloud::vertex_budget(cloud.size());
+    const Built medium = build(cloud), low = build(cloud, ConfigNode::map({{"detail", "low"}})),
+                asked = build(cloud, ConfigNode::map({{"vertices", 500}}));
+    CHECK(medium.figures.at("interface_vertices") <= budget);
+    CHECK(low.figures.at("interface_vertices") <= 0.5 * budget);
+    CHECK(asked.figures.at("interface_vertices") <= 500);
+    CHECK(asked.surface.genus == 0);
+}
+
+TEST_CASE("the same bits for any number of threads") {
+    const auto cloud = target(dsc::cloud::sample_shape("torus", 3000, 2, 0.002));
+    const Built one = build(cloud);
+    dsc::Workers workers(3);
+    const Built three = build(cloud, ConfigNode::map(), &workers);
+    CHECK(one.mesh.points == three.mesh.points);
+    CHECK(one.mesh.tets == three.mesh.tets);
+    CHECK(one.mesh.labels == three.mesh.labels);
+}
+
+TEST_CASE("half a ball is closed, and the open side is said") {
+    dsc::cloud::Cloud ball = spheres({{Vec3(0, 0, 0), 1.0}}, 4000), half;
+    for (const Vec3& p : ball.points) {
+        if (p.z() > 0.2) half.points.push_back(p);
+    }
+    const Built cap = build(target(half));
+    CHECK(cap.surface.boundary_edges == 0);
+    REQUIRE_FALSE(cap.warnings.empty());
+    CHECK(cap.warnings.front().code == "cloud.open");
+    CHECK(cap.figures.at("gap_share") > 0.1);
+}
+
+TEST_CASE("refused vertices and residuals beyond the limits are doubtful") {
+    dsc::strategies::Labels labels;
+    labels.samples = 1000;
+    dsc::cloud::Orientation orientation;
+    orientation.residual = 0.05;
+    CHECK_FALSE(dsc::strategies::doubtful(labels, orientation));
+    CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).empty());
+    labels.filter.refused = 12;
+    CHECK(dsc::strategies::doubtful(labels, orientation));
+    CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "topology.doubtful");
+    labels.filter.refused = 0;
+    orientation.residual = 0.14;
+    CHECK(dsc::strategies::doubtful(labels, orientation));
+    orientation.residual = 0.2;
+    CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "cloud.open");
+}
+
+TEST_CASE("an experiment without a cloud is refused") {
+    dsc::host::Host host;
+    host.load(DSC_TEST_PLUGIN);
+    const auto strategy = host.create<dsc::hooks::InitialMesh>({"indicator", ConfigNode::map()}, "initial_mesh");
+    try {
+        strategy->build({});
+        FAIL("accepted");
+    } catch (const dsc::ConfigError& error) {
+        CHECK(std::string(error.code()) == "indicator.no_cloud");
+    }
+}
