@@ -29,7 +29,7 @@ import packages  # noqa: F401
 import numpy as np
 from scipy.spatial import cKDTree
 
-from shapes import POINTS, SHAPES
+from shapes import POINTS, SHAPES, checked_mesh
 from surfaces import Topology, random_rotation, sample, write_cloud
 
 TABLE = Path(__file__).resolve().parent / "shapes.json"
@@ -74,7 +74,7 @@ class Truths:
     def mesh(self, name):
         file = self.folder / f"{name}.npz"
         if not file.exists():
-            points, faces = SHAPES[name].mesh()
+            points, faces = checked_mesh(name)
             np.savez(file, points=points, faces=faces)
         stored = np.load(file)
         turn = random_rotation(np.random.default_rng(list(SHAPES).index(name)))
@@ -92,7 +92,7 @@ def without_balls(points, normals, rng):
     for place in rng.permutation(len(points))[:PLACES]:
         distance, near = tree.query(points[place], count)
         mean = normals[near].mean(axis=0)
-        one_sheet = (normals[near] @ mean).min() >= ONE_SHEET * np.linalg.norm(mean)
+        one_sheet = (normals[near] @ mean).min() > ONE_SHEET * np.linalg.norm(mean)
         apart = all(np.linalg.norm(points[place] - c) >= distance[-1] + r for c, r in balls)
         if one_sheet and apart:
             balls.append((points[place], distance[-1]))
