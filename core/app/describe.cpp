@@ -73,7 +73,7 @@ void schema_text(const config::Schema& schema, const std::string& indent, std::s
 }
 
 std::string origin(const Described& d) {
-    return d.version.empty() ? "part of the core" : "plugin " + d.plugin + " " + d.version + ", " + d.file;
+    return "plugin " + d.plugin + " " + d.version + ", " + d.file;
 }
 
 /// `value` as it stands behind "key:", on lines of its own where it is a map or a list of maps.
@@ -125,7 +125,7 @@ std::string list_text(const std::vector<Described>& all) {
     std::array<std::size_t, 3> width{};
     const auto cells = [](const Described& d) {
         return std::array<std::string, 3>{d.kind, d.id,
-                                          d.version.empty() ? d.plugin : d.plugin + " " + d.version};
+                                          d.plugin + " " + d.version};
     };
     for (const Described& d : all) {
         const auto row = cells(d);

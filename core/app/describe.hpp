@@ -13,7 +13,7 @@ struct Described {
     std::string id;
     std::string summary;
     std::string plugin;
-    std::string version;  ///< empty for what is part of the core
+    std::string version;
     std::string file;
     const config::Schema* schema = nullptr;
 };

@@ -132,3 +132,35 @@ TEST_CASE("reconstruct writes a volume for Gmsh and one for MEDIT") {
         CHECK(cli.read("again." + extension) == cli.read("v." + extension));
     }
 }
+
+TEST_CASE("a shuffled file gives the same bytes where duplicates sorts, and summary.json tells what it removed") {
+    const Cli cli;
+    std::vector<std::string> rows;
+    std::istringstream lines(coloured_csv());
+    std::string header;
+    std::getline(lines, header);
+    for (std::string line; std::getline(lines, line);) rows.push_back(line);
+    const std::size_t distinct = rows.size();
+    // Repeated points in other colours: which of them stays must not depend on the order either.
+    for (std::size_t i = 0; i < distinct; i += 7) rows.push_back(rows[i].substr(0, rows[i].find(".3;")) + ".3;0;255;0");
+    const auto written = [&] {
+        std::string text = header + "\n";
+        for (const std::string& row : rows) text += row + "\n";
+        return text;
+    };
+    const auto surface = [&](const std::string& folder) {
+        cli.write("cloud.csv", written());
+        cli.write("a.yaml", experiment);
+        const Result run = cli.dsc({"run", "a.yaml", "input.cloud.filters=[{type: duplicates, sort: true}]", "-o", folder});
+        CAPTURE(run.err);
+        REQUIRE(run.code == 0);
+        return cli.read(folder + "/result/surface.ply");
+    };
+    const std::string first = surface("first");
+    std::reverse(rows.begin(), rows.end());
+    std::rotate(rows.begin(), rows.begin() + 100, rows.end());
+    CHECK(surface("second") == first);
+    const json told = json::parse(cli.read("second/summary.json"))["input"]["filters"];
+    CHECK(told == json::parse("[{\"type\": \"duplicates\", \"kept\": " + std::to_string(distinct) + ", \"removed\": " +
+                              std::to_string(rows.size() - distinct) + "}]"));
+}

@@ -35,8 +35,8 @@ Cloud grid(int side) {
 
 TEST_CASE("of each cell the point nearest to the middle of its points stays, with its attributes") {
     Cloud cloud = grid(9);
-    // The box is 8 wide, its diagonal 8 sqrt 2: cells of 3 by 3 points.
-    const double size = 3.0 / (8.0 * std::sqrt(2.0));
+    // The box is 8 wide, its diagonal 8 sqrt 2: cells of 2.8, which hold 3 by 3 points.
+    const double size = 2.8 / (8.0 * std::sqrt(2.0));
     const Filtered result = filtered(cloud, ConfigNode::map({{"size", size}}));
     std::vector<Vec3> expected;
     for (const double y : {1.0, 4.0, 7.0}) {

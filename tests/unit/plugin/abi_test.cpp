@@ -43,7 +43,7 @@ TEST_CASE("the layout of what crosses the door is that of its ABI number") {
         "surface::SurfaceView 272\n"
         "surface::TriangleMesh 72\n"
         "cloud::TargetCloud 144\n"
-        "cloud::Cloud 208\n"
+        "cloud::Cloud 200\n"
         "cloud::FilterReport 96\n"
         "hooks::FilterContext 32\n"
         "mesh::TetMesh 72\n"
