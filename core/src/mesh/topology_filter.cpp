@@ -1,7 +1,6 @@
-#include <dsc/mesh/topology_filter.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <dsc/mesh/topology_filter.hpp>
 #include <limits>
 #include <queue>
 
@@ -40,7 +39,8 @@ public:
         for (const std::vector<std::uint32_t>* list : {&weak_tets_, &cut_tets_}) {
             for (const std::uint32_t t : *list) {
                 const Tet& tet = tets_[t];
-                const std::array<bool, 4> in = {inside(tet[0]), inside(tet[1]), inside(tet[2]), inside(tet[3])};
+                const std::array<bool, 4> in = {inside(tet[0]), inside(tet[1]), inside(tet[2]),
+                                                inside(tet[3])};
                 join_equal(sets, tet, in);
                 interface.add(tet, in);
             }
@@ -70,7 +70,8 @@ public:
             look_round(step.vertex, in, sets);
             refused[slot_[step.vertex]] = 1;
             if (link_components_ > roots_.size()) continue;
-            const auto parts = std::count_if(roots_.begin(), roots_.end(), [&](std::uint32_t r) { return seeded[r] != 0; });
+            const auto parts =
+                std::count_if(roots_.begin(), roots_.end(), [&](std::uint32_t r) { return seeded[r] != 0; });
             if (parts > 1 && (!weakest || step.level < weakest->level)) {
                 weakest = WeakestMerge{step.level, points_[step.vertex]};
             }
@@ -207,7 +208,8 @@ private:
         TopologyCounts out;
         std::vector<std::uint8_t> on_box(points_.size(), 0);
         for (std::size_t v = 0; v < points_.size(); ++v) {
-            if ((points_[v].array() == box_.low.array()).any() || (points_[v].array() == box_.high.array()).any()) {
+            if ((points_[v].array() == box_.low.array()).any() ||
+                (points_[v].array() == box_.high.array()).any()) {
                 on_box[sets.find(static_cast<std::uint32_t>(v))] = 1;
             }
         }
@@ -282,13 +284,14 @@ private:
 
 }  // namespace
 
-TopologyCounts count_topology(std::span<const Vec3> points, std::span<const Tet> tets, std::span<const double> values) {
+TopologyCounts count_topology(std::span<const Vec3> points, std::span<const Tet> tets,
+                              std::span<const double> values) {
     std::vector<double> copy(values.begin(), values.end());
     return Filter(points, tets, copy, 0).count();
 }
 
-TopologyFilterReport filter_topology(std::span<const Vec3> points, std::span<const Tet> tets, std::span<double> values,
-                                     double tau) {
+TopologyFilterReport filter_topology(std::span<const Vec3> points, std::span<const Tet> tets,
+                                     std::span<double> values, double tau) {
     TopologyFilterReport report;
     Filter filter(points, tets, values, tau);
     report.before = filter.count();
