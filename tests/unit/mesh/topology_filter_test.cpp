@@ -85,8 +85,7 @@ TEST_CASE("components, cavities and genus of known solids, which the filter leav
         check_counts(report.before, solid.components, solid.cavities, solid.genus);
         CHECK(report.refused == 0);
         CHECK(s.values == old);
-        CHECK_FALSE(report.inside);
-        CHECK_FALSE(report.outside);
+        CHECK(report.attachments.empty());
     }
 }
 
@@ -141,7 +140,7 @@ TEST_CASE("a bridge that closes a ring goes if its values are weak and stays if 
         CHECK(report.clusters[0].was_inside);
         CHECK((report.clusters[0].place - Vec3(0.6, 0, 0)).norm() < 0.15);
         CHECK(report.clusters[0].level == doctest::Approx(level));
-        CHECK_FALSE(report.inside);
+        CHECK(report.attachments.empty());
     }
 }
 
@@ -155,7 +154,7 @@ TEST_CASE("a single bridge stays and is reported with its level, and so is an op
                                                                                : -1;
         };
         const Function solid = [&](const Vec3& x) {
-            return sign > 0 ? std::max(ball(x, a, 0.35), ball(x, b, 0.35))
+            return sign > 0 ? std::max(ball(x, a, 0.4), ball(x, b, 0.35))
                             : std::min(ball(x, Vec3::Zero(), 0.8), x.norm() - 0.4);
         };
         Sampled s = sample(
@@ -167,11 +166,22 @@ TEST_CASE("a single bridge stays and is reported with its level, and so is an op
         const TopologyFilterReport report = filtered(s);
         check_counts(report.before, 1, 0, 0);
         check_counts(report.after, 1, 0, 0);
-        const auto& merge = sign > 0 ? report.inside : report.outside;
-        REQUIRE(merge);
-        CHECK(merge->level == doctest::Approx(0.12));
-        CHECK(std::hypot(merge->place[1], merge->place[2]) < 0.1);
-        CHECK_FALSE((sign > 0 ? report.outside : report.inside));
+        REQUIRE(report.attachments.size() == 1);
+        const Attachment& part = report.attachments[0];
+        CHECK(part.inside == (sign > 0));
+        CHECK(part.level == doctest::Approx(0.12));
+        CHECK(std::hypot(part.place[1], part.place[2]) < 0.1);
+        // The smaller ball, or the hollow.
+        const auto points = s.lattice.points();
+        std::size_t vertices = 0;
+        for (std::size_t v = 0; v < points.size(); ++v) {
+            const bool there = sign > 0 ? (points[v] - b).norm() < 0.35 : points[v].norm() < 0.5;
+            vertices += there && sign * s.values[v] >= tau ? 1 : 0;
+        }
+        CHECK(part.vertices == vertices);
+        CHECK(weakest_attachment(report, sign > 0, vertices)->level == part.level);
+        CHECK_FALSE(weakest_attachment(report, sign > 0, vertices + 1));
+        CHECK_FALSE(weakest_attachment(report, sign < 0, 0));
     }
 }
 

@@ -38,10 +38,12 @@ struct RefusedCluster {
     bool was_inside = false;  ///< a bridge was cut; else a tunnel was closed
 };
 
-/// Where two components of certain values became one.
-struct WeakestMerge {
-    double level = 0;  ///< distance of the value from 0
-    Vec3 place;
+/// A part with values from tau on that is connected to a larger one only through a vertex of a lower value.
+struct Attachment {
+    double level = 0;  ///< distance of that value from 0; a low one means that the connection may be wrong
+    Vec3 place = Vec3::Zero();  ///< of the vertex
+    std::size_t vertices = 0;   ///< of the smaller part, with values from tau on
+    bool inside = true;         ///< else of the outside: the way into a hollow
 };
 
 /// What filter_topology() did.
@@ -49,9 +51,7 @@ struct TopologyFilterReport {
     TopologyCounts before, after;
     std::size_t refused = 0;               ///< changes of a label, over both passes
     std::vector<RefusedCluster> clusters;  ///< bridges first, each kind by its lowest vertex
-    /// The weakest place through which a part with values from tau on is attached to another one; none where all such
-    /// parts stay apart or are connected by values from tau on. A low level means that this connection may be wrong.
-    std::optional<WeakestMerge> inside, outside;
+    std::vector<Attachment> attachments;   ///< of the inside first, in the order of growth
 };
 
 /// Homotopic growth of the certain inside, values from tau on, down to 0 and then of the certain outside up to 0. The
@@ -63,5 +63,10 @@ struct TopologyFilterReport {
 TopologyFilterReport filter_topology(std::span<const Vec3> points,
                                      std::span<const std::array<std::uint32_t, 4>> tets,
                                      std::span<double> values, double tau = 0.2);
+
+/// The attachment with the lowest level, of the inside or the outside, of parts with at least so many vertices; the first
+/// of equal ones. None where all such parts stay apart or are connected by values from tau on. [parallel]
+std::optional<Attachment> weakest_attachment(const TopologyFilterReport& report, bool inside,
+                                             std::size_t least_vertices);
 
 }  // namespace dsc::mesh
