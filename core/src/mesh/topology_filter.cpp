@@ -315,6 +315,8 @@ TopologyFilterReport filter_topology(std::span<const Vec3> points, std::span<con
     report.before = filter.count();
     filter.grow(1, report);
     filter.grow(-1, report);
+    report.inside = weakest_attachment(report, true, 1);
+    report.outside = weakest_attachment(report, false, 1);
     report.after = report.refused == 0 ? report.before : filter.count();
     return report;
 }

@@ -180,6 +180,8 @@ TEST_CASE("a single bridge stays and is reported with its level, and so is an op
         }
         CHECK(part.vertices == vertices);
         CHECK(weakest_attachment(report, sign > 0, vertices)->level == part.level);
+        CHECK(report.inside.has_value() == (sign > 0));
+        CHECK(report.outside.has_value() == (sign < 0));
         CHECK_FALSE(weakest_attachment(report, sign > 0, vertices + 1));
         CHECK_FALSE(weakest_attachment(report, sign < 0, 0));
     }

@@ -49,9 +49,10 @@ struct Attachment {
 /// What filter_topology() did.
 struct TopologyFilterReport {
     TopologyCounts before, after;
-    std::size_t refused = 0;               ///< changes of a label, over both passes
-    std::vector<RefusedCluster> clusters;  ///< bridges first, each kind by its lowest vertex
-    std::vector<Attachment> attachments;   ///< of the inside first, in the order of growth
+    std::size_t refused = 0;                    ///< changes of a label, over both passes
+    std::vector<RefusedCluster> clusters;       ///< bridges first, each kind by its lowest vertex
+    std::vector<Attachment> attachments;        ///< of the inside first, in the order of growth
+    std::optional<Attachment> inside, outside;  ///< those with the lowest level, of parts of any size
 };
 
 /// Homotopic growth of the certain inside, values from tau on, down to 0 and then of the certain outside up to 0. The
