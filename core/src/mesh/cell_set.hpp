@@ -26,7 +26,8 @@ public:
             cell[2] >= side) {
             return false;
         }
-        return (slots_[slot_of(key_of({cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}))].cells & bit_of(cell)) != 0;
+        return (slots_[slot_of(key_of({cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}))].cells & bit_of(cell)) !=
+               0;
     }
     void add(const Cell& cell) { add({cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}, bit_of(cell)); }
     std::size_t count() const;
@@ -51,7 +52,8 @@ private:
     }
     static Cell brick_of(std::uint64_t key) {
         constexpr std::uint64_t low = (1U << 21U) - 1;
-        return {static_cast<int>(key & low), static_cast<int>(key >> 21U & low), static_cast<int>(key >> 42U)};
+        return {static_cast<int>(key & low), static_cast<int>(key >> 21U & low),
+                static_cast<int>(key >> 42U)};
     }
     // The brick's slot, or the unused one where it belongs.
     std::size_t slot_of(std::uint64_t key) const {

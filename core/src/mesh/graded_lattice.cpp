@@ -1,10 +1,8 @@
-#include <dsc/mesh/graded_lattice.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <string>
-
 #include <dsc/base/error.hpp>
+#include <dsc/mesh/graded_lattice.hpp>
+#include <string>
 
 #include "mesh/lattice_frame.hpp"
 #include "mesh/lattice_octree.hpp"
@@ -28,10 +26,11 @@ struct Place {
 LatticeOptions checked(LatticeOptions options, std::string_view name) {
     const double cells = options.wanted_cells();
     if (!(cells >= least_lattice_cells && cells <= most_graded_cells)) {
-        throw ConfigError("lattice.size", std::string(name) + ": the smallest cells go " + std::to_string(cells) +
-                                              " times into the box; make them larger or the box smaller, so that they go " +
-                                              std::to_string(least_lattice_cells) + " to " +
-                                              std::to_string(most_graded_cells) + " times into it");
+        throw ConfigError("lattice.size",
+                          std::string(name) + ": the smallest cells go " + std::to_string(cells) +
+                              " times into the box; make them larger or the box smaller, so that they go " +
+                              std::to_string(least_lattice_cells) + " to " +
+                              std::to_string(most_graded_cells) + " times into it");
     }
     options.growth = 2.0;
     return options;
@@ -41,9 +40,7 @@ LatticeOptions checked(LatticeOptions options, std::string_view name) {
 
 struct GradedLattice::Parts {
     Parts(const LatticeOptions& options, std::string_view caller)
-        : name(caller),
-          frame(lattice::frame_of(options)),
-          octree(frame, lattice::top_level(options)) {}
+        : name(caller), frame(lattice::frame_of(options)), octree(frame, lattice::top_level(options)) {}
 
     // The smallest cell that contains the place, or the one nearest to it.
     Cell cell_at(const Vec3& place) const {
@@ -55,7 +52,9 @@ struct GradedLattice::Parts {
         }
         return out;
     }
-    static Cell at_level(unsigned level, const Cell& c) { return {c[0] >> level, c[1] >> level, c[2] >> level}; }
+    static Cell at_level(unsigned level, const Cell& c) {
+        return {c[0] >> level, c[1] >> level, c[2] >> level};
+    }
 
     // Both lists of leaves from the octree. Those that were leaves before keep their vertices.
     void list_leaves() {
@@ -74,7 +73,8 @@ struct GradedLattice::Parts {
             if (octree.divided(level, cell)) {
                 if (was_leaf) ++next;
                 for (int n = 0; n < 8; ++n) {
-                    self(self, level - 1, {2 * cell[0] + (n & 1), 2 * cell[1] + (n >> 1 & 1), 2 * cell[2] + (n >> 2)});
+                    self(self, level - 1,
+                         {2 * cell[0] + (n & 1), 2 * cell[1] + (n >> 1 & 1), 2 * cell[2] + (n >> 2)});
                 }
                 return;
             }
@@ -88,7 +88,8 @@ struct GradedLattice::Parts {
             }
         }
         points.reserve(table.points().size());
-        while (points.size() < table.points().size()) points.push_back(frame.point(table.points()[points.size()]));
+        while (points.size() < table.points().size())
+            points.push_back(frame.point(table.points()[points.size()]));
     }
 
     Leaf new_leaf(unsigned level, const Cell& cell) {
@@ -125,7 +126,8 @@ struct GradedLattice::Parts {
     std::vector<Place> places;
 };
 
-GradedLattice::GradedLattice(const LatticeOptions& options, std::span<const CellSize> sizes, std::string_view name)
+GradedLattice::GradedLattice(const LatticeOptions& options, std::span<const CellSize> sizes,
+                             std::string_view name)
     : parts_(std::make_unique<Parts>(checked(options, name), name)) {
     Parts& p = *parts_;
     for (const CellSize& wanted : sizes) {
@@ -150,7 +152,8 @@ Box3 GradedLattice::box() const {
 
 std::size_t GradedLattice::split(std::span<const std::uint32_t> leaves) {
     const std::size_t before = parts_->points.size();
-    for (const std::uint32_t i : leaves) parts_->octree.divide(parts_->places[i].level, parts_->places[i].cell);
+    for (const std::uint32_t i : leaves)
+        parts_->octree.divide(parts_->places[i].level, parts_->places[i].cell);
     if (!leaves.empty()) parts_->list_leaves();
     return before;
 }
@@ -189,8 +192,9 @@ std::uint32_t GradedLattice::vertex_near(const Vec3& place) const {
     Cell best{};
     double least = 0;
     for (int n = 0; n < 9; ++n) {
-        const Cell x = n == 8 ? Cell{low[0] + edge / 2, low[1] + edge / 2, low[2] + edge / 2}
-                              : Cell{low[0] + (n & 1) * edge, low[1] + (n >> 1 & 1) * edge, low[2] + (n >> 2) * edge};
+        const Cell x =
+            n == 8 ? Cell{low[0] + edge / 2, low[1] + edge / 2, low[2] + edge / 2}
+                   : Cell{low[0] + (n & 1) * edge, low[1] + (n >> 1 & 1) * edge, low[2] + (n >> 2) * edge};
         const double distance = (p.frame.point(x) - place).squaredNorm();
         if (n == 0 || distance < least) {
             least = distance;

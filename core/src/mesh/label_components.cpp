@@ -1,7 +1,6 @@
-#include <dsc/mesh/label_components.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <dsc/mesh/label_components.hpp>
 #include <limits>
 
 #include "mesh/union_find.hpp"
@@ -22,8 +21,8 @@ struct Region {
 
 // All components of both labels.
 struct Regions {
-    std::vector<Region> list;         // by their lowest vertices
-    std::vector<std::uint32_t> of;    // region of each vertex
+    std::vector<Region> list;       // by their lowest vertices
+    std::vector<std::uint32_t> of;  // region of each vertex
 };
 
 Regions regions_of(std::span<const Vec3> points, std::span<const Tet> tets, std::span<const double> values,
@@ -168,7 +167,8 @@ std::vector<std::uint8_t> islands_of(const Regions& regions, double least_volume
     std::size_t largest = regions.list.size();
     for (std::size_t r = 0; r < regions.list.size(); ++r) {
         const LabelComponent& c = regions.list[r].component;
-        if (c.inside && (largest == regions.list.size() || c.volume > regions.list[largest].component.volume)) largest = r;
+        if (c.inside && (largest == regions.list.size() || c.volume > regions.list[largest].component.volume))
+            largest = r;
     }
     std::vector<std::uint8_t> out(regions.list.size(), 0);
     for (std::size_t r = 0; r < out.size(); ++r) {
@@ -178,7 +178,9 @@ std::vector<std::uint8_t> islands_of(const Regions& regions, double least_volume
     return out;
 }
 
-bool any(const std::vector<std::uint8_t>& chosen) { return std::find(chosen.begin(), chosen.end(), 1) != chosen.end(); }
+bool any(const std::vector<std::uint8_t>& chosen) {
+    return std::find(chosen.begin(), chosen.end(), 1) != chosen.end();
+}
 
 }  // namespace
 
@@ -202,7 +204,8 @@ std::vector<LabelComponent> settle_components(std::span<const Vec3> points, std:
         const Region& region = regions.list[r];
         if (!region.cavity()) continue;
         const bool automatic = options.cavities == CavityPolicy::automatic;
-        const bool stays = options.cavities != CavityPolicy::fill && region.component.volume >= least_volume &&
+        const bool stays = options.cavities != CavityPolicy::fill &&
+                           region.component.volume >= least_volume &&
                            (!automatic || region.component.peak > options.certain);
         filled[r] = stays ? 0 : 1;
         asked[r] = stays && automatic ? 1 : 0;

@@ -26,7 +26,8 @@ void InterfaceCounter::add(const std::array<std::uint32_t, 4>& tet, const std::a
 
 long InterfaceCounter::euler() const {
     // All cut faces but those on the box belong to two tets.
-    return static_cast<long>(edges_) - static_cast<long>((faces_of_tets_ + box_faces_) / 2) + static_cast<long>(tets_);
+    return static_cast<long>(edges_) - static_cast<long>((faces_of_tets_ + box_faces_) / 2) +
+           static_cast<long>(tets_);
 }
 
 void InterfaceCounter::add_edge(std::uint32_t a, std::uint32_t b) {

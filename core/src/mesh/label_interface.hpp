@@ -4,18 +4,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <dsc/geometry/vec.hpp>
 #include <span>
 #include <vector>
 
-#include <dsc/geometry/vec.hpp>
-
 namespace dsc::mesh {
 
-/// Counts the cut edges, cut faces and cut tets, which are the vertices, edges and faces of the interface. All tets with
-/// both labels must be added.
+/// Counts the cut edges, cut faces and cut tets, which are the vertices, edges and faces of the interface. All tets
+/// with both labels must be added.
 class InterfaceCounter {
 public:
-    InterfaceCounter(std::span<const Vec3> points, const Box3& box) : points_(points), box_(box), slots_(1024, 0) {}
+    InterfaceCounter(std::span<const Vec3> points, const Box3& box)
+        : points_(points), box_(box), slots_(1024, 0) {}
 
     void add(const std::array<std::uint32_t, 4>& tet, const std::array<bool, 4>& inside);
 

@@ -45,8 +45,8 @@ public:
 
     unsigned top() const { return static_cast<unsigned>(divided_.size()) - 1; }
     unsigned side(unsigned level) const { return divided_[level].side(); }
-    /// Whether there are cells of the next finer level in this cell's place. False beyond the box.
-    bool divided(unsigned level, const Cell& cell) const { return divided_[level].has(cell); }
+    /// Whether there are cells of the next finer level in this cell's place. False beyond the box and at level 0.
+    bool divided(unsigned level, const Cell& cell) const { return level > 0 && divided_[level].has(cell); }
     /// Whether a cell of this level is part of the mesh: neither divided nor part of a larger one.
     bool leaf(unsigned level, const Cell& cell) const;
     /// Number of cells of the mesh.

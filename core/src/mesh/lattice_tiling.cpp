@@ -2,11 +2,14 @@
 
 #include <array>
 #include <dsc/base/error.hpp>
+#include <limits>
 
 #include "mesh/vertex_table.hpp"
 
 namespace dsc::mesh::lattice {
 namespace {
+
+constexpr std::uint32_t no_number = std::numeric_limits<std::uint32_t>::max();
 
 Cell moved(Cell x, std::size_t axis, int by) {
     x[axis] += by;
@@ -77,41 +80,63 @@ private:
         }
     }
 
+    // A point and its number, asked for at its first use, so that numbers follow the order of the tets.
+    struct Corner {
+        Cell x;
+        std::uint32_t number = no_number;
+    };
+    std::uint32_t number(Corner& corner) {
+        if (corner.number == no_number) corner.number = table_.number(corner.x);
+        return corner.number;
+    }
+
     void tile_face(unsigned level, const Cell& cell, std::size_t axis, int side) {
         const Cell across = moved(cell, axis, side);
         const bool boundary = across[axis] < 0 || across[axis] >= static_cast<int>(octree_.side(level));
-        const bool equal = !boundary && octree_.leaf(level, across);
+        const bool finer = octree_.divided(level, across);
+        const bool equal = !boundary && !finer && octree_.leaf(level, across);
         if (equal && side < 0) return;  // the neighbour's turn
         const int half = edge_of(level) / 2;
         Cell centre = corner_of(level, cell);
         for (int& x : centre) x += half;
         const Cell middle = moved(centre, axis, side * half);
         const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-        if (!boundary && !equal && !octree_.divided(level, across)) {
+        if (!boundary && !equal && !finer) {
             halve_pyramid(level, centre, middle, u, v, half);
             return;
         }
-        const Cell apex = equal ? moved(middle, axis, half) : middle;
-        for (const auto& [along, out] : {std::array{u, v}, std::array{v, u}}) {
+        const std::uint32_t from = table_.number(centre);
+        const std::uint32_t apex = table_.number(equal ? moved(middle, axis, half) : middle);
+        // Corners of the face, u running fastest.
+        std::array<Corner, 4> corners{};
+        for (std::size_t n = 0; n < 4; ++n) {
+            corners[n].x =
+                moved(moved(middle, u, (n & 1U) != 0 ? half : -half), v, (n & 2U) != 0 ? half : -half);
+        }
+        for (const bool along_u : {true, false}) {
             for (const int way : {-1, 1}) {
-                const Cell m = moved(middle, out, way * half);
-                const Cell a = moved(m, along, -half), b = moved(m, along, half);
-                if (halved(level, cell, axis, side, out, way)) {
-                    add(centre, apex, a, m);
-                    add(centre, apex, m, b);
+                const std::size_t first = way < 0 ? 0 : (along_u ? 2 : 1);
+                Corner &a = corners[first], &b = corners[first + (along_u ? 1 : 2)];
+                // Turns round the axis the other way for an edge along v.
+                const bool positive = (side * way < 0) == along_u;
+                const std::size_t out = along_u ? v : u;
+                if (halved(level, cell, finer, axis, side, out, way)) {
+                    Corner m{moved(middle, out, way * half)};
+                    add(from, apex, a, m, positive);
+                    add(from, apex, m, b, positive);
                 } else {
-                    add(centre, apex, a, b);
+                    add(from, apex, a, b, positive);
                 }
             }
         }
     }
 
     // Whether a smaller cell has its corner in the middle of the edge between two faces of the cell.
-    bool halved(unsigned level, const Cell& cell, std::size_t axis, int side, std::size_t out,
+    bool halved(unsigned level, const Cell& cell, bool finer, std::size_t axis, int side, std::size_t out,
                 int way) const {
-        const Cell first = moved(cell, axis, side);
-        return octree_.divided(level, first) || octree_.divided(level, moved(cell, out, way)) ||
-               octree_.divided(level, moved(first, out, way));
+        if (level == 0) return false;
+        return finer || octree_.divided(level, moved(cell, out, way)) ||
+               octree_.divided(level, moved(moved(cell, axis, side), out, way));
     }
 
     // Cuts along the diagonal between the two corners of even sum: a corner and the centre of the larger face.
@@ -139,6 +164,12 @@ private:
         }
         if (sign < 0) std::swap(c, d);
         tets_.push_back({table_.number(a), table_.number(b), table_.number(c), table_.number(d)});
+    }
+
+    void add(std::uint32_t centre, std::uint32_t apex, Corner& c, Corner& d, bool positive) {
+        Corner &third = positive ? c : d, &fourth = positive ? d : c;
+        const std::uint32_t n = number(third);
+        tets_.push_back({centre, apex, n, number(fourth)});
     }
 
     const Octree& octree_;

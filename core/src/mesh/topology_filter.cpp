@@ -1,7 +1,6 @@
-#include <dsc/mesh/topology_filter.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <dsc/mesh/topology_filter.hpp>
 #include <limits>
 #include <queue>
 
@@ -40,7 +39,8 @@ public:
         for (const std::vector<std::uint32_t>* list : {&weak_tets_, &cut_tets_}) {
             for (const std::uint32_t t : *list) {
                 const Tet& tet = tets_[t];
-                const std::array<bool, 4> in = {inside(tet[0]), inside(tet[1]), inside(tet[2]), inside(tet[3])};
+                const std::array<bool, 4> in = {inside(tet[0]), inside(tet[1]), inside(tet[2]),
+                                                inside(tet[3])};
                 join_equal(sets, tet, in);
                 interface.add(tet, in);
             }
@@ -51,9 +51,12 @@ public:
     // Grows the inside (sign 1) or the outside (sign -1) over the weak values; what cannot be reached changes sides.
     void grow(double sign, TopologyFilterReport& report) {
         UnionFind sets = certain_;
-        std::vector<std::uint8_t> in(points_.size(), 0), seeded(points_.size(), 0);
+        std::vector<std::uint8_t> in(points_.size(), 0);
+        std::vector<std::uint32_t> certain(points_.size(), 0);  // vertices of the part with this root
         for (std::size_t v = 0; v < points_.size(); ++v) {
-            if (slot_[v] == no_slot && inside(v) == (sign > 0)) in[v] = seeded[v] = 1;
+            if (slot_[v] != no_slot || inside(v) != (sign > 0)) continue;
+            in[v] = 1;
+            ++certain[sets.find(static_cast<std::uint32_t>(v))];
         }
         std::vector<Step> steps;
         for (const std::uint32_t v : weak_) {
@@ -62,7 +65,6 @@ public:
         const std::vector<Step> candidates = steps;
         std::priority_queue<Step> queue(std::less<Step>{}, std::move(steps));
         std::vector<std::uint8_t> refused(weak_.size(), 0);
-        std::optional<WeakestMerge>& weakest = sign > 0 ? report.inside : report.outside;
         while (!queue.empty()) {
             const Step step = queue.top();
             queue.pop();
@@ -70,14 +72,11 @@ public:
             look_round(step.vertex, in, sets);
             refused[slot_[step.vertex]] = 1;
             if (link_components_ > roots_.size()) continue;
-            const auto parts = std::count_if(roots_.begin(), roots_.end(), [&](std::uint32_t r) { return seeded[r] != 0; });
-            if (parts > 1 && (!weakest || step.level < weakest->level)) {
-                weakest = WeakestMerge{step.level, points_[step.vertex]};
-            }
+            const std::uint32_t together = attach(step, sign, certain, report);
             in[step.vertex] = 1;
             std::uint32_t root = step.vertex;
             for (const std::uint32_t r : roots_) root = sets.join(root, r);
-            seeded[root] = parts > 0 ? 1 : 0;
+            certain[root] = together;
             for (const std::uint32_t u : link_) {
                 const std::uint32_t slot = slot_[u];
                 if (in[u] != 0 || slot == no_slot || refused[slot] == 0) continue;
@@ -160,6 +159,26 @@ private:
         return std::span(round_).subspan(begin_[slot], begin_[slot + 1] - begin_[slot]);
     }
 
+    // Lists the parts that the vertex connects to the largest one of those round it. Returns the size of all together.
+    std::uint32_t attach(const Step& step, double sign, const std::vector<std::uint32_t>& certain,
+                         TopologyFilterReport& report) const {
+        std::uint32_t together = 0, largest = 0;
+        std::size_t of_largest = 0;
+        for (std::size_t i = 0; i < roots_.size(); ++i) {
+            together += certain[roots_[i]];
+            if (certain[roots_[i]] <= largest) continue;
+            largest = certain[roots_[i]];
+            of_largest = i;
+        }
+        if (together == largest) return together;
+        for (std::size_t i = 0; i < roots_.size(); ++i) {
+            const std::size_t size = certain[roots_[i]];
+            if (i == of_largest || size == 0) continue;
+            report.attachments.push_back({step.level, points_[step.vertex], size, sign > 0});
+        }
+        return together;
+    }
+
     // The vertices of the link, the number of components of the grown part of it, and their roots in the whole.
     void look_round(std::uint32_t v, const std::vector<std::uint8_t>& in, UnionFind& sets) {
         ++visit_;
@@ -207,7 +226,8 @@ private:
         TopologyCounts out;
         std::vector<std::uint8_t> on_box(points_.size(), 0);
         for (std::size_t v = 0; v < points_.size(); ++v) {
-            if ((points_[v].array() == box_.low.array()).any() || (points_[v].array() == box_.high.array()).any()) {
+            if ((points_[v].array() == box_.low.array()).any() ||
+                (points_[v].array() == box_.high.array()).any()) {
                 on_box[sets.find(static_cast<std::uint32_t>(v))] = 1;
             }
         }
@@ -282,20 +302,32 @@ private:
 
 }  // namespace
 
-TopologyCounts count_topology(std::span<const Vec3> points, std::span<const Tet> tets, std::span<const double> values) {
+TopologyCounts count_topology(std::span<const Vec3> points, std::span<const Tet> tets,
+                              std::span<const double> values) {
     std::vector<double> copy(values.begin(), values.end());
     return Filter(points, tets, copy, 0).count();
 }
 
-TopologyFilterReport filter_topology(std::span<const Vec3> points, std::span<const Tet> tets, std::span<double> values,
-                                     double tau) {
+TopologyFilterReport filter_topology(std::span<const Vec3> points, std::span<const Tet> tets,
+                                     std::span<double> values, double tau) {
     TopologyFilterReport report;
     Filter filter(points, tets, values, tau);
     report.before = filter.count();
     filter.grow(1, report);
     filter.grow(-1, report);
+    report.inside = weakest_attachment(report, true, 1);
+    report.outside = weakest_attachment(report, false, 1);
     report.after = report.refused == 0 ? report.before : filter.count();
     return report;
+}
+
+std::optional<Attachment> weakest_attachment(const TopologyFilterReport& report, bool inside,
+                                             std::size_t least_vertices) {
+    std::optional<Attachment> out;
+    for (const Attachment& a : report.attachments) {
+        if (a.inside == inside && a.vertices >= least_vertices && (!out || a.level < out->level)) out = a;
+    }
+    return out;
 }
 
 }  // namespace dsc::mesh

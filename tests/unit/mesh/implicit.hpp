@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <dsc/mesh/graded_lattice.hpp>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -12,8 +13,6 @@
 #include <span>
 #include <utility>
 #include <vector>
-
-#include <dsc/mesh/graded_lattice.hpp>
 
 namespace dsc::mesh::test {
 
@@ -37,9 +36,11 @@ inline Sampled sample(double cell, const Function& near, const Function& value) 
     options.box = 1.5;
     GradedLattice lattice(options, {}, "test");
     const auto chosen = [&](const GradedLattice::Leaf& leaf) {
-        return leaf.edge > 1.01 * cell && std::abs(near(lattice.points()[leaf.vertices[8]])) < 1.5 * leaf.edge;
+        return leaf.edge > 1.01 * cell &&
+               std::abs(near(lattice.points()[leaf.vertices[8]])) < 1.5 * leaf.edge;
     };
-    while (lattice.split_where(chosen) < lattice.points().size()) {}
+    while (lattice.split_where(chosen) < lattice.points().size()) {
+    }
     Sampled out{std::move(lattice), {}, {}, {}};
     out.tets = out.lattice.tets();
     out.volumes = out.lattice.volumes();
@@ -92,7 +93,8 @@ inline Counted march(const Tets& tets, const std::vector<double>& values, bool* 
     }
     Counted counted;
     for (std::size_t i = 0; i < parent.size(); ++i) counted.shells += find(i) == i ? 1 : 0;
-    counted.euler = static_cast<long>(vertices.size()) - static_cast<long>(edges.size()) + static_cast<long>(triangles.size());
+    counted.euler = static_cast<long>(vertices.size()) - static_cast<long>(edges.size()) +
+                    static_cast<long>(triangles.size());
     return counted;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <dsc/mesh/label_components.hpp>
 #include <dsc/mesh/topology_filter.hpp>
 
@@ -32,7 +31,8 @@ std::vector<Vec3> on_sphere(const Vec3& centre, double radius, int count) {
     return out;
 }
 
-std::vector<LabelComponent> settle(Sampled& s, const std::vector<Vec3>& cloud, const ComponentOptions& options) {
+std::vector<LabelComponent> settle(Sampled& s, const std::vector<Vec3>& cloud,
+                                   const ComponentOptions& options) {
     std::vector<std::uint32_t> vertices;
     for (const Vec3& x : cloud) vertices.push_back(s.lattice.vertex_near(x));
     return settle_components(s.lattice.points(), s.tets, s.values, s.volumes, {cloud, vertices}, options);
@@ -46,13 +46,17 @@ ComponentOptions with(CavityPolicy policy) {
 }
 
 const LabelComponent& nearest(const std::vector<LabelComponent>& list, const Vec3& place, bool inside) {
-    const auto distance = [&](const LabelComponent& c) { return c.inside == inside ? (c.place - place).norm() : 100; };
-    return *std::min_element(list.begin(), list.end(), [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+    const auto distance = [&](const LabelComponent& c) {
+        return c.inside == inside ? (c.place - place).norm() : 100;
+    };
+    return *std::min_element(list.begin(), list.end(),
+                             [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
 }
 
 }  // namespace
 
-TEST_CASE("islands below the least volume go, the largest component stays, all are listed with their volumes") {
+TEST_CASE(
+    "islands below the least volume go, the largest component stays, all are listed with their volumes") {
     const Vec3 far(0, 0.9, 0), mid(0.9, 0, 0);
     const Function balls = [&](const Vec3& x) {
         return std::max({ball(x, Vec3::Zero(), 0.5), ball(x, mid, 0.2), ball(x, far, 0.1)});
@@ -93,13 +97,17 @@ TEST_CASE("islands below the least volume go, the largest component stays, all a
 
 TEST_CASE("a cavity stays if it is large, certain and has points at its shell, or as the policy says") {
     const Vec3 centre(0.1, 0, 0);
-    const Function shell = [&](const Vec3& x) { return std::min(ball(x, Vec3::Zero(), 0.9), (x - centre).norm() - 0.4); };
+    const Function shell = [&](const Vec3& x) {
+        return std::min(ball(x, Vec3::Zero(), 0.9), (x - centre).norm() - 0.4);
+    };
     const Sampled start = solid(shell);
-    const auto cavities = [&](const std::vector<Vec3>& cloud, const ComponentOptions& options, std::size_t* points = nullptr) {
+    const auto cavities = [&](const std::vector<Vec3>& cloud, const ComponentOptions& options,
+                              std::size_t* points = nullptr) {
         Sampled s{GradedLattice({}, {}, ""), start.tets, start.values, start.volumes};
         std::vector<std::uint32_t> vertices;
         for (const Vec3& x : cloud) vertices.push_back(start.lattice.vertex_near(x));
-        const auto list = settle_components(start.lattice.points(), s.tets, s.values, s.volumes, {cloud, vertices}, options);
+        const auto list = settle_components(start.lattice.points(), s.tets, s.values, s.volumes,
+                                            {cloud, vertices}, options);
         REQUIRE(list.size() == 2);
         const LabelComponent& cavity = list[0].inside ? list[1] : list[0];
         CHECK_FALSE(cavity.inside);
@@ -159,7 +167,8 @@ TEST_CASE("of nested shells each cavity is judged by the points at its own shell
         ++cavities;
         if (!c.kept) CHECK(c.points == 0);
         if (c.kept) CHECK(c.points == 100);
-        if (c.kept) CHECK(c.volume == doctest::Approx(volume_of_ball(0.9) - volume_of_ball(0.7)).epsilon(0.1));
+        if (c.kept)
+            CHECK(c.volume == doctest::Approx(volume_of_ball(0.9) - volume_of_ball(0.7)).epsilon(0.1));
         kept += c.kept ? 1 : 0;
     }
     CHECK(cavities == 2);

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
-
 #include <dsc/mesh/topology_filter.hpp>
+#include <random>
 
 #include "implicit.hpp"
 
@@ -68,21 +67,25 @@ TEST_CASE("components, cavities and genus of known solids, which the filter leav
     const std::vector<Solid> solids = {
         {[](const Vec3& x) { return ball(x, Vec3(0.1, 0, 0), 0.6); }, 1, 0, 0},
         {[](const Vec3& x) { return torus(x, 0.6, 0.25); }, 1, 0, 1},
-        {[](const Vec3& x) { return std::max(ball(x, Vec3(0.6, 0, 0), 0.4), ball(x, Vec3(-0.6, 0.1, 0), 0.3)); }, 2, 0, 0},
+        {[](const Vec3& x) {
+             return std::max(ball(x, Vec3(0.6, 0, 0), 0.4), ball(x, Vec3(-0.6, 0.1, 0), 0.3));
+         },
+         2, 0, 0},
         {[](const Vec3& x) { return 0.15 - std::abs((x - Vec3(0, 0, 0.1)).norm() - 0.6); }, 1, 1, 0},
-        {[](const Vec3& x) { return std::max(0.15 - std::abs(x.norm() - 0.9), torus(x, 0.4, 0.15)); }, 2, 1, 1},
+        {[](const Vec3& x) { return std::max(0.15 - std::abs(x.norm() - 0.9), torus(x, 0.4, 0.15)); }, 2, 1,
+         1},
     };
     for (std::size_t i = 0; i < solids.size(); ++i) {
         CAPTURE(i);
         const Solid& solid = solids[i];
-        Sampled s = sample(0.06, solid.distance, [&](const Vec3& x) { return clipped(solid.distance(x) / 0.12); });
+        Sampled s =
+            sample(0.06, solid.distance, [&](const Vec3& x) { return clipped(solid.distance(x) / 0.12); });
         const std::vector<double> old = s.values;
         const TopologyFilterReport report = filtered(s);
         check_counts(report.before, solid.components, solid.cavities, solid.genus);
         CHECK(report.refused == 0);
         CHECK(s.values == old);
-        CHECK_FALSE(report.inside);
-        CHECK_FALSE(report.outside);
+        CHECK(report.attachments.empty());
     }
 }
 
@@ -101,11 +104,12 @@ TEST_CASE("a tunnel goes if its values are weak and stays if they are certain") 
         CAPTURE(level);
         const Function distance = [](const Vec3& x) { return ball(x, Vec3::Zero(), 0.6); };
         const auto tunnel = [](const Vec3& x) { return std::hypot(x[0] - 0.013, x[1] + 0.02) - 0.08; };
-        Sampled s = sample(0.05, [&](const Vec3& x) { return std::min(std::abs(distance(x)), std::abs(tunnel(x))); },
-                           [&](const Vec3& x) {
-                               const double solid = clipped(distance(x) / 0.1);
-                               return tunnel(x) < 0 && solid > 0 ? level : solid;
-                           });
+        Sampled s = sample(
+            0.05, [&](const Vec3& x) { return std::min(std::abs(distance(x)), std::abs(tunnel(x))); },
+            [&](const Vec3& x) {
+                const double solid = clipped(distance(x) / 0.1);
+                return tunnel(x) < 0 && solid > 0 ? level : solid;
+            });
         const TopologyFilterReport report = filtered(s);
         check_counts(report.before, 1, 0, 1);
         if (level > -tau) {
@@ -136,7 +140,7 @@ TEST_CASE("a bridge that closes a ring goes if its values are weak and stays if 
         CHECK(report.clusters[0].was_inside);
         CHECK((report.clusters[0].place - Vec3(0.6, 0, 0)).norm() < 0.15);
         CHECK(report.clusters[0].level == doctest::Approx(level));
-        CHECK_FALSE(report.inside);
+        CHECK(report.attachments.empty());
     }
 }
 
@@ -146,24 +150,40 @@ TEST_CASE("a single bridge stays and is reported with its level, and so is an op
         // Two balls and a rod between them, or a hollow in a ball and a channel out of it.
         const Vec3 a(-0.5, 0, 0), b(0.5, 0, 0);
         const auto rod = [&](const Vec3& x) {
-            return x[0] > (sign > 0 ? -0.5 : 0) && x[0] < (sign > 0 ? 0.5 : 1) ? 0.1 - std::hypot(x[1], x[2]) : -1;
+            return x[0] > (sign > 0 ? -0.5 : 0) && x[0] < (sign > 0 ? 0.5 : 1) ? 0.1 - std::hypot(x[1], x[2])
+                                                                               : -1;
         };
         const Function solid = [&](const Vec3& x) {
-            return sign > 0 ? std::max(ball(x, a, 0.35), ball(x, b, 0.35)) : std::min(ball(x, Vec3::Zero(), 0.8), x.norm() - 0.4);
+            return sign > 0 ? std::max(ball(x, a, 0.4), ball(x, b, 0.35))
+                            : std::min(ball(x, Vec3::Zero(), 0.8), x.norm() - 0.4);
         };
-        Sampled s = sample(0.05, [&](const Vec3& x) { return std::min(std::abs(solid(x)), std::abs(rod(x))); },
-                           [&](const Vec3& x) {
-                               const double f = clipped(solid(x) / 0.1);
-                               return rod(x) > 0 && sign * f < 0.12 ? sign * 0.12 : f;
-                           });
+        Sampled s = sample(
+            0.05, [&](const Vec3& x) { return std::min(std::abs(solid(x)), std::abs(rod(x))); },
+            [&](const Vec3& x) {
+                const double f = clipped(solid(x) / 0.1);
+                return rod(x) > 0 && sign * f < 0.12 ? sign * 0.12 : f;
+            });
         const TopologyFilterReport report = filtered(s);
         check_counts(report.before, 1, 0, 0);
         check_counts(report.after, 1, 0, 0);
-        const auto& merge = sign > 0 ? report.inside : report.outside;
-        REQUIRE(merge);
-        CHECK(merge->level == doctest::Approx(0.12));
-        CHECK(std::hypot(merge->place[1], merge->place[2]) < 0.1);
-        CHECK_FALSE((sign > 0 ? report.outside : report.inside));
+        REQUIRE(report.attachments.size() == 1);
+        const Attachment& part = report.attachments[0];
+        CHECK(part.inside == (sign > 0));
+        CHECK(part.level == doctest::Approx(0.12));
+        CHECK(std::hypot(part.place[1], part.place[2]) < 0.1);
+        // The smaller ball, or the hollow.
+        const auto points = s.lattice.points();
+        std::size_t vertices = 0;
+        for (std::size_t v = 0; v < points.size(); ++v) {
+            const bool there = sign > 0 ? (points[v] - b).norm() < 0.35 : points[v].norm() < 0.5;
+            vertices += there && sign * s.values[v] >= tau ? 1 : 0;
+        }
+        CHECK(part.vertices == vertices);
+        CHECK(weakest_attachment(report, sign > 0, vertices)->level == part.level);
+        CHECK(report.inside.has_value() == (sign > 0));
+        CHECK(report.outside.has_value() == (sign < 0));
+        CHECK_FALSE(weakest_attachment(report, sign > 0, vertices + 1));
+        CHECK_FALSE(weakest_attachment(report, sign < 0, 0));
     }
 }
 

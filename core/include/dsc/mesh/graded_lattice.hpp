@@ -3,20 +3,19 @@
 
 #include <array>
 #include <cstdint>
+#include <dsc/base/progress.hpp>
+#include <dsc/geometry/vec.hpp>
+#include <dsc/mesh/lattice.hpp>
 #include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include <dsc/base/progress.hpp>
-#include <dsc/geometry/vec.hpp>
-#include <dsc/mesh/lattice.hpp>
-
 namespace dsc::mesh {
 
-/// A wanted size, in the mesh's units: the cell that contains the place and the 26 places beside that cell, at its size,
-/// get cells of at most this edge.
+/// A wanted size, in the mesh's units: the cell that contains the place and the 26 places beside that cell, at its
+/// size, get cells of at most this edge.
 struct CellSize {
     Vec3 place;
     double cell;
@@ -37,10 +36,12 @@ public:
         double edge;
     };
 
-    /// Of the options count `cells` or `cell`, `box` and `box_centre`: they give the smallest cells that there can be, and
-    /// the box, which grows by less than one of its largest cells where it must. Sizes below those of the smallest
-    /// cells ask for the smallest cells. `name` is the generator named in messages. Throws ConfigError "lattice.size"
-    /// for more than most_graded_cells along the box or a lattice that would be too large. The order of the sizes has no influence. [setup]
+    /// Of the options count `cells` or `cell`, `box` and `box_centre`: they give the smallest cells that there can
+    /// be, and the box, which grows by less than one of its largest cells where it must; those go at least six times
+    /// into it. Sizes below that of the smallest cells ask for the smallest cells; the order of the sizes has no
+    /// influence. `name` is the generator named in messages. Throws ConfigError "lattice.size" for less than
+    /// least_lattice_cells or more than most_graded_cells along the box, or for a lattice that would be too large.
+    /// [setup]
     GradedLattice(const LatticeOptions& options, std::span<const CellSize> sizes, std::string_view name);
     ~GradedLattice();
     GradedLattice(GradedLattice&&) noexcept;
@@ -54,14 +55,15 @@ public:
     Box3 box() const;
     double finest_cell() const;
 
-    /// Divides the leaves of these indices, and others so far as balance needs it; leaves of the smallest size stay as they
-    /// are. Returns the number of vertices before: those from it on are new. Throws ConfigError "lattice.size". [setup]
+    /// Divides the leaves of these indices, and others so far as balance needs it; leaves of the smallest size stay
+    /// as they are. Returns the number of vertices before: those from it on are new. Throws ConfigError
+    /// "lattice.size". [setup]
     std::size_t split(std::span<const std::uint32_t> leaves);
     /// The same for all leaves that the function chooses; it is asked for every one in order. [setup]
     std::size_t split_where(const std::function<bool(const Leaf&)>& chosen);
 
-    /// Tets that fill the box, all positive and conforming, with the lattice's numbers; every vertex is used. They are those
-    /// of LatticePattern::bcc. Throws CancelledError. [setup]
+    /// Tets that fill the box, all positive and conforming, with the lattice's numbers; every vertex is used. They
+    /// are those of LatticePattern::bcc. Throws CancelledError. [setup]
     std::vector<std::array<std::uint32_t, 4>> tets(const CancelToken* cancel = nullptr) const;
     /// The share of the box that each vertex stands for: the centre of a cell half of it, a corner a sixteenth. The sum
     /// is the volume of the box. [parallel]

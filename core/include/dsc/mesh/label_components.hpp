@@ -4,10 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <dsc/geometry/vec.hpp>
 #include <span>
 #include <vector>
-
-#include <dsc/geometry/vec.hpp>
 
 namespace dsc::mesh {
 
@@ -21,11 +20,11 @@ enum class CavityPolicy {
 /// Which components stay. Lengths in the mesh's units.
 struct ComponentOptions {
     CavityPolicy cavities = CavityPolicy::automatic;
-    bool remove_islands = true;      ///< of the inside, below the least volume; the largest one stays in any case
-    double width = 0;                ///< local width of the cloud, its median
-    double least_volume = 30;        ///< in cubes of the width
-    double certain = 0.2;            ///< value below the negative of which an automatic cavity must reach, in units of the values
-    std::size_t least_points = 12;   ///< nearest to the shell of an automatic cavity
+    bool remove_islands = true;  ///< of the inside, below the least volume; the largest one stays in any case
+    double width = 0;            ///< local width of the cloud, its median
+    double least_volume = 30;    ///< in cubes of the width
+    double certain = 0.2;        ///< an automatic cavity has a value below the negative of this
+    std::size_t least_points = 12;  ///< nearest to the shell of an automatic cavity
 };
 
 /// Points of a cloud and, for each of them, a vertex near it.
@@ -45,14 +44,14 @@ struct LabelComponent {
     std::size_t points = 0;  ///< nearest to its shell; counted only where CavityPolicy::automatic needs them
 };
 
-/// Gives the other label to islands and cavities that do not stay: their vertices get 1e-3 of the other sign. Islands are
-/// removed first, so a cavity is judged with the room they leave.
+/// Gives the other label to islands and cavities that do not stay: their vertices get 1e-3 of the other sign. Islands
+/// are removed first, so a cavity is judged with the room they leave.
 ///
 /// A value above 0 is inside; vertices of a label are connected along edges; the tets fill a box. One value and one
 /// volume per point (GradedLattice::volumes()). A point of the cloud belongs to the shell that cuts the edges of the
 /// tets round its vertex nearest to it, by linear interpolation of the values before; to none where no edge is cut.
-/// Returns all components of the inside and all cavities, by their lowest vertices; what was enclosed by a component that did not stay
-/// is listed as it was found and counts as kept where its label is the same. O(T). [step]
+/// Returns all components of the inside and all cavities, by their lowest vertices. What was enclosed by a component
+/// that did not stay is listed as it was found; it counts as kept where its label is the same. O(T). [step]
 std::vector<LabelComponent> settle_components(std::span<const Vec3> points,
                                               std::span<const std::array<std::uint32_t, 4>> tets,
                                               std::span<double> values, std::span<const double> volumes,

@@ -4,11 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <dsc/geometry/vec.hpp>
 #include <optional>
 #include <span>
 #include <vector>
-
-#include <dsc/geometry/vec.hpp>
 
 namespace dsc::mesh {
 
@@ -27,40 +26,48 @@ struct TopologyCounts {
 };
 
 /// Counts without building the interface. The tets fill a box, conforming; one value per point. [step]
-TopologyCounts count_topology(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 4>> tets,
+TopologyCounts count_topology(std::span<const Vec3> points,
+                              std::span<const std::array<std::uint32_t, 4>> tets,
                               std::span<const double> values);
 
 /// Vertices beside each other whose label was changed.
 struct RefusedCluster {
-    Vec3 place;             ///< mean of the vertices
-    double level = 0;       ///< largest distance of their values from 0, before
+    Vec3 place;        ///< mean of the vertices
+    double level = 0;  ///< largest distance of their values from 0, before
     std::size_t vertices = 0;
     bool was_inside = false;  ///< a bridge was cut; else a tunnel was closed
 };
 
-/// Where two components of certain values became one.
-struct WeakestMerge {
-    double level = 0;  ///< distance of the value from 0
-    Vec3 place;
+/// A part with values from tau on that is connected to a larger one only through a vertex of a lower value.
+struct Attachment {
+    double level = 0;  ///< distance of that value from 0; a low one means that the connection may be wrong
+    Vec3 place = Vec3::Zero();  ///< of the vertex
+    std::size_t vertices = 0;   ///< of the smaller part, with values from tau on
+    bool inside = true;         ///< else of the outside: the way into a hollow
 };
 
 /// What filter_topology() did.
 struct TopologyFilterReport {
     TopologyCounts before, after;
-    std::size_t refused = 0;               ///< changes of a label, over both passes
-    std::vector<RefusedCluster> clusters;  ///< bridges first, each kind by its lowest vertex
-    /// The weakest place through which a part with values from tau on is attached to another one; none where all such parts
-    /// stay apart or are connected by values from tau on. A low level means that this connection may be wrong.
-    std::optional<WeakestMerge> inside, outside;
+    std::size_t refused = 0;                    ///< changes of a label, over both passes
+    std::vector<RefusedCluster> clusters;       ///< bridges first, each kind by its lowest vertex
+    std::vector<Attachment> attachments;        ///< of the inside first, in the order of growth
+    std::optional<Attachment> inside, outside;  ///< those with the lowest level, of parts of any size
 };
 
 /// Homotopic growth of the certain inside, values from tau on, down to 0 and then of the certain outside up to 0. The
-/// vertex with the strongest value comes first, of equal ones the first. It is refused while the grown part of its link has
-/// more components than the whole has near it, as it would close a loop there; it is asked again when a vertex beside it
-/// has been added. Vertices refused to the end get the other sign and 1e-3, or tau / 2 if that is less. Parts that
-/// start below tau or are merged by a vertex are allowed. One value per point; tau > 0 in units of the values; the tets
-/// fill a box, conforming. O(T + U log U) for T tets and U values below tau. [step]
-TopologyFilterReport filter_topology(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 4>> tets,
+/// vertex with the strongest value comes first, of equal ones the first. It is refused while the grown part of its
+/// link has more components than the whole has near it, as it would close a loop there; it is asked again when a
+/// vertex beside it has been added. Vertices refused to the end get the other sign and 1e-3, or tau / 2 if that is
+/// less. Parts that start below tau or are merged by a vertex are allowed. One value per point; tau > 0 in units of
+/// the values; the tets fill a box, conforming. O(T + U log U) for T tets and U values below tau. [step]
+TopologyFilterReport filter_topology(std::span<const Vec3> points,
+                                     std::span<const std::array<std::uint32_t, 4>> tets,
                                      std::span<double> values, double tau = 0.2);
+
+/// The attachment with the lowest level, of the inside or the outside, of parts with at least so many vertices; the first
+/// of equal ones. None where all such parts stay apart or are connected by values from tau on. [parallel]
+std::optional<Attachment> weakest_attachment(const TopologyFilterReport& report, bool inside,
+                                             std::size_t least_vertices);
 
 }  // namespace dsc::mesh
