@@ -75,16 +75,17 @@ TetMesh stuff_interface(const TetMesh& lattice, std::span<const double> values, 
     const std::vector<Snapped> snapped = snap_vertices(lattice, edges, signs, out, cancel);
     Stuffed stuffed = cut_tets(lattice, edges, table, signs);
     out.cut_vertices = stuffed.mesh.points.size() - lattice.points.size();
-    move_to_targets(stuffed, snapped, options, out);
     if (out.snapped_vertices + out.cut_vertices > options.most_interface_vertices) {
+        move_to_targets(stuffed, snapped, options, out);
         collapse_interface(stuffed, options, out, cancel);
         improve_free_vertices(stuffed, workers);
+        smooth_interface(stuffed, {}, options, out, cancel);
+    } else {
+        smooth_interface(stuffed, snapped, options, out, cancel);
     }
-    smooth_interface(stuffed, options, out, cancel);
-    improve_free_vertices(stuffed, workers);
+    out.least_quality = improve_free_vertices(stuffed, workers);
     out.interface_vertices = out.snapped_vertices + out.cut_vertices - out.collapsed_edges;
     out.interface_faces = stuffed.faces.size();
-    out.least_quality = least_quality(stuffed.mesh, workers);
     return std::move(stuffed.mesh);
 }
 
