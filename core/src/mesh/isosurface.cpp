@@ -12,11 +12,10 @@
 #include "mesh/stuff_snap.hpp"
 
 namespace dsc::mesh {
+namespace stuffing {
 namespace {
 
-using namespace stuffing;
-
-void check(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options, std::string_view name) {
+void check_input(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options, std::string_view name) {
     const auto text = [name](const std::string& cause) { return std::string(name) + ": " + cause; };
     if (!(options.cut_low > 0 && options.cut_low <= options.cut_high && options.cut_high < 1)) {
         throw ConfigError("stuff.options", text("cuts are asked for outside their edges; use 0 < cut_low <= cut_high < 1"));
@@ -60,13 +59,15 @@ std::vector<MixedEdge> mixed_edges(const TetMesh& lattice, std::span<const doubl
 }
 
 }  // namespace
+}  // namespace stuffing
 
 TetMesh stuff_interface(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options,
                         StuffReport* report, Workers* workers, const CancelToken* cancel, std::string_view name) {
+    using namespace stuffing;
     StuffReport local;
     StuffReport& out = report != nullptr ? *report : local;
     out = {};
-    check(lattice, values, options, name);
+    check_input(lattice, values, options, name);
     Signs signs(values.size());
     for (std::size_t v = 0; v < signs.size(); ++v) signs[v] = values[v] > 0 ? 1 : -1;
     EdgeTable table(lattice.points.size() / 2);

@@ -9,6 +9,8 @@
 namespace dsc::mesh::stuffing {
 
 using Corners = std::array<std::uint32_t, 4>;
+/// Stands where there is no vertex.
+inline constexpr std::uint32_t no_vertex = 0xffffffffU;
 
 /// Tets of each vertex with a mark, in ascending order; other vertices have none.
 class StarTable {

@@ -9,7 +9,6 @@
 namespace dsc::mesh::stuffing {
 namespace {
 
-constexpr std::uint32_t no_vertex = 0xffffffffU;
 // A free vertex beside the interface goes when its shortest edge is below this share of the interface's edges there.
 constexpr double dense = 0.5;
 

@@ -5,8 +5,6 @@
 namespace dsc::mesh::stuffing {
 namespace {
 
-constexpr std::uint32_t no_vertex = 0xffffffffU;
-
 class Cut {
 public:
     Cut(const TetMesh& lattice, std::span<const MixedEdge> edges, const EdgeTable& table, const Signs& signs)
