@@ -10,6 +10,8 @@
 #include <dsc/mesh/face_groups.hpp>
 #include <dsc/mesh/unpinch.hpp>
 
+#include "mesh/union_find.hpp"
+
 namespace dsc::mesh {
 namespace {
 
@@ -193,30 +195,24 @@ double mean_interface_edge(const Complex& c) {
 // Marks the tets of face-connected components of equal label that are clearly larger than the volume. Most of a mesh is in
 // such ones, and a union over the tets in their order runs through memory faster than a walk from tet to tet.
 std::vector<char> tets_of_large_components(const Complex& c, double volume) {
-    std::vector<TetId> parent(c.tet_slots());
-    const auto root = [&](TetId t) {
-        while (parent[t] != t) t = parent[t] = parent[parent[t]];
-        return t;
-    };
-    for (TetId t = 0; t < parent.size(); ++t) {
-        parent[t] = t;
+    const auto count = static_cast<TetId>(c.tet_slots());
+    UnionFind components(count);
+    for (TetId t = 0; t < count; ++t) {
         if (!c.tet_alive(t)) continue;
-        for (unsigned f = 0; f < 4; ++f) {
-            const std::uint32_t code = c.tet(t).n[f];
+        for (const std::uint32_t code : c.tet(t).n) {
             if (code == none || neighbour_tet(code) > t || c.label(neighbour_tet(code)) != c.label(t)) continue;
-            const TetId x = root(t), y = root(neighbour_tet(code));
-            parent[std::max(x, y)] = std::min(x, y);
+            components.join(t, neighbour_tet(code));
         }
     }
-    std::vector<char> large(parent.size(), 0);
-    std::vector<double> sums(parent.size(), 0.0);
-    for (TetId t = 0; t < parent.size(); ++t) {
-        const TetId first = root(t);
+    std::vector<char> large(count, 0);
+    std::vector<double> sums(count, 0.0);
+    for (TetId t = 0; t < count; ++t) {
+        const TetId first = components.find(t);
         if (!c.tet_alive(t) || large[first] != 0) continue;
         sums[first] += c.volume(t);
         large[first] = sums[first] > 2 * volume ? 1 : 0;
     }
-    for (TetId t = 0; t < parent.size(); ++t) large[t] = large[root(t)];
+    for (TetId t = 0; t < count; ++t) large[t] = large[components.find(t)];
     return large;
 }
 

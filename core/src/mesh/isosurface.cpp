@@ -15,7 +15,7 @@ namespace dsc::mesh {
 namespace stuffing {
 namespace {
 
-void check_input(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options, std::string_view name) {
+void check_input(const LatticeView& lattice, std::span<const double> values, const StuffOptions& options, std::string_view name) {
     const auto text = [name](const std::string& cause) { return std::string(name) + ": " + cause; };
     if (!(options.cut_low > 0 && options.cut_low <= options.cut_high && options.cut_high < 1)) {
         throw ConfigError("stuff.options", text("cuts are asked for outside their edges; use 0 < cut_low <= cut_high < 1"));
@@ -38,7 +38,7 @@ void check_input(const TetMesh& lattice, std::span<const double> values, const S
     }
 }
 
-std::vector<MixedEdge> mixed_edges(const TetMesh& lattice, std::span<const double> values, const Signs& signs,
+std::vector<MixedEdge> mixed_edges(const LatticeView& lattice, std::span<const double> values, const Signs& signs,
                                    const StuffOptions& options, EdgeTable& table) {
     std::vector<MixedEdge> edges;
     for (const Corners& tet : lattice.tets) {
@@ -61,9 +61,11 @@ std::vector<MixedEdge> mixed_edges(const TetMesh& lattice, std::span<const doubl
 }  // namespace
 }  // namespace stuffing
 
-TetMesh stuff_interface(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options,
-                        StuffReport* report, Workers* workers, const CancelToken* cancel, std::string_view name) {
+TetMesh stuff_interface(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 4>> tets,
+                        std::span<const double> values, const StuffOptions& options, StuffReport* report, Workers* workers,
+                        const CancelToken* cancel, std::string_view name) {
     using namespace stuffing;
+    const LatticeView lattice{points, tets};
     StuffReport local;
     StuffReport& out = report != nullptr ? *report : local;
     out = {};

@@ -6,9 +6,16 @@
 #include <span>
 #include <vector>
 
+#include <dsc/geometry/vec.hpp>
+
 namespace dsc::mesh::stuffing {
 
 using Corners = std::array<std::uint32_t, 4>;
+/// The mesh that is cut.
+struct LatticeView {
+    std::span<const Vec3> points;
+    std::span<const Corners> tets;
+};
 /// Stands where there is no vertex.
 inline constexpr std::uint32_t no_vertex = 0xffffffffU;
 
