@@ -30,8 +30,7 @@ void check_input(const LatticeView& lattice, std::span<const double> values, con
             throw GeometryError("stuff.values", text("the value of vertex " + std::to_string(v) +
                                                      " is 0 or not finite; every vertex must be on one side"));
         }
-        const auto p = lattice.points[v].array();
-        if (values[v] > 0 && ((p <= box.low.array()).any() || (p >= box.high.array()).any())) {
+        if (values[v] > 0 && lies_on(box, lattice.points[v])) {
             throw GeometryError("stuff.box", text("vertex " + std::to_string(v) +
                                                   " on the box is inside; use a larger box, so that the interface is closed"));
         }

@@ -16,6 +16,10 @@ struct LatticeView {
     std::span<const Vec3> points;
     std::span<const Corners> tets;
 };
+/// Whether the point lies on the box' sides or outside.
+inline bool lies_on(const Box3& box, const Vec3& p) {
+    return (p.array() <= box.low.array()).any() || (p.array() >= box.high.array()).any();
+}
 /// Stands where there is no vertex.
 inline constexpr std::uint32_t no_vertex = 0xffffffffU;
 

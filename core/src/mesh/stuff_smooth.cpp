@@ -165,8 +165,7 @@ double improve_free_vertices(Stuffed& stuffed, Workers* workers) {
     std::vector<std::uint32_t> free;
     const Box3 box = bounding_box(mesh.points);
     for (std::uint32_t v = 0; v < marks.size(); ++v) {
-        const auto p = mesh.points[v].array();
-        if ((p <= box.low.array()).any() || (p >= box.high.array()).any()) marks[v] = 0;
+        if (marks[v] != 0 && lies_on(box, mesh.points[v])) marks[v] = 0;
         if (marks[v] != 0) free.push_back(v);
     }
     if (free.empty()) return least;

@@ -139,10 +139,7 @@ struct Candidate {
 std::vector<char> marks_of_box(const LatticeView& lattice) {
     const Box3 box = bounding_box(lattice.points);
     std::vector<char> marks(lattice.points.size(), 0);
-    for (std::size_t v = 0; v < marks.size(); ++v) {
-        const auto p = lattice.points[v].array();
-        marks[v] = (p <= box.low.array()).any() || (p >= box.high.array()).any() ? 1 : 0;
-    }
+    for (std::size_t v = 0; v < marks.size(); ++v) marks[v] = lies_on(box, lattice.points[v]) ? 1 : 0;
     return marks;
 }
 
