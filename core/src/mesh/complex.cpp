@@ -246,17 +246,18 @@ VertexId Complex::replace(Edit& edit) {
     return created;
 }
 
-Complex Complex::assemble(std::vector<Vec3> points, std::span<const Tet> tets, std::span<const Label> labels) {
+Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::span<const Label> labels) {
     Complex c;
     c.vertices_.reserve(points.size());
     for (const Vec3& p : points) {
         c.vertices_.push_back({p, none, c.next_birth_++, 0, no_slot, 1, 0});
         c.box_.extend(p);
     }
-    c.tets_.assign(tets.begin(), tets.end());
+    c.tets_ = std::move(tets);
     c.labels_.assign(labels.begin(), labels.end());
-    const std::size_t n = tets.size();
+    const std::size_t n = c.tets_.size();
     c.qualities_.resize(n);
+    c.changes_.reserve(n);
     c.dates_.assign(n, 0);
     c.birth_dates_.assign(n, 1);
     c.clock_ = 1;

@@ -12,11 +12,10 @@
 #include "mesh/stuff_snap.hpp"
 
 namespace dsc::mesh {
+namespace stuffing {
 namespace {
 
-using namespace stuffing;
-
-void check(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options, std::string_view name) {
+void check_input(const LatticeView& lattice, std::span<const double> values, const StuffOptions& options, std::string_view name) {
     const auto text = [name](const std::string& cause) { return std::string(name) + ": " + cause; };
     if (!(options.cut_low > 0 && options.cut_low <= options.cut_high && options.cut_high < 1)) {
         throw ConfigError("stuff.options", text("cuts are asked for outside their edges; use 0 < cut_low <= cut_high < 1"));
@@ -31,15 +30,14 @@ void check(const TetMesh& lattice, std::span<const double> values, const StuffOp
             throw GeometryError("stuff.values", text("the value of vertex " + std::to_string(v) +
                                                      " is 0 or not finite; every vertex must be on one side"));
         }
-        const auto p = lattice.points[v].array();
-        if (values[v] > 0 && ((p <= box.low.array()).any() || (p >= box.high.array()).any())) {
+        if (values[v] > 0 && lies_on(box, lattice.points[v])) {
             throw GeometryError("stuff.box", text("vertex " + std::to_string(v) +
                                                   " on the box is inside; use a larger box, so that the interface is closed"));
         }
     }
 }
 
-std::vector<MixedEdge> mixed_edges(const TetMesh& lattice, std::span<const double> values, const Signs& signs,
+std::vector<MixedEdge> mixed_edges(const LatticeView& lattice, std::span<const double> values, const Signs& signs,
                                    const StuffOptions& options, EdgeTable& table) {
     std::vector<MixedEdge> edges;
     for (const Corners& tet : lattice.tets) {
@@ -60,13 +58,17 @@ std::vector<MixedEdge> mixed_edges(const TetMesh& lattice, std::span<const doubl
 }
 
 }  // namespace
+}  // namespace stuffing
 
-TetMesh stuff_interface(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options,
-                        StuffReport* report, Workers* workers, const CancelToken* cancel, std::string_view name) {
+TetMesh stuff_interface(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 4>> tets,
+                        std::span<const double> values, const StuffOptions& options, StuffReport* report, Workers* workers,
+                        const CancelToken* cancel, std::string_view name) {
+    using namespace stuffing;
+    const LatticeView lattice{points, tets};
     StuffReport local;
     StuffReport& out = report != nullptr ? *report : local;
     out = {};
-    check(lattice, values, options, name);
+    check_input(lattice, values, options, name);
     Signs signs(values.size());
     for (std::size_t v = 0; v < signs.size(); ++v) signs[v] = values[v] > 0 ? 1 : -1;
     EdgeTable table(lattice.points.size() / 2);
@@ -75,16 +77,17 @@ TetMesh stuff_interface(const TetMesh& lattice, std::span<const double> values, 
     const std::vector<Snapped> snapped = snap_vertices(lattice, edges, signs, out, cancel);
     Stuffed stuffed = cut_tets(lattice, edges, table, signs);
     out.cut_vertices = stuffed.mesh.points.size() - lattice.points.size();
-    move_to_targets(stuffed, snapped, options, out);
     if (out.snapped_vertices + out.cut_vertices > options.most_interface_vertices) {
+        move_to_targets(stuffed, snapped, options, out);
         collapse_interface(stuffed, options, out, cancel);
         improve_free_vertices(stuffed, workers);
+        smooth_interface(stuffed, {}, options, out, cancel);
+    } else {
+        smooth_interface(stuffed, snapped, options, out, cancel);
     }
-    smooth_interface(stuffed, options, out, cancel);
-    improve_free_vertices(stuffed, workers);
+    out.least_quality = improve_free_vertices(stuffed, workers);
     out.interface_vertices = out.snapped_vertices + out.cut_vertices - out.collapsed_edges;
     out.interface_faces = stuffed.faces.size();
-    out.least_quality = least_quality(stuffed.mesh, workers);
     return std::move(stuffed.mesh);
 }
 

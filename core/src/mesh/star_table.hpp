@@ -6,9 +6,22 @@
 #include <span>
 #include <vector>
 
+#include <dsc/geometry/vec.hpp>
+
 namespace dsc::mesh::stuffing {
 
 using Corners = std::array<std::uint32_t, 4>;
+/// The mesh that is cut.
+struct LatticeView {
+    std::span<const Vec3> points;
+    std::span<const Corners> tets;
+};
+/// Whether the point lies on the box' sides or outside.
+inline bool lies_on(const Box3& box, const Vec3& p) {
+    return (p.array() <= box.low.array()).any() || (p.array() >= box.high.array()).any();
+}
+/// Stands where there is no vertex.
+inline constexpr std::uint32_t no_vertex = 0xffffffffU;
 
 /// Tets of each vertex with a mark, in ascending order; other vertices have none.
 class StarTable {

@@ -9,7 +9,6 @@
 namespace dsc::mesh::stuffing {
 namespace {
 
-constexpr std::uint32_t no_vertex = 0xffffffffU;
 // A free vertex beside the interface goes when its shortest edge is below this share of the interface's edges there.
 constexpr double dense = 0.5;
 
@@ -193,11 +192,6 @@ private:
         out.erase(std::unique(out.begin(), out.end()), out.end());
     }
 
-    bool on_box(std::uint32_t v) const {
-        const auto p = at(v).array();
-        return (p <= box_.low.array()).any() || (p >= box_.high.array()).any();
-    }
-
     // Merges free vertices beside the interface into their nearest neighbours where they are denser than the interface.
     void thin_free_vertices() {
         std::vector<double> wanted(s_.mesh.points.size(), 0.0);
@@ -216,7 +210,7 @@ private:
             for (const std::uint32_t v : tet) reach[v] = std::max(reach[v], most);
         }
         for (std::uint32_t v = 0; v < reach.size(); ++v) {
-            if (reach[v] == 0.0 || !faces_.empty(v) || tets_.empty(v) || on_box(v)) continue;
+            if (reach[v] == 0.0 || !faces_.empty(v) || tets_.empty(v) || lies_on(box_, at(v))) continue;
             if (v % 1024 == 0) check_cancelled();
             merge_free_vertex(v, reach[v]);
         }

@@ -5,15 +5,13 @@
 namespace dsc::mesh::stuffing {
 namespace {
 
-constexpr std::uint32_t no_vertex = 0xffffffffU;
-
 class Cut {
 public:
-    Cut(const TetMesh& lattice, std::span<const MixedEdge> edges, const EdgeTable& table, const Signs& signs)
+    Cut(const LatticeView& lattice, std::span<const MixedEdge> edges, const EdgeTable& table, const Signs& signs)
         : lattice_(lattice), table_(table), signs_(signs), vertex_of_(edges.size(), no_vertex) {
         auto& points = out_.mesh.points;
         points.reserve(lattice.points.size() + edges.size());
-        points = lattice.points;
+        points.assign(lattice.points.begin(), lattice.points.end());
         for (std::size_t e = 0; e < edges.size(); ++e) {
             const MixedEdge& edge = edges[e];
             if (signs[edge.plus] == 0 || signs[edge.minus] == 0) continue;
@@ -136,7 +134,7 @@ private:
         }
     }
 
-    const TetMesh& lattice_;
+    LatticeView lattice_;
     const EdgeTable& table_;
     const Signs& signs_;
     std::vector<std::uint32_t> vertex_of_;  // of each mixed edge
@@ -146,7 +144,7 @@ private:
 
 }  // namespace
 
-Stuffed cut_tets(const TetMesh& lattice, std::span<const MixedEdge> edges, const EdgeTable& table, const Signs& signs) {
+Stuffed cut_tets(const LatticeView& lattice, std::span<const MixedEdge> edges, const EdgeTable& table, const Signs& signs) {
     return Cut(lattice, edges, table, signs).run();
 }
 

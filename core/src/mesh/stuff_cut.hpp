@@ -22,6 +22,6 @@ struct Stuffed {
 /// Cuts the mixed edges at their places and splits the mixed tets so that they fit together: quads on faces of the lattice
 /// get the diagonal from the end of lower index, those in the interface the shorter one. Edges with a snapped end are not
 /// cut. No tet has four snapped vertices.
-Stuffed cut_tets(const TetMesh& lattice, std::span<const MixedEdge> edges, const EdgeTable& table, const Signs& signs);
+Stuffed cut_tets(const LatticeView& lattice, std::span<const MixedEdge> edges, const EdgeTable& table, const Signs& signs);
 
 }  // namespace dsc::mesh::stuffing

@@ -1,6 +1,7 @@
 #include "mesh/stuff_smooth.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/quality.hpp>
@@ -25,26 +26,89 @@ public:
     // Whether the whole way could be gone.
     bool move(std::uint32_t v, const Vec3& target) {
         const Vec3 start = mesh_.points[v];
-        const auto star = stars_.of(v);
-        bounds_.clear();
-        for (const std::uint32_t t : star) bounds_.push_back(std::min(least_, quality(mesh_, mesh_.tets[t])));
         double share = 1.0;
         for (unsigned i = 0; i <= halvings; ++i, share *= 0.5) {
             mesh_.points[v] = start + share * (target - start);
-            bool good = true;
-            for (std::size_t k = 0; k < star.size() && good; ++k) good = quality(mesh_, mesh_.tets[star[k]]) >= bounds_[k];
-            if (good) return i == 0;
+            const auto star = stars_.of(v);
+            const auto good = [&](std::uint32_t t) { return good_after_move(v, start, mesh_.tets[t]); };
+            if (std::all_of(star.begin(), star.end(), good)) return i == 0;
         }
         mesh_.points[v] = start;
         return false;
     }
 
 private:
+    bool good_after_move(std::uint32_t v, const Vec3& start, const Corners& tet) {
+        const double now = quality(mesh_, tet);
+        if (now >= least_) return true;
+        const Vec3 moved = std::exchange(mesh_.points[v], start);
+        const double before = quality(mesh_, tet);
+        mesh_.points[v] = moved;
+        return now >= before;
+    }
+
     TetMesh& mesh_;
     StarTable stars_;
     double least_;
-    std::vector<double> bounds_;
 };
+
+void move_all(Mover& mover, std::span<const Snapped> snapped, StuffReport& report) {
+    for (const Snapped& s : snapped) {
+        if (!mover.move(s.vertex, s.target)) ++report.clipped_moves;
+    }
+}
+
+// Returns the least quality of all tets.
+double find_bad_tets(const TetMesh& mesh, Workers* workers, std::vector<std::uint32_t>& out) {
+    constexpr std::size_t block = 16384;
+    struct Found {
+        double least = 1.0;
+        std::vector<std::uint32_t> tets;
+    };
+    std::vector<Found> found(mesh.tets.size() / block + 1);
+    for_blocks(workers, mesh.tets.size(), block, [&](std::size_t begin, std::size_t end) {
+        Found& own = found[begin / block];
+        for (std::size_t t = begin; t < end; ++t) {
+            const double q = quality(mesh, mesh.tets[t]);
+            own.least = std::min(own.least, q);
+            if (q < bad) own.tets.push_back(static_cast<std::uint32_t>(t));
+        }
+    });
+    out.clear();
+    double least = 1.0;
+    for (const Found& part : found) {
+        least = std::min(least, part.least);
+        out.insert(out.end(), part.tets.begin(), part.tets.end());
+    }
+    return least;
+}
+
+double least_of(const TetMesh& mesh, std::span<const std::uint32_t> star, double bound) {
+    double least = 1.0;
+    for (const std::uint32_t t : star) {
+        least = std::min(least, quality(mesh, mesh.tets[t]));
+        if (least <= bound) break;
+    }
+    return least;
+}
+
+void improve(TetMesh& mesh, std::uint32_t v, std::span<const std::uint32_t> star) {
+    const double before = least_of(mesh, star, -1.0);
+    if (before >= bad) return;
+    // Every neighbour counts once per tet in which it is.
+    const Vec3 start = mesh.points[v];
+    Vec3 way = Vec3::Zero();
+    for (const std::uint32_t t : star) {
+        for (const std::uint32_t w : mesh.tets[t]) way += mesh.points[w] - start;
+    }
+    way /= 3.0 * static_cast<double>(star.size());
+    double share = 1.0;
+    for (unsigned i = 0; i <= halvings; ++i, share *= 0.5) {
+        mesh.points[v] = start + share * way;
+        if (least_of(mesh, star, before) > before) return;
+    }
+    mesh.points[v] = start;
+}
 
 }  // namespace
 
@@ -52,12 +116,11 @@ void move_to_targets(Stuffed& stuffed, std::span<const Snapped> snapped, const S
     std::vector<char> marks(stuffed.mesh.points.size(), 0);
     for (const Snapped& s : snapped) marks[s.vertex] = 1;
     Mover mover(stuffed, marks, options.least_quality);
-    for (const Snapped& s : snapped) {
-        if (!mover.move(s.vertex, s.target)) ++report.clipped_moves;
-    }
+    move_all(mover, snapped, report);
 }
 
-void smooth_interface(Stuffed& stuffed, const StuffOptions& options, StuffReport& report, const CancelToken* cancel) {
+void smooth_interface(Stuffed& stuffed, std::span<const Snapped> snapped, const StuffOptions& options, StuffReport& report,
+                      const CancelToken* cancel) {
     const std::size_t points = stuffed.mesh.points.size();
     std::vector<char> on_interface(points, 0);
     std::vector<std::uint32_t> degree(points, 0);
@@ -68,6 +131,7 @@ void smooth_interface(Stuffed& stuffed, const StuffOptions& options, StuffReport
         }
     }
     Mover mover(stuffed, on_interface, options.least_quality);
+    move_all(mover, snapped, report);
     std::vector<Vec3> sums(points);
     for (unsigned sweep = 0; sweep < options.smoothing_sweeps; ++sweep) {
         if (cancel != nullptr && cancel->cancelled()) throw CancelledError("the initial mesh was not finished");
@@ -87,20 +151,13 @@ void smooth_interface(Stuffed& stuffed, const StuffOptions& options, StuffReport
     }
 }
 
-void improve_free_vertices(Stuffed& stuffed, Workers* workers) {
+double improve_free_vertices(Stuffed& stuffed, Workers* workers) {
     TetMesh& mesh = stuffed.mesh;
-    constexpr std::size_t block = 16384;
-    std::vector<std::vector<std::uint32_t>> found(mesh.tets.size() / block + 1);
-    for_blocks(workers, mesh.tets.size(), block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t t = begin; t < end; ++t) {
-            if (quality(mesh, mesh.tets[t]) < bad) found[begin / block].push_back(static_cast<std::uint32_t>(t));
-        }
-    });
+    std::vector<std::uint32_t> bad_tets;
+    const double least = find_bad_tets(mesh, workers, bad_tets);
     std::vector<char> marks(mesh.points.size(), 0);
-    for (const auto& tets : found) {
-        for (const std::uint32_t t : tets) {
-            for (const std::uint32_t v : mesh.tets[t]) marks[v] = 1;
-        }
+    for (const std::uint32_t t : bad_tets) {
+        for (const std::uint32_t v : mesh.tets[t]) marks[v] = 1;
     }
     for (const Face& f : stuffed.faces) {
         for (const std::uint32_t v : f) marks[v] = 0;
@@ -108,50 +165,15 @@ void improve_free_vertices(Stuffed& stuffed, Workers* workers) {
     std::vector<std::uint32_t> free;
     const Box3 box = bounding_box(mesh.points);
     for (std::uint32_t v = 0; v < marks.size(); ++v) {
-        const auto p = mesh.points[v].array();
-        if ((p <= box.low.array()).any() || (p >= box.high.array()).any()) marks[v] = 0;
+        if (marks[v] != 0 && lies_on(box, mesh.points[v])) marks[v] = 0;
         if (marks[v] != 0) free.push_back(v);
     }
-    if (free.empty()) return;
+    if (free.empty()) return least;
     const StarTable stars(mesh.tets, marks);
-    const auto least_of = [&](std::span<const std::uint32_t> star, double bound) {
-        double least = 1.0;
-        for (const std::uint32_t t : star) {
-            least = std::min(least, quality(mesh, mesh.tets[t]));
-            if (least <= bound) break;
-        }
-        return least;
-    };
     for (unsigned round = 0; round < improvements; ++round) {
-        for (const std::uint32_t v : free) {
-            const auto star = stars.of(v);
-            const double before = least_of(star, -1.0);
-            if (before >= bad) continue;
-            // Every neighbour counts once per tet in which it is.
-            Vec3 sum = Vec3::Zero();
-            for (const std::uint32_t t : star) {
-                for (const std::uint32_t w : mesh.tets[t]) sum += mesh.points[w];
-            }
-            const Vec3 start = mesh.points[v], target = (sum / static_cast<double>(star.size()) - start) / 3.0;
-            double share = 1.0;
-            bool better = false;
-            for (unsigned i = 0; i <= halvings && !better; ++i, share *= 0.5) {
-                mesh.points[v] = start + share * (target - start);
-                better = least_of(star, before) > before;
-            }
-            if (!better) mesh.points[v] = start;
-        }
+        for (const std::uint32_t v : free) improve(mesh, v, stars.of(v));
     }
-}
-
-double least_quality(const TetMesh& mesh, Workers* workers) {
-    constexpr std::size_t block = 16384;
-    std::vector<double> least(mesh.tets.size() / block + 1, 1.0);
-    for_blocks(workers, mesh.tets.size(), block, [&](std::size_t begin, std::size_t end) {
-        double& own = least[begin / block];
-        for (std::size_t t = begin; t < end; ++t) own = std::min(own, quality(mesh, mesh.tets[t]));
-    });
-    return *std::min_element(least.begin(), least.end());
+    return find_bad_tets(mesh, workers, bad_tets);
 }
 
 }  // namespace dsc::mesh::stuffing

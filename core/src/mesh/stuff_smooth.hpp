@@ -13,13 +13,12 @@ namespace dsc::mesh::stuffing {
 /// or given up. Counts clipped moves.
 void move_to_targets(Stuffed& stuffed, std::span<const Snapped> snapped, const StuffOptions& options, StuffReport& report);
 
-/// Smooths all interface vertices, x <- x / 2 + mean of the ring / 2, in sweeps; moves are clipped as above.
-void smooth_interface(Stuffed& stuffed, const StuffOptions& options, StuffReport& report, const CancelToken* cancel);
+/// The same, then smooths all interface vertices, x <- x / 2 + mean of the ring / 2, in sweeps; moves are clipped as above.
+void smooth_interface(Stuffed& stuffed, std::span<const Snapped> snapped, const StuffOptions& options, StuffReport& report,
+                      const CancelToken* cancel);
 
 /// Moves free vertices of bad tets towards the means of their neighbours where this raises the least quality round them.
-void improve_free_vertices(Stuffed& stuffed, Workers* workers);
-
-/// Of all tets. [parallel]
-double least_quality(const TetMesh& mesh, Workers* workers);
+/// Returns the least quality of all tets.
+double improve_free_vertices(Stuffed& stuffed, Workers* workers);
 
 }  // namespace dsc::mesh::stuffing

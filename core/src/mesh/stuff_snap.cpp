@@ -136,13 +136,10 @@ struct Candidate {
     std::uint32_t vertex;
 };
 
-std::vector<char> marks_of_box(const TetMesh& lattice) {
+std::vector<char> marks_of_box(const LatticeView& lattice) {
     const Box3 box = bounding_box(lattice.points);
     std::vector<char> marks(lattice.points.size(), 0);
-    for (std::size_t v = 0; v < marks.size(); ++v) {
-        const auto p = lattice.points[v].array();
-        marks[v] = (p <= box.low.array()).any() || (p >= box.high.array()).any() ? 1 : 0;
-    }
+    for (std::size_t v = 0; v < marks.size(); ++v) marks[v] = lies_on(box, lattice.points[v]) ? 1 : 0;
     return marks;
 }
 
@@ -176,7 +173,7 @@ void EdgeTable::grow() {
     }
 }
 
-std::vector<Snapped> snap_vertices(const TetMesh& lattice, std::span<const MixedEdge> edges, Signs& signs, StuffReport& report,
+std::vector<Snapped> snap_vertices(const LatticeView& lattice, std::span<const MixedEdge> edges, Signs& signs, StuffReport& report,
                                    const CancelToken* cancel) {
     const std::size_t points = lattice.points.size();
     const EdgesOfVertices of(points, edges);

@@ -57,7 +57,7 @@ using Signs = std::vector<std::int8_t>;
 
 /// Sets the sign of snapped vertices to 0, nearest to their cut points first. Sets the counters of the report that belong to
 /// it.
-std::vector<Snapped> snap_vertices(const TetMesh& lattice, std::span<const MixedEdge> edges, Signs& signs, StuffReport& report,
+std::vector<Snapped> snap_vertices(const LatticeView& lattice, std::span<const MixedEdge> edges, Signs& signs, StuffReport& report,
                                    const CancelToken* cancel);
 
 }  // namespace dsc::mesh::stuffing

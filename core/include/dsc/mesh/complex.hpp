@@ -182,7 +182,7 @@ public:
     // ---- making and copying ---------------------------------------------------------------------------------------
     /// Builds from arrays that are already positive, conforming and box-filling (see adopt() for files).
     /// `neighbours` as in Tet::n.
-    static Complex assemble(std::vector<Vec3> points, std::span<const Tet> tets, std::span<const Label> labels);
+    static Complex assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::span<const Label> labels);
     /// Compact arrays, vertices in birth order, tets in the order of their sorted births: the same complex gives the
     /// same bytes whatever its slots. `ids`, if given, receives the complex' vertex of each point.
     TetMesh to_mesh(std::vector<VertexId>* ids = nullptr) const;

@@ -55,7 +55,8 @@ void for_each_face(std::size_t points, std::size_t tets, const Corners& corners,
     for (std::size_t first = 0; first < points; ++first) {
         const auto group = std::span(uses).subspan(start[first], start[first + 1] - start[first]);
         std::sort(group.begin(), group.end(), [](const FaceUse& a, const FaceUse& b) {
-            return a.second != b.second ? a.second < b.second : a.third != b.third ? a.third < b.third : a.code < b.code;
+            const auto ends = [](const FaceUse& use) { return std::uint64_t{use.second} << 32U | use.third; };
+            return ends(a) != ends(b) ? ends(a) < ends(b) : a.code < b.code;
         });
         for (std::size_t begin = 0, end = 0; begin < group.size(); begin = end) {
             end = begin + 1;

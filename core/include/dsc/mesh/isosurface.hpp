@@ -2,7 +2,9 @@
 // From one number per vertex of a lattice to labelled tets: isosurface stuffing [LabelleShewchuk2007] that keeps the
 // topology of the signs.
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -37,13 +39,19 @@ struct StuffReport {
     double least_quality = 1.0;          ///< of all tets at the end
 };
 
-/// Cuts a positive, conforming, box-filling lattice along the zero set of `values` (one a point, linear in each tet;
-/// positive is inside, label 1, the rest is label 0). The interface has the topology of the linear zero set exactly, every
-/// vertex of it is regular, all tets are positive. Vertices: those of the lattice in their order, as far as they are still
-/// used, then the cut points. Old labels are ignored. `name` is the generator named in messages.
-/// Throws ConfigError "stuff.options"; GeometryError "stuff.values" for a wrong number of values or one that is 0 or not
-/// finite, "stuff.box" for a positive one on the box; CancelledError. [setup]
-TetMesh stuff_interface(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options,
-                        StuffReport* report, Workers* workers, const CancelToken* cancel, std::string_view name);
+/// Cuts positive, conforming tets that fill a box along the zero set of `values` (one per point, linear in each tet; positive
+/// is inside, label 1, the rest is label 0). The interface has exactly the topology of this zero set, every vertex of it is
+/// regular, all tets are positive. Vertices: the points in their order, as far as they are still used, then the cut points.
+/// `name` is the generator named in messages. Throws ConfigError "stuff.options"; GeometryError "stuff.values" for a wrong
+/// number of values or one that is 0 or not finite, "stuff.box" for a positive one on the box; CancelledError. [setup]
+TetMesh stuff_interface(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 4>> tets,
+                        std::span<const double> values, const StuffOptions& options, StuffReport* report, Workers* workers,
+                        const CancelToken* cancel, std::string_view name);
+
+/// The same; the lattice's labels are ignored.
+inline TetMesh stuff_interface(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options,
+                               StuffReport* report, Workers* workers, const CancelToken* cancel, std::string_view name) {
+    return stuff_interface(lattice.points, lattice.tets, values, options, report, workers, cancel, name);
+}
 
 }  // namespace dsc::mesh
