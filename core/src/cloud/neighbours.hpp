@@ -25,6 +25,10 @@ struct Neighbours {
     std::size_t reached() const { return each < reach_neighbours ? each : reach_neighbours; }
 };
 
+/// The points along a Z-shaped curve through space, ties by index: neighbours in it are mostly neighbours in space, so that a
+/// search that follows it finds what it needs in the caches. [setup]
+std::vector<std::uint32_t> spatial_order(std::span<const Vec3> points);
+
 /// Finds `wanted` neighbours, at least 8, of every point. Throws GeometryError as NearestSearch. [setup]
 Neighbours find_neighbours(std::span<const Vec3> points, std::size_t wanted, Workers* workers);
 

@@ -146,18 +146,29 @@ struct WindingField::State {
 
     /// The sources of a group, gathered.
     void gather(const Interactions& found, const Strengths& strengths, WindingSources& sources) const {
-        sources.clear();
+        std::size_t count = found.clusters.size();
+        for (const auto& range : found.ranges) count += range[1] - range[0];
+        sources.resize(count);
+        std::array<float*, winding_quantities> to{};
+        for (std::size_t q = 0; q < to.size(); ++q) to[q] = sources.column(q);
+        std::size_t at = 0;
         for (const std::uint32_t index : found.clusters) {
-            const std::array<float, 3>& at = tree.nodes()[index].centre;
+            const std::array<float, 3>& centre = tree.nodes()[index].centre;
             const std::array<float, 3>& strength = strengths.clusters[index];
-            sources.append(at[0], at[1], at[2], cluster_half_squares[index], strength[0], strength[1], strength[2]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                to[k][at] = centre[k];
+                to[4 + k][at] = strength[k];
+            }
+            to[3][at] = cluster_half_squares[index];
+            ++at;
         }
-        const std::array<const float*, 7> from{tree.coordinates(0).data(),   tree.coordinates(1).data(),
-                                               tree.coordinates(2).data(),   half_squares.data(),
-                                               strengths.points[0].data(), strengths.points[1].data(),
-                                               strengths.points[2].data()};
-        for (const auto& range : found.ranges) sources.append(from, range[0], range[1]);
-        sources.pad();
+        const std::array<const float*, winding_quantities> from{
+            tree.coordinates(0).data(),  tree.coordinates(1).data(),  tree.coordinates(2).data(), half_squares.data(),
+            strengths.points[0].data(), strengths.points[1].data(), strengths.points[2].data()};
+        for (const auto& range : found.ranges) {
+            for (std::size_t q = 0; q < from.size(); ++q) std::copy(from[q] + range[0], from[q] + range[1], to[q] + at);
+            at += range[1] - range[0];
+        }
     }
 
     void require_lists(Workers* workers) {

@@ -1,7 +1,6 @@
 // Compiled with -fno-math-errno, which lets the compiler take eight square roots at once; nothing else depends on it.
 #include "winding_kernels.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -99,27 +98,15 @@ bool wide() {
 
 }  // namespace
 
-void WindingSources::reserve(std::size_t count) {
-    if (count <= values_[0].size()) return;
-    for (std::vector<float>& value : values_) value.resize(std::max(count, 2 * value.size()));
-}
-
-void WindingSources::append(float x, float y, float z, float half_square, float a, float b, float c) {
-    reserve(count_ + 1);
-    const std::array<float, 7> from{x, y, z, half_square, a, b, c};
-    for (std::size_t q = 0; q < from.size(); ++q) values_[q][count_] = from[q];
-    ++count_;
-}
-
-void WindingSources::append(const std::array<const float*, 7>& from, std::size_t begin, std::size_t end) {
-    reserve(count_ + (end - begin));
-    for (std::size_t q = 0; q < from.size(); ++q)
-        std::copy(from[q] + begin, from[q] + end, values_[q].begin() + static_cast<std::ptrdiff_t>(count_));
-    count_ += end - begin;
-}
-
-void WindingSources::pad() {
-    while (count_ % winding_lanes != 0) append(0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F);
+void WindingSources::resize(std::size_t count) {
+    count_ = (count + winding_lanes - 1) / winding_lanes * winding_lanes;
+    if (count_ > stride_) {
+        // Not a power of two: columns that begin at the same place of the cache would drive each other out.
+        stride_ = 2 * count_ + 3 * winding_lanes;
+        values_.assign(winding_quantities * stride_, 0.0F);
+    }
+    for (std::size_t q = 0; q < winding_quantities; ++q)
+        for (std::size_t n = count; n < count_; ++n) column(q)[n] = q == 3 ? 1.0F : 0.0F;
 }
 
 float sum_winding(const WindingSources& sources, const WindingTarget& target) {

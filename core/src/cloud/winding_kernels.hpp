@@ -11,24 +11,23 @@ namespace dsc::cloud {
 
 /// Sums that run side by side.
 inline constexpr std::size_t winding_lanes = 8;
+/// What there is to know about a source.
+inline constexpr std::size_t winding_quantities = 7;
 
 /// Sources of one group of targets, one array per quantity: position, half the squared smoothing length, and a vector; sums of
 /// scalars use only the vector's first component.
 class WindingSources {
 public:
-    void clear() { count_ = 0; }
-    void append(float x, float y, float z, float half_square, float a, float b, float c);
-    /// Adds points begin..end-1 of seven arrays, given in the order of append().
-    void append(const std::array<const float*, 7>& from, std::size_t begin, std::size_t end);
-    /// Fills up with sources of no strength, to a whole number of lanes.
-    void pad();
+    /// Makes room for `count` sources, to be written to `column(q)[0..count-1]`, and adds ones of no strength up to a whole
+    /// number of lanes.
+    void resize(std::size_t count);
     std::size_t count() const { return count_; }
-    const float* operator[](std::size_t quantity) const { return values_[quantity].data(); }
+    float* column(std::size_t quantity) { return values_.data() + quantity * stride_; }
+    const float* operator[](std::size_t quantity) const { return values_.data() + quantity * stride_; }
 
 private:
-    void reserve(std::size_t count);
-
-    std::array<std::vector<float>, 7> values_;
+    std::vector<float> values_;  ///< one column behind the other
+    std::size_t stride_ = 0;     ///< from one column to the next
     std::size_t count_ = 0;
 };
 

@@ -18,8 +18,9 @@ namespace dsc::cloud {
 ///   -grad w(x) = 1/(4 pi) sum_j [mu_j / rho^3 - 3 (mu_j . d) d / rho^5]       (G mu at the positions),
 ///   (A^T r)_j  = 1/(4 pi) sum_i r_i (y_j - x_i) / rho^3.
 /// Sources that are far from a group of targets count as one, at their weighted mean. The sums are taken in float after
-/// moving and scaling the positions, so coordinates may be large; an error of about 1e-3 of w is usual. The same bits come out
-/// for any number of threads and with registers of any width.
+/// moving and scaling the positions, so coordinates may be large; errors of w of 0.01 are
+/// usual, and they fall with `opening`. The same bits come out for any number of threads and with registers of any
+/// width.
 class WindingField {
 public:
     /// `weights`: one per position, positive, such as areas; they say where the middle of a cluster is. A cluster is taken
