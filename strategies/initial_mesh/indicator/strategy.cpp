@@ -86,7 +86,7 @@ std::size_t Indicator::most_vertices(std::size_t points) const {
     double budget = params_.vertices ? static_cast<double>(*params_.vertices) : cloud::vertex_budget(points);
     if (!params_.vertices && params_.detail == Detail::low) budget *= 0.5;
     if (!params_.vertices && params_.detail == Detail::high) budget *= 2.0;
-    return static_cast<std::size_t>(std::llround(std::max(4.0, params_.start * budget)));
+    return static_cast<std::size_t>(std::floor(std::max(4.0, params_.start * budget)));
 }
 
 mesh::TetMesh Indicator::build(const hooks::InitialMeshContext& context) {
