@@ -29,6 +29,7 @@ constexpr double far_from_surface = 0.45;  // |w - 1/2| of what lies inside or o
 constexpr double off_surface = 0.3;        // the same where the point lies apart from its neighbours as well
 constexpr double apart = 1.25;
 constexpr std::size_t width_neighbours = 12;
+constexpr double unit_tolerance = 1e-6;
 
 std::vector<double> squares_of(std::span<const double> widths) {
     std::vector<double> out(widths.begin(), widths.end());
@@ -230,7 +231,8 @@ OrientedPoints orient_by_normals(std::span<const Vec3> points, std::span<const V
                                                  counted(points.size(), "point") + "; let the filter orient estimate them");
     std::vector<Vec3> unit(normals.size());
     for (std::size_t i = 0; i < normals.size(); ++i) {
-        unit[i] = direction_or(normals[i], Vec3::Zero());
+        const bool already = std::abs(normals[i].squaredNorm() - 1.0) < unit_tolerance;  // then every bit stays
+        unit[i] = already ? normals[i] : direction_or(normals[i], Vec3::Zero());
         if (unit[i].isZero(0.0))
             throw GeometryError("cloud.normals", named(name) + ": the normal of point " + std::to_string(i) +
                                                      " has no direction; let the filter orient estimate the normals");

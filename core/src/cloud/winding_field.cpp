@@ -1,4 +1,4 @@
-// Sums over clusters [Barnes and Hut 1986], of order 0, for groups of neighbouring targets.
+// Sums over clusters [Barill2018], of order 0, for groups of neighbouring targets.
 #include <dsc/cloud/winding_field.hpp>
 
 #include <algorithm>

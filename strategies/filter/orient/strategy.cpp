@@ -1,0 +1,83 @@
+#include "strategy.hpp"
+
+#include <numeric>
+#include <utility>
+
+#include <dsc/base/error.hpp>
+
+namespace dsc::strategies {
+
+namespace {
+
+// Normals of a file whose winding number is farther than this from 1/2 do not all point outwards: halfway between what the worst
+// scans reach and what normals of random signs have.
+constexpr double most_residual = 0.25;
+
+double mean(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+cloud::Filtered with_attributes(const cloud::Cloud& cloud, cloud::OrientedPoints found, bool estimated) {
+    cloud::Filtered result;
+    result.report.kept = cloud.points.size();
+    result.report.figures = {{"estimated", estimated ? 1.0 : 0.0},
+                             {"residual", found.orientation.residual},
+                             {"noise", found.orientation.noise},
+                             {"samples", static_cast<double>(found.orientation.samples.size())},
+                             {"dropped", static_cast<double>(found.dropped)},
+                             {"mean_confidence", mean(found.confidence)}};
+    result.cloud.points = cloud.points;
+    result.cloud.colours = cloud.colours;
+    result.cloud.source = cloud.source;
+    result.cloud.normals = std::move(found.normals);
+    result.cloud.areas = std::move(found.areas);
+    result.cloud.confidence = std::move(found.confidence);
+    result.cloud.orientation = std::move(found.orientation);
+    return result;
+}
+
+}  // namespace
+
+void Orient::declare(config::ParamSchema<Params>& schema) {
+    schema
+        .choice("from", &Params::from,
+                {{"auto", NormalSource::automatic}, {"file", NormalSource::file}, {"estimate", NormalSource::estimate}})
+        .doc("Where the normals come from: the file, the points alone, or (auto) the file if it has normals that point outwards.");
+    schema.boolean("all_points", &Params::all_points)
+        .doc("Estimates with every point, or cell of a large cloud, from the start: slower, better at parts thinner than a few points.");
+    schema.integer("iterations", &Params::iterations)
+        .range(1, 1000)
+        .unit("1")
+        .doc("Iterations of the coarse stage of the estimate.");
+}
+
+Orient::Orient(const Params& params, const plugin::Setup&) : params_(params) {}
+
+cloud::OrientedPoints Orient::estimated(const cloud::Cloud& cloud, const hooks::FilterContext& context) const {
+    cloud::OrientOptions options;
+    options.all_points = params_.all_points;
+    options.coarse_iterations = params_.iterations;
+    return cloud::orient_points(cloud.points, options, context.workers, context.cancel, cloud.source);
+}
+
+cloud::OrientedPoints Orient::from_file(const cloud::Cloud& cloud, const hooks::FilterContext& context) const {
+    return cloud::orient_by_normals(cloud.points, cloud.normals, context.workers, context.cancel, cloud.source);
+}
+
+cloud::Filtered Orient::apply(const cloud::Cloud& cloud, const hooks::FilterContext& context) {
+    const bool has_normals = !cloud.normals.empty();
+    if (params_.from == NormalSource::file) {
+        if (!has_normals)
+            throw ConfigError("filter.normals", (cloud.source.empty() ? "cloud" : cloud.source) +
+                                                    ": filter orient: from: file needs normals, and the cloud has none; write " +
+                                                    "from: estimate, or take a file with normals");
+        return with_attributes(cloud, from_file(cloud, context), false);
+    }
+    if (params_.from == NormalSource::automatic && has_normals) {
+        cloud::OrientedPoints found = from_file(cloud, context);
+        if (found.orientation.residual <= most_residual) return with_attributes(cloud, std::move(found), false);
+    }
+    return with_attributes(cloud, estimated(cloud, context), true);
+}
+
+}  // namespace dsc::strategies

@@ -1,0 +1,110 @@
+#include "strategy.hpp"
+
+#include <doctest/doctest.h>
+
+#include <dsc/base/error.hpp>
+#include <dsc/base/random.hpp>
+#include <dsc/host/host.hpp>
+
+namespace {
+
+using dsc::Vec3;
+using dsc::cloud::Cloud;
+using dsc::cloud::Filtered;
+using dsc::config::ConfigNode;
+
+Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map()) {
+    dsc::host::Host host;
+    host.load(DSC_TEST_PLUGIN);
+    return host.create<dsc::hooks::CloudFilter>({"orient", params}, "input.cloud.filters.0")->apply(cloud, {});
+}
+
+/// 1,500 points on a sphere of radius 2.
+Cloud sphere() {
+    dsc::RandomStream random(dsc::RandomKey{1, 0, 0, 0});
+    Cloud cloud;
+    for (int i = 0; i < 1500; ++i) {
+        cloud.points.push_back(2.0 * Vec3(random.normal(), random.normal(), random.normal()).normalized());
+        cloud.colours.push_back({static_cast<std::uint8_t>(i % 256), 0, 0});
+    }
+    cloud.source = "sphere.xyz";
+    return cloud;
+}
+
+Cloud with_normals(double sign) {
+    Cloud cloud = sphere();
+    for (const Vec3& p : cloud.points) cloud.normals.push_back(sign * p.normalized());
+    return cloud;
+}
+
+bool outwards(const Cloud& cloud) {
+    for (std::size_t i = 0; i < cloud.points.size(); ++i)
+        if (!(cloud.normals[i].dot(cloud.points[i]) > 1.9)) return false;
+    return cloud.normals.size() == cloud.points.size();
+}
+
+double figure(const Filtered& result, const std::string& name) {
+    for (const auto& [key, value] : result.report.figures)
+        if (key == name) return value;
+    FAIL("no figure ", name);
+    return 0.0;
+}
+
+ConfigNode from(const char* source) { return ConfigNode::map({{"from", source}}); }
+
+}  // namespace
+
+TEST_CASE("a cloud without normals gets them, and keeps its points and colours") {
+    const Cloud cloud = sphere();
+    const Filtered result = filtered(cloud);
+    CHECK(result.report.filter == "orient");
+    CHECK(result.report.removed == 0);
+    CHECK(result.cloud.points == cloud.points);
+    CHECK(result.cloud.colours == cloud.colours);
+    CHECK(outwards(result.cloud));
+    CHECK(result.cloud.orientation.samples.size() == 1500);
+    CHECK(result.cloud.areas.size() == 1500);
+    CHECK(result.cloud.confidence.size() == 1500);
+    CHECK(figure(result, "estimated") == 1.0);
+    CHECK(figure(result, "residual") < 0.1);
+    CHECK(figure(result, "mean_confidence") > 0.8);
+}
+
+TEST_CASE("normals of the file are taken where they are wanted") {
+    const Cloud good = with_normals(1.0);
+    const Filtered taken = filtered(good, from("file"));
+    CHECK(taken.cloud.normals == good.normals);
+    CHECK(figure(taken, "estimated") == 0.0);
+    CHECK(figure(filtered(good), "estimated") == 0.0);
+    CHECK(figure(filtered(good, from("estimate")), "estimated") == 1.0);
+}
+
+TEST_CASE("normals that point inwards are estimated anew unless they are insisted on") {
+    const Cloud bad = with_normals(-1.0);
+    const Filtered result = filtered(bad);
+    CHECK(figure(result, "estimated") == 1.0);
+    CHECK(outwards(result.cloud));
+    CHECK(filtered(bad, from("file")).cloud.normals == bad.normals);
+}
+
+TEST_CASE("without normals, those of the file cannot be taken") {
+    try {
+        filtered(sphere(), from("file"));
+        FAIL("nothing was thrown");
+    } catch (const dsc::Error& error) {
+        CHECK(std::string(error.what()).find("sphere.xyz") != std::string::npos);
+        CHECK(std::string(error.what()).find("from: estimate") != std::string::npos);
+        CHECK(error.exit_code() == dsc::ExitCode::config);
+    }
+}
+
+TEST_CASE("parameters are heard") {
+    CHECK(filtered(sphere(), ConfigNode::map({{"iterations", 1}})).report.figures != filtered(sphere()).report.figures);
+    CHECK_THROWS_AS(filtered(sphere(), from("nowhere")), dsc::ConfigError);
+    Cloud many = sphere();
+    for (std::size_t i = 0; many.points.size() < 11000; ++i)
+        many.points.push_back(2.0 * (many.points[i] + 0.37 * many.points[i + 1] + Vec3(0.01, 0, 0)).normalized());
+    many.colours.clear();
+    CHECK_FALSE(filtered(many, ConfigNode::map({{"iterations", 2}})).cloud.orientation.all_points);
+    CHECK(filtered(many, ConfigNode::map({{"iterations", 2}, {"all_points", true}})).cloud.orientation.all_points);
+}

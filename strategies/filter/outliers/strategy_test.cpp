@@ -1,0 +1,58 @@
+#include "strategy.hpp"
+
+#include <doctest/doctest.h>
+
+#include <dsc/base/error.hpp>
+#include <dsc/base/random.hpp>
+#include <dsc/host/host.hpp>
+
+namespace {
+
+using dsc::Vec3;
+using dsc::cloud::Cloud;
+using dsc::cloud::Filtered;
+using dsc::config::ConfigNode;
+
+Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map()) {
+    dsc::host::Host host;
+    host.load(DSC_TEST_PLUGIN);
+    return host.create<dsc::hooks::CloudFilter>({"outliers", params}, "input.cloud.filters.0")->apply(cloud, {});
+}
+
+/// 1,000 points on a sphere of radius 1; each has its index as confidence, in thousandths.
+Cloud sphere() {
+    dsc::RandomStream random(dsc::RandomKey{1, 0, 0, 0});
+    Cloud cloud;
+    for (int i = 0; i < 1000; ++i) {
+        cloud.confidence.push_back(0.001 * i);
+        cloud.points.push_back(Vec3(random.normal(), random.normal(), random.normal()).normalized());
+    }
+    return cloud;
+}
+
+}  // namespace
+
+TEST_CASE("points far from all others go, the rest keep their attributes") {
+    Cloud cloud = sphere();
+    cloud.points.emplace_back(3, 0, 0);
+    cloud.points.emplace_back(0, 0, 0);
+    cloud.confidence.resize(1002, 1.0);
+    const Filtered result = filtered(cloud);
+    CHECK(result.report.filter == "outliers");
+    CHECK(result.report.removed == 2);
+    CHECK(result.cloud.points == sphere().points);
+    CHECK(result.cloud.confidence == sphere().confidence);
+    REQUIRE(result.report.reasons.size() == 2);
+    CHECK(result.report.reasons[0].count + result.report.reasons[1].count == 2);
+}
+
+TEST_CASE("parameters are heard") {
+    Cloud cloud = sphere();
+    cloud.points.emplace_back(3, 0, 0);
+    cloud.confidence.push_back(1.0);
+    CHECK(filtered(sphere()).report.removed == 0);
+    CHECK(filtered(cloud, ConfigNode::map({{"most", 0.0}})).report.removed == 0);
+    CHECK(filtered(cloud, ConfigNode::map({{"isolated", 900.0}, {"far", 900.0}})).report.removed == 0);
+    CHECK(filtered(cloud, ConfigNode::map({{"isolated", 900.0}, {"far", 8.0}})).report.removed == 1);
+    CHECK_THROWS_AS(filtered(cloud, ConfigNode::map({{"isolated", 0.5}})), dsc::ConfigError);
+}
