@@ -7,8 +7,6 @@
 
 #include "quantised.hpp"
 
-#include "quantised.hpp"
-
 namespace dsc::improvement {
 namespace {
 
