@@ -5,7 +5,7 @@
 #   share/setup.sh run CLOUD [options]    the same with your own point cloud; options are those of `dsc reconstruct`
 #   share/setup.sh test [--full]          build with warnings as errors and run the test suite;
 #                                         --full also installs the tools that only a few tests need, and runs the
-#                                         gate on instruction counts
+#                                         gate on instruction counts and the comparison with the release build
 #
 # Works from any folder, never changes to another one: relative paths mean what they mean to the caller.
 set -euo pipefail
@@ -181,14 +181,15 @@ case "$command" in
                 say "setup: not all of ${full_packages[*]} could be installed; the tests that need them will be skipped"
         fi
         build dev
-        # valgrind makes the gate on instructions slow, so it is for --full.
-        without_gate=(-LE '^gate$')
+        # valgrind makes the gate on instructions slow, and the comparison with the release build compiles it.
+        left_out=(-LE '^(gate|slow)$')
         if [ "$full" = yes ]; then
-            without_gate=()
+            left_out=()
         else
-            say "setup: without the gate on instruction counts (ctest label gate), which test --full runs"
+            say "setup: without the gate on instruction counts and the comparison with the release build (ctest labels gate and" \
+                "slow), which test --full runs"
         fi
-        exec ctest --test-dir "$root/build/dev" --output-on-failure -j2 "${without_gate[@]}"
+        exec ctest --test-dir "$root/build/dev" --output-on-failure -j2 "${left_out[@]}"
         ;;
     -h | --help) usage ;;
     '') usage >&2 && exit 2 ;;
