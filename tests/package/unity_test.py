@@ -8,7 +8,7 @@ import unittest
 
 import package
 
-# Every part that counts: sampling, PCL's filters, the lattice, the kernel in blocks, refinement, colours of steps, all writers.
+# Sampling, filters, fairing, repairs, refinement and every writer take part.
 EXPERIMENT = """dsc: 1
 name: bytes
 seed: 1
