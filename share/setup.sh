@@ -5,7 +5,7 @@
 #   share/setup.sh run CLOUD [options]    the same with your own point cloud; options are those of `dsc reconstruct`
 #   share/setup.sh test [--full]          build with warnings as errors and run the test suite;
 #                                         --full also installs the tools that only a few tests need, and runs the
-#                                         gate on instruction counts
+#                                         gate on instruction counts and the comparison with the release build
 #
 # Works from any folder, never changes to another one: relative paths mean what they mean to the caller.
 set -euo pipefail
@@ -14,11 +14,11 @@ root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 os_release=${DSC_OS_RELEASE:-/etc/os-release}  # replaced by the script's own test
 
 build_packages=(
-    cmake ninja-build g++
+    cmake ninja-build g++ doctest-dev
     libboost-dev libcli11-dev libeigen3-dev libembree-dev libjs-three libnanoflann-dev libopenmesh-dev libpcl-dev libpng-dev librandom123-dev
     libspdlog-dev libssl-dev libvtk9-dev libyaml-cpp-dev nlohmann-json3-dev
 )
-test_packages=(doctest-dev libbenchmark-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-jsonschema python3-yaml)
+test_packages=(libbenchmark-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-jsonschema python3-yaml)
 full_packages=(valgrind chromium chromium-driver munge parallel python3-meshio slurm-wlm snakemake)
 
 say() { printf '%s\n' "$*" >&2; }
@@ -97,11 +97,22 @@ compile_jobs() {
     echo "$cores"
 }
 
+# What the release build costs in the compiler, in minutes of one core.
+release_minutes=5
+
+# Said before anything else, where nothing is built yet.
+announce() {
+    local jobs
+    jobs=$(compile_jobs)
+    [ -x "$dsc" ] || say "setup: the first run compiles dsc, which usually takes $(((release_minutes + jobs - 1) / jobs)) min with" \
+        "$jobs at a time, after a minute or two for packages that are missing; later runs start at once"
+}
+
 build() {  # build PRESET
-    say "setup: building $(shown "$root/build/$1")"
+    say "setup: building $(shown "$root/build/$1"); the counter tells steps done, steps in all and the time"
     cmake -S "$root" --preset "$1" --log-level=WARNING >&2 ||
         fail 1 "CMake could not configure the build; its message above names what it did not find"
-    cmake --build "$root/build/$1" -j "$(compile_jobs)" >&2 || fail 1 "the build failed; the compiler's message is above"
+    NINJA_STATUS='[%f/%t, %e s] ' cmake --build "$root/build/$1" -j "$(compile_jobs)" >&2 || fail 1 "the build failed; the compiler's message is above"
 }
 
 # The closing lines of `run`, for eyes and for scripts.
@@ -152,6 +163,7 @@ case "$command" in
             case "$1" in -*) fail 2 "expected a point cloud after run, got the option $1; see share/setup.sh --help" ;; esac
             if [ ! -f "$1" ] || [ ! -r "$1" ]; then fail 6 "$1: no such readable file; give the path of a point cloud"; fi
         fi
+        announce
         provide "${build_packages[@]}"
         build release
         if [ $# -gt 0 ]; then run_cloud "$@"; else run_default; fi
@@ -169,14 +181,15 @@ case "$command" in
                 say "setup: not all of ${full_packages[*]} could be installed; the tests that need them will be skipped"
         fi
         build dev
-        # valgrind makes the gate on instructions slow, so it is for --full.
-        without_gate=(-LE '^gate$')
+        # valgrind makes the gate on instructions slow, and the comparison with the release build compiles it.
+        left_out=(-LE '^(gate|slow)$')
         if [ "$full" = yes ]; then
-            without_gate=()
+            left_out=()
         else
-            say "setup: without the gate on instruction counts (ctest label gate), which test --full runs"
+            say "setup: without the gate on instruction counts and the comparison with the release build (ctest labels gate and" \
+                "slow), which test --full runs"
         fi
-        exec ctest --test-dir "$root/build/dev" --output-on-failure -j2 "${without_gate[@]}"
+        exec ctest --test-dir "$root/build/dev" --output-on-failure -j2 "${left_out[@]}"
         ;;
     -h | --help) usage ;;
     '') usage >&2 && exit 2 ;;

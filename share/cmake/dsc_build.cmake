@@ -26,6 +26,11 @@ target_compile_options(dsc_flags INTERFACE
 if(DSC_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(dsc_flags INTERFACE -Wno-maybe-uninitialized)
 endif()
+# A unity build compiles the sources of a target as one. Whether a name hides another one, and whether a type that others see has
+# parts that they cannot see, is judged file by file, which only the other presets do.
+if(CMAKE_UNITY_BUILD)
+  target_compile_options(dsc_flags INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 if(DSC_SANITIZE STREQUAL "address")
   target_compile_options(dsc_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
   target_link_options(dsc_flags INTERFACE -fsanitize=address,undefined)
@@ -35,30 +40,6 @@ elseif(DSC_SANITIZE STREQUAL "thread")
 elseif(NOT DSC_SANITIZE STREQUAL "")
   message(FATAL_ERROR "DSC_SANITIZE=${DSC_SANITIZE}: accepted are address and thread")
 endif()
-
-# dsc_precompile(TARGET [HEADERS...]): Eigen and the common standard headers, and those named, are read once, not in each of the
-# target's sources, which takes a quarter off the time in the compiler. Off where warnings count, as in the preset dev: a source
-# must include what it uses, and g++ 12 sees overflows in std::string's operator+ once it is precompiled.
-option(DSC_PRECOMPILE "Read the common headers once for all sources" OFF)
-set(dsc_common_headers <Eigen/Core> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map> <memory>
-  <optional> <span> <sstream> <string> <string_view> <unordered_map> <utility> <vector>)
-function(dsc_precompile target)
-  if(NOT DSC_PRECOMPILE)
-    return()
-  endif()
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-array-bounds>)
-  if(ARGN)
-    target_precompile_headers(${target} PRIVATE ${dsc_common_headers} ${ARGN})
-    return()
-  endif()
-  if(NOT TARGET dsc_precompiled)
-    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "")
-    add_library(dsc_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
-    target_link_libraries(dsc_precompiled PRIVATE Eigen3::Eigen dsc_flags)
-    target_precompile_headers(dsc_precompiled PRIVATE ${dsc_common_headers})
-  endif()
-  target_precompile_headers(${target} REUSE_FROM dsc_precompiled)
-endfunction()
 
 # dsc_module(NAME SOURCES ... [USES modules...] [LINK third-party targets...])
 # One module of the core. Its objects go into the shared core; the static library dsc_NAME is for tests, which link only
@@ -70,7 +51,6 @@ function(dsc_module name)
   target_include_directories(dsc_${name}_objects PRIVATE ${PROJECT_SOURCE_DIR}/core/include
     ${PROJECT_BINARY_DIR}/core/include ${PROJECT_SOURCE_DIR}/core/src)
   target_link_libraries(dsc_${name}_objects PRIVATE Eigen3::Eigen dsc_flags ${arg_LINK})
-  dsc_precompile(dsc_${name}_objects)
   add_library(dsc_${name} STATIC $<TARGET_OBJECTS:dsc_${name}_objects>)
   set_target_properties(dsc_${name} PROPERTIES LINKER_LANGUAGE CXX)
   target_include_directories(dsc_${name} INTERFACE ${PROJECT_SOURCE_DIR}/core/include ${PROJECT_BINARY_DIR}/core/include)

@@ -195,6 +195,28 @@ def short_files(tree):
             yield path, len(lines), f"{len(lines)} lines; split it by purpose"
 
 
+def file_local_names(tree):
+    """The sources of a folder, which the release build compiles as one, declare no file-local name twice."""
+    named = re.compile(r"(?:template <.*> )?(?:(?:struct|class|enum|enum class) (\w+)(?= [:{])|using (\w+) ="
+                       r"|(?:(?:inline|static) )*const(?:expr)? [^(]*?\b(\w+)(?: =|\{|\[)|(?!return|using)\w[\w:<>,*& ]*[ *&](\w+)\((.*)\) \{)")
+    seen = {}
+    for path, lines in tree.files.items():
+        if not path.endswith(".cpp") or is_test(path) or not path.startswith(("core/", "plugins/", "strategies/")):
+            continue
+        inside, space = False, ""
+        for number, line in enumerate(lines, 1):
+            space = line if line.startswith("namespace dsc") else space
+            inside = line == "namespace {" or (inside and line != "}  // namespace")
+            match = named.match(line) if inside else None
+            if not match:
+                continue
+            types = re.sub(r"\b\w+(?=,|$)", "", match[5]) if match[4] else ""  # functions of one name may differ in them
+            name = match[1] or match[2] or match[3] or match[4]
+            first, text = seen.setdefault((os.path.dirname(path), space, name, types), (path, line))
+            if first != path and not (match[2] and line == text):
+                yield path, number, f"{name} is a file-local name of {first} too, and the release build compiles both as one"
+
+
 def open_ends(tree):
     """Nothing is left open in the sources."""
     marks = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
@@ -273,7 +295,7 @@ def error_codes(tree):
 
 RULES = [
     third_party_walls, core_direction, declared_direction, strategy_direction, plugin_direction, nobody_uses_the_app,
-    banned_headers, libraries_do_not_print, header_guards, short_files, open_ends, machine_paths, top_level, readme_commands,
+    banned_headers, libraries_do_not_print, header_guards, short_files, file_local_names, open_ends, machine_paths, top_level, readme_commands,
     paper_keys, linked_pages, error_codes,
 ]
 

@@ -13,6 +13,7 @@ CLEAN = {
     "share/doc/references.bib": "@article{Known1999,\n}\n",
     "core/include/dsc/base/error.hpp": "#pragma once\n",
     "core/src/mesh/complex.cpp": "#include <dsc/base/error.hpp>\n#include \"mesh/rings.hpp\"\n// std::cout is for others\n",
+    "core/src/mesh/walks.cpp": "namespace dsc::mesh {\nnamespace {\nconstexpr int most = 3;\nusing Row = int;\nint turn(int a) {\n}  // namespace\n",
     "core/src/mesh/CMakeLists.txt": "dsc_module(mesh SOURCES complex.cpp USES base geometry LINK Boost::headers)\n",
     "core/src/cloud/read.cpp": "#include <pcl/io/pcd_io.h>\n",
     "core/src/io/vtu.cpp": "#include <vtkPoints.h>\n#include <OpenMesh/Core/Mesh/Handles.hh>\n",
@@ -72,6 +73,10 @@ PLANTED = {
     ],
     "header_guards": [("core/include/dsc/mesh/new.hpp", "// a header\n#pragma once"), (NORMAL[:-3] + "hpp", "")],
     "short_files": [("core/src/mesh/long.cpp", "\n" * 901)],
+    "file_local_names": [
+        ("core/src/mesh/zones.cpp", f"namespace dsc::mesh {{\nnamespace {{\n{line}\n}}  // namespace")
+        for line in ("constexpr double most = 1.0;", "struct Row {", "using Row = double;", "double turn(int angle) {")
+    ],
     "open_ends": [
         ("core/src/mesh/adopt.cpp", "// TO" "DO later"),
         ("tests/unit/mesh/adopt_test.cpp", "// FIX" "ME"),
@@ -119,6 +124,11 @@ class Lint(unittest.TestCase):
                     self.assertIn(rule, {f.rule for f in found})
                     place = path.split("/")[0] if rule == "top_level" else path
                     self.assertEqual({f.path for f in found if f.rule == rule}, {place})
+
+    def test_what_may_share_a_name(self):
+        for line in ("using Row = int;", "double turn(double angle) {"):
+            self.assertEqual(findings({"core/src/mesh/adopt.cpp": f"namespace dsc::mesh {{\nnamespace {{\n{line}\n}}  // namespace"}), [])
+        self.assertEqual(findings({"core/src/mesh/adopt.cpp": "namespace dsc::mesh {\nconstexpr int most = 3;"}), [])
 
     def test_build_folders_are_not_searched(self):
         self.assertEqual(findings({"build/dev/x.cpp": "#include <format>", "runs/a/x.md": "[x](gone.md)"}), [])

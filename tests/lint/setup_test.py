@@ -35,6 +35,7 @@ done""",
     "ninja": "true",
     "c++": "true",
     "cmake": """echo "cmake $*" >>"$FAKE/calls"
+[ "$1" != --build ] || echo "status $NINJA_STATUS" >>"$FAKE/calls"
 [ ! -e "$FAKE/build_fails" ] || exit 1
 [ "$1" != --build ] || { mkdir -p "$2/bin"; cp "$FAKE/dsc" "$2/bin/dsc"; chmod +x "$2/bin/dsc"; }""",
     "ctest": 'echo "ctest $*" >>"$FAKE/calls"; echo "the closing line of ctest"; exit "$(cat "$FAKE/ctest_code")"',
@@ -82,7 +83,8 @@ class Setup(unittest.TestCase):
         (install,) = self.calls("apt-get")
         self.assertIn(" --no-install-recommends ", install)
         self.assertIn(" libpcl-dev ", install)
-        self.assertNotRegex(install, r" (cmake|g\+\+|doctest-dev|chromium)( |$)")
+        self.assertNotRegex(install, r" (cmake|g\+\+|chromium)( |$)")
+        self.assertIn(" doctest-dev ", install)  # for the tests of one's own plugin
         self.assertEqual(self.setup("run").returncode, 0)
         self.assertEqual(self.calls("apt-get"), [])
 
@@ -128,6 +130,12 @@ class Setup(unittest.TestCase):
             "picture runs/quickstart/preview.png", "report runs/quickstart/report.html",
             "next: build/release/bin/dsc reconstruct YOUR_CLOUD -o surface.obj -o volume.vtu"])
         self.assertTrue(any("--preset release" in call for call in self.calls("cmake")))
+
+    def test_the_first_run_says_how_long_it_takes_and_shows_how_far_it_is(self):
+        lines = self.setup("run").stderr.splitlines()
+        self.assertRegex(lines[0], r"^setup: the first run compiles dsc, which usually takes [1-9]\d* min with [1-9]\d* at a time")
+        self.assertEqual(self.calls("status"), ["status [%f/%t, %e s] "])
+        self.assertNotIn("the first run", self.setup("run").stderr)
 
     def test_from_another_folder_the_paths_are_absolute(self):
         lines = self.setup("run", cwd=self.folder / "fake").stdout.splitlines()
@@ -177,7 +185,7 @@ class Setup(unittest.TestCase):
 
     def test_the_gate_is_run_by_full_only_and_its_absence_is_told(self):
         result = self.setup("test")
-        self.assertIn(" -LE ^gate$", self.calls("ctest")[0])
+        self.assertIn(" -LE ^(gate|slow)$", self.calls("ctest")[0])
         self.assertIn("without the gate", result.stderr)
         result = self.setup("test", "--full")
         self.assertNotIn("gate", self.calls("ctest")[0])

@@ -11,7 +11,7 @@ namespace dsc::cloud {
 
 namespace {
 
-constexpr std::size_t block = 512;
+constexpr std::size_t search_block = 512;
 
 /// The lowest 21 bits of a number, two zeros between each.
 std::uint64_t spread_bits(std::uint64_t bits) {
@@ -50,7 +50,7 @@ Neighbours find_neighbours(std::span<const Vec3> points, std::size_t wanted, Wor
     out.each = std::min(std::max(wanted, reach_neighbours), points.size() - 1);
     out.index.resize(points.size() * out.each);
     out.reach.resize(points.size());
-    for_blocks(workers, points.size(), block, [&](std::size_t begin, std::size_t end) {
+    for_blocks(workers, points.size(), search_block, [&](std::size_t begin, std::size_t end) {
         std::vector<Neighbour> found;
         for (std::size_t q = begin; q < end; ++q) {
             search.k_nearest(ordered[q], out.each + 1, found);
@@ -72,7 +72,7 @@ std::vector<double> median_reaches(const Neighbours& neighbours, Workers* worker
     std::vector<double> out(neighbours.reach.size());
     const std::size_t count = neighbours.reached();
     if (count == 0) return out;
-    for_blocks(workers, out.size(), block, [&](std::size_t begin, std::size_t end) {
+    for_blocks(workers, out.size(), search_block, [&](std::size_t begin, std::size_t end) {
         std::array<double, reach_neighbours> around{};
         for (std::size_t i = begin; i < end; ++i) {
             for (std::size_t n = 0; n < count; ++n) around[n] = neighbours.reach[neighbours.of(i)[n]];
@@ -89,7 +89,7 @@ std::vector<double> label_widths(const Neighbours& neighbours, Workers* workers)
     std::vector<double> out(neighbours.reach.size());
     const std::size_t count = neighbours.reached();
     if (count == 0) return out;
-    for_blocks(workers, out.size(), block, [&](std::size_t begin, std::size_t end) {
+    for_blocks(workers, out.size(), search_block, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             double sum = neighbours.reach[i];
             for (std::size_t n = 0; n < count; ++n) sum += neighbours.reach[neighbours.of(i)[n]];

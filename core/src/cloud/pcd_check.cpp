@@ -41,7 +41,7 @@ struct Field {
     std::size_t count = 1;
 };
 
-struct Header {
+struct PcdHeader {
     std::vector<Field> fields;
     std::size_t points = 0;
     std::string_view data;  ///< "ascii", "binary", "binary_compressed"
@@ -55,11 +55,11 @@ struct Header {
     }
 };
 
-class HeaderReader {
+class PcdHeaderReader {
 public:
-    HeaderReader(const std::string& file, std::string_view bytes) : file_(file), rest_(bytes) {}
+    PcdHeaderReader(const std::string& file, std::string_view bytes) : file_(file), rest_(bytes) {}
 
-    Header read() {
+    PcdHeader read() {
         std::string_view line;
         while (next_header_line(rest_, line)) {
             ++line_;
@@ -165,10 +165,10 @@ private:
     int seen_ = 0;
     std::size_t width_ = 0, height_ = 0;
     bool has_points_ = false, has_width_ = false, has_height_ = false;
-    Header header_;
+    PcdHeader header_;
 };
 
-void check_ascii(const std::string& file, const Header& header) {
+void check_ascii_rows(const std::string& file, const PcdHeader& header) {
     std::size_t columns = 0;
     for (const Field& field : header.fields) columns += field.count;
     std::size_t points = 0, number = header.lines;
@@ -202,7 +202,7 @@ void check_ascii(const std::string& file, const Header& header) {
     if (points < header.points) truncated(file, counted(header.points, "point"), points);
 }
 
-void check_compressed(const std::string& file, const Header& header) {
+void check_compressed(const std::string& file, const PcdHeader& header) {
     for (const Field& field : header.fields)
         if (field.name == "_")
             header_error(file, header.lines, "a padding field '_' in compressed data cannot be read");
@@ -227,10 +227,10 @@ void check_compressed(const std::string& file, const Header& header) {
 }  // namespace
 
 FileCheck check_pcd(const std::string& file, std::string_view bytes) {
-    const Header header = HeaderReader(file, bytes).read();
+    const PcdHeader header = PcdHeaderReader(file, bytes).read();
     if (header.points == 0) no_points(file, "save the cloud again");
     if (header.data == "ascii") {
-        check_ascii(file, header);
+        check_ascii_rows(file, header);
     } else if (header.data == "binary") {
         const std::size_t held = header.body.size() / header.step();
         if (held < header.points) truncated(file, counted(header.points, "point"), held);

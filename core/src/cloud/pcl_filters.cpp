@@ -11,10 +11,10 @@ namespace dsc::cloud {
 
 namespace {
 
-using Points = pcl::PointCloud<pcl::PointXYZ>;
+using PclPoints = pcl::PointCloud<pcl::PointXYZ>;
 
-Points::Ptr to_float(const std::vector<Vec3>& points) {
-    auto cloud = std::make_shared<Points>();
+PclPoints::Ptr to_float(const std::vector<Vec3>& points) {
+    auto cloud = std::make_shared<PclPoints>();
     cloud->reserve(points.size());
     for (const Vec3& p : points) {
         const Eigen::Vector3f f = p.cast<float>();

@@ -26,7 +26,7 @@ struct Element {
 
 enum class Format { ascii, little, big };
 
-struct Header {
+struct PlyHeader {
     Format format = Format::ascii;
     std::vector<Element> elements;
     std::string_view body;
@@ -47,11 +47,11 @@ std::size_t size_of(std::string_view name) {
     return 0;
 }
 
-class HeaderReader {
+class PlyHeaderReader {
 public:
-    HeaderReader(const std::string& file, std::string_view bytes) : file_(file), rest_(bytes) {}
+    PlyHeaderReader(const std::string& file, std::string_view bytes) : file_(file), rest_(bytes) {}
 
-    Header read() {
+    PlyHeader read() {
         std::string_view line;
         if (!next_header_line(rest_, line) || line != "ply")
             throw IoError("io.syntax", file_, "1", "the first line is not 'ply'",
@@ -150,7 +150,7 @@ private:
     const std::string& file_;
     std::string_view rest_;
     std::size_t line_ = 0;
-    Header header_;
+    PlyHeader header_;
 };
 
 /// What PCL's reader would take into the wrong place of a point without a word.
@@ -198,7 +198,7 @@ std::uint64_t unsigned_at(std::string_view bytes, std::size_t size, Format forma
     return value;
 }
 
-void check_binary(const std::string& file, const Header& header) {
+void check_binary(const std::string& file, const PlyHeader& header) {
     std::string_view rest = header.body;
     for (const Element& element : header.elements) {
         std::size_t fixed = 0;
@@ -255,7 +255,7 @@ void check_line(const std::string& file, std::size_t number, const Element& elem
                      "the line has more values than element " + in_quotes(element.name) + " has properties");
 }
 
-void check_ascii(const std::string& file, const Header& header) {
+void check_ascii_body(const std::string& file, const PlyHeader& header) {
     std::string_view rest = header.body;
     std::size_t number = header.lines;
     for (const Element& element : header.elements)
@@ -272,7 +272,7 @@ void check_ascii(const std::string& file, const Header& header) {
 }  // namespace
 
 FileCheck check_ply(const std::string& file, std::string_view bytes) {
-    const Header header = HeaderReader(file, bytes).read();
+    const PlyHeader header = PlyHeaderReader(file, bytes).read();
     const auto vertex = std::find_if(header.elements.begin(), header.elements.end(),
                                      [](const Element& element) { return element.name == "vertex"; });
     if (vertex == header.elements.end() || vertex->count == 0) no_points(file, "save the cloud again");
@@ -282,7 +282,7 @@ FileCheck check_ply(const std::string& file, std::string_view bytes) {
             throw IoError("io.syntax", file, "", "element " + in_quotes(element.name) + " has no properties",
                           "save the cloud again");
     if (header.format == Format::ascii)
-        check_ascii(file, header);
+        check_ascii_body(file, header);
     else
         check_binary(file, header);
     return {vertex->count};

@@ -12,7 +12,7 @@ namespace dsc::cloud {
 
 namespace {
 
-constexpr std::string_view accepted = ".pcd .ply .obj .xyz .txt .asc .pts .csv";
+constexpr std::string_view readable = ".pcd .ply .obj .xyz .txt .asc .pts .csv";
 
 std::string lower_extension(const std::filesystem::path& path) {
     std::string text = path.extension().string();
@@ -34,7 +34,7 @@ std::string lower_extension(const std::filesystem::path& path) {
     throw IoError("io.format", file, "",
                   extension.empty() ? "the file's name has no extension"
                                     : in_quotes(extension) + " is no known cloud format",
-                  "accepted are " + std::string(accepted));
+                  "accepted are " + std::string(readable));
 }
 
 bool is_table(const std::string& extension) {
@@ -55,7 +55,7 @@ void require_columns(const std::string& file, bool table, const ReadOptions& opt
 
 }  // namespace
 
-std::string_view cloud_extensions() { return accepted; }
+std::string_view cloud_extensions() { return readable; }
 
 bool is_cloud_file(const std::filesystem::path& path) {
     const std::string extension = lower_extension(path);

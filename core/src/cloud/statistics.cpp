@@ -13,12 +13,12 @@ namespace dsc::cloud {
 
 namespace {
 
-constexpr std::size_t block = 512;               // points per block; fixed, so that threads change nothing
+constexpr std::size_t statistics_block = 512;    // points per block; fixed, so that threads change nothing
 constexpr std::size_t point_neighbours = 12;     // of point_width
 constexpr std::size_t label_neighbours = 8;      // of label_width and outlier_score
-constexpr std::size_t most_probes = 2000;        // places where the noise is measured
+constexpr std::size_t noise_probes = 2000;       // places where the noise is measured
 constexpr double noise_quantile = 0.3;           // of the probes: most of them, not those at creases
-constexpr std::size_t coefficients = 6;          // of a quadric
+constexpr std::size_t quadric_coefficients = 6;  // of a quadric
 
 /// A neighbourhood in which the noise is measured, and the 0.3-quantile of chi^2 / m with m = points - 6.
 struct Neighbourhood {
@@ -47,21 +47,21 @@ double quadric_residual(std::span<const Vec3> points, std::span<const Neighbour>
     local.rowwise() -= mean;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(local.transpose() * local);
     const Eigen::MatrixX3d in_frame = local * axes.eigenvectors();  // columns: across the plane, then along it
-    Eigen::MatrixXd terms(count, static_cast<Eigen::Index>(coefficients));
+    Eigen::MatrixXd terms(count, static_cast<Eigen::Index>(quadric_coefficients));
     for (Eigen::Index n = 0; n < count; ++n) {
         const double x = in_frame(n, 1), y = in_frame(n, 2);
         terms.row(n) << 1.0, x, y, x * x, x * y, y * y;
     }
     const Eigen::VectorXd z = in_frame.col(0);
     const Eigen::VectorXd fit = terms.colPivHouseholderQr().solve(z);
-    return (terms * fit - z).squaredNorm() / static_cast<double>(members.size() - coefficients);
+    return (terms * fit - z).squaredNorm() / static_cast<double>(members.size() - quadric_coefficients);
 }
 
 /// Noise as one size of neighbourhood sees it; infinite where it cannot.
 double noise_of(const NearestSearch& search, const Neighbourhood& size, Workers* workers) {
     const std::span<const Vec3> points = search.points();
     if (points.size() < size.points) return INFINITY;
-    const std::size_t probes = std::min(points.size(), most_probes);
+    const std::size_t probes = std::min(points.size(), noise_probes);
     std::vector<double> squares(probes, 0.0);
     for_blocks(workers, probes, 64, [&](std::size_t begin, std::size_t end) {
         std::vector<Neighbour> members;
@@ -86,7 +86,7 @@ Reaches measure_reaches(const NearestSearch& search, Workers* workers) {
     out.point.resize(points.size());
     out.label.resize(points.size());
     out.neighbours.resize(points.size() * label_neighbours);
-    for_blocks(workers, points.size(), block, [&](std::size_t begin, std::size_t end) {
+    for_blocks(workers, points.size(), statistics_block, [&](std::size_t begin, std::size_t end) {
         std::vector<Neighbour> found;
         for (std::size_t i = begin; i < end; ++i) {
             search.k_nearest(points[i], point_neighbours + 1, found);
@@ -140,7 +140,7 @@ Statistics measure_cloud(const NearestSearch& search, Workers* workers) {
     out.point_width.resize(count);
     out.label_width.resize(count);
     out.outlier_score.resize(count);
-    for_blocks(workers, count, block, [&](std::size_t begin, std::size_t end) {
+    for_blocks(workers, count, statistics_block, [&](std::size_t begin, std::size_t end) {
         std::array<double, label_neighbours> around{};
         for (std::size_t i = begin; i < end; ++i) {
             out.point_width[i] = width_of(reach.point[i], others);

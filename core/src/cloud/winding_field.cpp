@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include <dsc/base/error.hpp>
@@ -20,7 +21,6 @@ namespace {
 constexpr std::size_t source_leaf = 16;
 constexpr std::size_t target_leaf = 48;
 constexpr std::size_t leaves_per_block = 16;
-constexpr double pi = 3.14159265358979323846;
 
 // Below this, in units of the box, a smoothing length counts as this long: it keeps the sums finite where a target lies on a
 // source, and is shorter than the resolution of the coordinates.
@@ -224,10 +224,10 @@ struct WindingField::State {
         });
     }
 
-    static double number(float sum) { return static_cast<double>(sum) / (4.0 * pi); }
+    static double number(float sum) { return static_cast<double>(sum) / (4.0 * std::numbers::pi); }
     static Vec3 vector(const std::array<float, 3>& sum, double factor) {
         return Vec3(static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])) *
-               (factor / (4.0 * pi));
+               (factor / (4.0 * std::numbers::pi));
     }
 
     Frame frame;

@@ -7,7 +7,7 @@
 namespace dsc::io {
 namespace {
 
-struct Reference {
+struct LargestIndex {
     std::size_t line = 0;
     std::uint32_t index = 0;
 };
@@ -36,7 +36,7 @@ mesh::TetMesh decode_dsc(std::string_view content, std::string_view file) {
     mesh::TetMesh mesh;
     Tokens tokens(content, file);
     // The largest index decides whether all are in range; vertices may follow the tets that name them.
-    Reference largest;
+    LargestIndex largest;
     for (std::string_view tag = tokens.next(); !tag.empty(); tag = tokens.next()) {
         if (tag == "v") {
             const double x = tokens.coordinate(), y = tokens.coordinate(), z = tokens.coordinate();

@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 42> skipped = {
     "call",      "csh",  "ctech",  "stech", "maplib", "usemap", "c_interp", "d_interp", "shadow_obj",
     "trace_obj", "bsp",  "bzp",    "cdc",   "cdp",    "res"};
 
-struct Reference {
+struct LateCorner {
     std::size_t line;
     std::int64_t index;
 };
@@ -131,7 +131,7 @@ private:
     }
 
     void check_later_vertices() {
-        for (const Reference& r : later_) {
+        for (const LateCorner& r : later_) {
             if (r.index <= static_cast<std::int64_t>(mesh_.points.size())) continue;
             fail("io.index", {lines_.place().file, r.line},
                  "vertex index " + std::to_string(r.index) + " of " + std::to_string(mesh_.points.size()),
@@ -143,7 +143,7 @@ private:
     surface::TriangleMesh mesh_;
     std::vector<std::uint32_t> polygon_;
     std::vector<Vec3> colours_;     ///< of the vertices so far, as long as each had one
-    std::vector<Reference> later_;  ///< corners that name a vertex which had not come yet
+    std::vector<LateCorner> later_;  ///< corners that name a vertex which had not come yet
 };
 
 }  // namespace

@@ -18,16 +18,16 @@
 namespace dsc::io {
 namespace {
 
-void require_size(std::size_t count, std::size_t expected, const std::string& array) {
+void require_surface_size(std::size_t count, std::size_t expected, const std::string& array) {
     if (count == expected) return;
     throw GeometryError("surface.size", "surface: array " + in_quotes(array) + " has " + counted(count, "value") + " for " +
                                             std::to_string(expected) + "; give one for each");
 }
 
 void check_arrays(const surface::TriangleMesh& mesh, const SurfaceData& data) {
-    for (const DataArray& a : data.cells) require_size(a.values.size(), mesh.faces.size(), a.name);
-    for (const DataArray& a : data.points) require_size(a.values.size(), mesh.points.size(), a.name);
-    for (const VectorArray& a : data.vectors) require_size(a.values.size(), mesh.points.size(), a.name);
+    for (const DataArray& a : data.cells) require_surface_size(a.values.size(), mesh.faces.size(), a.name);
+    for (const DataArray& a : data.points) require_surface_size(a.values.size(), mesh.points.size(), a.name);
+    for (const VectorArray& a : data.vectors) require_surface_size(a.values.size(), mesh.points.size(), a.name);
 }
 
 vtkSmartPointer<vtkDoubleArray> make_vectors(const VectorArray& vectors) {

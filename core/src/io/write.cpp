@@ -24,18 +24,18 @@ const Format& require_format(const std::filesystem::path& file, bool Format::*ki
     return *format;
 }
 
-void require_size(std::size_t count, std::size_t expected, const std::string& what) {
+void require_volume_size(std::size_t count, std::size_t expected, const std::string& what) {
     if (count == expected) return;
     throw GeometryError("volume.size", "volume: " + what + " has " + counted(count, "value") + " for " +
                                            std::to_string(expected) + "; give one for each");
 }
 
 void check_arrays(const mesh::TetMesh& mesh, const VolumeData& data) {
-    require_size(mesh.labels.size(), mesh.tets.size(), "the array of labels");
+    require_volume_size(mesh.labels.size(), mesh.tets.size(), "the array of labels");
     for (const DataArray& a : data.cells)
-        require_size(a.values.size(), mesh.tets.size(), "cell array " + in_quotes(a.name));
+        require_volume_size(a.values.size(), mesh.tets.size(), "cell array " + in_quotes(a.name));
     for (const DataArray& a : data.points) {
-        require_size(a.values.size(), mesh.points.size(), "point array " + in_quotes(a.name));
+        require_volume_size(a.values.size(), mesh.points.size(), "point array " + in_quotes(a.name));
     }
 }
 

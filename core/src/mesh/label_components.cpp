@@ -8,7 +8,7 @@
 namespace dsc::mesh {
 namespace {
 
-using Tet = std::array<std::uint32_t, 4>;
+using Corners = std::array<std::uint32_t, 4>;
 constexpr double changed_value = 1e-3;
 
 struct Region {
@@ -25,12 +25,12 @@ struct Regions {
     std::vector<std::uint32_t> of;  // region of each vertex
 };
 
-Regions regions_of(std::span<const Vec3> points, std::span<const Tet> tets, std::span<const double> values,
+Regions regions_of(std::span<const Vec3> points, std::span<const Corners> tets, std::span<const double> values,
                    std::span<const double> volumes) {
     UnionFind sets(points.size());
     std::vector<std::uint8_t> in(points.size());
     for (std::size_t v = 0; v < points.size(); ++v) in[v] = values[v] > 0 ? 1 : 0;
-    for (const Tet& tet : tets) {
+    for (const Corners& tet : tets) {
         for (std::size_t i = 0; i < 4; ++i) {
             for (std::size_t j = i + 1; j < 4; ++j) {
                 if (in[tet[i]] == in[tet[j]]) sets.join(tet[i], tet[j]);
@@ -74,9 +74,9 @@ void change(const Regions& regions, const std::vector<std::uint8_t>& chosen, std
 // as its root; so the enclosed one is the one farther from it.
 class Shells {
 public:
-    Shells(const Regions& regions, std::span<const Tet> tets) : depth_(regions.list.size(), unreached) {
+    Shells(const Regions& regions, std::span<const Corners> tets) : depth_(regions.list.size(), unreached) {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> touching;
-        for (const Tet& tet : tets) {
+        for (const Corners& tet : tets) {
             for (std::size_t i = 1; i < 4; ++i) {
                 const std::uint32_t a = regions.of[tet[0]], b = regions.of[tet[i]];
                 if (a != b) touching.emplace_back(std::min(a, b), std::max(a, b));
@@ -108,11 +108,11 @@ private:
 // The tets round chosen vertices.
 class Rounds {
 public:
-    Rounds(std::size_t vertices, std::span<const Tet> tets, std::span<const std::uint32_t> chosen)
+    Rounds(std::size_t vertices, std::span<const Corners> tets, std::span<const std::uint32_t> chosen)
         : begin_(vertices + 1, 0) {
         std::vector<std::uint8_t> wanted(vertices, 0);
         for (const std::uint32_t v : chosen) wanted[v] = 1;
-        for (const Tet& tet : tets) {
+        for (const Corners& tet : tets) {
             for (const std::uint32_t v : tet) begin_[v + 1] += wanted[v];
         }
         for (std::size_t v = 0; v < vertices; ++v) begin_[v + 1] += begin_[v];
@@ -133,7 +133,7 @@ private:
 };
 
 // Points of the cloud nearest to the shell round each region.
-std::vector<std::size_t> points_at_shells(std::span<const Vec3> points, std::span<const Tet> tets,
+std::vector<std::size_t> points_at_shells(std::span<const Vec3> points, std::span<const Corners> tets,
                                           std::span<const double> values, const Regions& regions,
                                           const PlacedPoints& cloud) {
     const Shells shells(regions, tets);
@@ -143,7 +143,7 @@ std::vector<std::size_t> points_at_shells(std::span<const Vec3> points, std::spa
         double least = std::numeric_limits<double>::infinity();
         std::uint32_t nearest = 0;
         for (const std::uint32_t t : rounds.at(cloud.vertices[p])) {
-            const Tet& tet = tets[t];
+            const Corners& tet = tets[t];
             for (std::size_t i = 0; i < 4; ++i) {
                 for (std::size_t j = i + 1; j < 4; ++j) {
                     const std::uint32_t a = tet[i], b = tet[j];
@@ -184,7 +184,7 @@ bool any(const std::vector<std::uint8_t>& chosen) {
 
 }  // namespace
 
-std::vector<LabelComponent> settle_components(std::span<const Vec3> points, std::span<const Tet> tets,
+std::vector<LabelComponent> settle_components(std::span<const Vec3> points, std::span<const Corners> tets,
                                               std::span<double> values, std::span<const double> volumes,
                                               const PlacedPoints& cloud, const ComponentOptions& options) {
     const double least_volume = options.least_volume * options.width * options.width * options.width;

@@ -10,13 +10,13 @@
 namespace dsc::mesh {
 namespace {
 
-using Tet = std::array<std::uint32_t, 4>;
+using Corners = std::array<std::uint32_t, 4>;
 constexpr std::uint32_t no_slot = std::numeric_limits<std::uint32_t>::max();
 
 // The values split into certain ones, whose components are found once, and weak ones with the tets round them.
 class Filter {
 public:
-    Filter(std::span<const Vec3> points, std::span<const Tet> tets, std::span<double> values, double tau)
+    Filter(std::span<const Vec3> points, std::span<const Corners> tets, std::span<double> values, double tau)
         : points_(points),
           tets_(tets),
           values_(values),
@@ -38,7 +38,7 @@ public:
         InterfaceCounter interface(points_, box_);
         for (const std::vector<std::uint32_t>* list : {&weak_tets_, &cut_tets_}) {
             for (const std::uint32_t t : *list) {
-                const Tet& tet = tets_[t];
+                const Corners& tet = tets_[t];
                 const std::array<bool, 4> in = {inside(tet[0]), inside(tet[1]), inside(tet[2]),
                                                 inside(tet[3])};
                 join_equal(sets, tet, in);
@@ -104,7 +104,7 @@ private:
 
     bool inside(std::size_t v) const { return values_[v] > 0; }
 
-    static void join_equal(UnionFind& sets, const Tet& tet, const std::array<bool, 4>& in) {
+    static void join_equal(UnionFind& sets, const Corners& tet, const std::array<bool, 4>& in) {
         for (std::size_t i = 0; i < 4; ++i) {
             for (std::size_t j = i + 1; j < 4; ++j) {
                 if (in[i] == in[j]) sets.join(tet[i], tet[j]);
@@ -117,7 +117,7 @@ private:
         std::vector<std::uint8_t> kind(points_.size());  // 0 outside, 1 inside, 2 weak
         for (std::size_t v = 0; v < kind.size(); ++v) kind[v] = slot_[v] != no_slot ? 2 : inside(v) ? 1 : 0;
         for (std::size_t t = 0; t < tets_.size(); ++t) {
-            const Tet& tet = tets_[t];
+            const Corners& tet = tets_[t];
             const std::array<std::uint8_t, 4> k = {kind[tet[0]], kind[tet[1]], kind[tet[2]], kind[tet[3]]};
             if (k[0] == k[1] && k[0] == k[2] && k[0] == k[3] && k[0] != 2) {
                 certain_.join(tet[0], tet[1]);
@@ -285,7 +285,7 @@ private:
     };
 
     std::span<const Vec3> points_;
-    std::span<const Tet> tets_;
+    std::span<const Corners> tets_;
     std::span<double> values_;
     double tau_;
     Box3 box_;
@@ -302,13 +302,13 @@ private:
 
 }  // namespace
 
-TopologyCounts count_topology(std::span<const Vec3> points, std::span<const Tet> tets,
+TopologyCounts count_topology(std::span<const Vec3> points, std::span<const Corners> tets,
                               std::span<const double> values) {
     std::vector<double> copy(values.begin(), values.end());
     return Filter(points, tets, copy, 0).count();
 }
 
-TopologyFilterReport filter_topology(std::span<const Vec3> points, std::span<const Tet> tets,
+TopologyFilterReport filter_topology(std::span<const Vec3> points, std::span<const Corners> tets,
                                      std::span<double> values, double tau) {
     TopologyFilterReport report;
     Filter filter(points, tets, values, tau);

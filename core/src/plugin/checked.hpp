@@ -4,8 +4,16 @@
 
 #include <dsc/plugin/guarded.hpp>
 #include <memory>
+#include <string>
+#include <string_view>
 
 namespace dsc::plugin {
+
+/// The usual remedy for what only a plugin's authors can put right.
+inline constexpr std::string_view report_it = "report this to the plugin's authors";
+
+/// An entry of a list as a message names it: "normal 3".
+inline std::string entry(std::string_view what, std::size_t index) { return std::string(what) + " " + std::to_string(index); }
 
 /// What a wrapper knows about its strategy.
 struct Attribution {

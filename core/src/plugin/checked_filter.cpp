@@ -8,10 +8,6 @@
 namespace dsc::plugin {
 namespace {
 
-constexpr std::string_view report = "report this to the plugin's authors";
-
-std::string at(std::string_view what, std::size_t index) { return std::string(what) + " " + std::to_string(index); }
-
 std::string count_of(std::size_t count, std::string_view what) {
     return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
 }
@@ -26,7 +22,7 @@ void judge_size(const Call& current, std::string_view what, std::size_t size, st
 void judge_finite(const Call& current, std::string_view what, const std::vector<Vec3>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (values[i].allFinite()) continue;
-        fail(current, "strategy.not_finite", "gave " + at(what, i) + " a coordinate that is not finite", report);
+        fail(current, "strategy.not_finite", "gave " + entry(what, i) + " a coordinate that is not finite", report_it);
     }
 }
 
@@ -34,7 +30,7 @@ void judge_normals(const Call& current, const std::vector<Vec3>& normals) {
     constexpr double tolerance = 1e-6;  // wide enough for normals that went through floats
     for (std::size_t i = 0; i < normals.size(); ++i) {
         if (std::abs(normals[i].norm() - 1.0) <= tolerance) continue;
-        fail(current, "strategy.range", "gave " + at("normal", i) + " the length " + config::real_text(normals[i].norm()),
+        fail(current, "strategy.range", "gave " + entry("normal", i) + " the length " + config::real_text(normals[i].norm()),
              "normals are unit vectors; report this to the plugin's authors");
     }
 }
@@ -58,12 +54,12 @@ void judge_orientation(const Call& current, const cloud::Orientation& orientatio
     for (std::size_t i = 0; i < orientation.samples.size(); ++i) {
         const cloud::SurfaceSample& sample = orientation.samples[i];
         if (!sample.position.allFinite() || !sample.area.allFinite() || !std::isfinite(sample.width)) {
-            fail(current, "strategy.not_finite", "gave " + at("sample", i) + " of the orientation a value that is not finite",
-                 report);
+            fail(current, "strategy.not_finite", "gave " + entry("sample", i) + " of the orientation a value that is not finite",
+                 report_it);
         }
         if (sample.width < 0.0) {
             fail(current, "strategy.range",
-                 "gave " + at("sample", i) + " of the orientation the width " + std::to_string(sample.width),
+                 "gave " + entry("sample", i) + " of the orientation the width " + std::to_string(sample.width),
                  "widths are at least 0; report this to the plugin's authors");
         }
     }
@@ -98,14 +94,14 @@ void judge_report(const Call& current, const cloud::FilterReport& told, std::siz
     bool adds_up = true;
     for (const cloud::RemovedPoints& removed : told.reasons) {
         if (removed.reason.empty() || removed.reason.find('\n') != std::string::npos) {
-            fail(current, "strategy.range", "gave a reason that is not one line of text", report);
+            fail(current, "strategy.range", "gave a reason that is not one line of text", report_it);
         }
         adds_up = adds_up && removed.count <= rest;
         rest -= std::min(rest, removed.count);
     }
     if (!told.reasons.empty() && (!adds_up || rest != 0)) {
         fail(current, "strategy.size",
-             "gave reasons whose counts do not add up to the " + count_of(told.removed, "removed point"), report);
+             "gave reasons whose counts do not add up to the " + count_of(told.removed, "removed point"), report_it);
     }
     judge(current, told.figures);
 }

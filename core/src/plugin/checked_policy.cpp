@@ -8,12 +8,6 @@
 namespace dsc::plugin {
 namespace {
 
-constexpr std::string_view report = "report this to the plugin's authors";
-
-std::string at(std::string_view what, std::size_t index) {
-    return std::string(what) + " " + std::to_string(index);
-}
-
 // snake_case: what columns, keys and classes may be called.
 bool plain_name(std::string_view name) {
     return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
@@ -37,18 +31,18 @@ public:
         const std::size_t vertices = view.vertex_count();
         for (std::size_t i = 0; i < out.split_faces.size(); ++i) {
             if (out.split_faces[i] >= view.face_count())
-                bad_index(current, at("split_faces", i), out.split_faces[i]);
+                bad_index(current, entry("split_faces", i), out.split_faces[i]);
         }
         for (std::size_t i = 0; i < out.split_edges.size(); ++i) {
             for (const std::uint32_t v : out.split_edges[i]) {
-                if (v >= vertices) bad_index(current, at("split_edges", i), v);
+                if (v >= vertices) bad_index(current, entry("split_edges", i), v);
             }
         }
         if (!out.sizing.empty() && out.sizing.size() != vertices) {
             fail(current, "strategy.size",
                  "gave a sizing field of " + std::to_string(out.sizing.size()) + " entries for " +
                      std::to_string(vertices) + " vertices",
-                 report);
+                 report_it);
         }
         for (std::size_t i = 0; i < out.sizing.size(); ++i) {
             if (std::isfinite(out.sizing[i]) && out.sizing[i] > 0) continue;
@@ -58,14 +52,14 @@ public:
         }
         for (std::size_t i = 0; i < out.relabel.size(); ++i) {
             constexpr auto greatest = static_cast<std::uint32_t>(std::numeric_limits<mesh::Label>::max());
-            if (out.relabel[i][1] > greatest) bad_index(current, at("relabel", i), out.relabel[i][1]);
+            if (out.relabel[i][1] > greatest) bad_index(current, entry("relabel", i), out.relabel[i][1]);
         }
     }
 
 private:
     [[noreturn]] static void bad_index(const Call& current, const std::string& where, std::uint32_t value) {
         fail(current, "strategy.range",
-             "asked in " + where + " for " + std::to_string(value) + ", which does not exist", report);
+             "asked in " + where + " for " + std::to_string(value) + ", which does not exist", report_it);
     }
 };
 
@@ -78,31 +72,31 @@ public:
         own_context.instance = instance();
         const Call current = call("build");
         mesh::TetMesh mesh = guarded(current, [&] { return inner().build(own_context); });
-        if (mesh.tets.empty()) fail(current, "strategy.size", "gave a mesh without tets", report);
+        if (mesh.tets.empty()) fail(current, "strategy.size", "gave a mesh without tets", report_it);
         if (mesh.labels.size() != mesh.tets.size()) {
             fail(current, "strategy.size",
                  "gave " + std::to_string(mesh.labels.size()) + " labels for " +
                      std::to_string(mesh.tets.size()) + " tets",
-                 report);
+                 report_it);
         }
         for (std::size_t i = 0; i < mesh.points.size(); ++i) {
             if (!mesh.points[i].allFinite()) {
                 fail(current, "strategy.not_finite",
-                     "gave " + at("point", i) + " a coordinate that is not finite", report);
+                     "gave " + entry("point", i) + " a coordinate that is not finite", report_it);
             }
         }
         for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
             for (const std::uint32_t v : mesh.tets[i]) {
                 if (v < mesh.points.size()) continue;
                 fail(current, "strategy.range",
-                     "gave " + at("tet", i) + " the point " + std::to_string(v) + " of " +
+                     "gave " + entry("tet", i) + " the point " + std::to_string(v) + " of " +
                          std::to_string(mesh.points.size()),
-                     report);
+                     report_it);
             }
             if (mesh.labels[i] < 0) {
                 fail(current, "strategy.range",
-                     "gave " + at("tet", i) + " the label " + std::to_string(mesh.labels[i]) + " below 0",
-                     report);
+                     "gave " + entry("tet", i) + " the label " + std::to_string(mesh.labels[i]) + " below 0",
+                     report_it);
             }
         }
         return mesh;
@@ -142,7 +136,7 @@ public:
         if (!class_count_) class_count_ = std::max<std::size_t>(1, repair_classes().size());
         guarded(current, [&] { inner().propose(step, round, out); });
         if (out.size() < before)
-            fail(current, "strategy.size", "removed requests that were there before", report);
+            fail(current, "strategy.size", "removed requests that were there before", report_it);
         for (std::size_t i = before; i < out.size(); ++i) judge(current, round.complex, *class_count_, out[i], i - before);
     }
 
@@ -153,7 +147,7 @@ public:
             fail(current, "strategy.size",
                  "named " + std::to_string(names.size()) + " classes of requests, " +
                      std::to_string(mesh::repair_class_limit) + " are the most",
-                 report);
+                 report_it);
         }
         for (std::size_t i = 0; i < names.size(); ++i) {
             if (plain_name(names[i]) && std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) ==
@@ -171,7 +165,7 @@ public:
         const double cosine = guarded(current, [&] { return inner().flatness(); });
         if (!(cosine >= -1 && cosine <= 1)) {
             fail(current, "strategy.range", "gave " + std::to_string(cosine) + ", which is no cosine",
-                 report);
+                 report_it);
         }
         return cosine;
     }
@@ -197,35 +191,35 @@ public:
         for (std::size_t i = 0; i < accept.size(); ++i) {
             if (accept[i] <= 1) continue;
             fail(current, "strategy.range",
-                 "gave " + at("candidate", i) + " the answer " + std::to_string(accept[i]) +
+                 "gave " + entry("candidate", i) + " the answer " + std::to_string(accept[i]) +
                      " where 0 or 1 is due",
-                 report);
+                 report_it);
         }
     }
 
 private:
     static void judge(const Call& current, const mesh::Complex& complex, std::size_t classes,
                       const mesh::Request& request, std::size_t index) {
-        const std::string where = "in " + at("request", index);
+        const std::string where = "in " + entry("request", index);
         if (static_cast<std::size_t>(request.operation) >= mesh::operation_count) {
-            fail(current, "strategy.range", "named an operation that does not exist " + where, report);
+            fail(current, "strategy.range", "named an operation that does not exist " + where, report_it);
         }
         if (request.tet != mesh::none && request.tet >= complex.tet_slots()) {
             fail(current, "strategy.range",
-                 "named tet " + std::to_string(request.tet) + ", which does not exist, " + where, report);
+                 "named tet " + std::to_string(request.tet) + ", which does not exist, " + where, report_it);
         }
         for (const mesh::VertexId v : request.vertices) {
             if (v == mesh::none || v < complex.vertex_slots()) continue;
             fail(current, "strategy.range",
-                 "named vertex " + std::to_string(v) + ", which does not exist, " + where, report);
+                 "named vertex " + std::to_string(v) + ", which does not exist, " + where, report_it);
         }
         if (request.repair_class >= classes) {
             fail(current, "strategy.range",
-                 "named the class " + std::to_string(request.repair_class) + ", which does not exist, " + where, report);
+                 "named the class " + std::to_string(request.repair_class) + ", which does not exist, " + where, report_it);
         }
         for (const float value : {request.parameter, request.only_below, request.accept_above, request.gain, request.least_edge}) {
             if (std::isnan(value))
-                fail(current, "strategy.not_finite", "gave a number that is NaN " + where, report);
+                fail(current, "strategy.not_finite", "gave a number that is NaN " + where, report_it);
         }
     }
 
@@ -281,7 +275,7 @@ void judge(const Call& current, const hooks::Figures& figures) {
         seen.push_back(name);
         if (!std::isfinite(value)) {
             fail(current, "strategy.not_finite", "gave the figure '" + name + "' the value " + std::to_string(value),
-                 report);
+                 report_it);
         }
     }
 }

@@ -14,7 +14,7 @@ namespace dsc::run {
 namespace {
 
 /// Vertices a block of evaluate() has. Fixed, so that the split never depends on the number of threads.
-constexpr std::size_t block = 256;
+constexpr std::size_t evaluated_block = 256;
 /// A series stalls when for this many steps less than this part of the asked motion came about.
 constexpr unsigned stall_steps = 5;
 constexpr double stall_ratio = 0.01;
@@ -117,7 +117,7 @@ private:
         surface::build_view(deformer_.complex(), view_, &workers_);
         if (cloud_ == nullptr) return;
         nearest_.resize(view_.vertex_count());
-        workers_.for_blocks(nearest_.size(), block, [this](std::size_t begin, std::size_t end) {
+        workers_.for_blocks(nearest_.size(), evaluated_block, [this](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) nearest_[i] = cloud_->search().nearest(view_.positions[i]);
         });
     }
@@ -236,7 +236,7 @@ private:
         const std::size_t count = view_.vertex_count();
         displacements_.assign(count, Vec3::Zero());
         strategies_.velocity->prepare(context);
-        workers_.for_blocks(count, block, [&](std::size_t first, std::size_t last) {
+        workers_.for_blocks(count, evaluated_block, [&](std::size_t first, std::size_t last) {
             strategies_.velocity->evaluate({first, last},
                                            std::span(displacements_).subspan(first, last - first));
         });

@@ -40,7 +40,7 @@ std::vector<Column> read_columns(std::span<const fs::path> folders) {
     return columns;
 }
 
-html::Row header(const std::vector<Column>& columns, const std::string& first) {
+html::Row column_header(const std::vector<Column>& columns, const std::string& first) {
     html::Row row = {first};
     for (const Column& column : columns) row.push_back(column.name);
     return row;
@@ -62,7 +62,7 @@ std::string figures(const std::vector<Column>& columns) {
         html::Row& row = rows.emplace_back(html::Row{name});
         for (const auto& of_run : values) row.push_back(of_run.count(name) != 0 ? of_run.at(name) : "-");
     }
-    return html::table(header(columns, "figure"), rows);
+    return html::table(column_header(columns, "figure"), rows);
 }
 
 /// The scalar values of a configuration by their dotted paths.
@@ -106,7 +106,7 @@ std::string differences(const std::vector<Column>& columns) {
         if (!same) rows.push_back(std::move(row));
     }
     if (rows.empty()) return tag("p", "The experiments are the same.");
-    return html::table(header(columns, "key"), rows, false);
+    return html::table(column_header(columns, "key"), rows, false);
 }
 
 std::string plot(const std::vector<Column>& columns, const std::string& title, const std::string& column_name, bool logarithmic) {
@@ -150,7 +150,7 @@ std::string times(const std::vector<Column>& columns) {
         html::Row& row = rows.emplace_back(html::Row{name});
         for (const auto& of_run : values) row.push_back(of_run.count(name) != 0 ? html::real(of_run.at(name)) + " s" : "-");
     }
-    return html::table(header(columns, "phase"), rows);
+    return html::table(column_header(columns, "phase"), rows);
 }
 
 std::string all_warnings(const std::vector<Column>& columns) {

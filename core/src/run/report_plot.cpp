@@ -44,7 +44,7 @@ std::string open_svg(const std::string& title, double w, double h) {
 }
 
 /// An axis: from numbers to places on the paper.
-struct Axis {
+struct PlotAxis {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
     double begin = 0, end = 1;  // on the paper
@@ -97,7 +97,7 @@ std::string tick_text(double value) {
     return out.data();
 }
 
-std::string frame(const Axis& x, const Axis& y, const std::string& title, const std::string& x_label) {
+std::string frame(const PlotAxis& x, const PlotAxis& y, const std::string& title, const std::string& x_label) {
     std::string out = label(left, 16, title, "title", "start");
     for (const double tick : y.ticks(5)) {
         out += line(left, y.place(tick), width - right, y.place(tick), "grid");
@@ -137,7 +137,7 @@ std::vector<std::size_t> outline(const Curve& curve) {
     return kept;
 }
 
-std::string path(const Curve& curve, const Axis& x, const Axis& y, std::size_t index) {
+std::string path(const Curve& curve, const PlotAxis& x, const PlotAxis& y, std::size_t index) {
     std::string d;
     bool pen_down = false;
     for (const std::size_t i : outline(curve)) {
@@ -174,8 +174,8 @@ std::vector<double> axis_ticks(double low, double high, int count) {
 }
 
 std::string svg_plot(const Plot& plot) {
-    Axis x{.begin = left, .end = width - right};
-    Axis y{.begin = height - bottom, .end = top, .logarithmic = plot.logarithmic};
+    PlotAxis x{.begin = left, .end = width - right};
+    PlotAxis y{.begin = height - bottom, .end = top, .logarithmic = plot.logarithmic};
     bool enough = false;
     for (const Curve& curve : plot.curves) {
         std::size_t points = 0;
@@ -208,8 +208,8 @@ std::vector<std::size_t> count_bins(const std::vector<double>& values, double lo
 
 std::string svg_histogram(const std::string& title, const std::string& x_label, double low, double high,
                           const std::vector<std::size_t>& counts) {
-    Axis x{.low = low, .high = high, .begin = left, .end = width - right};
-    Axis y{.low = 0, .high = 1, .begin = height - bottom, .end = top};
+    PlotAxis x{.low = low, .high = high, .begin = left, .end = width - right};
+    PlotAxis y{.low = 0, .high = 1, .begin = height - bottom, .end = top};
     for (const std::size_t count : counts) y.hold(static_cast<double>(count));
     std::string out = open_svg(title, width, height) + frame(x, y, title, x_label);
     const double step = (high - low) / static_cast<double>(counts.size());

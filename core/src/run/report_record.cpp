@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
     throw IoError("report.no_run", folder.string(), "", cause, "name the folder of a run that has ended (dsc run CONFIG -o DIR)");
 }
 
-ordered_json read_json(const fs::path& file) {
+ordered_json read_record_json(const fs::path& file) {
     ordered_json json = ordered_json::parse(io::read_file(file), nullptr, false);
     if (!json.is_object())
         throw IoError("report.damaged", file.string(), "", "is no JSON object", "run the experiment again");
@@ -117,8 +117,8 @@ RunRecord read_record(const fs::path& folder) {
         no_run(folder, "the run has no result: it failed or has not ended, see status.json");
     RunRecord record;
     record.folder = folder;
-    record.summary = read_json(folder / "summary.json");
-    record.provenance = read_json(folder / "provenance.json");
+    record.summary = read_record_json(folder / "summary.json");
+    record.provenance = read_record_json(folder / "provenance.json");
     const fs::path metrics = folder / "metrics.csv";
     record.metrics = parse_metrics(io::read_file(metrics), metrics.string());
     record.config = io::read_file(folder / "config.resolved.yaml");

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t block = 256;
+constexpr std::size_t written_block = 256;
 
 std::string extension_of(const std::string& kind) { return kind == "surface" ? ".vtp" : ".vtu"; }
 
@@ -120,7 +120,7 @@ std::vector<double> StateSeries::curvatures(const hooks::StepContext& context) {
     std::vector<double> scalar(context.surface.vertex_count());
     std::vector<Vec3> vectors(scalar.size());
     curvature_->prepare(context);
-    for_blocks(context.workers, scalar.size(), block, [&](std::size_t begin, std::size_t end) {
+    for_blocks(context.workers, scalar.size(), written_block, [&](std::size_t begin, std::size_t end) {
         curvature_->evaluate({begin, end}, std::span(scalar).subspan(begin, end - begin),
                              std::span(vectors).subspan(begin, end - begin));
     });

@@ -28,7 +28,7 @@ struct RandomAxis {
 };
 
 /// Exactly one of them.
-struct Axis {
+struct SweepAxis {
     std::optional<Paths> grid;
     std::optional<Paths> zip;
     std::vector<Paths> list;
@@ -39,7 +39,7 @@ struct SweepFile {
     std::uint32_t format = 1;  ///< key `sweep`
     std::string base;
     std::optional<Paths> set;
-    std::vector<Axis> axes;
+    std::vector<SweepAxis> axes;
     std::vector<int> seeds;
     std::optional<std::uint32_t> repeat;
 };
@@ -51,13 +51,13 @@ void declare_random(config::ParamSchema<RandomAxis>& s) {
         .doc("Dotted path to {from, to, scale: linear or log, integer}.");
 }
 
-void declare_axis(config::ParamSchema<Axis>& s) {
-    s.object("grid", &Axis::grid, declare_paths)
+void declare_axis(config::ParamSchema<SweepAxis>& s) {
+    s.object("grid", &SweepAxis::grid, declare_paths)
         .doc("Dotted path to a list of values or {from, to, count, scale, integer}: every combination.");
-    s.object("zip", &Axis::zip, declare_paths).doc("Dotted path to a list of values: the lists side by side.");
-    s.list("list", &Axis::list, declare_paths).doc("Maps of dotted paths to values, point by point.");
-    s.object("random", &Axis::random, declare_random).doc("Values drawn out of ranges.");
-    s.check([](const Axis& p) { return int(p.grid.has_value()) + int(p.zip.has_value()) + int(!p.list.empty()) +
+    s.object("zip", &SweepAxis::zip, declare_paths).doc("Dotted path to a list of values: the lists side by side.");
+    s.list("list", &SweepAxis::list, declare_paths).doc("Maps of dotted paths to values, point by point.");
+    s.object("random", &SweepAxis::random, declare_random).doc("Values drawn out of ranges.");
+    s.check([](const SweepAxis& p) { return int(p.grid.has_value()) + int(p.zip.has_value()) + int(!p.list.empty()) +
                                            int(p.random.has_value()) == 1; },
             "an axis is exactly one of 'grid', 'zip', 'list' and 'random'");
 }
@@ -112,7 +112,7 @@ ConfigNode without_paths(const ConfigNode& root) {
 
 // ---- points ---------------------------------------------------------------------------------------------------------
 
-Alternatives read_axis(const ConfigNode& node, const Axis& axis, Diagnostics& diagnostics) {
+Alternatives read_axis(const ConfigNode& node, const SweepAxis& axis, Diagnostics& diagnostics) {
     if (axis.grid) return grid_axis(node.at("grid"), diagnostics);
     if (axis.zip) return zip_axis(node.at("zip"), diagnostics);
     if (!axis.list.empty()) return list_axis(node.at("list"), diagnostics);

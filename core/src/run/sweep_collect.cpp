@@ -32,7 +32,7 @@ struct Row {
     std::map<std::string, std::string> figures;
 };
 
-json read_json(const fs::path& file) {
+json read_point_json(const fs::path& file) {
     std::ifstream stream(file);
     return stream ? json::parse(stream, nullptr, false) : json();
 }
@@ -54,7 +54,7 @@ void add_figures(const json& value, const std::string& name, std::map<std::strin
 
 /// status.json says "running" of a run that was killed, too: it is unfinished, whoever may be at it.
 Row read_row(const fs::path& folder) {
-    const json status = read_json(folder / "status.json");
+    const json status = read_point_json(folder / "status.json");
     Row row;
     if (!status.is_object()) {
         row.status = "missing";
@@ -64,7 +64,7 @@ Row read_row(const fs::path& folder) {
     row.status = state == "running" ? "unfinished" : state;
     row.error = text_at(status, "error_code");
     if (state != "done" && state != "stopped") return row;
-    const json summary = read_json(folder / "summary.json");
+    const json summary = read_point_json(folder / "summary.json");
     if (!summary.is_object()) {
         row.status = "unfinished";  // a folder that somebody has taken things out of
         return row;

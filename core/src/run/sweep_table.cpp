@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view header = "index\tfolder\toverrides";
+constexpr std::string_view table_header = "index\tfolder\toverrides";
 constexpr std::string_view points = "points/";
 
 [[noreturn]] void refuse(const fs::path& file, std::size_t line, const std::string& cause) {
@@ -58,7 +58,7 @@ fs::path table_file(const fs::path& folder) { return folder / "jobs.tsv"; }
 std::string point_folder(const std::string& name) { return std::string(points) + name; }
 
 std::string table_text(const std::vector<SweepJob>& jobs) {
-    std::string text = std::string(header) + "\n";
+    std::string text = std::string(table_header) + "\n";
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         text += std::to_string(i) + "\t" + point_folder(jobs[i].name) + "\t" + config::flow_text(jobs[i].overrides) + "\n";
     }
@@ -76,7 +76,7 @@ std::vector<SweepJob> read_table(const fs::path& folder) {
         if (end == std::string::npos) refuse(file, number, "the line has no end");
         const std::string_view line = std::string_view(text).substr(begin, end - begin);
         if (number == 1) {
-            if (line != header) refuse(file, number, "the header is not index, folder, overrides");
+            if (line != table_header) refuse(file, number, "the header is not index, folder, overrides");
         } else {
             jobs.push_back(job_of(file, number, jobs.size(), line));
         }

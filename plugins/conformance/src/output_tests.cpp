@@ -19,7 +19,7 @@ void complete(const Subject& subject) {
         throw Failed("it does not write " + answers.trace.place(*bad));
 }
 
-void bounds(const Subject& subject) {
+void output_bounds(const Subject& subject) {
     for (const std::size_t block : {std::size_t{64}, std::size_t{1}}) {
         const Answers answers = subject.answers({.block = block});
         require(answers.outside.empty(), "it writes outside of its output, in " + answers.outside);
@@ -46,7 +46,7 @@ void add_output_tests(std::vector<Test>& table) {
     add(table, {"out.finite", Level::smoke, false, "No answer is NaN or infinite."}, finite);
     add(table, {"out.complete", Level::smoke, false, "Every entry of an output is written."}, complete,
         per_vertex);
-    add(table, {"out.bounds", Level::standard, false, "Nothing outside of an output is written."}, bounds,
+    add(table, {"out.bounds", Level::standard, false, "Nothing outside of an output is written."}, output_bounds,
         per_vertex);
     add(table, {"out.const", Level::standard, false, "The input is as it was before, bit by bit."}, inputs);
     add(table, {"out.quiet", Level::strict, false, "Nothing is printed."}, quiet);

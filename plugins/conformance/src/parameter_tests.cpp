@@ -51,7 +51,7 @@ void defaults(const Subject& subject) {
         throw Failed("defaults that are written out give other answers than those left out: " + *difference);
 }
 
-void bounds(const Subject& subject) {
+void parameter_bounds(const Subject& subject) {
     subject.require_finite();
     for (const Variation& v : extremes(subject.schema(), subject.defaults())) try_out(subject, v);
 }
@@ -72,7 +72,7 @@ void add_parameter_tests(std::vector<Test>& table) {
     add(table,
         {"param.bounds", Level::standard, false,
          "It works, or refuses by an exception, with every parameter at the ends of its range."},
-        bounds);
+        parameter_bounds);
     add(table,
         {"param.fuzz", Level::standard, false,
          "It works, or refuses by an exception, with random parameters within their ranges."},

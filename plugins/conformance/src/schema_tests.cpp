@@ -68,7 +68,7 @@ void lint(const Subject& subject) {
 }
 
 // What has a default resolves, is written as YAML and read back as the same.
-void roundtrip(const Subject& subject) {
+void parameters_roundtrip(const Subject& subject) {
     for (const Field& field : subject.schema().fields()) {
         if (field.required) {
             subject.defaults();  // from the notes, or a skip
@@ -129,7 +129,7 @@ void add_schema_tests(std::vector<Test>& table) {
     add(table,
         {"schema.roundtrip", Level::smoke, false,
          "The defaults are accepted, and written as YAML and read back they are the same."},
-        roundtrip);
+        parameters_roundtrip);
     add(table,
         {"schema.reject", Level::standard, false,
          "Values outside of a range, of another type, and unknown keys are refused; judging never throws."},

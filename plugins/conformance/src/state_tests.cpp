@@ -14,7 +14,7 @@ std::string saved(const hooks::Strategy& strategy) {
 }
 
 // Two steps, saved, read by another instance: both go on to the same answers, and hold the same state.
-void roundtrip(const Subject& subject) {
+void state_roundtrip(const Subject& subject) {
     subject.require_repeatable();
     const auto original = subject.make();
     exercise(subject.kind(), *original, subject.fixture(), {.first_step = 1, .steps = 2});
@@ -66,7 +66,7 @@ void add_state_tests(std::vector<Test>& table) {
     add(table,
         {"state.roundtrip", Level::standard, false,
          "Saved and read by another instance, a run goes on as if nothing had been."},
-        roundtrip);
+        state_roundtrip);
     add(table, {"state.bad", Level::standard, false, "Damaged states end in an exception, never in a crash."},
         damaged);
 }

@@ -5,15 +5,14 @@
 
 #include <dsc/geometry/quality.hpp>
 
+#include "quantised.hpp"
+
 namespace dsc::improvement {
 namespace {
 
 using mesh::CollapseMode;
 using mesh::Operation;
 using mesh::Request;
-
-// Qualities and sizes are compared in steps of 1e-4, so that rounding does not decide the order.
-std::int64_t quantised(double value) { return std::llround(value * 1e4); }
 
 Request on_tet(const mesh::Complex& c, mesh::TetId t, Operation operation, double only_below, double accept_above) {
     Request request;

@@ -6,6 +6,8 @@
 
 #include <dsc/geometry/quality.hpp>
 
+#include "quantised.hpp"
+
 namespace dsc::improvement {
 namespace {
 
@@ -13,9 +15,6 @@ using mesh::CollapseMode;
 using mesh::Operation;
 using mesh::Request;
 using mesh::VertexId;
-
-// Measures are compared in steps of 1e-4, so that rounding does not decide the order.
-std::int64_t quantised(double value) { return std::llround(value * 1e4); }
 
 std::array<std::uint32_t, 3> births_of(const mesh::Complex& c, VertexId a, VertexId b, VertexId third = mesh::none) {
     std::array<std::uint32_t, 3> births = {c.birth(a), c.birth(b), third == mesh::none ? UINT32_MAX : c.birth(third)};

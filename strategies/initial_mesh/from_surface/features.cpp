@@ -9,14 +9,14 @@ namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
 
-struct Side {
+struct FaceSide {
     Edge edge;
     std::size_t face;
 };
 
 std::vector<Edge> sharp_edges(const surface::TriangleMesh& mesh, double angle) {
     const std::vector<Vec3> normals = surface::face_normals(mesh);
-    std::vector<Side> sides;
+    std::vector<FaceSide> sides;
     sides.reserve(3 * mesh.faces.size());
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -25,7 +25,7 @@ std::vector<Edge> sharp_edges(const surface::TriangleMesh& mesh, double angle) {
         }
     }
     std::sort(sides.begin(), sides.end(),
-              [](const Side& x, const Side& y) { return x.edge != y.edge ? x.edge < y.edge : x.face < y.face; });
+              [](const FaceSide& x, const FaceSide& y) { return x.edge != y.edge ? x.edge < y.edge : x.face < y.face; });
     std::vector<Edge> edges;
     for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
         const Vec3 &m = normals[sides[i].face], &n = normals[sides[i + 1].face];

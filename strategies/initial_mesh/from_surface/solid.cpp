@@ -21,21 +21,21 @@ std::string place(const Vec3& p) {
 }
 
 /// A directed side of a face, by its points in ascending order.
-struct Side {
+struct DirectedSide {
     std::uint32_t low, high;
     bool ascending;
 };
 
 /// Midpoint of the first edge, by its points, whose sides are not one in each direction.
 Vec3 first_bad_edge(const surface::TriangleMesh& mesh) {
-    std::vector<Side> sides;
+    std::vector<DirectedSide> sides;
     for (const auto& f : mesh.faces) {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = f[k], b = f[(k + 1) % 3];
             sides.push_back({std::min(a, b), std::max(a, b), a < b});
         }
     }
-    std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    std::sort(sides.begin(), sides.end(), [](const DirectedSide& x, const DirectedSide& y) {
         return x.low != y.low ? x.low < y.low : x.high != y.high ? x.high < y.high : x.ascending < y.ascending;
     });
     for (std::size_t i = 0; i < sides.size();) {

@@ -10,7 +10,6 @@
 namespace dsc::strategies {
 namespace {
 
-constexpr const char* name = "initial mesh 'indicator'";
 /// Smoothing length of the field, in widths of the samples.
 constexpr double smoothing = 0.5;
 /// The finest cells are made for the samples below this quantile of the widths.
@@ -28,7 +27,7 @@ std::vector<cloud::SurfaceSample> used_samples(const cloud::Orientation& orienta
         if (sample.width > 0.0 && sample.area != Vec3::Zero()) used.push_back(sample);
     }
     if (used.empty()) {
-        throw GeometryError("indicator.no_samples", std::string(name) +
+        throw GeometryError("indicator.no_samples", std::string(generator_name) +
                                                         ": no point of the cloud has a normal, so inside and outside cannot be told "
                                                         "apart; check the cloud, or use another initial mesh");
     }
@@ -52,7 +51,7 @@ mesh::GradedLattice make_lattice(std::span<const cloud::SurfaceSample> samples, 
     std::vector<mesh::CellSize> sizes;
     sizes.reserve(samples.size());
     for (const cloud::SurfaceSample& sample : samples) sizes.push_back({sample.position, slack * options.cell * sample.width});
-    return {lattice, sizes, name};
+    return {lattice, sizes, generator_name};
 }
 
 /// The values of vertices from `first` on: the winding number less 1/2, never 0.
@@ -129,7 +128,7 @@ Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& 
     out.counts = mesh::count_topology(points, tets, out.values);
     if (out.counts.components == 0) {
         throw GeometryError("indicator.nothing_inside",
-                            std::string(name) +
+                            std::string(generator_name) +
                                 ": the points enclose nothing: no place has a winding number above 1/2; check that the cloud is the "
                                 "surface of a solid and dense enough");
     }

@@ -11,6 +11,9 @@
 
 namespace dsc::strategies {
 
+/// How messages call this strategy.
+inline constexpr const char* generator_name = "initial mesh 'indicator'";
+
 /// Constants of the labelling; lengths count in the widths of the samples (cloud::SurfaceSample::width).
 struct LabelOptions {
     double cell = 1.2;          ///< edge of the cells at the samples, from this to 1.2 times this

@@ -13,7 +13,6 @@
 namespace dsc::strategies {
 namespace {
 
-constexpr const char* name = "initial mesh 'indicator'";
 /// Iterations of the coarse stage where all points take part in it.
 constexpr std::size_t retry_iterations = 24;
 
@@ -34,7 +33,7 @@ private:
 const cloud::TargetCloud& cloud_of(const hooks::InitialMeshContext& context) {
     if (context.cloud == nullptr) {
         throw ConfigError("indicator.no_cloud",
-                          std::string(name) + ": the experiment has no cloud to label the box by; add input: {cloud: {file: ...}}");
+                          std::string(generator_name) + ": the experiment has no cloud to label the box by; add input: {cloud: {file: ...}}");
     }
     return *context.cloud;
 }
@@ -118,7 +117,7 @@ mesh::TetMesh Indicator::build(const hooks::InitialMeshContext& context) {
     options.smoothing_sweeps = params_.smoothing;
     mesh::StuffReport report;
     mesh::TetMesh mesh =
-        mesh::stuff_interface(labels.lattice, labels.values, options, &report, context.workers, context.cancel, name);
+        mesh::stuff_interface(labels.lattice, labels.values, options, &report, context.workers, context.cancel, generator_name);
     seconds_.emplace_back("cut", lap());
 
     const StartSurface start = measure_start(mesh, orientation, cloud.statistics(context.workers).area);
