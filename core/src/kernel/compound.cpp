@@ -69,7 +69,8 @@ Refusal finish(Workbench& bench, const mesh::Request& request, VertexId a, Verte
         volume = bench.phase_change();
         const Vec3& place = bench.edit.created_at;
         distance = (place - ((1.0 - s) * c.position(a) + s * c.position(b))).norm();
-        if (distance > bench.limits.edit_distance || volume > bench.limits.edit_volume) return Refusal::bound;
+        const EditBounds bounds = bench.bounds_at(a, b);
+        if (distance > bounds.distance || volume > bounds.volume) return Refusal::bound;
         bench.vertices.clear();
         for (const TetId t : bench.edit.removed) {
             for (const VertexId v : c.tet(t).v) {

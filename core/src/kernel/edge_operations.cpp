@@ -112,7 +112,8 @@ Refusal flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, f
     }
     const double distance = geometry::segment_distance(pa, pb, pp, pq);
     const double volume = std::abs(geometry::tet_volume(pa, pb, pp, pq));
-    if (distance > bench.limits.edit_distance || volume > bench.limits.edit_volume) return Refusal::bound;
+    const EditBounds bounds = bench.bounds_at(a, b);
+    if (distance > bounds.distance || volume > bounds.volume) return Refusal::bound;
     bench.edit.clear();
     bench.edit.removed = bench.ring.tets;
     const float old = bench.old_quality();

@@ -40,7 +40,8 @@ Refusal relabel_tet(Workbench& bench, TetId t) {
     if (measure(bench, region) != RegionFault::none) return Refusal::irregular;
     if (region.patches_from != 1 || region.patches_to != 1) return Refusal::irregular;
     const double distance = 2.0 * region.volume / region.area_to;
-    if (region.volume > bench.limits.edit_volume || distance > bench.limits.edit_distance) return Refusal::bound;
+    const EditBounds bounds = bench.bounds_at(c.tet(t).v);
+    if (region.volume > bounds.volume || distance > bounds.distance) return Refusal::bound;
     c.relabel(region.tets, region.to);
     bench.sums.distance += distance;
     bench.sums.volume += region.volume;

@@ -170,7 +170,8 @@ Refusal split_vertex(Workbench& bench, VertexId v, VertexId w) {
     // Where the star's interface corner sits in the group, the new vertex takes the corner over: geometry would move.
     if (c.on_interface(v)) {
         const double volume = bench.phase_change();
-        if (volume > bench.limits.edit_volume) return Refusal::bound;
+        const EditBounds bounds = bench.bounds_at(v, v);
+        if (volume > bounds.volume) return Refusal::bound;
         bench.vertices.clear();
         for (const TetId t : bench.edit.removed) {
             for (const VertexId x : c.tet(t).v) {
@@ -181,7 +182,7 @@ Refusal split_vertex(Workbench& bench, VertexId v, VertexId w) {
         bench.vertices.erase(std::unique(bench.vertices.begin(), bench.vertices.end()), bench.vertices.end());
         bench.vertices.push_back(mesh::created_vertex);
         const double distance = (bench.edit.created_at - c.position(v)).norm();
-        if (distance > bench.limits.edit_distance) return Refusal::bound;
+        if (distance > bounds.distance) return Refusal::bound;
         if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
         const VertexId created = bench.commit(volume > 0.0 ? distance : 0.0, volume);
         if (bench.listener != nullptr) bench.listener->on_split(created, v, v, 0.0);

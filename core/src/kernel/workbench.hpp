@@ -18,13 +18,19 @@ using mesh::Refusal;
 using mesh::TetId;
 using mesh::VertexId;
 
-/// Absolute limits of one edit, in normalised units.
+/// Absolute limits of one edit, in normalised units, where the target length is L.
 struct Limits {
     double length = 0.0;          ///< L
     double quality_floor = 1e-3;
     double edit_distance = 0.0;   ///< by which one edit may move the interface
     double edit_volume = 0.0;     ///< by which one edit may change a phase
     double flatness = 0.995;      ///< cosine
+};
+
+/// By how much one edit may change the interface at a place.
+struct EditBounds {
+    double distance = 0.0;  ///< by which it may move
+    double volume = 0.0;    ///< by which a phase may change
 };
 
 /// Told of vertices that come and go, so that destinations can follow.
@@ -58,6 +64,7 @@ public:
 
     mesh::Complex& complex;
     Limits limits;
+    const std::vector<double>* lengths = nullptr;  ///< target length per vertex, NaN for none; null where it is L everywhere
     mesh::Edit edit;
     EditListener* listener = nullptr;
     EditSums sums;
@@ -75,6 +82,14 @@ public:
         return v == edit.moved ? edit.moved_to : complex.position(v);
     }
     double quality(VertexId a, VertexId b, VertexId c, VertexId d) const;
+
+    /// The target length at these vertices: the mean of those that have one, L where none has. [parallel]
+    double length_at(std::span<const VertexId> vertices) const;
+    double length_at(VertexId v) const { return length_at(std::span(&v, 1)); }
+    double length_at(VertexId a, VertexId b) const { return length_at(std::array<VertexId, 2>{a, b}); }
+    /// The bounds of an edit at these vertices.
+    EditBounds bounds_at(std::span<const VertexId> vertices) const;
+    EditBounds bounds_at(VertexId a, VertexId b) const { return bounds_at(std::array<VertexId, 2>{a, b}); }
 
     /// Least cached quality of the edit's removed tets; 1 without any.
     float old_quality() const;

@@ -17,6 +17,10 @@ struct Attribution {
     }
 };
 
+/// Attributes of a surface: one finite number per vertex, under names that they may have and that differ. Throws
+/// StrategyFailure.
+void judge(const Call& current, const hooks::Attributes& attributes, std::size_t vertices);
+
 /// Save and load of any wrapped hook.
 template <class Hook>
 class Checked : public Hook {

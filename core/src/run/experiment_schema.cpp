@@ -79,6 +79,9 @@ void declare_series(config::ParamSchema<Series>& s) {
         .unit("steps")
         .doc("Refine after every so many of the steps.");
     s.strategy("refine", &Series::refine, "refinement").optional().doc("Refinement of the interface.");
+    s.choice("until", &Series::until, {{"finished", Until::finished}})
+        .doc("finished: the series ends as soon as the velocity says that its motion has come to its end.");
+    s.check([](const Series& p) { return p.steps || !p.until; }, "'until' belongs to an item with 'steps'");
     s.check([](const Series& p) { return p.steps || !p.refine.empty(); },
             "an item of the schedule needs 'steps', 'refine' or both with 'every'");
     s.check([](const Series& p) { return p.every.has_value() == (p.steps && !p.refine.empty()); },
@@ -148,7 +151,7 @@ void Experiment::declare(config::ParamSchema<Experiment>& s) {
         .required()
         .doc(
             "What happens, item by item: {steps: N}, {refine: {...}} or {steps: N, every: K, refine: "
-            "{...}}.");
+            "{...}}. Steps may have 'until: finished'.");
     s.object("stop", &Experiment::stop, declare_stop).doc("Ends a series of steps early. Left out: never.");
     s.strategies("observers", &Experiment::observers, "observer")
         .doc("Adds figures to metrics.csv and summary.json.");

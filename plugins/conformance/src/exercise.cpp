@@ -135,7 +135,8 @@ private:
     }
 
     void velocity(hooks::VelocityField& field, const hooks::StepContext& context) {
-        field.prepare(context);
+        field.advance(context);
+        for (unsigned i = 0; i < how_.prepares; ++i) field.prepare(context);
         const std::size_t count = context.surface.vertex_count();
         std::vector<Vec3> all(count);
         std::vector<std::string> touched((count + how_.block - 1) / how_.block);
@@ -149,6 +150,30 @@ private:
         note_touched(touched, "displacements");
         record("displacements", std::span<const Vec3>(all), 3);
         if (field.can_sample()) sample(field, context);
+        hooks::Attributes attributes;
+        field.publish(attributes);
+        record(attributes, context);
+        part("end of the motion", 1);
+        answers_.trace.add(field.finished() ? 1.0 : 0.0);
+        answers_.trace.add(static_cast<double>(field.planned_steps()));
+    }
+
+    void record(const hooks::Attributes& attributes, const hooks::StepContext& context) {
+        std::vector<std::string> seen;
+        for (const hooks::Attribute& a : attributes) {
+            if (answers_.unfit.empty()) {
+                if (a.values.size() != context.surface.vertex_count()) {
+                    answers_.unfit = "attribute '" + a.name + "'" + at_ + " has " + std::to_string(a.values.size()) + " values for " +
+                                     std::to_string(context.surface.vertex_count()) + " vertices";
+                } else if (std::find(seen.begin(), seen.end(), a.name) != seen.end()) {
+                    answers_.unfit = "attribute '" + a.name + "' is there twice" + at_;
+                } else if (!hooks::may_name_attribute(a.name)) {
+                    answers_.unfit = "'" + a.name + "' is no name for an attribute";
+                }
+            }
+            seen.push_back(a.name);
+            record("attribute " + a.name, std::span<const double>(a.values), 1);
+        }
     }
 
     void sample(hooks::VelocityField& field, const hooks::StepContext& context) {
@@ -163,7 +188,7 @@ private:
     }
 
     void curvature(hooks::CurvatureEstimator& estimator, const hooks::StepContext& context) {
-        estimator.prepare(context);
+        for (unsigned i = 0; i < how_.prepares; ++i) estimator.prepare(context);
         const std::size_t count = context.surface.vertex_count();
         std::vector<double> scalars(count);
         std::vector<Vec3> vectors(count);
@@ -194,14 +219,52 @@ private:
         Breathing velocity;
         velocity.prepare(context);
         hooks::RefinementRequests requests;
-        policy.refine({context, &velocity}, requests);
+        policy.refine({context, policy.needs_sampling() ? &velocity : nullptr, 0}, requests);
         part("faces to split", 1);
         for (const std::uint32_t face : requests.split_faces) answers_.trace.add(face);
         part("edges to split", 2);
         for (const auto& [a, b] : requests.split_edges) add_pair(a, b);
         record("sizing", std::span<const double>(requests.sizing), 1);
+        part("target length", 1);
+        answers_.trace.add(requests.target_length);
+        record("target lengths", std::span<const double>(requests.target_lengths), 1);
+        judge_lengths(requests, context);
+        record(requests.attributes, context);
+        part("edges to collapse", 5);
+        for (const hooks::CollapseRequest& r : requests.collapse_edges) {
+            add_pair(r.kept, r.removed);
+            answers_.trace.add(r.place);
+        }
+        part("edges to flip", 3);
+        for (const hooks::FlipRequest& r : requests.flip_edges) {
+            add_pair(r.edge[0], r.edge[1]);
+            answers_.trace.add(r.flatness);
+        }
+        part("vertices to move", 4);
+        for (const hooks::MoveRequest& r : requests.move_vertices) {
+            answers_.trace.add(r.vertex);
+            answers_.trace.add(r.place);
+        }
         part("labels", 2);
         for (const auto& [tet, label] : requests.relabel) add_pair(tet, label);
+    }
+
+    void judge_lengths(const hooks::RefinementRequests& requests, const hooks::StepContext& context) {
+        const std::size_t vertices = context.surface.vertex_count();
+        const auto bad = [](double length) { return std::isfinite(length) && length <= 0.0; };
+        if (!answers_.unfit_lengths.empty()) return;
+        for (const std::vector<double>* lengths : {&requests.sizing, &requests.target_lengths}) {
+            if (!lengths->empty() && lengths->size() != vertices) {
+                answers_.unfit_lengths = "there are " + std::to_string(lengths->size()) + " target lengths for " +
+                                         std::to_string(vertices) + " vertices" + at_;
+            } else if (std::any_of(lengths->begin(), lengths->end(), bad)) {
+                answers_.unfit_lengths = "a target length is not above 0" + at_;
+            }
+        }
+        if (requests.target_length < 0.0) answers_.unfit_lengths = "the target length is below 0" + at_;
+        if (requests.target_length > 0.0 && !requests.target_lengths.empty()) {
+            answers_.unfit_lengths = "there are a target length for all and one per vertex" + at_;
+        }
     }
 
     // One repair round on a mesh whose worst tets are called dirty.

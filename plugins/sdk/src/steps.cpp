@@ -13,6 +13,7 @@ hooks::StepContext step_context(const surface::SurfaceView& view, std::uint64_t 
 
 std::vector<Vec3> displacements(hooks::VelocityField& field, const hooks::StepContext& context,
                                 unsigned threads, std::size_t block) {
+    field.advance(context);
     field.prepare(context);
     std::vector<Vec3> out(context.surface.vertex_count());
     Workers workers(threads);
