@@ -39,22 +39,23 @@ struct MoveRequest {
     Vec3 place = Vec3::Zero();  ///< the kernel goes there as far as no tet inverts
 };
 
-/// What it may ask for, carried out in this order. Requests that the kernel refuses are counted, not repeated.
+/// What it may ask for. Lengths and attributes, which are those of the view, come first, then labels, splits, collapses, flips
+/// and moves. Requests that the kernel refuses are counted, not repeated.
 struct RefinementRequests {
+    std::vector<std::uint32_t> split_faces;                 ///< view faces: split their longest edge at its midpoint
+    std::vector<std::array<std::uint32_t, 2>> split_edges;  ///< pairs of joined view vertices: split at the midpoint
+    std::vector<double> sizing;                             ///< empty, or a length per view vertex: longer edges are split, once
+    std::vector<std::array<std::uint32_t, 2>> relabel;      ///< (tet id, label)
+    std::vector<CollapseRequest> collapse_edges;
+    std::vector<FlipRequest> flip_edges;
+    std::vector<MoveRequest> move_vertices;
+
     /// Above 0: L from now on, the same for the whole surface.
     double target_length = 0.0;
     /// Empty, or a target length per view vertex from now on, with L as their mean: carried through splits (mean) and
     /// collapses (kept end), and saved in checkpoints. Not together with `target_length`.
     std::vector<double> target_lengths;
     Attributes attributes;
-
-    std::vector<std::array<std::uint32_t, 2>> relabel;      ///< (tet id, label)
-    std::vector<std::uint32_t> split_faces;                 ///< view faces: split their longest edge at its midpoint
-    std::vector<std::array<std::uint32_t, 2>> split_edges;  ///< pairs of joined view vertices: split at the midpoint
-    std::vector<double> sizing;                             ///< empty, or a length per view vertex: longer edges are split, once
-    std::vector<CollapseRequest> collapse_edges;
-    std::vector<FlipRequest> flip_edges;
-    std::vector<MoveRequest> move_vertices;
 };
 
 /// Says what, the kernel owns how. [step]
