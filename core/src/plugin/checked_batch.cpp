@@ -63,6 +63,10 @@ class CheckedVelocity final : public Checked<hooks::VelocityField> {
 public:
     using Checked::Checked;
 
+    bool needs_faces_of_points() const override {
+        return guarded(call("needs_faces_of_points"), [&] { return inner().needs_faces_of_points(); });
+    }
+
     void advance(const hooks::StepContext& context) override {
         const hooks::StepContext& kept = step_.keep(own(context));
         guarded(call("advance", kept.step), [&] { inner().advance(kept); });

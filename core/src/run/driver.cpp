@@ -43,7 +43,7 @@ public:
           options_(options),
           serial_(1),
           workers_(options.workers != nullptr ? *options.workers : serial_),
-          planned_(run::planned_steps(experiment)),
+          planned_(planned_steps(experiment)),
           resumed_(options.resume),
           deformer_(options.resume.empty() ? kernel::Deformer(initial_complex(), {}, &workers_)
                                            : kernel::Deformer::load(resumed_, {}, &workers_)) {
@@ -99,6 +99,7 @@ private:
 
     /// `step`: as in metrics.csv and events.jsonl, the first one is 1.
     hooks::StepContext make_context(std::uint64_t step) const {
+        const std::uint64_t told = strategies_.velocity->planned_steps();
         return {.step = step,
                 .surface = view_,
                 .cloud = cloud_,
@@ -110,28 +111,19 @@ private:
                 .instance = 0,
                 .cancel = options_.cancel,
                 .workers = &workers_,
-                .planned_steps = planned_steps(),
+                .planned_steps = told > 0 ? told : planned_,
                 .target_lengths = lengths_,
                 .attributes = attributes_};
     }
 
-    /// Of the run: as the velocity says, else as the schedule asks for.
-    std::uint64_t planned_steps() const {
-        const std::uint64_t told = strategies_.velocity->planned_steps();
-        return told > 0 ? told : planned_;
-    }
-
-    /// The nearest points serve the velocity of the next step and the figures of this one.
-    void refresh_view() {
+    /// What the velocity's calls see: the faces of the points too, where it wants them.
+    hooks::StepContext make_velocity_context(std::uint64_t step) {
+        hooks::StepContext context = make_context(step);
+        if (cloud_ == nullptr || !strategies_.velocity->needs_faces_of_points()) return context;
         const Timed timed(result_.totals.seconds.velocity);
-        surface::build_view(deformer_.complex(), view_, &workers_);
-        lengths_ = deformer_.target_lengths(view_.vertex_ids);
-        attributes_ = attributes_at(deformer_, view_.vertex_ids);
-        if (cloud_ == nullptr) return;
-        nearest_.resize(view_.vertex_count());
-        workers_.for_blocks(nearest_.size(), block, [this](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) nearest_[i] = cloud_->search().nearest(view_.positions[i]);
-        });
+        if (faces_of_points_.empty()) surface::nearest_faces(view_, cloud_->points(), faces_of_points_, &workers_);
+        context.faces_of_points = faces_of_points_;
+        return context;
     }
 
     void begin() {
@@ -217,7 +209,7 @@ private:
 
     /// One step; true if its largest speed was below the stop criterion.
     bool advance() {
-        const hooks::StepContext context = make_context(deformer_.step_count() + 1);
+        const hooks::StepContext context = make_velocity_context(deformer_.step_count() + 1);
         context_ = &context;
         StepMetrics row;
         const double asked = velocities(context, row);
@@ -274,7 +266,8 @@ private:
         ++result_.totals.refinements;
         bool asked = true;
         for (unsigned pass = 0; pass < passes && asked; ++pass) {
-            const hooks::StepContext context = make_context(deformer_.step_count());
+            const hooks::StepContext context =
+                sampling ? make_velocity_context(deformer_.step_count()) : make_context(deformer_.step_count());
             if (sampling) strategies_.velocity->prepare(context);
             hooks::RefinementRequests requests;
             refinement.refine({context, sampling ? strategies_.velocity.get() : nullptr, pass}, requests);
@@ -373,6 +366,7 @@ private:
     kernel::RepairPolicy policy_;
     surface::SurfaceView view_;
     std::vector<cloud::Neighbour> nearest_;
+    std::vector<surface::FacePoint> faces_of_points_;  // empty until somebody wants them
     std::vector<double> lengths_;   // of the view's vertices; empty where L is the same everywhere
     hooks::Attributes attributes_;  // of the view's vertices
     std::vector<Vec3> displacements_;

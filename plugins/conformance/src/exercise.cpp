@@ -134,7 +134,13 @@ private:
         if (!touched.empty() && answers_.outside.empty()) answers_.outside = what + at_ + ": " + touched;
     }
 
-    void velocity(hooks::VelocityField& field, const hooks::StepContext& context) {
+    void velocity(hooks::VelocityField& field, const hooks::StepContext& given) {
+        hooks::StepContext context = given;
+        std::vector<surface::FacePoint> faces;
+        if (given.cloud != nullptr && field.needs_faces_of_points()) {
+            surface::nearest_faces(given.surface, given.cloud->points(), faces, &workers_);
+            context.faces_of_points = faces;
+        }
         field.advance(context);
         for (unsigned i = 0; i < how_.prepares; ++i) field.prepare(context);
         const std::size_t count = context.surface.vertex_count();

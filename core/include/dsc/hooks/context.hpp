@@ -13,6 +13,7 @@
 #include <dsc/cloud/target.hpp>
 #include <dsc/geometry/vec.hpp>
 #include <dsc/hooks/attributes.hpp>
+#include <dsc/surface/face_points.hpp>
 #include <dsc/surface/surface_view.hpp>
 
 namespace dsc::hooks {
@@ -39,6 +40,9 @@ struct StepContext {
     Workers* workers = nullptr;                 ///< for a strategy's own loops outside evaluate() (dsc::for_blocks); null: one thread
     std::uint64_t planned_steps = 0;            ///< number of the run's last step: as the velocity tells, else that of the schedule; 0: unknown
     std::span<const double> target_lengths = {};  ///< target length of each view vertex; empty where it is L everywhere
+    /// For each point of the cloud the nearest place of the surface; filled in the step calls of a velocity that
+    /// needs_faces_of_points(), empty elsewhere and without a cloud.
+    std::span<const surface::FacePoint> faces_of_points = {};
     std::span<const Attribute> attributes = {};   ///< what strategies have published, carried to this surface
 
     /// The target length at a view vertex. [parallel]

@@ -12,6 +12,9 @@ class VelocityField : public Strategy {
 public:
     ~VelocityField() override;
 
+    /// Whether advance() and prepare() want StepContext::faces_of_points.
+    virtual bool needs_faces_of_points() const { return false; }
+
     /// Called exactly once per step, before prepare(): the place for state that goes from one step to the next, and for
     /// work that shall be done once per step. The context outlives the step's evaluate() calls. [step]
     virtual void advance(const StepContext& context);
