@@ -6,6 +6,8 @@
 #include <dsc/run/mesh_files.hpp>
 #include <dsc/surface/surface_view.hpp>
 
+#include "requests.hpp"
+
 namespace dsc::conformance {
 namespace {
 
@@ -165,21 +167,8 @@ private:
     }
 
     void record(const hooks::Attributes& attributes, const hooks::StepContext& context) {
-        std::vector<std::string> seen;
-        for (const hooks::Attribute& a : attributes) {
-            if (answers_.unfit.empty()) {
-                if (a.values.size() != context.surface.vertex_count()) {
-                    answers_.unfit = "attribute '" + a.name + "'" + at_ + " has " + std::to_string(a.values.size()) + " values for " +
-                                     std::to_string(context.surface.vertex_count()) + " vertices";
-                } else if (std::find(seen.begin(), seen.end(), a.name) != seen.end()) {
-                    answers_.unfit = "attribute '" + a.name + "' is there twice" + at_;
-                } else if (!hooks::may_name_attribute(a.name)) {
-                    answers_.unfit = "'" + a.name + "' is no name for an attribute";
-                }
-            }
-            seen.push_back(a.name);
-            record("attribute " + a.name, std::span<const double>(a.values), 1);
-        }
+        if (answers_.unfit.empty()) answers_.unfit = unfit(attributes, context.surface.vertex_count());
+        for (const hooks::Attribute& a : attributes) record("attribute " + a.name, std::span<const double>(a.values), 1);
     }
 
     void sample(hooks::VelocityField& field, const hooks::StepContext& context) {
@@ -226,51 +215,9 @@ private:
         velocity.prepare(context);
         hooks::RefinementRequests requests;
         policy.refine({context, policy.needs_sampling() ? &velocity : nullptr, 0}, requests);
-        part("faces to split", 1);
-        for (const std::uint32_t face : requests.split_faces) answers_.trace.add(face);
-        part("edges to split", 2);
-        for (const auto& [a, b] : requests.split_edges) add_pair(a, b);
-        record("sizing", std::span<const double>(requests.sizing), 1);
-        part("target length", 1);
-        answers_.trace.add(requests.target_length);
-        record("target lengths", std::span<const double>(requests.target_lengths), 1);
-        judge_lengths(requests, context);
+        if (answers_.unfit_lengths.empty()) answers_.unfit_lengths = unfit_lengths(requests, context.surface.vertex_count());
+        add_requests(requests, at_, answers_.trace);
         record(requests.attributes, context);
-        part("edges to collapse", 5);
-        for (const hooks::CollapseRequest& r : requests.collapse_edges) {
-            add_pair(r.kept, r.removed);
-            answers_.trace.add(r.place);
-        }
-        part("edges to flip", 3);
-        for (const hooks::FlipRequest& r : requests.flip_edges) {
-            add_pair(r.edge[0], r.edge[1]);
-            answers_.trace.add(r.flatness);
-        }
-        part("vertices to move", 4);
-        for (const hooks::MoveRequest& r : requests.move_vertices) {
-            answers_.trace.add(r.vertex);
-            answers_.trace.add(r.place);
-        }
-        part("labels", 2);
-        for (const auto& [tet, label] : requests.relabel) add_pair(tet, label);
-    }
-
-    void judge_lengths(const hooks::RefinementRequests& requests, const hooks::StepContext& context) {
-        const std::size_t vertices = context.surface.vertex_count();
-        const auto bad = [](double length) { return std::isfinite(length) && length <= 0.0; };
-        if (!answers_.unfit_lengths.empty()) return;
-        for (const std::vector<double>* lengths : {&requests.sizing, &requests.target_lengths}) {
-            if (!lengths->empty() && lengths->size() != vertices) {
-                answers_.unfit_lengths = "there are " + std::to_string(lengths->size()) + " target lengths for " +
-                                         std::to_string(vertices) + " vertices" + at_;
-            } else if (std::any_of(lengths->begin(), lengths->end(), bad)) {
-                answers_.unfit_lengths = "a target length is not above 0" + at_;
-            }
-        }
-        if (requests.target_length < 0.0) answers_.unfit_lengths = "the target length is below 0" + at_;
-        if (requests.target_length > 0.0 && !requests.target_lengths.empty()) {
-            answers_.unfit_lengths = "there are a target length for all and one per vertex" + at_;
-        }
     }
 
     // One repair round on a mesh whose worst tets are called dirty.
@@ -392,10 +339,6 @@ private:
     }
 
     void part(const std::string& name, std::size_t width) { answers_.trace.part(name + at_, width); }
-    void add_pair(std::uint32_t a, std::uint32_t b) {
-        answers_.trace.add(a);
-        answers_.trace.add(b);
-    }
     template <class T>
     void record(const std::string& name, std::span<const T> values, std::size_t width) {
         part(name, width);
