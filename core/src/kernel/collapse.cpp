@@ -4,6 +4,7 @@
 
 #include <dsc/geometry/quality.hpp>
 
+#include "kernel/creases.hpp"
 #include "kernel/operations.hpp"
 
 namespace dsc::kernel {
@@ -167,6 +168,9 @@ Refusal finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool inte
         bench.shared_interface_vertices(bench.vertices);
         if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
     }
+    if (interface_edge) {
+        if (const Refusal r = check_creases(bench, plan.kept, plan.removed); r != Refusal::committed) return r;
+    }
     bench.commit(distance, volume);
     if (bench.listener != nullptr) {
         bench.listener->on_collapse(plan.kept, plan.removed, plan.weight);
@@ -214,7 +218,17 @@ Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     }
     if (best.kept == mesh::none) return Refusal::quality;
 
-    return finish(bench, collapse, best, interface_edge, must_exceed, old);
+    const Refusal result = finish(bench, collapse, best, interface_edge, must_exceed, old);
+    if (result != Refusal::bound || !interface_edge || !bench.limits.keeps_creases()) return result;
+    // The other way round, or into the end that lies on a crease.
+    for (const auto& [kept, removed] : {std::array{a, b}, std::array{b, a}}) {
+        const bool to_a = kept == a;
+        if (!(to_a ? b_moves : a_moves) || (best.kept == kept && best.weight == 0.0)) continue;
+        const float least = collapse.least(c.position(kept), !to_a, to_a, must_exceed);
+        if (!(least > must_exceed)) continue;
+        if (finish(bench, collapse, {kept, removed, 0.0, least}, true, must_exceed, old) == Refusal::committed) return Refusal::committed;
+    }
+    return result;
 }
 
 Refusal collapse_edge_to(Workbench& bench, TetId t, VertexId kept, VertexId removed, const Vec3& place) {

@@ -4,6 +4,7 @@
 
 #include <dsc/geometry/quality.hpp>
 
+#include "kernel/creases.hpp"
 #include "kernel/operations.hpp"
 
 namespace dsc::kernel {
@@ -81,6 +82,7 @@ Refusal finish(Workbench& bench, const mesh::Request& request, VertexId a, Verte
         bench.vertices.erase(std::unique(bench.vertices.begin(), bench.vertices.end()), bench.vertices.end());
         bench.vertices.push_back(mesh::created_vertex);
         if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
+        if (const Refusal r = check_creases(bench); r != Refusal::committed) return r;
     }
     const VertexId created = bench.commit(distance, volume);
     if (bench.listener != nullptr) bench.listener->on_split(created, a, b, s);

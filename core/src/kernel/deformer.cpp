@@ -54,6 +54,7 @@ void Deformer::State::begin(std::span<const VertexId> vertices, std::span<const 
     last_requests.clear();
     outcomes.clear();
     bench.sums = {};
+    bench.crease_exceptions = 0;
     const Vec3 low = complex.box().low.array() + 2.0 * length;
     const Vec3 high = complex.box().high.array() - 2.0 * length;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -152,7 +153,7 @@ void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool se
 
 StepReport Deformer::State::advance(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy) {
     StepReport report;
-    apply_limits(policy.flatness);
+    apply_limits(policy.flatness, policy.creases);
     begin(vertices, displacements, report);
     const PassOptions passes{options.free_path, options.audit, workers};
     double best_left = INFINITY;
@@ -195,6 +196,7 @@ StepReport Deformer::State::advance(std::span<const VertexId> vertices, std::spa
     fields.settle();
     report.repair_seconds += seconds_since(start);
     for (const Event& event : report.events) count(event, report.event_counts);
+    report.crease_exceptions = bench.crease_exceptions;
     report.edit_distance = bench.sums.distance;
     report.edit_volume = bench.sums.volume;
     report.relabelled_volume = bench.sums.relabelled;

@@ -2,6 +2,7 @@
 #include "kernel/deformer_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -26,10 +27,14 @@ Deformer::State::State(mesh::Complex start, const DeformerOptions& wanted, Worke
     apply_limits(0.995);
 }
 
-void Deformer::State::apply_limits(double flatness) {
+void Deformer::State::apply_limits(double flatness, const std::optional<mesh::CreaseRule>& creases) {
     if (bench.limits.length != length) bench.forget_refusals();
     bench.limits = {length, options.quality_floor, options.max_edit_distance * length,
                     options.max_edit_volume * geometry::regular_tet_volume(length), flatness};
+    if (!creases) return;
+    bench.limits.crease = std::cos(creases->dihedral);
+    bench.limits.turn = std::cos(creases->turn);
+    bench.limits.crease_floor = options.quality_floor;
 }
 
 double Deformer::State::mean_interface_edge() const {

@@ -36,7 +36,7 @@ struct Deformer::State {
 
     State(mesh::Complex start, const DeformerOptions& wanted, Workers* given);
 
-    void apply_limits(double flatness);
+    void apply_limits(double flatness, const std::optional<mesh::CreaseRule>& creases = {});
     double mean_interface_edge() const;
     /// To be called whenever the set of fields has changed.
     void fields_changed();

@@ -3,6 +3,7 @@
 
 #include <dsc/geometry/quality.hpp>
 
+#include "kernel/creases.hpp"
 #include "kernel/operations.hpp"
 #include "kernel/triangulations.hpp"
 
@@ -135,6 +136,7 @@ Refusal flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, f
     if (turn < 2 || n - turn < 2 || !std::all_of(touched.begin(), touched.end(), simple)) {
         if (const Refusal r = bench.check_topology(touched); r != Refusal::committed) return r;
     }
+    if (const Refusal r = check_creases(bench); r != Refusal::committed) return r;
     bench.commit(distance, volume);
     return Refusal::committed;
 }

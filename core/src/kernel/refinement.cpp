@@ -82,7 +82,9 @@ RefineReport Deformer::refine(std::span<const std::array<VertexId, 3>> faces, st
 RefineReport Deformer::refine(const RefineRequests& requests) {
     State& s = *state_;
     RefineReport report;
+    s.apply_limits(s.bench.limits.flatness, requests.creases);
     const Limits before = s.bench.limits;
+    s.bench.crease_exceptions = 0;
     const auto each = [&](const auto& list, const auto& act) {
         std::size_t done = 0;
         for (const auto& request : list) done += act(request) ? 1 : 0;
@@ -98,6 +100,7 @@ RefineReport Deformer::refine(const RefineRequests& requests) {
     each(requests.flips, [&s](const FlipTo& request) { return s.flip(request); });
     each(requests.moves, [&s](const MoveTo& request) { return s.move(request); });
     s.bench.limits = before;
+    report.crease_exceptions = s.bench.crease_exceptions;
     s.fields.settle();
     report.length_changed = splits > 0 && !requests.owns_sizing;
     if (report.length_changed) s.set_length(s.mean_interface_edge());

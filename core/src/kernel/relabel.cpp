@@ -1,6 +1,7 @@
 // The interface shift: a tet, with whatever must go along, takes the label around it; the topology stays.
 #include <dsc/geometry/quality.hpp>
 
+#include "kernel/creases.hpp"
 #include "kernel/operations.hpp"
 #include "kernel/region.hpp"
 
@@ -42,6 +43,7 @@ Refusal relabel_tet(Workbench& bench, TetId t) {
     const double distance = 2.0 * region.volume / region.area_to;
     const EditBounds bounds = bench.bounds_at(c.tet(t).v);
     if (region.volume > bounds.volume || distance > bounds.distance) return Refusal::bound;
+    if (const Refusal r = check_creases(bench, region.tets, region.to); r != Refusal::committed) return r;
     c.relabel(region.tets, region.to);
     bench.sums.distance += distance;
     bench.sums.volume += region.volume;

@@ -5,6 +5,7 @@
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/vertex_split.hpp>
 
+#include "kernel/creases.hpp"
 #include "kernel/operations.hpp"
 
 namespace dsc::kernel {
@@ -184,6 +185,7 @@ Refusal split_vertex(Workbench& bench, VertexId v, VertexId w) {
         const double distance = (bench.edit.created_at - c.position(v)).norm();
         if (distance > bounds.distance) return Refusal::bound;
         if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
+        if (const Refusal r = check_creases(bench); r != Refusal::committed) return r;
         const VertexId created = bench.commit(volume > 0.0 ? distance : 0.0, volume);
         if (bench.listener != nullptr) bench.listener->on_split(created, v, v, 0.0);
         return Refusal::committed;

@@ -25,6 +25,10 @@ struct Limits {
     double edit_distance = 0.0;   ///< by which one edit may move the interface
     double edit_volume = 0.0;     ///< by which one edit may change a phase
     double flatness = 0.995;      ///< cosine
+    double crease = -2.0;         ///< cosine between an edge's two faces below which it is a crease that stays; -2: none is
+    double turn = -2.0;           ///< least cosine between a face's normals before and after an edit
+    double crease_floor = 0.0;    ///< for a tet below this quality creases may go
+    bool keeps_creases() const { return crease > -2.0; }
 };
 
 /// By how much one edit may change the interface at a place.
@@ -68,6 +72,7 @@ public:
     mesh::Edit edit;
     EditListener* listener = nullptr;
     EditSums sums;
+    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule for creases aside
 
     // Scratch of the operations; whoever needs one fills it.
     mesh::EdgeRing ring, ring2;

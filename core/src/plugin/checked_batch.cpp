@@ -130,6 +130,13 @@ public:
         return guarded(call("finished"), [&] { return inner().finished(); });
     }
 
+    std::optional<mesh::CreaseRule> keep_creases() const override {
+        const Call current = call("keep_creases");
+        const auto rule = guarded(current, [&] { return inner().keep_creases(); });
+        judge(current, rule);
+        return rule;
+    }
+
     std::uint64_t planned_steps() const override {
         return guarded(call("planned_steps"), [&] { return inner().planned_steps(); });
     }

@@ -46,6 +46,16 @@ void judge(const Call& current, const hooks::Attributes& attributes, std::size_t
     }
 }
 
+void judge(const Call& current, const std::optional<mesh::CreaseRule>& creases) {
+    if (!creases) return;
+    constexpr double pi = 3.14159265358979323846;
+    for (const double angle : {creases->dihedral, creases->turn}) {
+        if (angle > 0 && angle <= pi) continue;
+        fail(current, "strategy.range", "gave the angle " + std::to_string(angle) + " for creases",
+             "angles are above 0 and at most pi; report this to the plugin's authors");
+    }
+}
+
 namespace {
 
 class CheckedRefinement final : public Checked<hooks::RefinementPolicy> {
@@ -58,6 +68,13 @@ public:
 
     bool owns_sizing() const override {
         return guarded(call("owns_sizing"), [&] { return inner().owns_sizing(); });
+    }
+
+    std::optional<mesh::CreaseRule> keep_creases() const override {
+        const Call current = call("keep_creases");
+        const auto rule = guarded(current, [&] { return inner().keep_creases(); });
+        judge(current, rule);
+        return rule;
     }
 
     unsigned passes() const override {

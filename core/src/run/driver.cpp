@@ -164,6 +164,7 @@ private:
         if (place_.steps == 0) result_.totals.status = Status::max_steps;
         while (place_.steps < *item.steps) {
             if (stop_asked()) return stop();
+            policy_.creases = creases(refinement);
             const bool slow = advance();
             place_.quiet = slow ? place_.quiet + 1 : 0;
             ++place_.steps;
@@ -184,6 +185,10 @@ private:
             if (options_.checkpoint_every > 0 && deformer_.step_count() % options_.checkpoint_every == 0) checkpoint();
         }
         next_item();
+    }
+
+    std::optional<mesh::CreaseRule> creases(const hooks::RefinementPolicy* refinement) const {
+        return stricter(strategies_.velocity->keep_creases(), refinement != nullptr ? refinement->keep_creases() : std::nullopt);
     }
 
     void next_item() { place_ = {.item = place_.item + 1}; }
@@ -273,8 +278,10 @@ private:
             refinement.refine({context, sampling ? strategies_.velocity.get() : nullptr, pass}, requests);
             set_fields(deformer_, view_, requests);
             relabel(context, requests);
-            const kernel::RefineReport report =
-                deformer_.refine(kernel_requests(view_, requests, refinement.owns_sizing()));
+            kernel::RefineRequests wanted = kernel_requests(view_, requests, refinement.owns_sizing());
+            wanted.creases = creases(&refinement);
+            const kernel::RefineReport report = deformer_.refine(wanted);
+            result_.totals.crease_exceptions += report.crease_exceptions;
             result_.totals.refine_requested += report.requested;
             result_.totals.refine_committed += report.committed;
             asked = report.requested > 0 || !requests.relabel.empty();

@@ -16,6 +16,9 @@ void set_attributes(kernel::Deformer& deformer, const surface::SurfaceView& view
 /// All attributes at these vertices of its complex, NaN off the interface.
 hooks::Attributes attributes_at(const kernel::Deformer& deformer, std::span<const mesh::VertexId> vertices);
 
+/// The stricter bounds of two rules; the one that there is, or none.
+std::optional<mesh::CreaseRule> stricter(const std::optional<mesh::CreaseRule>& a, const std::optional<mesh::CreaseRule>& b);
+
 /// The requests that change the mesh, without those for labels.
 kernel::RefineRequests kernel_requests(const surface::SurfaceView& view, const hooks::RefinementRequests& requests, bool owns_sizing);
 

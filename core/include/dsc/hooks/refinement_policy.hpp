@@ -2,11 +2,13 @@
 // Hook `refinement`: what to split, collapse and flip between steps, and how long edges shall be.
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <dsc/hooks/attributes.hpp>
 #include <dsc/hooks/context.hpp>
 #include <dsc/hooks/velocity_field.hpp>
+#include <dsc/mesh/repair.hpp>
 
 namespace dsc::hooks {
 
@@ -68,6 +70,10 @@ public:
     /// Whether this refinement decides how long edges are. While its series runs, the improvement makes no size edits, and L
     /// is what the refinement says: it is not set to the mean edge after splits.
     virtual bool owns_sizing() const { return false; }
+    /// Creases that no collapse, flip, relabelling or compound may remove, nor turn a face further than the rule allows, of this
+    /// refinement's requests and the improvement's; asked before each step and each refinement. Of two rules the stricter
+    /// bounds count. For a tet below the kernel's quality floor the rule is set aside, which is counted.
+    virtual std::optional<mesh::CreaseRule> keep_creases() const { return std::nullopt; }
     /// How often refine() is called within one refinement, from 1 to refinement_passes: each time with a fresh view, until it
     /// asks for no change of the mesh.
     virtual unsigned passes() const { return 1; }

@@ -1,8 +1,11 @@
 #pragma once
 // Hook `velocity`: where the interface wants to go.
 
+#include <optional>
+
 #include <dsc/hooks/attributes.hpp>
 #include <dsc/hooks/context.hpp>
+#include <dsc/mesh/repair.hpp>
 
 namespace dsc::hooks {
 
@@ -43,6 +46,8 @@ public:
     /// Number of the step after which finished() will be true, where that is known; 0 otherwise. Contexts tell it as
     /// StepContext::planned_steps. [step]
     virtual std::uint64_t planned_steps() const { return 0; }
+    /// As RefinementPolicy::keep_creases(), where the velocity declares it.
+    virtual std::optional<mesh::CreaseRule> keep_creases() const { return std::nullopt; }
 };
 
 }  // namespace dsc::hooks

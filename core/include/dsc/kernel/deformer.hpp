@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,6 +38,7 @@ struct RepairPolicy {
     mesh::TopologyLimits topology;
     double flatness = 0.995;
     bool size_edits = true;  ///< told to `propose`: false where a refinement owns the sizing
+    std::optional<mesh::CreaseRule> creases;  ///< that edits leave; empty: they may remove any
 };
 
 /// Edge to become one vertex: `kept` stays and lies at `place` then.
@@ -65,6 +67,7 @@ struct RefineRequests {
     std::vector<FlipTo> flips;
     std::vector<MoveTo> moves;
     bool owns_sizing = false;  ///< L stays what it is, whatever is split
+    std::optional<mesh::CreaseRule> creases;  ///< that collapses and flips leave
 };
 
 /// No collapse, flip or move of a refinement, and no split of one that owns the sizing, leaves a touched tet below
@@ -76,6 +79,7 @@ struct RefineReport {
     std::size_t requested = 0;
     std::size_t committed = 0;
     bool length_changed = false;
+    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule aside for a tet below the quality floor
 };
 
 /// Owns a complex and advances it. Results do not depend on the workers' thread count.

@@ -66,6 +66,12 @@ struct Outcome {
     Refusal refusal = Refusal::committed;
 };
 
+/// Creases of the interface that edits shall leave, judged on the geometry as it is.
+struct CreaseRule {
+    double dihedral = 0.6;  ///< radians between the normals of an edge's two faces above which the edge is a crease
+    double turn = 0.7954;   ///< radians by which an edit may turn a face, acos 0.7
+};
+
 /// What a repair round knows. Spans live as long as the call.
 struct RepairRound {
     const Complex& complex;
