@@ -116,6 +116,20 @@ private:
                 .attributes = attributes_};
     }
 
+    /// The nearest points serve the velocity of the next step and the figures of this one.
+    void refresh_view() {
+        const Timed timed(result_.totals.seconds.velocity);
+        surface::build_view(deformer_.complex(), view_, &workers_);
+        faces_of_points_.clear();
+        lengths_ = deformer_.target_lengths(view_.vertex_ids);
+        attributes_ = attributes_at(deformer_, view_.vertex_ids);
+        if (cloud_ == nullptr) return;
+        nearest_.resize(view_.vertex_count());
+        workers_.for_blocks(nearest_.size(), block, [this](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) nearest_[i] = cloud_->search().nearest(view_.positions[i]);
+        });
+    }
+
     /// What the velocity's calls see: the faces of the points too, where it wants them.
     hooks::StepContext make_velocity_context(std::uint64_t step) {
         hooks::StepContext context = make_context(step);
