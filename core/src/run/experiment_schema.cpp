@@ -151,7 +151,7 @@ void Experiment::declare(config::ParamSchema<Experiment>& s) {
         .required()
         .doc(
             "What happens, item by item: {steps: N}, {refine: {...}} or {steps: N, every: K, refine: "
-            "{...}}. Steps may have 'until: finished'.");
+            "{...}}.");
     s.object("stop", &Experiment::stop, declare_stop).doc("Ends a series of steps early. Left out: never.");
     s.strategies("observers", &Experiment::observers, "observer")
         .doc("Adds figures to metrics.csv and summary.json.");
