@@ -1,5 +1,6 @@
 // The one home of the hooks' virtual tables: a type made by a plugin is the type that the host knows.
 #include <dsc/base/error.hpp>
+#include <dsc/hooks/attributes.hpp>
 #include <dsc/hooks/cloud_filter.hpp>
 #include <dsc/hooks/context.hpp>
 #include <dsc/hooks/curvature_estimator.hpp>
@@ -10,14 +11,23 @@
 #include <dsc/hooks/velocity_field.hpp>
 
 #include <algorithm>
+#include <iterator>
 
 namespace dsc::hooks {
+
+bool may_name_attribute(std::string_view name) {
+    const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
+    return !name.empty() && std::all_of(name.begin(), name.end(), plain) &&
+           std::find(std::begin(reserved_attributes), std::end(reserved_attributes), name) == std::end(reserved_attributes);
+}
 
 Strategy::~Strategy() = default;
 void Strategy::save(std::ostream&) const {}
 void Strategy::load(std::istream&) {}
 
 VelocityField::~VelocityField() = default;
+void VelocityField::advance(const StepContext&) {}
+void VelocityField::publish(Attributes&) const {}
 void VelocityField::sample(std::span<const Vec3>, std::span<const Vec3>, std::span<Vec3>) const {
     throw StrategyError("strategy.no_sampling", "this velocity field has no value away from the vertices (can_sample() is false)");
 }

@@ -19,7 +19,7 @@ mesh::TetMesh decode_vtu(const std::string& content, std::string_view file);
 
 std::string encode_obj(const surface::TriangleMesh& mesh);
 std::string encode_off(const surface::TriangleMesh& mesh);
-std::string encode_ply(const surface::TriangleMesh& mesh);
+std::string encode_ply(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points);
 std::string encode_stl(const surface::TriangleMesh& mesh);
 std::string encode_dsc(const mesh::TetMesh& mesh);
 std::string encode_medit(const mesh::TetMesh& mesh);

@@ -302,17 +302,21 @@ surface::TriangleMesh decode_ply(std::string_view content, std::string_view file
         .read();
 }
 
-std::string encode_ply(const surface::TriangleMesh& mesh) {
+std::string encode_ply(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points) {
+    std::string further;
+    for (const DataArray& a : points) further += "property double " + a.name + "\n";
     std::string out =
         "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.points.size()) +
         "\nproperty double x\nproperty double y\nproperty double z\n" +
         (mesh.colours.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n") +
-        "element face " + std::to_string(mesh.faces.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
-    out.reserve(out.size() + 27 * mesh.points.size() + 13 * mesh.faces.size());
+        further + "element face " + std::to_string(mesh.faces.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+    out.reserve(out.size() + (27 + 8 * points.size()) * mesh.points.size() + 13 * mesh.faces.size());
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         for (int k = 0; k < 3; ++k) append_bytes(out, mesh.points[i][k]);
-        if (mesh.colours.empty()) continue;
-        for (const std::uint8_t c : mesh.colours[i]) append_bytes(out, c);
+        if (!mesh.colours.empty()) {
+            for (const std::uint8_t c : mesh.colours[i]) append_bytes(out, c);
+        }
+        for (const DataArray& a : points) append_bytes(out, a.values[i]);
     }
     for (const auto& face : mesh.faces) {
         append_bytes(out, std::uint8_t{3});

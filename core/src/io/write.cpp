@@ -75,14 +75,23 @@ void require_colours(const surface::TriangleMesh& mesh) {
                                                "; give one for each or none");
 }
 
+void require_fit(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points) {
+    for (const DataArray& a : points) {
+        if (a.values.size() == mesh.points.size()) continue;
+        throw GeometryError("surface.size", "surface: array " + in_quotes(a.name) + " has " + counted(a.values.size(), "value") +
+                                                " for " + counted(mesh.points.size(), "point") + "; give one for each");
+    }
+}
+
 }  // namespace
 
-void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh) {
+void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh, const std::vector<DataArray>& points) {
     const Format& format = require_format(file, &Format::surface, "surface", surface_extensions());
     surface::require_sound(mesh);
     require_colours(mesh);
+    require_fit(mesh, points);
     write_file(file, format.extension == ".obj"   ? encode_obj(mesh)
-                     : format.extension == ".ply" ? encode_ply(mesh)
+                     : format.extension == ".ply" ? encode_ply(mesh, points)
                      : format.extension == ".off" ? encode_off(mesh)
                                                   : encode_stl(mesh));
 }

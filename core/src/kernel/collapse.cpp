@@ -1,8 +1,10 @@
 // Edge collapse, with or without the interface.
 #include <cmath>
+#include <optional>
 
 #include <dsc/geometry/quality.hpp>
 
+#include "kernel/creases.hpp"
 #include "kernel/operations.hpp"
 
 namespace dsc::kernel {
@@ -15,6 +17,7 @@ struct Plan {
     VertexId kept = mesh::none, removed = mesh::none;
     double weight = 0.0;
     float least = -1.0F;
+    std::optional<Vec3> wanted{};  // the place instead of the one that `weight` gives
 };
 
 class Collapse {
@@ -67,7 +70,7 @@ public:
             std::replace(tet.v.begin(), tet.v.end(), plan.removed, plan.kept);
             edit.added.push_back(tet);
         }
-        if (plan.weight == 0.0) return;
+        if (plan.weight == 0.0 && !plan.wanted) return;
         edit.moved = plan.kept;
         edit.moved_to = place(plan);
         for (const TetId t : star_kept) {
@@ -78,6 +81,7 @@ public:
     }
 
     Vec3 place(const Plan& plan) const {
+        if (plan.wanted) return *plan.wanted;
         if (plan.weight == 1.0) return c_.position(plan.removed);
         return (1.0 - plan.weight) * c_.position(plan.kept) + plan.weight * c_.position(plan.removed);
     }
@@ -146,6 +150,42 @@ bool is_interface_edge(const Workbench& bench) {
     return std::any_of(tets.begin(), tets.end(), [&](TetId t) { return bench.complex.label(t) != first; });
 }
 
+// Judges and commits the collapse in the bench.
+Refusal finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool interface_edge, float must_exceed, float old) {
+    mesh::Complex& c = bench.complex;
+    double distance = 0.0, volume = 0.0;
+    collapse.build(plan);
+    if (interface_edge) {
+        distance = collapse.interface_distance(plan);
+        volume = bench.phase_change();
+        const EditBounds bounds = bench.bounds_at(plan.kept, plan.removed);
+        if (distance > bounds.distance || volume > bounds.volume) return Refusal::bound;
+    }
+    if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
+    if (!c.link(bench.edit)) return Refusal::irregular;
+    if (interface_edge && !collapse.link_condition()) {
+        // Round any other vertex nothing dies and nothing meets: its tets only have a corner renamed.
+        bench.shared_interface_vertices(bench.vertices);
+        if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
+    }
+    if (interface_edge) {
+        if (const Refusal r = check_creases(bench, plan.kept, plan.removed); r != Refusal::committed) return r;
+    }
+    bench.commit(distance, volume);
+    if (bench.listener != nullptr) {
+        bench.listener->on_collapse(plan.kept, plan.removed, plan.weight);
+        if (interface_edge) bench.listener->on_interface_collapse(plan.kept);
+    }
+    return Refusal::committed;
+}
+
+float least_quality_of_stars(const Workbench& bench) {
+    float least = 1.0F;
+    for (const TetId s : bench.star_a) least = std::min(least, bench.complex.quality(s));
+    for (const TetId s : bench.star_b) least = std::min(least, bench.complex.quality(s));
+    return least;
+}
+
 }  // namespace
 
 Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode, float accept_above) {
@@ -163,9 +203,7 @@ Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     const bool b_moves = b_goes && (!shape_matters || bench.flat(b, bench.star_b));
     if (!a_moves && !b_moves) return Refusal::bound;
 
-    float old = 1.0F;
-    for (const TetId s : bench.star_a) old = std::min(old, c.quality(s));
-    for (const TetId s : bench.star_b) old = std::min(old, c.quality(s));
+    const float old = least_quality_of_stars(bench);
     const float must_exceed = std::min(old, accept_above);
     Plan best;
     const auto offer = [&](VertexId kept, VertexId removed, double weight, const Vec3& place, bool moves_a, bool moves_b) {
@@ -180,26 +218,30 @@ Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     }
     if (best.kept == mesh::none) return Refusal::quality;
 
-    double distance = 0.0, volume = 0.0;
-    collapse.build(best);
-    if (interface_edge) {
-        distance = collapse.interface_distance(best);
-        volume = bench.phase_change();
-        if (distance > bench.limits.edit_distance || volume > bench.limits.edit_volume) return Refusal::bound;
+    const Refusal result = finish(bench, collapse, best, interface_edge, must_exceed, old);
+    if (result != Refusal::bound || !interface_edge || !bench.limits.keeps_creases()) return result;
+    // The other way round, or into the end that lies on a crease.
+    for (const auto& [kept, removed] : {std::array{a, b}, std::array{b, a}}) {
+        const bool to_a = kept == a;
+        if (!(to_a ? b_moves : a_moves) || (best.kept == kept && best.weight == 0.0)) continue;
+        const float least = collapse.least(c.position(kept), !to_a, to_a, must_exceed);
+        if (!(least > must_exceed)) continue;
+        if (finish(bench, collapse, {kept, removed, 0.0, least}, true, must_exceed, old) == Refusal::committed) return Refusal::committed;
     }
-    if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
-    if (!c.link(bench.edit)) return Refusal::irregular;
-    if (interface_edge && !collapse.link_condition()) {
-        // Round any other vertex nothing dies and nothing meets: its tets only have a corner renamed.
-        bench.shared_interface_vertices(bench.vertices);
-        if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
-    }
-    bench.commit(distance, volume);
-    if (bench.listener != nullptr) {
-        bench.listener->on_collapse(best.kept, best.removed, best.weight);
-        if (interface_edge) bench.listener->on_interface_collapse(best.kept);
-    }
-    return Refusal::committed;
+    return result;
+}
+
+Refusal collapse_edge_to(Workbench& bench, TetId t, VertexId kept, VertexId removed, const Vec3& place) {
+    mesh::Complex& c = bench.complex;
+    c.ring(t, kept, removed, bench.ring);
+    if (!bench.ring.closed) return Refusal::box;
+    if (!is_interface_edge(bench)) return Refusal::not_applicable;
+    if (c.on_box(kept) || c.on_box(removed)) return Refusal::box;
+    Collapse collapse(bench, kept, removed, true);
+    if (!collapse.removable(removed)) return Refusal::not_applicable;
+    Plan plan{kept, removed};
+    if (collapse.free_to_move(kept)) plan.wanted = place;
+    return finish(bench, collapse, plan, true, 0.0F, least_quality_of_stars(bench));
 }
 
 }  // namespace dsc::kernel

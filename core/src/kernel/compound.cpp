@@ -4,6 +4,7 @@
 
 #include <dsc/geometry/quality.hpp>
 
+#include "kernel/creases.hpp"
 #include "kernel/operations.hpp"
 
 namespace dsc::kernel {
@@ -69,7 +70,8 @@ Refusal finish(Workbench& bench, const mesh::Request& request, VertexId a, Verte
         volume = bench.phase_change();
         const Vec3& place = bench.edit.created_at;
         distance = (place - ((1.0 - s) * c.position(a) + s * c.position(b))).norm();
-        if (distance > bench.limits.edit_distance || volume > bench.limits.edit_volume) return Refusal::bound;
+        const EditBounds bounds = bench.bounds_at(a, b);
+        if (distance > bounds.distance || volume > bounds.volume) return Refusal::bound;
         bench.vertices.clear();
         for (const TetId t : bench.edit.removed) {
             for (const VertexId v : c.tet(t).v) {
@@ -80,6 +82,7 @@ Refusal finish(Workbench& bench, const mesh::Request& request, VertexId a, Verte
         bench.vertices.erase(std::unique(bench.vertices.begin(), bench.vertices.end()), bench.vertices.end());
         bench.vertices.push_back(mesh::created_vertex);
         if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
+        if (const Refusal r = check_creases(bench); r != Refusal::committed) return r;
     }
     const VertexId created = bench.commit(distance, volume);
     if (bench.listener != nullptr) bench.listener->on_split(created, a, b, s);

@@ -3,6 +3,7 @@
 
 #include <dsc/geometry/quality.hpp>
 
+#include "kernel/creases.hpp"
 #include "kernel/operations.hpp"
 #include "kernel/triangulations.hpp"
 
@@ -112,7 +113,8 @@ Refusal flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, f
     }
     const double distance = geometry::segment_distance(pa, pb, pp, pq);
     const double volume = std::abs(geometry::tet_volume(pa, pb, pp, pq));
-    if (distance > bench.limits.edit_distance || volume > bench.limits.edit_volume) return Refusal::bound;
+    const EditBounds bounds = bench.bounds_at(a, b);
+    if (distance > bounds.distance || volume > bounds.volume) return Refusal::bound;
     bench.edit.clear();
     bench.edit.removed = bench.ring.tets;
     const float old = bench.old_quality();
@@ -134,6 +136,7 @@ Refusal flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, f
     if (turn < 2 || n - turn < 2 || !std::all_of(touched.begin(), touched.end(), simple)) {
         if (const Refusal r = bench.check_topology(touched); r != Refusal::committed) return r;
     }
+    if (const Refusal r = check_creases(bench); r != Refusal::committed) return r;
     bench.commit(distance, volume);
     return Refusal::committed;
 }

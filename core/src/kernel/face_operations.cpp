@@ -107,7 +107,7 @@ Refusal split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point) 
     if (c.label(t) != c.label(other)) {
         // The point lies in the face's plane up to rounding; anything more would move the interface.
         volume = bench.phase_change();
-        if (volume > bench.limits.edit_volume) return Refusal::bound;
+        if (volume > bench.bounds_at(c.tet(t).v).volume) return Refusal::bound;
     }
     if (!c.link(bench.edit)) return Refusal::irregular;
     const std::array<VertexId, 3> corners = {c.tet(t).v[mesh::face_vertices[face][0]], c.tet(t).v[mesh::face_vertices[face][1]],

@@ -20,6 +20,9 @@ Refusal split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point);
 Refusal split_vertex(Workbench& bench, VertexId v, VertexId w);
 /// Edge (a, b) of tet t.
 Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, mesh::CollapseMode mode, float accept_above);
+/// Interface edge (kept, removed) of tet t becomes one vertex at `place`, within the edit bounds and above the quality floor.
+/// A kept vertex that may not move stays where it is.
+Refusal collapse_edge_to(Workbench& bench, TetId t, VertexId kept, VertexId removed, const Vec3& place);
 /// Whether v may be smoothed and is not known to gain nothing by it: `committed`, or why not. [parallel]
 Refusal may_smooth(const Workbench& bench, VertexId v, float accept_above);
 /// Where smooth_laplacian() would put v: from scratch.star to scratch.place and scratch.qualities. [parallel]

@@ -145,7 +145,7 @@ bool regular(Workbench& bench, const Region& region) {
 
 RegionFault grow(Workbench& bench, Region& region) {
     const mesh::Complex& c = bench.complex;
-    const double volume_limit = max_region_volume * geometry::regular_tet_volume(bench.limits.length);
+    const double volume_limit = max_region_volume * geometry::regular_tet_volume(bench.length_at(c.tet(region.tets.front()).v));
     mesh::LocalStar& star = bench.local_star();
     std::vector<TetId>&group = scratch().addition_group, &chain = scratch().addition_chain;
     for (int round = 0; round <= max_growth; ++round) {

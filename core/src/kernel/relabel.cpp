@@ -1,6 +1,7 @@
 // The interface shift: a tet, with whatever must go along, takes the label around it; the topology stays.
 #include <dsc/geometry/quality.hpp>
 
+#include "kernel/creases.hpp"
 #include "kernel/operations.hpp"
 #include "kernel/region.hpp"
 
@@ -40,7 +41,9 @@ Refusal relabel_tet(Workbench& bench, TetId t) {
     if (measure(bench, region) != RegionFault::none) return Refusal::irregular;
     if (region.patches_from != 1 || region.patches_to != 1) return Refusal::irregular;
     const double distance = 2.0 * region.volume / region.area_to;
-    if (region.volume > bench.limits.edit_volume || distance > bench.limits.edit_distance) return Refusal::bound;
+    const EditBounds bounds = bench.bounds_at(c.tet(t).v);
+    if (region.volume > bounds.volume || distance > bounds.distance) return Refusal::bound;
+    if (const Refusal r = check_creases(bench, region.tets, region.to); r != Refusal::committed) return r;
     c.relabel(region.tets, region.to);
     bench.sums.distance += distance;
     bench.sums.volume += region.volume;

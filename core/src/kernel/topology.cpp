@@ -86,7 +86,8 @@ bool TopologyStage::neck_face(TetId t, unsigned face, mesh::EdgeRing& ring) cons
     const auto& f = mesh::face_vertices[face];
     const auto& v = c.tet(t).v;
     const double area = geometry::triangle_area(c.position(v[f[0]]), c.position(v[f[1]]), c.position(v[f[2]]));
-    if (area > thickest_neck * bench_.limits.length * bench_.limits.length) return false;
+    const double length = bench_.length_at(v);
+    if (area > thickest_neck * length * length) return false;
     for (unsigned k = 0; k < 3; ++k) {
         if (!interface_edge(t, v[f[k]], v[f[(k + 1) % 3]], ring)) return false;
     }
@@ -95,8 +96,9 @@ bool TopologyStage::neck_face(TetId t, unsigned face, mesh::EdgeRing& ring) cons
 
 void TopologyStage::collect_seeds_of(TetId t, std::uint64_t step, SeedBlock& block) const {
     const mesh::Complex& c = bench_.complex;
-    const double limit2 = longest_edge * longest_edge * bench_.limits.length * bench_.limits.length;
     const auto& v = c.tet(t).v;
+    const double length = bench_.length_at(v);
+    const double limit2 = longest_edge * longest_edge * length * length;
     std::array<bool, 4> ready{};
     unsigned count = 0;
     for (unsigned i = 0; i < 4; ++i) {
@@ -210,6 +212,9 @@ bool TopologyStage::same_shell(std::span<const VertexId> from, std::span<const V
     return std::any_of(to.begin(), to.end(), [this](VertexId v) { return seen_[v] == seen_epoch_; });
 }
 
+// The target length where a region lies: at its first tet, from which it was grown.
+double TopologyStage::length_at(const Region& region) const { return bench_.length_at(bench_.complex.tet(region.tets.front()).v); }
+
 Event TopologyStage::commit(const Region& region, std::uint64_t step) {
     mesh::Complex& c = bench_.complex;
     Event event;
@@ -218,7 +223,7 @@ Event TopologyStage::commit(const Region& region, std::uint64_t step) {
     event.label = region.from;
     event.tets = region.tets.size();
     event.volume = region.volume;
-    event.thickness = thickness(region) / bench_.limits.length;
+    event.thickness = thickness(region) / length_at(region);
     const bool bridged = region.patches_to == 2 && same_shell(region.patch_a, region.patch_b);
     c.relabel(region.tets, region.to);
     bench_.sums.relabelled += region.volume;
@@ -240,7 +245,6 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
     mesh::Complex& c = bench_.complex;
     collect_seeds(step, changed, workers);
     found_.clear();
-    const double regular_volume = geometry::regular_tet_volume(bench_.limits.length);
     Region& region = region_;
     for (const Seed& seed : seeds_) {
         if (region_of(seed, region) != RegionFault::none) continue;
@@ -249,8 +253,8 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
         if (!wanted(candidate.kind, limits)) continue;
         candidate.label = region.from;
         candidate.centroid = region.centroid;
-        candidate.thickness = thickness(region) / bench_.limits.length;
-        candidate.volume = region.volume / regular_volume;
+        candidate.thickness = thickness(region) / length_at(region);
+        candidate.volume = region.volume / geometry::regular_tet_volume(length_at(region));
         if (candidate.thickness <= limits.thickness) found_.push_back({seed, candidate});
     }
     if (found_.empty()) return;
@@ -276,9 +280,9 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
         const bool shift = f->candidate.kind == mesh::TopologyCandidate::Kind::shift;
         if ((shift ? shifted : committed) == most) continue;
         if (!usable(f->seed, f->candidate.label, step) || region_of(f->seed, region) != RegionFault::none) continue;
-        if (kind_of(region) != f->candidate.kind || thickness(region) / bench_.limits.length > limits.thickness) continue;
+        if (kind_of(region) != f->candidate.kind || thickness(region) / length_at(region) > limits.thickness) continue;
         if (shift) {
-            if (region.volume > bench_.limits.edit_volume) continue;
+            if (region.volume > bench_.bounds_at(c.tet(region.tets.front()).v).volume) continue;
             c.relabel(region.tets, region.to);
             bench_.sums.relabelled += region.volume;
             bench_.sums.volume += region.volume;
@@ -319,11 +323,11 @@ void TopologyStage::remove_small_components(std::uint64_t step, std::span<const 
                                             std::vector<Event>& events) {
     if (!(min_component > 0.0)) return;
     mesh::Complex& c = bench_.complex;
-    const double limit = min_component * geometry::regular_tet_volume(bench_.limits.length);
     Region& region = region_;
     std::vector<TetId>& seeds = component_seeds_;
     for (const VertexId v : near) {
         if (v >= c.vertex_slots() || !c.vertex_alive(v) || !c.on_interface(v)) continue;
+        const double limit = min_component * geometry::regular_tet_volume(bench_.length_at(v));
         // One seed a label: the star of a regular vertex has one group each.
         c.star(v, star_);
         seeds.clear();

@@ -28,6 +28,7 @@ public:
     void remove_small_components(std::uint64_t step, std::span<const VertexId> near, double min_component, std::vector<Event>& events);
 
     /// Relabels and names the event; kinds other than (1,2), (2,1), (0,1), (1,0) must not be committed.
+    double length_at(const Region& region) const;
     Event commit(const Region& region, std::uint64_t step);
 
     /// Which vertices rest since which event. [step]

@@ -5,6 +5,7 @@
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/vertex_split.hpp>
 
+#include "kernel/creases.hpp"
 #include "kernel/operations.hpp"
 
 namespace dsc::kernel {
@@ -170,7 +171,8 @@ Refusal split_vertex(Workbench& bench, VertexId v, VertexId w) {
     // Where the star's interface corner sits in the group, the new vertex takes the corner over: geometry would move.
     if (c.on_interface(v)) {
         const double volume = bench.phase_change();
-        if (volume > bench.limits.edit_volume) return Refusal::bound;
+        const EditBounds bounds = bench.bounds_at(v, v);
+        if (volume > bounds.volume) return Refusal::bound;
         bench.vertices.clear();
         for (const TetId t : bench.edit.removed) {
             for (const VertexId x : c.tet(t).v) {
@@ -181,8 +183,9 @@ Refusal split_vertex(Workbench& bench, VertexId v, VertexId w) {
         bench.vertices.erase(std::unique(bench.vertices.begin(), bench.vertices.end()), bench.vertices.end());
         bench.vertices.push_back(mesh::created_vertex);
         const double distance = (bench.edit.created_at - c.position(v)).norm();
-        if (distance > bench.limits.edit_distance) return Refusal::bound;
+        if (distance > bounds.distance) return Refusal::bound;
         if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
+        if (const Refusal r = check_creases(bench); r != Refusal::committed) return r;
         const VertexId created = bench.commit(volume > 0.0 ? distance : 0.0, volume);
         if (bench.listener != nullptr) bench.listener->on_split(created, v, v, 0.0);
         return Refusal::committed;

@@ -12,6 +12,24 @@ double Workbench::quality(VertexId a, VertexId b, VertexId c, VertexId d) const 
     return geometry::tet_quality(at(a), at(b), at(c), at(d));
 }
 
+double Workbench::length_at(std::span<const VertexId> at_vertices) const {
+    if (lengths == nullptr) return limits.length;
+    double sum = 0.0;
+    unsigned count = 0;
+    for (const VertexId v : at_vertices) {
+        if (v >= lengths->size() || !((*lengths)[v] > 0.0)) continue;
+        sum += (*lengths)[v];
+        ++count;
+    }
+    return count > 0 ? sum / count : limits.length;
+}
+
+EditBounds Workbench::bounds_at(std::span<const VertexId> at_vertices) const {
+    if (lengths == nullptr) return {limits.edit_distance, limits.edit_volume};
+    const double scale = length_at(at_vertices) / limits.length;
+    return {limits.edit_distance * scale, limits.edit_volume * scale * scale * scale};
+}
+
 float Workbench::old_quality() const {
     float least = 1.0F;
     for (const TetId t : edit.removed) least = std::min(least, complex.quality(t));

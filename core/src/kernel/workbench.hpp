@@ -18,13 +18,23 @@ using mesh::Refusal;
 using mesh::TetId;
 using mesh::VertexId;
 
-/// Absolute limits of one edit, in normalised units.
+/// Absolute limits of one edit, in normalised units, where the target length is L.
 struct Limits {
     double length = 0.0;          ///< L
     double quality_floor = 1e-3;
     double edit_distance = 0.0;   ///< by which one edit may move the interface
     double edit_volume = 0.0;     ///< by which one edit may change a phase
     double flatness = 0.995;      ///< cosine
+    double crease = -2.0;         ///< cosine between an edge's two faces below which it is a crease that stays; -2: none is
+    double turn = -2.0;           ///< least cosine between a face's normals before and after an edit
+    double crease_floor = 0.0;    ///< for a tet below this quality creases may go
+    bool keeps_creases() const { return crease > -2.0; }
+};
+
+/// By how much one edit may change the interface at a place.
+struct EditBounds {
+    double distance = 0.0;  ///< by which it may move
+    double volume = 0.0;    ///< by which a phase may change
 };
 
 /// Told of vertices that come and go, so that destinations can follow.
@@ -58,9 +68,11 @@ public:
 
     mesh::Complex& complex;
     Limits limits;
+    const std::vector<double>* lengths = nullptr;  ///< target length per vertex, NaN for none; null where it is L everywhere
     mesh::Edit edit;
     EditListener* listener = nullptr;
     EditSums sums;
+    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule for creases aside
 
     // Scratch of the operations; whoever needs one fills it.
     mesh::EdgeRing ring, ring2;
@@ -75,6 +87,14 @@ public:
         return v == edit.moved ? edit.moved_to : complex.position(v);
     }
     double quality(VertexId a, VertexId b, VertexId c, VertexId d) const;
+
+    /// The target length at these vertices: the mean of those that have one, L where none has. [parallel]
+    double length_at(std::span<const VertexId> vertices) const;
+    double length_at(VertexId v) const { return length_at(std::span(&v, 1)); }
+    double length_at(VertexId a, VertexId b) const { return length_at(std::array<VertexId, 2>{a, b}); }
+    /// The bounds of an edit at these vertices.
+    EditBounds bounds_at(std::span<const VertexId> vertices) const;
+    EditBounds bounds_at(VertexId a, VertexId b) const { return bounds_at(std::array<VertexId, 2>{a, b}); }
 
     /// Least cached quality of the edit's removed tets; 1 without any.
     float old_quality() const;

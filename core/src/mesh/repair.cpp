@@ -15,4 +15,16 @@ std::string_view name(Refusal refusal) {
     return names[static_cast<std::size_t>(refusal)];
 }
 
+double RepairRound::length_of(TetId t) const {
+    if (lengths.empty()) return target_length;
+    double sum = 0.0;
+    unsigned count = 0;
+    for (const VertexId v : complex.tet(t).v) {
+        if (v >= lengths.size() || !(lengths[v] > 0.0)) continue;
+        sum += lengths[v];
+        ++count;
+    }
+    return count > 0 ? sum / count : target_length;
+}
+
 }  // namespace dsc::mesh

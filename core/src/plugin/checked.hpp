@@ -25,6 +25,13 @@ struct Attribution {
     }
 };
 
+/// Attributes of a surface: one finite number per vertex, under names that they may have and that differ. Throws
+/// StrategyFailure.
+void judge(const Call& current, const hooks::Attributes& attributes, std::size_t vertices);
+
+/// Angles of a rule for creases: above 0, at most pi. Throws StrategyFailure.
+void judge(const Call& current, const std::optional<mesh::CreaseRule>& creases);
+
 /// Save and load of any wrapped hook.
 template <class Hook>
 class Checked : public Hook {

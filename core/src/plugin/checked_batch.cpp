@@ -63,6 +63,15 @@ class CheckedVelocity final : public Checked<hooks::VelocityField> {
 public:
     using Checked::Checked;
 
+    bool needs_faces_of_points() const override {
+        return guarded(call("needs_faces_of_points"), [&] { return inner().needs_faces_of_points(); });
+    }
+
+    void advance(const hooks::StepContext& context) override {
+        const hooks::StepContext& kept = step_.keep(own(context));
+        guarded(call("advance", kept.step), [&] { inner().advance(kept); });
+    }
+
     void prepare(const hooks::StepContext& context) override {
         const hooks::StepContext& kept = step_.keep(own(context));
         guarded(call("prepare", kept.step), [&] { inner().prepare(kept); });
@@ -106,6 +115,30 @@ public:
             }
             out[i] = given[i];
         }
+    }
+
+    void publish(hooks::Attributes& out) const override {
+        const hooks::StepContext& context = step_.get(call("publish"));
+        const Call current = call("publish", context.step);
+        hooks::Attributes given;
+        guarded(current, [&] { inner().publish(given); });
+        judge(current, given, context.surface.vertex_count());
+        for (hooks::Attribute& a : given) out.push_back(std::move(a));
+    }
+
+    bool finished() const override {
+        return guarded(call("finished"), [&] { return inner().finished(); });
+    }
+
+    std::optional<mesh::CreaseRule> keep_creases() const override {
+        const Call current = call("keep_creases");
+        const auto rule = guarded(current, [&] { return inner().keep_creases(); });
+        judge(current, rule);
+        return rule;
+    }
+
+    std::uint64_t planned_steps() const override {
+        return guarded(call("planned_steps"), [&] { return inner().planned_steps(); });
     }
 
 private:

@@ -8,12 +8,50 @@
 namespace dsc::plugin {
 namespace {
 
+constexpr std::string_view lengths_remedy = "lengths must be finite and above 0; report this to the plugin's authors";
+
 // snake_case: what columns, keys and classes may be called.
 bool plain_name(std::string_view name) {
     return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
     });
 }
+
+}  // namespace
+
+void judge(const Call& current, const hooks::Attributes& attributes, std::size_t vertices) {
+    std::vector<std::string_view> seen;
+    for (const hooks::Attribute& a : attributes) {
+        if (!hooks::may_name_attribute(a.name) || std::find(seen.begin(), seen.end(), a.name) != seen.end()) {
+            fail(current, "strategy.range", "gave an attribute the name '" + a.name + "'",
+                 "names are snake_case, differ, and are none that files have for other things; report this to the plugin's authors");
+        }
+        seen.push_back(a.name);
+        if (a.values.size() != vertices) {
+            fail(current, "strategy.size",
+                 "gave the attribute '" + a.name + "' " + std::to_string(a.values.size()) + " values for " +
+                     std::to_string(vertices) + " vertices",
+                 report_it);
+        }
+        for (std::size_t i = 0; i < vertices; ++i) {
+            if (std::isfinite(a.values[i])) continue;
+            fail(current, "strategy.not_finite",
+                 "gave the attribute '" + a.name + "' the value " + std::to_string(a.values[i]) + " at " + entry("vertex", i), report_it);
+        }
+    }
+}
+
+void judge(const Call& current, const std::optional<mesh::CreaseRule>& creases) {
+    if (!creases) return;
+    constexpr double pi = 3.14159265358979323846;
+    for (const double angle : {creases->dihedral, creases->turn}) {
+        if (angle > 0 && angle <= pi) continue;
+        fail(current, "strategy.range", "gave the angle " + std::to_string(angle) + " for creases",
+             "angles are above 0 and at most pi; report this to the plugin's authors");
+    }
+}
+
+namespace {
 
 class CheckedRefinement final : public Checked<hooks::RefinementPolicy> {
 public:
@@ -23,10 +61,38 @@ public:
         return guarded(call("needs_sampling"), [&] { return inner().needs_sampling(); });
     }
 
+    bool owns_sizing() const override {
+        return guarded(call("owns_sizing"), [&] { return inner().owns_sizing(); });
+    }
+
+    std::optional<mesh::CreaseRule> keep_creases() const override {
+        const Call current = call("keep_creases");
+        const auto rule = guarded(current, [&] { return inner().keep_creases(); });
+        judge(current, rule);
+        return rule;
+    }
+
+    unsigned passes() const override {
+        const Call current = call("passes");
+        const unsigned passes = guarded(current, [&] { return inner().passes(); });
+        if (passes < 1 || passes > hooks::refinement_passes) {
+            fail(current, "strategy.range", "asked for " + std::to_string(passes) + " passes",
+                 "from 1 to " + std::to_string(hooks::refinement_passes) + " are possible; report this to the plugin's authors");
+        }
+        return passes;
+    }
+
     void refine(const hooks::RefinementContext& context, hooks::RefinementRequests& out) override {
         const hooks::StepContext step = own(context.step);
         const Call current = call("refine", step.step);
-        guarded(current, [&] { inner().refine({step, context.velocity}, out); });
+        guarded(current, [&] { inner().refine({step, context.velocity, context.pass}, out); });
+        judge_changes(current, step, out);
+        judge_lengths(current, step.surface.vertex_count(), out);
+        judge(current, out.attributes, step.surface.vertex_count());
+    }
+
+private:
+    static void judge_changes(const Call& current, const hooks::StepContext& step, const hooks::RefinementRequests& out) {
         const surface::SurfaceView& view = step.surface;
         const std::size_t vertices = view.vertex_count();
         for (std::size_t i = 0; i < out.split_faces.size(); ++i) {
@@ -38,17 +104,23 @@ public:
                 if (v >= vertices) bad_index(current, entry("split_edges", i), v);
             }
         }
-        if (!out.sizing.empty() && out.sizing.size() != vertices) {
-            fail(current, "strategy.size",
-                 "gave a sizing field of " + std::to_string(out.sizing.size()) + " entries for " +
-                     std::to_string(vertices) + " vertices",
-                 report_it);
+        for (std::size_t i = 0; i < out.collapse_edges.size(); ++i) {
+            const hooks::CollapseRequest& r = out.collapse_edges[i];
+            for (const std::uint32_t v : {r.kept, r.removed}) {
+                if (v >= vertices) bad_index(current, entry("collapse_edges", i), v);
+            }
+            if (!r.place.allFinite()) bad_number(current, entry("collapse_edges", i));
         }
-        for (std::size_t i = 0; i < out.sizing.size(); ++i) {
-            if (std::isfinite(out.sizing[i]) && out.sizing[i] > 0) continue;
-            fail(current, "strategy.not_finite",
-                 "gave vertex " + std::to_string(i) + " the target length " + std::to_string(out.sizing[i]),
-                 "lengths must be finite and above 0; report this to the plugin's authors");
+        for (std::size_t i = 0; i < out.flip_edges.size(); ++i) {
+            for (const std::uint32_t v : out.flip_edges[i].edge) {
+                if (v >= vertices) bad_index(current, entry("flip_edges", i), v);
+            }
+            if (!std::isfinite(out.flip_edges[i].flatness)) bad_number(current, entry("flip_edges", i));
+        }
+        for (std::size_t i = 0; i < out.move_vertices.size(); ++i) {
+            const hooks::MoveRequest& r = out.move_vertices[i];
+            if (r.vertex >= vertices) bad_index(current, entry("move_vertices", i), r.vertex);
+            if (!r.place.allFinite()) bad_number(current, entry("move_vertices", i));
         }
         for (std::size_t i = 0; i < out.relabel.size(); ++i) {
             constexpr auto greatest = static_cast<std::uint32_t>(std::numeric_limits<mesh::Label>::max());
@@ -56,7 +128,33 @@ public:
         }
     }
 
-private:
+    static void judge_lengths(const Call& current, std::size_t vertices, const hooks::RefinementRequests& out) {
+        for (const std::vector<double>* lengths : {&out.sizing, &out.target_lengths}) {
+            if (!lengths->empty() && lengths->size() != vertices) {
+                fail(current, "strategy.size",
+                     "gave a sizing field of " + std::to_string(lengths->size()) + " entries for " +
+                         std::to_string(vertices) + " vertices",
+                     report_it);
+            }
+            for (std::size_t i = 0; i < lengths->size(); ++i) {
+                const double length = (*lengths)[i];
+                if (std::isfinite(length) && length > 0) continue;
+                fail(current, "strategy.not_finite",
+                     "gave vertex " + std::to_string(i) + " the target length " + std::to_string(length), lengths_remedy);
+            }
+        }
+        if (!std::isfinite(out.target_length) || out.target_length < 0) {
+            fail(current, "strategy.not_finite", "gave the target length " + std::to_string(out.target_length), lengths_remedy);
+        }
+        if (out.target_length > 0 && !out.target_lengths.empty()) {
+            fail(current, "strategy.size", "gave a target length for the whole surface and one per vertex",
+                 "one of them is enough; report this to the plugin's authors");
+        }
+    }
+
+    [[noreturn]] static void bad_number(const Call& current, const std::string& where) {
+        fail(current, "strategy.not_finite", "gave a number that is not finite in " + where, report_it);
+    }
     [[noreturn]] static void bad_index(const Call& current, const std::string& where, std::uint32_t value) {
         fail(current, "strategy.range",
              "asked in " + where + " for " + std::to_string(value) + ", which does not exist", report_it);

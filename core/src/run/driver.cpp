@@ -6,6 +6,7 @@
 #include <dsc/run/driver.hpp>
 #include <dsc/run/mesh_files.hpp>
 
+#include "refinement.hpp"
 #include "saved_run.hpp"
 #include "step_figures.hpp"
 #include "stopwatch.hpp"
@@ -98,6 +99,7 @@ private:
 
     /// `step`: as in metrics.csv and events.jsonl, the first one is 1.
     hooks::StepContext make_context(std::uint64_t step) const {
+        const std::uint64_t told = strategies_.velocity->planned_steps();
         return {.step = step,
                 .surface = view_,
                 .cloud = cloud_,
@@ -108,18 +110,34 @@ private:
                 .seed = experiment_.seed,
                 .instance = 0,
                 .cancel = options_.cancel,
-                .workers = &workers_};
+                .workers = &workers_,
+                .planned_steps = told > 0 ? told : planned_,
+                .target_lengths = lengths_,
+                .attributes = attributes_};
     }
 
     /// The nearest points serve the velocity of the next step and the figures of this one.
     void refresh_view() {
         const Timed timed(result_.totals.seconds.velocity);
         surface::build_view(deformer_.complex(), view_, &workers_);
+        faces_of_points_.clear();
+        lengths_ = deformer_.target_lengths(view_.vertex_ids);
+        attributes_ = attributes_at(deformer_, view_.vertex_ids);
         if (cloud_ == nullptr) return;
         nearest_.resize(view_.vertex_count());
         workers_.for_blocks(nearest_.size(), evaluated_block, [this](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) nearest_[i] = cloud_->search().nearest(view_.positions[i]);
         });
+    }
+
+    /// What the velocity's calls see: the faces of the points too, where it wants them.
+    hooks::StepContext make_velocity_context(std::uint64_t step) {
+        hooks::StepContext context = make_context(step);
+        if (cloud_ == nullptr || !strategies_.velocity->needs_faces_of_points()) return context;
+        const Timed timed(result_.totals.seconds.velocity);
+        if (faces_of_points_.empty()) surface::nearest_faces(view_, cloud_->points(), faces_of_points_, &workers_);
+        context.faces_of_points = faces_of_points_;
+        return context;
     }
 
     void begin() {
@@ -141,7 +159,9 @@ private:
             totals.observers.emplace_back(experiment_.observers[i].type,
                                           strategies_.observers[i]->end(context));
         }
-        result_.mesh = deformer_.complex().to_mesh();
+        std::vector<mesh::VertexId> ids;
+        result_.mesh = deformer_.complex().to_mesh(&ids);
+        result_.attributes = attributes_at(deformer_, ids);
         result_.surface = surface::extract_interface(result_.mesh);
     }
 
@@ -150,6 +170,7 @@ private:
         const Series& item = experiment_.schedule[place_.item];
         hooks::RefinementPolicy* refinement = strategies_.refinements[place_.item].get();
         if (stop_asked()) return stop();
+        policy_.size_edits = refinement == nullptr || !refinement->owns_sizing();
         if (!item.steps) {
             refine(*refinement);
             return next_item();
@@ -157,11 +178,16 @@ private:
         if (place_.steps == 0) result_.totals.status = Status::max_steps;
         while (place_.steps < *item.steps) {
             if (stop_asked()) return stop();
+            policy_.creases = creases(refinement);
             const bool slow = advance();
             place_.quiet = slow ? place_.quiet + 1 : 0;
             ++place_.steps;
             if (over_) break;
             if (item.every && place_.steps % *item.every == 0) refine(*refinement);
+            if (item.until && strategies_.velocity->finished()) {
+                result_.totals.status = Status::converged;
+                break;
+            }
             if (place_.stuck >= stall_steps) {
                 result_.totals.status = Status::stalled;
                 break;
@@ -173,6 +199,10 @@ private:
             if (options_.checkpoint_every > 0 && deformer_.step_count() % options_.checkpoint_every == 0) checkpoint();
         }
         next_item();
+    }
+
+    std::optional<mesh::CreaseRule> creases(const hooks::RefinementPolicy* refinement) const {
+        return stricter(strategies_.velocity->keep_creases(), refinement != nullptr ? refinement->keep_creases() : std::nullopt);
     }
 
     void next_item() { place_ = {.item = place_.item + 1}; }
@@ -198,14 +228,14 @@ private:
 
     /// One step; true if its largest speed was below the stop criterion.
     bool advance() {
-        const hooks::StepContext context = make_context(deformer_.step_count() + 1);
+        const hooks::StepContext context = make_velocity_context(deformer_.step_count() + 1);
         context_ = &context;
         StepMetrics row;
         const double asked = velocities(context, row);
         const double mean_edge = view_.mean_edge;
         const kernel::StepReport report = deformer_.step(view_.vertex_ids, displacements_, policy_);
         context_ = nullptr;
-        const double came_about = achieved();
+        const double came_about = distance_gone(deformer_.complex(), view_, displacements_);
         result_.totals.add(report);
         for (const kernel::Event& event : report.events) tell(event);
         tell_repairs(report);
@@ -235,62 +265,42 @@ private:
         const Timed timed(result_.totals.seconds.velocity);
         const std::size_t count = view_.vertex_count();
         displacements_.assign(count, Vec3::Zero());
+        strategies_.velocity->advance(context);
         strategies_.velocity->prepare(context);
         workers_.for_blocks(count, evaluated_block, [&](std::size_t first, std::size_t last) {
             strategies_.velocity->evaluate({first, last},
                                            std::span(displacements_).subspan(first, last - first));
         });
-        double sum = 0.0;
-        std::size_t movable = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            if (view_.movable[i] == 0) continue;
-            const double speed = displacements_[i].norm();
-            sum += speed;
-            row.max_speed = std::max(row.max_speed, speed);
-            ++movable;
-        }
-        row.mean_speed = movable == 0 ? 0.0 : sum / static_cast<double>(movable);
-        return sum;
+        hooks::Attributes attributes;
+        strategies_.velocity->publish(attributes);
+        set_attributes(deformer_, view_, attributes);
+        return measure_speeds(view_, displacements_, row);
     }
 
-    /// Summed length that the vertices of the view have gone since it was taken; one that an edit removed counts with
-    /// what it asked for.
-    double achieved() const {
-        const mesh::Complex& complex = deformer_.complex();
-        double sum = 0.0;
-        for (std::size_t i = 0; i < view_.vertex_count(); ++i) {
-            if (view_.movable[i] == 0) continue;
-            const mesh::VertexId v = view_.vertex_ids[i];
-            const bool there = complex.vertex_alive(v) && complex.birth(v) == view_.births[i];
-            sum += there ? (complex.position(v) - view_.positions[i]).norm() : displacements_[i].norm();
-        }
-        return sum;
-    }
-
+    /// Its passes, each on a fresh view, until it asks for no change of the mesh.
     void refine(hooks::RefinementPolicy& refinement) {
         const Timed timed(result_.totals.seconds.refine);
-        const hooks::StepContext context = make_context(deformer_.step_count());
-        strategies_.velocity->prepare(context);
-        hooks::RefinementRequests requests;
-        refinement.refine({context, strategies_.velocity.get()}, requests);
+        const bool sampling = refinement.needs_sampling();
+        const unsigned passes = refinement.passes();
         ++result_.totals.refinements;
-        relabel(context, requests);
-
-        std::vector<std::array<mesh::VertexId, 3>> faces;
-        for (const std::uint32_t f : requests.split_faces) {
-            const auto& [a, b, c] = view_.faces[f];
-            faces.push_back({view_.vertex_ids[a], view_.vertex_ids[b], view_.vertex_ids[c]});
+        bool asked = true;
+        for (unsigned pass = 0; pass < passes && asked; ++pass) {
+            const hooks::StepContext context =
+                sampling ? make_velocity_context(deformer_.step_count()) : make_context(deformer_.step_count());
+            if (sampling) strategies_.velocity->prepare(context);
+            hooks::RefinementRequests requests;
+            refinement.refine({context, sampling ? strategies_.velocity.get() : nullptr, pass}, requests);
+            set_fields(deformer_, view_, requests);
+            relabel(context, requests);
+            kernel::RefineRequests wanted = kernel_requests(view_, requests, refinement.owns_sizing());
+            wanted.creases = creases(&refinement);
+            const kernel::RefineReport report = deformer_.refine(wanted);
+            result_.totals.crease_exceptions += report.crease_exceptions;
+            result_.totals.refine_requested += report.requested;
+            result_.totals.refine_committed += report.committed;
+            asked = report.requested > 0 || !requests.relabel.empty();
+            refresh_view();
         }
-        std::vector<std::array<mesh::VertexId, 2>> edges;
-        const auto add_edge = [&](std::uint32_t a, std::uint32_t b) {
-            edges.push_back({view_.vertex_ids[a], view_.vertex_ids[b]});
-        };
-        for (const auto& [a, b] : requests.split_edges) add_edge(a, b);
-        for (const auto& [a, b] : too_long(requests.sizing)) add_edge(a, b);
-        const kernel::RefineReport report = deformer_.refine(faces, edges);
-        result_.totals.refine_requested += report.requested;
-        result_.totals.refine_committed += report.committed;
-        refresh_view();
     }
 
     void relabel(const hooks::StepContext& context, const hooks::RefinementRequests& requests) {
@@ -310,22 +320,6 @@ private:
             result_.totals.count(event.kind);
             tell(event);
         }
-    }
-
-    /// Edges longer than the mean of the wanted lengths at their ends, each once, in ascending order.
-    std::vector<std::array<std::uint32_t, 2>> too_long(const std::vector<double>& sizing) const {
-        std::vector<std::array<std::uint32_t, 2>> edges;
-        if (sizing.empty()) return edges;
-        for (const auto& face : view_.faces) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                const std::uint32_t a = face[i], b = face[(i + 1) % 3];
-                const double length = (view_.positions[a] - view_.positions[b]).norm();
-                if (length > 0.5 * (sizing[a] + sizing[b])) edges.push_back({std::min(a, b), std::max(a, b)});
-            }
-        }
-        std::sort(edges.begin(), edges.end());
-        edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-        return edges;
     }
 
     void measure_row(StepMetrics& row) {
@@ -393,6 +387,9 @@ private:
     kernel::RepairPolicy policy_;
     surface::SurfaceView view_;
     std::vector<cloud::Neighbour> nearest_;
+    std::vector<surface::FacePoint> faces_of_points_;  // empty until somebody wants them
+    std::vector<double> lengths_;   // of the view's vertices; empty where L is the same everywhere
+    hooks::Attributes attributes_;  // of the view's vertices
     std::vector<Vec3> displacements_;
     const hooks::StepContext* context_ = nullptr;  // of the step under way, for the policy
     bool stopped_ = false;  // before the end of the schedule

@@ -79,6 +79,9 @@ void declare_series(config::ParamSchema<Series>& s) {
         .unit("steps")
         .doc("Refine after every so many of the steps.");
     s.strategy("refine", &Series::refine, "refinement").optional().doc("Refinement of the interface.");
+    s.choice("until", &Series::until, {{"finished", Until::finished}})
+        .doc("finished: the series ends as soon as the velocity says that its motion has come to its end.");
+    s.check([](const Series& p) { return p.steps || !p.until; }, "'until' belongs to an item with 'steps'");
     s.check([](const Series& p) { return p.steps || !p.refine.empty(); },
             "an item of the schedule needs 'steps', 'refine' or both with 'every'");
     s.check([](const Series& p) { return p.every.has_value() == (p.steps && !p.refine.empty()); },

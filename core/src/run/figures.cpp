@@ -97,6 +97,7 @@ void RunTotals::add(const kernel::StepReport& report) {
     arrived += report.arrived;
     clamped += report.clamped;
     dropped_motion += report.dropped_motion;
+    crease_exceptions += report.crease_exceptions;
     edit_distance += report.edit_distance;
     edit_volume += report.edit_volume;
     relabelled_volume += report.relabelled_volume;

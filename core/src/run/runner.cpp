@@ -30,9 +30,11 @@ public:
         : folder_(folder), output_(output), workers_(workers) {}
 
     /// Where all vanished, a motion has come to its end, with a volume and no surface; a cloud has got no surface.
-    void write(const mesh::TetMesh& mesh, const cloud::TargetCloud* target, RunOutcome& outcome) const {
+    void write(const mesh::TetMesh& mesh, const hooks::Attributes& attributes, const cloud::TargetCloud* target,
+               RunOutcome& outcome) const {
         folder_.open_staging();
-        surface::TriangleMesh surface = surface::extract_interface(mesh);
+        std::vector<std::uint32_t> vertex_of;
+        surface::TriangleMesh surface = surface::extract_interface(mesh, &vertex_of);
         if (target != nullptr) paint(surface, *target);
         if (surface.faces.empty() && target != nullptr) {
             throw GeometryError(
@@ -43,19 +45,21 @@ public:
         }
         for (const std::string& extension : output_.surface) {
             if (surface.faces.empty()) break;
-            io::write_surface(staged("surface.", extension), surface);
+            io::write_surface(staged("surface.", extension), surface, arrays(attributes, vertex_of));
             outcome.surfaces.push_back(folder_.file("result") / ("surface." + extension));
         }
         for (const mesh::Label label : several_phases(mesh)) {
-            surface::TriangleMesh phase = surface::extract_phase(mesh, label);
+            surface::TriangleMesh phase = surface::extract_phase(mesh, label, &vertex_of);
             if (target != nullptr) paint(phase, *target);
             for (const std::string& extension : output_.surface) {
-                io::write_surface(staged(label_stem(label), extension), phase);
+                io::write_surface(staged(label_stem(label), extension), phase, arrays(attributes, vertex_of));
                 outcome.surfaces.push_back(folder_.file("result") / (label_stem(label) + extension));
             }
         }
+        io::VolumeData data;
+        for (const hooks::Attribute& a : attributes) data.points.push_back({a.name, a.values});
         for (const std::string& extension : output_.volume) {
-            io::write_volume(staged("volume.", extension), mesh);
+            io::write_volume(staged("volume.", extension), mesh, data);
             outcome.volumes.push_back(folder_.file("result") / ("volume." + extension));
         }
     }
@@ -79,6 +83,17 @@ public:
     }
 
 private:
+    /// The attributes of a surface's points, which are those of the volume in `vertex_of`.
+    static std::vector<io::DataArray> arrays(const hooks::Attributes& attributes, const std::vector<std::uint32_t>& vertex_of) {
+        std::vector<io::DataArray> all;
+        for (const hooks::Attribute& a : attributes) {
+            io::DataArray& array = all.emplace_back();
+            array.name = a.name;
+            for (const std::uint32_t v : vertex_of) array.values.push_back(a.values[v]);
+        }
+        return all;
+    }
+
     /// Of a surface as written; `conforms` becomes false where one of its files differs from what the volume says.
     SurfaceMeasure measure_surface(const std::string& stem, const surface::TriangleMesh& of_volume, bool& conforms) const {
         for (const std::string& extension : output_.surface) {
@@ -241,7 +256,7 @@ private:
         outcome.totals = driven.totals;
         const Stopwatch io_watch;
         const ResultFiles files(folder, experiment.output, workers_);
-        files.write(to_input(driven.mesh, to_normalised), target, outcome);
+        files.write(to_input(driven.mesh, to_normalised), driven.attributes, target, outcome);
         files.measure_files(outcome);
         require_valid(outcome);
         if (!outcome.surfaces.empty()) {

@@ -35,6 +35,7 @@ void each_plain(Totals& t, Visit&& visit) {
     visit(t.edit_distance);
     visit(t.edit_volume);
     visit(t.relabelled_volume);
+    visit(t.crease_exceptions);
     visit(t.refinements);
     visit(t.refine_requested);
     visit(t.refine_committed);

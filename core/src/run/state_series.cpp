@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <dsc/base/error.hpp>
 #include <dsc/run/driver.hpp>
+#include <limits>
 
 #include "table.hpp"
 
@@ -58,6 +59,21 @@ double triangle_quality(double area, const Vec3& a, const Vec3& b, const Vec3& c
 void to_input(std::vector<Vec3>& points, const cloud::Transform& to_normalised) {
     if (to_normalised.identity()) return;
     for (Vec3& p : points) p = to_normalised.inverse(p);
+}
+
+/// The attributes as arrays of points with the given ids, NaN off the interface.
+void add_attributes(const hooks::StepContext& context, const std::vector<mesh::VertexId>& ids, io::VolumeData& data) {
+    if (context.attributes.empty()) return;
+    const std::vector<mesh::VertexId>& on_surface = context.surface.vertex_ids;
+    std::vector<std::uint32_t> view_of(*std::max_element(ids.begin(), ids.end()) + std::size_t{1}, mesh::none);
+    for (std::uint32_t i = 0; i < on_surface.size(); ++i) view_of[on_surface[i]] = i;
+    for (const hooks::Attribute& a : context.attributes) {
+        std::vector<double> values(ids.size(), std::numeric_limits<double>::quiet_NaN());
+        for (std::size_t i = 0; i < ids.size(); ++i) {
+            if (view_of[ids[i]] != mesh::none) values[i] = a.values[view_of[ids[i]]];
+        }
+        data.points.push_back({a.name, std::move(values)});
+    }
 }
 
 /// Adds the entry, or takes the place of one of the same step; a state that a resumed run computes again is the same.
@@ -144,6 +160,7 @@ void StateSeries::write_surface(const hooks::StepContext& context, const mesh::C
                                                  [&](std::size_t i) { return context.nearest[i].distance / scale; })});
     }
     if (curvature_ != nullptr) data.points.push_back({"curvature", curvatures(context)});
+    for (const hooks::Attribute& a : context.attributes) data.points.push_back({a.name, a.values});
     data.vectors.push_back({"normal", view.normals});
     surface::TriangleMesh mesh{view.positions, view.faces};
     to_input(mesh.points, context.to_normalised);
@@ -154,7 +171,8 @@ void StateSeries::write_surface(const hooks::StepContext& context, const mesh::C
 }
 
 void StateSeries::write_volume(const hooks::StepContext& context, const mesh::Complex& complex) {
-    mesh::TetMesh mesh = complex.to_mesh();
+    std::vector<mesh::VertexId> ids;
+    mesh::TetMesh mesh = complex.to_mesh(&ids);
     io::VolumeData data;
     const double scale = context.to_normalised.scale;
     if (context.cloud != nullptr) {
@@ -162,6 +180,7 @@ void StateSeries::write_volume(const hooks::StepContext& context, const mesh::Co
                                    return context.cloud->search().nearest(mesh.points[i]).distance / scale;
                                })});
     }
+    add_attributes(context, ids, data);
     to_input(mesh.points, context.to_normalised);
     const std::string name = file_name("volume", context.step);
     io::write_volume(folder_ / name, mesh, data);

@@ -63,4 +63,29 @@ void measure_state(const mesh::Complex& complex, const surface::SurfaceView& vie
     }));
 }
 
+double measure_speeds(const surface::SurfaceView& view, std::span<const Vec3> displacements, StepMetrics& row) {
+    double sum = 0.0;
+    std::size_t movable = 0;
+    for (std::size_t i = 0; i < view.vertex_count(); ++i) {
+        if (view.movable[i] == 0) continue;
+        const double speed = displacements[i].norm();
+        sum += speed;
+        row.max_speed = std::max(row.max_speed, speed);
+        ++movable;
+    }
+    row.mean_speed = movable == 0 ? 0.0 : sum / static_cast<double>(movable);
+    return sum;
+}
+
+double distance_gone(const mesh::Complex& complex, const surface::SurfaceView& view, std::span<const Vec3> displacements) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < view.vertex_count(); ++i) {
+        if (view.movable[i] == 0) continue;
+        const mesh::VertexId v = view.vertex_ids[i];
+        const bool there = complex.vertex_alive(v) && complex.birth(v) == view.births[i];
+        sum += there ? (complex.position(v) - view.positions[i]).norm() : displacements[i].norm();
+    }
+    return sum;
+}
+
 }  // namespace dsc::run

@@ -16,6 +16,13 @@ void measure_state(const mesh::Complex& complex, const surface::SurfaceView& vie
                    const cloud::TargetCloud* cloud, std::span<const cloud::Neighbour> nearest, Workers& workers,
                    StepMetrics& row);
 
+/// Fills the speeds of a step, those of the movable vertices; returns their sum.
+double measure_speeds(const surface::SurfaceView& view, std::span<const Vec3> displacements, StepMetrics& row);
+
+/// Summed length that the movable vertices of the view have gone since it was taken; one that an edit removed counts with what
+/// it asked for.
+double distance_gone(const mesh::Complex& complex, const surface::SurfaceView& view, std::span<const Vec3> displacements);
+
 /// Volume of all labels above 0 by the divergence theorem over the interface: the cost grows with the interface only.
 double enclosed_volume(const mesh::Complex& complex, const surface::SurfaceView& view);
 

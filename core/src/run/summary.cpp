@@ -170,6 +170,7 @@ std::string summary_json(const SummaryParts& parts) {
         {"dropped_motion", totals.dropped_motion},
         {"edit_volume", totals.edit_volume},
         {"relabelled_volume", totals.relabelled_volume},
+        {"crease_exceptions", totals.crease_exceptions},
         {"rounds", totals.rounds},
         {"refused",
          {{"irregular", totals.refused(mesh::Refusal::irregular)},

@@ -62,9 +62,9 @@ TriangleMesh extract_interface(const mesh::TetMesh& mesh, std::vector<std::uint3
     });
 }
 
-TriangleMesh extract_phase(const mesh::TetMesh& mesh, mesh::Label phase) {
+TriangleMesh extract_phase(const mesh::TetMesh& mesh, mesh::Label phase, std::vector<std::uint32_t>* vertex_of) {
     const auto label = [&](const mesh::FaceUse& use) { return mesh.labels[use.code >> 2U]; };
-    return extract(mesh, nullptr, [&](std::span<const mesh::FaceUse> uses) -> const mesh::FaceUse* {
+    return extract(mesh, vertex_of, [&](std::span<const mesh::FaceUse> uses) -> const mesh::FaceUse* {
         const mesh::FaceUse* inner = nullptr;
         for (const mesh::FaceUse& use : uses) {
             if (label(use) != phase) continue;

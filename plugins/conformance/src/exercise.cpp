@@ -6,6 +6,8 @@
 #include <dsc/run/mesh_files.hpp>
 #include <dsc/surface/surface_view.hpp>
 
+#include "requests.hpp"
+
 namespace dsc::conformance {
 namespace {
 
@@ -134,8 +136,15 @@ private:
         if (!touched.empty() && answers_.outside.empty()) answers_.outside = what + at_ + ": " + touched;
     }
 
-    void velocity(hooks::VelocityField& field, const hooks::StepContext& context) {
-        field.prepare(context);
+    void velocity(hooks::VelocityField& field, const hooks::StepContext& given) {
+        hooks::StepContext context = given;
+        std::vector<surface::FacePoint> faces;
+        if (given.cloud != nullptr && field.needs_faces_of_points()) {
+            surface::nearest_faces(given.surface, given.cloud->points(), faces, &workers_);
+            context.faces_of_points = faces;
+        }
+        field.advance(context);
+        for (unsigned i = 0; i < how_.prepares; ++i) field.prepare(context);
         const std::size_t count = context.surface.vertex_count();
         std::vector<Vec3> all(count);
         std::vector<std::string> touched((count + how_.block - 1) / how_.block);
@@ -149,6 +158,17 @@ private:
         note_touched(touched, "displacements");
         record("displacements", std::span<const Vec3>(all), 3);
         if (field.can_sample()) sample(field, context);
+        hooks::Attributes attributes;
+        field.publish(attributes);
+        record(attributes, context);
+        part("end of the motion", 1);
+        answers_.trace.add(field.finished() ? 1.0 : 0.0);
+        answers_.trace.add(static_cast<double>(field.planned_steps()));
+    }
+
+    void record(const hooks::Attributes& attributes, const hooks::StepContext& context) {
+        if (answers_.unfit.empty()) answers_.unfit = unfit(attributes, context.surface.vertex_count());
+        for (const hooks::Attribute& a : attributes) record("attribute " + a.name, std::span<const double>(a.values), 1);
     }
 
     void sample(hooks::VelocityField& field, const hooks::StepContext& context) {
@@ -163,7 +183,7 @@ private:
     }
 
     void curvature(hooks::CurvatureEstimator& estimator, const hooks::StepContext& context) {
-        estimator.prepare(context);
+        for (unsigned i = 0; i < how_.prepares; ++i) estimator.prepare(context);
         const std::size_t count = context.surface.vertex_count();
         std::vector<double> scalars(count);
         std::vector<Vec3> vectors(count);
@@ -194,14 +214,10 @@ private:
         Breathing velocity;
         velocity.prepare(context);
         hooks::RefinementRequests requests;
-        policy.refine({context, &velocity}, requests);
-        part("faces to split", 1);
-        for (const std::uint32_t face : requests.split_faces) answers_.trace.add(face);
-        part("edges to split", 2);
-        for (const auto& [a, b] : requests.split_edges) add_pair(a, b);
-        record("sizing", std::span<const double>(requests.sizing), 1);
-        part("labels", 2);
-        for (const auto& [tet, label] : requests.relabel) add_pair(tet, label);
+        policy.refine({context, policy.needs_sampling() ? &velocity : nullptr, 0}, requests);
+        if (answers_.unfit_lengths.empty()) answers_.unfit_lengths = unfit_lengths(requests, context.surface.vertex_count());
+        add_requests(requests, at_, answers_.trace);
+        record(requests.attributes, context);
     }
 
     // One repair round on a mesh whose worst tets are called dirty.
@@ -323,10 +339,6 @@ private:
     }
 
     void part(const std::string& name, std::size_t width) { answers_.trace.part(name + at_, width); }
-    void add_pair(std::uint32_t a, std::uint32_t b) {
-        answers_.trace.add(a);
-        answers_.trace.add(b);
-    }
     template <class T>
     void record(const std::string& name, std::span<const T> values, std::size_t width) {
         part(name, width);

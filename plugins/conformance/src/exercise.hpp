@@ -18,6 +18,7 @@ struct Exercise {
     std::uint64_t seed = 1;
     unsigned threads = 1;
     std::size_t block = 64;  ///< vertices of one evaluate()
+    unsigned prepares = 1;   ///< prepare() calls of a step; the last one's answers count
     const CancelToken* cancel = nullptr;
 };
 
@@ -26,6 +27,8 @@ struct Answers {
     Trace trace;
     std::string outside;  ///< where it wrote outside of an output; empty: nowhere
     std::string changed;  ///< which input it changed; empty: none
+    std::string unfit;    ///< which attribute does not fit the surface; empty: none
+    std::string unfit_lengths;  ///< which target lengths do not fit the surface; empty: none
 };
 
 /// Steps first_step, first_step + 1, ... of a run on the fixture. `strategy` is the plugin's own object, not a checked one:

@@ -31,6 +31,11 @@ void inputs(const Subject& subject) {
     require(answers.changed.empty(), "it changes its input: " + answers.changed);
 }
 
+void attributes(const Subject& subject) {
+    const Answers answers = subject.answers();
+    require(answers.unfit.empty(), answers.unfit);
+}
+
 void quiet(const Subject& subject) {
     set_log_sink([](LogLevel, std::string_view) {});  // what goes through the log may be said
     const std::size_t before = printed_so_far();
@@ -49,6 +54,10 @@ void add_output_tests(std::vector<Test>& table) {
     add(table, {"out.bounds", Level::standard, false, "Nothing outside of an output is written."}, output_bounds,
         per_vertex);
     add(table, {"out.const", Level::standard, false, "The input is as it was before, bit by bit."}, inputs);
+    add(table,
+        {"out.attributes", Level::standard, false,
+         "Published attributes have one value per vertex, and names that are allowed and differ."},
+        attributes, {plugin::Kind::velocity, plugin::Kind::refinement});
     add(table, {"out.quiet", Level::strict, false, "Nothing is printed."}, quiet);
 }
 

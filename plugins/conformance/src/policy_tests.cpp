@@ -52,7 +52,8 @@ hooks::RefinementRequests ask(hooks::RefinementPolicy& policy, const Fixture& fi
     Drift velocity;
     const hooks::StepContext context = context_of(fixture, step, {}, nullptr);
     hooks::RefinementRequests requests;
-    policy.refine({context, &velocity}, requests);
+    velocity.prepare(context);
+    policy.refine({context, policy.needs_sampling() ? &velocity : nullptr, 0}, requests);
     return requests;
 }
 
@@ -167,6 +168,15 @@ void progress(const Subject& subject) {
     }
 }
 
+void sizing(const Subject& subject) {
+    const Answers answers = subject.answers();
+    require(answers.unfit_lengths.empty(), answers.unfit_lengths);
+    const auto strategy = subject.make();
+    const unsigned passes = static_cast<hooks::RefinementPolicy&>(*strategy).passes();
+    require(passes >= 1 && passes <= hooks::refinement_passes,
+            "it wants " + std::to_string(passes) + " passes, from 1 to " + std::to_string(hooks::refinement_passes) + " are possible");
+}
+
 }  // namespace
 
 void add_policy_tests(std::vector<Test>& table) {
@@ -178,6 +188,10 @@ void add_policy_tests(std::vector<Test>& table) {
         {"policy.progress", Level::standard, false,
          "Requests end: refinement asks for nothing twice, improvement leaves valid meshes."},
         progress, {plugin::Kind::refinement, plugin::Kind::improvement});
+    add(table,
+        {"policy.sizing", Level::standard, false,
+         "Target lengths are above 0, one for all or one per vertex, and the number of passes is possible."},
+        sizing, {plugin::Kind::refinement});
     add(table,
         {"cloud.attributes", Level::standard, false,
          "A filter's points keep their attributes, and its report counts them."},

@@ -60,6 +60,16 @@ void damaged(const Subject& subject) {
     }
 }
 
+// State belongs to advance(): a step in which prepare() is called again is the same step.
+void prepare_again(const Subject& subject) {
+    subject.require_repeatable();
+    const Trace once = subject.answers({.steps = 3}).trace;
+    const Trace often = subject.answers({.steps = 3, .prepares = 3}).trace;
+    if (const auto difference = Trace::difference(once, often)) {
+        throw Failed("calling prepare() again changes its answers, so it changes a state that belongs to advance(): " + *difference);
+    }
+}
+
 }  // namespace
 
 void add_state_tests(std::vector<Test>& table) {
@@ -67,6 +77,9 @@ void add_state_tests(std::vector<Test>& table) {
         {"state.roundtrip", Level::standard, false,
          "Saved and read by another instance, a run goes on as if nothing had been."},
         state_roundtrip);
+    add(table,
+        {"state.prepare", Level::standard, false, "prepare() may be called more than once per step and changes no answer."}, prepare_again,
+        per_vertex);
     add(table, {"state.bad", Level::standard, false, "Damaged states end in an exception, never in a crash."},
         damaged);
 }

@@ -13,7 +13,14 @@ hooks::StepContext step_context(const surface::SurfaceView& view, std::uint64_t 
 
 std::vector<Vec3> displacements(hooks::VelocityField& field, const hooks::StepContext& context,
                                 unsigned threads, std::size_t block) {
-    field.prepare(context);
+    hooks::StepContext full = context;
+    std::vector<surface::FacePoint> faces;
+    if (context.cloud != nullptr && field.needs_faces_of_points()) {
+        surface::nearest_faces(context.surface, context.cloud->points(), faces);
+        full.faces_of_points = faces;
+    }
+    field.advance(full);
+    field.prepare(full);
     std::vector<Vec3> out(context.surface.vertex_count());
     Workers workers(threads);
     workers.for_blocks(out.size(), block, [&](std::size_t begin, std::size_t end) {

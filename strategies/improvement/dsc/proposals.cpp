@@ -47,6 +47,23 @@ bool Proposals::first_visit(mesh::VertexId v) {
     return true;
 }
 
+// The volume below which a tet is thinned out.
+double Proposals::small_volume_of(const mesh::RepairRound& round, mesh::TetId t) const {
+    return limits_.min_tet_volume * geometry::regular_tet_volume(round.length_of(t));
+}
+
+// Where a refinement owns the sizing, tets with an interface edge stay as they are.
+bool Proposals::may_thin_out(const mesh::RepairRound& round, mesh::TetId t) {
+    if (round.size_edits) return true;
+    const auto& v = round.complex.tet(t).v;
+    return std::count_if(v.begin(), v.end(), [&](mesh::VertexId x) { return round.complex.on_interface(x); }) < 2;
+}
+
+// The target length of an edge from the interface into a phase: that of its end on the interface.
+double Proposals::free_length(const mesh::RepairRound& round, mesh::VertexId a, mesh::VertexId b) {
+    return round.length_at(round.complex.on_interface(a) ? a : b);
+}
+
 // What a tet gives cause for: reads only, so that threads may share it.
 std::uint8_t Proposals::look(const mesh::RepairRound& round, mesh::TetId t) const {
     const mesh::Complex& c = round.complex;
@@ -57,39 +74,41 @@ std::uint8_t Proposals::look(const mesh::RepairRound& round, mesh::TetId t) cons
     const auto q = static_cast<double>(c.quality(t));
     if (q < limits_.min_tet_quality) found |= low_quality;
     if (q < limits_.smooth_below) found |= to_smooth;
-    if (c.volume(t) < limits_.min_tet_volume * geometry::regular_tet_volume(round.target_length)) found |= small_volume;
-    // A little wider than what is wanted: note_edges() decides.
-    const double shortest2 = square(limits_.min_edge_length * round.target_length) * (1.0 + 1e-9);
-    const double longest2 = square(limits_.max_edge_length * round.target_length) * (1.0 - 1e-9);
-    for (unsigned f = 0; f < 4; ++f) {
+    if (c.volume(t) < small_volume_of(round, t) && may_thin_out(round, t)) found |= small_volume;
+    for (unsigned f = 0; f < 4 && round.size_edits; ++f) {
         if (c.label(t) <= c.label_across(t, f)) continue;
         for (unsigned k = 0; k < 3; ++k) {
-            const double l2 = length2(v[mesh::face_vertices[f][k]], v[mesh::face_vertices[f][(k + 1) % 3]]);
+            const mesh::VertexId a = v[mesh::face_vertices[f][k]], b = v[mesh::face_vertices[f][(k + 1) % 3]];
+            const double target = round.length_at(a, b), l2 = length2(a, b);
+            // A little wider than what is wanted: note_edges() decides.
+            const double shortest2 = square(limits_.min_edge_length * target) * (1.0 + 1e-9);
+            const double longest2 = square(limits_.max_edge_length * target) * (1.0 - 1e-9);
             if (l2 < shortest2 || l2 > longest2) found |= interface_edges;
         }
     }
     if (!(limits_.max_free_edge > 0.0)) return found;
-    const double free2 = square(limits_.max_free_edge * round.target_length) * (1.0 - 1e-9);
     for (const auto& ends : mesh::edge_vertices) {
-        if (c.on_interface(v[ends[0]]) != c.on_interface(v[ends[1]]) && length2(v[ends[0]], v[ends[1]]) > free2) found |= free_edges;
+        const mesh::VertexId a = v[ends[0]], b = v[ends[1]];
+        if (c.on_interface(a) == c.on_interface(b)) continue;
+        if (length2(a, b) > square(limits_.max_free_edge * free_length(round, a, b)) * (1.0 - 1e-9)) found |= free_edges;
     }
     return found;
 }
 
 void Proposals::note_edges(const mesh::RepairRound& round, mesh::TetId t) {
     const mesh::Complex& c = round.complex;
-    const double shortest = limits_.min_edge_length * round.target_length;
-    const double longest = limits_.max_edge_length * round.target_length;
     for (unsigned f = 0; f < 4; ++f) {
         // Of the two tets at an interface face the one with the larger label looks after its edges.
         if (c.label(t) <= c.label_across(t, f)) continue;
         for (unsigned k = 0; k < 3; ++k) {
             mesh::VertexId a = c.tet(t).v[mesh::face_vertices[f][k]], b = c.tet(t).v[mesh::face_vertices[f][(k + 1) % 3]];
             const double length = (c.position(a) - c.position(b)).norm();
-            if (length >= shortest && length <= longest) continue;
+            const double target = round.length_at(a, b);
+            const double shortest = limits_.min_edge_length * target;
+            if (length >= shortest && length <= limits_.max_edge_length * target) continue;
             if (c.birth(a) > c.birth(b)) std::swap(a, b);
             auto& edges = length < shortest ? short_ : long_;
-            edges.push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / round.target_length), static_cast<std::uint32_t>(edges.size())});
+            edges.push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / target), static_cast<std::uint32_t>(edges.size())});
         }
     }
 }
@@ -100,16 +119,16 @@ void Proposals::note_free_edges(const mesh::RepairRound& round, mesh::TetId t) {
         mesh::VertexId a = c.tet(t).v[ends[0]], b = c.tet(t).v[ends[1]];
         if (c.on_interface(a) == c.on_interface(b)) continue;
         const double length = (c.position(a) - c.position(b)).norm();
-        if (length <= limits_.max_free_edge * round.target_length) continue;
+        const double target = free_length(round, a, b);
+        if (length <= limits_.max_free_edge * target) continue;
         if (c.birth(a) > c.birth(b)) std::swap(a, b);
         free_long_.push_back(
-            {c.birth(a), c.birth(b), a, b, t, quantised(length / round.target_length), static_cast<std::uint32_t>(free_long_.size())});
+            {c.birth(a), c.birth(b), a, b, t, quantised(length / target), static_cast<std::uint32_t>(free_long_.size())});
     }
 }
 
 void Proposals::sort_out(const mesh::RepairRound& round, Workers* workers) {
     const mesh::Complex& c = round.complex;
-    const double small = limits_.min_tet_volume * geometry::regular_tet_volume(round.target_length);
     low_.clear();
     small_.clear();
     short_.clear();
@@ -137,7 +156,7 @@ void Proposals::sort_out(const mesh::RepairRound& round, Workers* workers) {
                 free_tets_.push_back(t);
             }
         }
-        if ((found & small_volume) != 0) small_.push_back({quantised(c.volume(t) / small), t, static_cast<std::uint32_t>(small_.size())});
+        if ((found & small_volume) != 0) small_.push_back({quantised(c.volume(t) / small_volume_of(round, t)), t, static_cast<std::uint32_t>(small_.size())});
         if ((found & interface_edges) != 0) note_edges(round, t);
         if ((found & free_edges) != 0) note_free_edges(round, t);
     }

@@ -49,6 +49,9 @@ private:
     static constexpr std::size_t look_block = 8192;  // tets
 
     void sort_out(const mesh::RepairRound& round, Workers* workers);
+    double small_volume_of(const mesh::RepairRound& round, mesh::TetId t) const;
+    static bool may_thin_out(const mesh::RepairRound& round, mesh::TetId t);
+    static double free_length(const mesh::RepairRound& round, mesh::VertexId a, mesh::VertexId b);
     std::uint8_t look(const mesh::RepairRound& round, mesh::TetId t) const;
     void note_edges(const mesh::RepairRound& round, mesh::TetId t);
     void note_free_edges(const mesh::RepairRound& round, mesh::TetId t);

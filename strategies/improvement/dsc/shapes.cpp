@@ -65,7 +65,8 @@ void ShapeProposals::note_edges(const mesh::RepairRound& round, mesh::TetId t) {
     const mesh::Complex& c = round.complex;
     for (const auto& ends : mesh::edge_vertices) {
         const VertexId a = c.tet(t).v[ends[0]], b = c.tet(t).v[ends[1]];
-        const double length = (c.position(a) - c.position(b)).norm() / round.target_length;
+        if (!round.size_edits && c.on_interface(a) && c.on_interface(b)) continue;
+        const double length = (c.position(a) - c.position(b)).norm() / round.length_at(a, b);
         if (length >= std::max(limits_.degenerate_edge_quality, limits_.min_edge_quality)) continue;
         const Kind kind = length < limits_.degenerate_edge_quality ? Kind::degenerate_edge : Kind::low_edge;
         entries_.push_back({kind, quantised(length), births_of(c, a, b), t, {a, b}, mesh::none});
@@ -74,7 +75,8 @@ void ShapeProposals::note_edges(const mesh::RepairRound& round, mesh::TetId t) {
 
 void ShapeProposals::note_faces(const mesh::RepairRound& round, mesh::TetId t) {
     const mesh::Complex& c = round.complex;
-    const double unit = 0.25 * std::sqrt(3.0) * round.target_length * round.target_length;
+    const double target = round.length_of(t);
+    const double unit = 0.25 * std::sqrt(3.0) * target * target;
     const double worst = std::max(limits_.degenerate_face_quality, limits_.min_face_quality);
     for (unsigned f = 0; f < 4; ++f) {
         const Face face = face_of(c, t, f);
@@ -88,7 +90,7 @@ void ShapeProposals::note_faces(const mesh::RepairRound& round, mesh::TetId t) {
                  cap ? longest : face.shortest(), cap ? face.v[longest] : mesh::none);
         }
         // Of the two tets at an interface face the one with the larger label looks after it.
-        if (c.label(t) <= c.label_across(t, f)) continue;
+        if (!round.size_edits || c.label(t) <= c.label_across(t, f)) continue;
         const double area = face.area / unit;
         if (area < limits_.min_face_area) note(Kind::small_face, area, face.shortest(), mesh::none);
         if (limits_.max_face_area > 0.0 && area > limits_.max_face_area) note(Kind::large_face, -area, face.longest(), mesh::none);
@@ -98,7 +100,7 @@ void ShapeProposals::note_faces(const mesh::RepairRound& round, mesh::TetId t) {
 void ShapeProposals::note_tet(const mesh::RepairRound& round, mesh::TetId t) {
     if (!(limits_.max_tet_volume > 0.0)) return;
     const mesh::Complex& c = round.complex;
-    const double volume = c.volume(t) / geometry::regular_tet_volume(round.target_length);
+    const double volume = c.volume(t) / geometry::regular_tet_volume(round.length_of(t));
     if (volume <= limits_.max_tet_volume) return;
     std::array<VertexId, 2> longest{};
     double longest2 = -1.0;
@@ -110,6 +112,7 @@ void ShapeProposals::note_tet(const mesh::RepairRound& round, mesh::TetId t) {
             longest = {a, b};
         }
     }
+    if (!round.size_edits && c.on_interface(longest[0]) && c.on_interface(longest[1])) return;
     entries_.push_back({Kind::large_tet, quantised(-volume), births_of(c, longest[0], longest[1]), t, longest, mesh::none});
 }
 

@@ -83,7 +83,7 @@ void Repairs::count_insertions(const mesh::RepairRound& round) {
 
 void Repairs::note(const mesh::RepairRound& round, mesh::TetId t, bool blocking) {
     const mesh::Complex& c = round.complex;
-    const TetShape shape = classify(corners(c, t), round.target_length, limits_.shape);
+    const TetShape shape = classify(corners(c, t), round.length_of(t), limits_.shape);
     const bool by_class = blocking || shape.altitude < limits_.flat;
     if (limits_.fallbacks && shape.altitude < limits_.smooth_below) {
         for (const VertexId v : c.tet(t).v) {
@@ -130,7 +130,7 @@ void Repairs::note_spokes(const mesh::RepairRound& round, mesh::TetId t) {
     for (const auto& ends : mesh::edge_vertices) {
         VertexId a = c.tet(t).v[ends[0]], b = c.tet(t).v[ends[1]];
         if (c.on_interface(a) == c.on_interface(b)) continue;
-        const double length = (c.position(a) - c.position(b)).norm() / round.target_length;
+        const double length = (c.position(a) - c.position(b)).norm() / round.length_at(c.on_interface(a) ? a : b);
         if (length <= limits_.longest_spoke) continue;
         if (c.birth(a) > c.birth(b)) std::swap(a, b);
         spokes_.push_back({-quantised(length), c.birth(a), c.birth(b), {a, b, mesh::none}});
@@ -164,7 +164,7 @@ void Repairs::repair_by_class(const mesh::RepairRound& round, const Entry& entry
     const auto& v = c.tet(entry.tet).v;
     const TetShape& shape = entry.shape;
     const VertexId a = v[shape.edge[0]], b = v[shape.edge[1]], apex = v[shape.vertex], opposite = v[shape.opposite];
-    const double least_edge = limits_.least_edge * round.target_length;
+    const double least_edge = limits_.least_edge * round.length_of(entry.tet);
     const auto compound = [&](RepairClass repair_class, std::array<VertexId, 3> vertices) {
         Request request = on_tet(c, entry.tet, Operation::compound, repair_class);
         request.vertices = vertices;

@@ -1,4 +1,4 @@
-// Witnesses of mesh.* , cloud.hostile and policy.progress: what happens at the edges.
+// Witnesses of mesh.* , cloud.hostile and policy.*: what happens at the edges.
 #include <limits>
 
 #include "witness.hpp"
@@ -49,11 +49,23 @@ public:
     }
 };
 
+class WrongSizing final : public dsc::hooks::RefinementPolicy {
+public:
+    struct Params {};
+    static void declare(dsc::config::ParamSchema<Params>&) {}
+    WrongSizing(const Params&, const dsc::plugin::Setup&) {}
+    bool owns_sizing() const override { return true; }
+    void refine(const dsc::hooks::RefinementContext& context, dsc::hooks::RefinementRequests& out) override {
+        out.target_lengths.assign(context.step.surface.face_count(), 0.1);
+    }
+};
+
 }  // namespace
 
-DSC_PLUGIN("bad_hostile", "1.0.0", "MIT", "Witnesses of mesh.*, cloud.hostile and policy.progress") {
+DSC_PLUGIN("bad_hostile", "1.0.0", "MIT", "Witnesses of mesh.*, cloud.hostile and policy.*") {
     registrar.add<DividesByNormals>("mesh_hostile", "divides by the length of a normal");
     registrar.add<NeedsManyPoints>("cloud_hostile", "has no answer for a cloud of one point");
     registrar.add<Gap>("mesh_topology", "leaves a tet out");
+    registrar.add<WrongSizing>("policy_sizing", "gives a target length per face");
     registrar.add<AsksTwice>("policy_progress", "asks for the same split twice");
 }

@@ -55,6 +55,15 @@ public:
     }
 };
 
+class Short final : public Velocity {
+public:
+    using Velocity::Velocity;
+    void publish(dsc::hooks::Attributes& out) const override {
+        const std::size_t vertices = context().surface.vertex_count();
+        out.push_back({"density", std::vector<double>(ordinary() ? vertices - 1 : vertices, 1.0)});
+    }
+};
+
 }  // namespace
 
 DSC_PLUGIN("bad_output", "1.0.0", "MIT", "Witnesses of out.*") {
@@ -62,5 +71,6 @@ DSC_PLUGIN("bad_output", "1.0.0", "MIT", "Witnesses of out.*") {
     registrar.add<Incomplete>("out_complete", "leaves an entry out");
     registrar.add<Overrun>("out_bounds", "writes one entry too many");
     registrar.add<Meddler>("out_const", "changes the surface");
+    registrar.add<Short>("out_attributes", "an attribute with one value too few");
     registrar.add<Chatterbox>("out_quiet", "prints");
 }

@@ -12,10 +12,7 @@ using witness::Velocity;
 class Forgetful : public Velocity {
 public:
     using Velocity::Velocity;
-    void prepare(const dsc::hooks::StepContext& context) override {
-        Velocity::prepare(context);
-        ++steps_;
-    }
+    void advance(const dsc::hooks::StepContext&) override { ++steps_; }
 
 protected:
     dsc::Vec3 displacement(std::size_t vertex) const override {
@@ -29,6 +26,28 @@ public:
     using Forgetful::Forgetful;
     void save(std::ostream& out) const override { out << steps_ << "\n"; }
     void load(std::istream& in) override { in >> steps_; }
+};
+
+// Saves and loads as it should, but counts its steps where they are not to be counted.
+class Impatient final : public Velocity {
+public:
+    using Velocity::Velocity;
+    void prepare(const dsc::hooks::StepContext& context) override {
+        Velocity::prepare(context);
+        ++prepared_;
+    }
+    void save(std::ostream& out) const override { out << prepared_ << "\n"; }
+    void load(std::istream& in) override {
+        if (!(in >> prepared_)) throw std::runtime_error("no state");
+    }
+
+protected:
+    dsc::Vec3 displacement(std::size_t vertex) const override {
+        return prepared_ * Velocity::displacement(vertex);
+    }
+
+private:
+    int prepared_ = 0;
 };
 
 class Upwards final : public Velocity {
@@ -59,6 +78,7 @@ private:
 DSC_PLUGIN("bad_state", "1.0.0", "MIT", "Witnesses of state.*, geo.rigid and err.throw") {
     registrar.add<Forgetful>("state_roundtrip", "has a state and does not save it");
     registrar.add<Credulous>("state_bad", "reads anything as its state");
+    registrar.add<Impatient>("state_prepare", "goes on where it should only prepare");
     registrar.add<Upwards>("geo_rigid", "knows where up is");
     registrar.add<Locked>("err_throw", "is out of order after an exception");
 }

@@ -21,7 +21,8 @@ std::string layout() {
            DSC_SIZE(cloud::FilterReport) + DSC_SIZE(hooks::FilterContext) + DSC_SIZE(mesh::TetMesh) + DSC_SIZE(mesh::Complex) +
            DSC_SIZE(mesh::RepairRound) + DSC_SIZE(mesh::Request) + DSC_SIZE(mesh::TopologyCandidate) +
            DSC_SIZE(mesh::TopologyLimits) + DSC_SIZE(RandomStream) + DSC_SIZE(Workers) +
-           DSC_SIZE(CancelToken);
+           DSC_SIZE(CancelToken) + DSC_SIZE(hooks::Attribute) + DSC_SIZE(hooks::CollapseRequest) + DSC_SIZE(hooks::FlipRequest) +
+           DSC_SIZE(hooks::MoveRequest) + DSC_SIZE(mesh::CreaseRule) + DSC_SIZE(surface::FacePoint) + DSC_SIZE(surface::ViewEdge);
 }
 
 }  // namespace
@@ -35,9 +36,9 @@ TEST_CASE("the layout of what crosses the door is that of its ABI number") {
         "config::Field 344\n"
         "config::Schema 72\n"
         "config::ConfigNode 16\n"
-        "hooks::StepContext 160\n"
-        "hooks::RefinementContext 16\n"
-        "hooks::RefinementRequests 96\n"
+        "hooks::StepContext 216\n"
+        "hooks::RefinementContext 24\n"
+        "hooks::RefinementRequests 224\n"
         "hooks::InitialMeshContext 48\n"
         "hooks::StepFigures 40\n"
         "surface::SurfaceView 272\n"
@@ -48,13 +49,20 @@ TEST_CASE("the layout of what crosses the door is that of its ABI number") {
         "hooks::FilterContext 32\n"
         "mesh::TetMesh 72\n"
         "mesh::Complex 496\n"
-        "mesh::RepairRound 96\n"
+        "mesh::RepairRound 112\n"
         "mesh::Request 44\n"
         "mesh::TopologyCandidate 48\n"
         "mesh::TopologyLimits 24\n"
         "RandomStream 44\n"
         "Workers 8\n"
-        "CancelToken 1\n";
+        "CancelToken 1\n"
+        "hooks::Attribute 56\n"
+        "hooks::CollapseRequest 32\n"
+        "hooks::FlipRequest 16\n"
+        "hooks::MoveRequest 32\n"
+        "mesh::CreaseRule 16\n"
+        "surface::FacePoint 40\n"
+        "surface::ViewEdge 20\n";
     INFO(
         "give DSC_ABI_MAJOR in dsc/plugin/fingerprint.hpp another number, say so in CHANGELOG.md, and record "
         "the new layout here");

@@ -36,6 +36,11 @@ struct Velocity final : Base<hooks::VelocityField> {
     void prepare(const hooks::StepContext&) override {}
     void evaluate(hooks::Range range, std::span<Vec3> out) const override { Act::act(range, out); }
     void save(std::ostream&) const override { throw std::runtime_error("disk full"); }
+    static inline hooks::Attributes attributes;
+    void publish(hooks::Attributes& out) const override { out = attributes; }
+    void advance(const hooks::StepContext& context) override {
+        if (context.step == 13) throw std::runtime_error("unlucky");
+    }
 };
 
 struct Sampled final : Base<hooks::VelocityField> {
@@ -309,6 +314,77 @@ TEST_CASE("refinement: faces, edges, sizes and labels that do not exist") {
     CHECK(refine([](auto& r) { r.sizing = {1, 1, no_number, 1}; }).code == "strategy.not_finite");
     CHECK(refine([](auto& r) { r.relabel = {{0, 0x80000000U}}; }).code == "strategy.range");
     CHECK(refine([](auto& r) { r = {{1}, {{0, 3}}, {1, 1, 1, 1}, {{0, 2}}}; }).text.empty());
+}
+
+TEST_CASE("refinement: collapses, flips, moves and target lengths that cannot be") {
+    const Bench bench;
+    const auto policy = bench.make<hooks::RefinementPolicy>();
+    const hooks::StepContext step = bench.context();
+    const auto refine = [&](const std::function<void(hooks::RefinementRequests&)>& act) {
+        Refinement::Act::act = act;
+        hooks::RefinementRequests out;
+        return caught([&] { policy->refine({step}, out); });
+    };
+    CHECK(refine([](auto& r) { r.collapse_edges = {{0, 4, Vec3::Zero()}}; }).text ==
+          who("refinement") + "refine at step 5 asked in collapse_edges 0 for 4, which does not exist" + report);
+    CHECK(refine([](auto& r) { r.collapse_edges = {{0, 1, Vec3(0, no_number, 0)}}; }).code == "strategy.not_finite");
+    CHECK(refine([](auto& r) { r.flip_edges = {{{0, 1}, 0.9}, {{5, 1}, 0.9}}; }).text ==
+          who("refinement") + "refine at step 5 asked in flip_edges 1 for 5, which does not exist" + report);
+    CHECK(refine([](auto& r) { r.flip_edges = {{{0, 1}, no_number}}; }).code == "strategy.not_finite");
+    CHECK(refine([](auto& r) { r.move_vertices = {{7, Vec3::Zero()}}; }).code == "strategy.range");
+    CHECK(refine([](auto& r) { r.move_vertices = {{1, Vec3(no_number, 0, 0)}}; }).code == "strategy.not_finite");
+    CHECK(refine([](auto& r) { r.target_lengths = {1, 1, 1}; }).text ==
+          who("refinement") + "refine at step 5 gave a sizing field of 3 entries for 4 vertices" + report);
+    CHECK(refine([](auto& r) { r.target_lengths = {1, 1, 1, -1}; }).code == "strategy.not_finite");
+    CHECK(refine([](auto& r) { r.target_length = -0.5; }).code == "strategy.not_finite");
+    CHECK(refine([](auto& r) {
+              r.target_length = 1;
+              r.target_lengths = {1, 1, 1, 1};
+          }).code == "strategy.size");
+    CHECK(refine([](auto& r) {
+              r.collapse_edges = {{0, 3, Vec3::Zero()}};
+              r.flip_edges = {{{0, 1}, 0.9}};
+              r.move_vertices = {{1, Vec3::Zero()}};
+              r.target_lengths = {1, 1, 1, 1};
+              r.attributes = {{"density", {0, -1, 2, 3}}};
+          }).text.empty());
+    CHECK(policy->passes() == 1);
+    CHECK_FALSE(policy->owns_sizing());
+}
+
+TEST_CASE("attributes: names, sizes and values are judged, of velocities and of refinements") {
+    const Bench bench;
+    const auto velocity = bench.make<hooks::VelocityField>();
+    velocity->prepare(bench.context());
+    const auto publish = [&](hooks::Attributes attributes) {
+        Velocity::attributes = std::move(attributes);
+        hooks::Attributes out;
+        return caught([&] { velocity->publish(out); });
+    };
+    CHECK(publish({{"density", {1, 2, 3, 4}}, {"age", {1, 2, 3, 4}}}).text.empty());
+    CHECK(publish({{"density", {1, 2, 3}}}).text ==
+          who("velocity") + "publish at step 5 gave the attribute 'density' 3 values for 4 vertices" + report);
+    CHECK(publish({{"density", {1, 2, 3, std::numeric_limits<double>::infinity()}}}).text ==
+          who("velocity") + "publish at step 5 gave the attribute 'density' the value inf at vertex 3" + report);
+    for (const char* name : {"", "Density", "two words", "x", "red", "label"}) {
+        CAPTURE(name);
+        CHECK(publish({{name, {1, 2, 3, 4}}}).code == "strategy.range");
+    }
+    CHECK(publish({{"age", {1, 2, 3, 4}}, {"age", {1, 2, 3, 4}}}).code == "strategy.range");
+    const auto policy = bench.make<hooks::RefinementPolicy>();
+    Refinement::Act::act = [](hooks::RefinementRequests& r) { r.attributes = {{"density", {no_number, 0, 0, 0}}}; };
+    hooks::RefinementRequests out;
+    const hooks::StepContext step = bench.context();
+    CHECK(caught([&] { policy->refine({step}, out); }).code == "strategy.not_finite");
+}
+
+TEST_CASE("velocity: what advance() throws is attributed to it") {
+    const Bench bench;
+    const auto velocity = bench.make<hooks::VelocityField>();
+    hooks::StepContext context = bench.context();
+    context.step = 13;
+    CHECK(caught([&] { velocity->advance(context); }).text ==
+          who("velocity") + "advance at step 13 threw: unlucky; check its parameters or report this to the plugin's authors");
 }
 
 TEST_CASE("initial mesh: arrays that do not fit together") {

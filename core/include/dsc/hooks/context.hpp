@@ -12,6 +12,8 @@
 #include <dsc/cloud/normalize.hpp>
 #include <dsc/cloud/target.hpp>
 #include <dsc/geometry/vec.hpp>
+#include <dsc/hooks/attributes.hpp>
+#include <dsc/surface/face_points.hpp>
 #include <dsc/surface/surface_view.hpp>
 
 namespace dsc::hooks {
@@ -36,6 +38,15 @@ struct StepContext {
     std::uint64_t instance = 0;                 ///< stream id of this strategy's place in the experiment
     const CancelToken* cancel = nullptr;
     Workers* workers = nullptr;                 ///< for a strategy's own loops outside evaluate() (dsc::for_blocks); null: one thread
+    std::uint64_t planned_steps = 0;            ///< number of the run's last step: as the velocity tells, else that of the schedule; 0: unknown
+    std::span<const double> target_lengths = {};  ///< target length of each view vertex; empty where it is L everywhere
+    /// For each point of the cloud the nearest place of the surface; filled in the step calls of a velocity that
+    /// needs_faces_of_points(), empty elsewhere and without a cloud.
+    std::span<const surface::FacePoint> faces_of_points = {};
+    std::span<const Attribute> attributes = {};   ///< what strategies have published, carried to this surface
+
+    /// The target length at a view vertex. [parallel]
+    double target_length_at(std::size_t vertex) const { return target_lengths.empty() ? target_length : target_lengths[vertex]; }
 
     /// The random stream of one element (a birth id) in this step. Order and thread count do not matter. [parallel]
     RandomStream random(std::uint64_t element) const { return RandomStream(RandomKey{seed, instance, step, element}); }

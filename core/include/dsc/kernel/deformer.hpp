@@ -3,7 +3,10 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <dsc/base/workers.hpp>
@@ -34,13 +37,49 @@ struct RepairPolicy {
     std::function<void(std::span<const mesh::TopologyCandidate>, std::span<std::uint8_t>)> select;
     mesh::TopologyLimits topology;
     double flatness = 0.995;
+    bool size_edits = true;  ///< told to `propose`: false where a refinement owns the sizing
+    std::optional<mesh::CreaseRule> creases;  ///< that edits leave; empty: they may remove any
 };
+
+/// Edge to become one vertex: `kept` stays and lies at `place` then.
+struct CollapseTo {
+    mesh::VertexId kept = mesh::none, removed = mesh::none;
+    Vec3 place = Vec3::Zero();
+};
+
+/// Interface edge to take the other diagonal of its two faces, whose unit normals have at least this cosine between them.
+struct FlipTo {
+    mesh::VertexId a = mesh::none, b = mesh::none;
+    double flatness = 0.995;
+};
+
+/// Movable vertex to lie elsewhere.
+struct MoveTo {
+    mesh::VertexId vertex = mesh::none;
+    Vec3 place = Vec3::Zero();
+};
+
+/// What refine() shall do, in this order.
+struct RefineRequests {
+    std::vector<std::array<mesh::VertexId, 3>> split_faces;  ///< longest edge, midpoint
+    std::vector<std::array<mesh::VertexId, 2>> split_edges;  ///< midpoint
+    std::vector<CollapseTo> collapses;
+    std::vector<FlipTo> flips;
+    std::vector<MoveTo> moves;
+    bool owns_sizing = false;  ///< L stays what it is, whatever is split
+    std::optional<mesh::CreaseRule> creases;  ///< that collapses and flips leave
+};
+
+/// No collapse, flip or move of a refinement, and no split of one that owns the sizing, leaves a touched tet below
+/// min(this, its quality before).
+inline constexpr double refinement_floor = 0.02;
 
 /// What refine() did.
 struct RefineReport {
     std::size_t requested = 0;
     std::size_t committed = 0;
     bool length_changed = false;
+    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule aside for a tet below the quality floor
 };
 
 /// Owns a complex and advances it. Results do not depend on the workers' thread count.
@@ -58,7 +97,24 @@ public:
     double target_length() const;
     std::uint64_t step_count() const;
 
-    /// Between steps: the complex, L, the step counter, and what the kernel remembers of refusals and events. [step]
+    /// L from now on, the same everywhere; above 0. [step]
+    void set_target_length(double length);
+    /// A target length, above 0, for each of these vertices, which are those of the interface; L becomes their mean. A vertex
+    /// made by a split gets the mean of the edge's ends, after a collapse the kept end's length stays. All bounds of an edit,
+    /// and the limits of topology changes, read the length at their place. Sizes are equal. [step]
+    void set_target_lengths(std::span<const mesh::VertexId> vertices, std::span<const double> lengths);
+    /// The lengths at these interface vertices; empty where L is the same everywhere.
+    std::vector<double> target_lengths(std::span<const mesh::VertexId> vertices) const;
+
+    /// A number for each of these vertices, those of the interface, carried on like target lengths. Sizes are equal. [step]
+    void set_attribute(std::string_view name, std::span<const mesh::VertexId> vertices, std::span<const double> values);
+    /// Names, in the order in which they were set first.
+    std::vector<std::string> attributes() const;
+    /// The numbers of these vertices, NaN for those off the interface; empty if there is no such attribute.
+    std::vector<double> attribute(std::string_view name, std::span<const mesh::VertexId> vertices) const;
+
+    /// Between steps: the complex, lengths, attributes, the step counter, and what the kernel remembers of refusals and
+    /// events. [step]
     void save(StateWriter& out) const;
     /// The saved one goes on: its next step is the one that it would have been. Throws IoError "state.damaged". [setup]
     static Deformer load(StateReader& in, const DeformerOptions& options = {}, Workers* workers = nullptr);
@@ -68,9 +124,10 @@ public:
     StepReport step(std::span<const mesh::VertexId> vertices, std::span<const Vec3> displacements,
                     const RepairPolicy& policy);
 
-    /// Splits interface faces (longest edge, midpoint) and edges; faces are given as (tet, vertices a, b, c), edges as
-    /// pairs. Requests whose simplex is gone by their turn are skipped. If anything was split, L becomes the new mean
-    /// interface edge. [step]
+    /// Requests whose simplex is gone by their turn are skipped, as are those that an invariant forbids. If anything was split
+    /// and the sizing is not owned, L becomes the new mean interface edge, the same everywhere. [step]
+    RefineReport refine(const RefineRequests& requests);
+    /// The same for splits alone. [step]
     RefineReport refine(std::span<const std::array<mesh::VertexId, 3>> faces,
                         std::span<const std::array<mesh::VertexId, 2>> edges);
 

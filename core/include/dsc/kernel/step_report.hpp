@@ -47,6 +47,7 @@ struct StepReport {
     double edit_distance = 0.0;      ///< summed movement of the interface by edits
     double edit_volume = 0.0;        ///< summed volume by which edits changed phases
     double relabelled_volume = 0.0;  ///< summed volume of relabelled tets, topology changes included
+    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule for creases aside, for a tet below the quality floor
     OperationTable operations{};
     RepairClassTable repair_classes{};
     std::vector<Event> events;

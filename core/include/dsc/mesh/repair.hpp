@@ -66,6 +66,12 @@ struct Outcome {
     Refusal refusal = Refusal::committed;
 };
 
+/// Creases of the interface that edits shall leave, judged on the geometry as it is.
+struct CreaseRule {
+    double dihedral = 0.6;  ///< radians between the normals of an edge's two faces above which the edge is a crease
+    double turn = 0.7954;   ///< radians by which an edit may turn a face, acos 0.7
+};
+
 /// What a repair round knows. Spans live as long as the call.
 struct RepairRound {
     const Complex& complex;
@@ -78,6 +84,17 @@ struct RepairRound {
     double flatness;                       ///< cosine above which two interface faces count as flat
     unsigned round;                        ///< 0 in the first round of a step
     bool settled;                          ///< no motion is left: the last round of the step
+    bool size_edits = true;                ///< false: a refinement owns the sizing, and nothing is split or collapsed for its size
+    std::span<const double> lengths = {};  ///< target length per vertex, NaN where there is none; empty where it is L everywhere
+
+    /// The target length at a vertex: L where it has none of its own. [parallel]
+    double length_at(VertexId v) const { return v < lengths.size() && lengths[v] > 0.0 ? lengths[v] : target_length; }
+    /// The same for an edge. [parallel]
+    double length_at(VertexId a, VertexId b) const {
+        return lengths.empty() ? target_length : 0.5 * (length_at(a) + length_at(b));
+    }
+    /// The same for a tet: of its vertices that have one. [parallel]
+    double length_of(TetId t) const;
 };
 
 /// Limits of topology changes that the kernel needs before it looks for candidates.

@@ -57,6 +57,7 @@ struct DriveOptions {
 struct DriveResult {
     mesh::TetMesh mesh;
     surface::TriangleMesh surface;  ///< label interface of `mesh`
+    hooks::Attributes attributes;   ///< published by strategies, per point of `mesh`; NaN off the interface
     RunTotals totals;
     StepMetrics last;
 };
@@ -65,7 +66,7 @@ struct DriveResult {
 std::uint64_t planned_steps(const Experiment& experiment);
 
 /// Runs the schedule. `cloud` may be null. A series of steps ends early when it converged (the largest speed stayed
-/// below stop.speed mean edges for stop.patience steps) or stalled (in five steps in a row less than 1 % of the asked
+/// below stop.speed mean edges for stop.patience steps, or it has `until: finished` and the velocity says so) or stalled (in five steps in a row less than 1 % of the asked
 /// motion came about); the schedule goes on behind it, the status is that of the last series. The result depends on
 /// neither the workers nor the callbacks. Throws GeometryError (mesh, cloud outside the box), StrategyError. [setup]
 DriveResult drive(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,

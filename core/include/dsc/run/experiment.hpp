@@ -41,11 +41,15 @@ struct Input {
     std::optional<NormalizeInput> normalize;  ///< empty: the coordinates stay as they are
 };
 
+/// What ends a series of steps before their number is reached.
+enum class Until { finished };  ///< the velocity's finished()
+
 /// An item of the schedule: steps, a refinement, or steps with a refinement after every so many of them.
 struct Series {
     std::optional<std::uint32_t> steps;
     std::optional<std::uint32_t> every;
     config::StrategyConfig refine;
+    std::optional<Until> until;
 };
 
 /// When a series of steps ends early.

@@ -93,6 +93,7 @@ struct RunTotals {
     double edit_distance = 0.0;
     double edit_volume = 0.0;
     double relabelled_volume = 0.0;
+    std::uint64_t crease_exceptions = 0;
     std::uint64_t refinements = 0;
     std::uint64_t refine_requested = 0;
     std::uint64_t refine_committed = 0;

@@ -45,7 +45,17 @@ void build_view(const mesh::Complex& complex, SurfaceView& view, Workers* worker
 TriangleMesh extract_interface(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vertex_of = nullptr);
 
 /// The surface of one label, above 0: all faces between its tets and others, or the outside of the box, counter-clockwise seen
-/// from outside. Where more than two labels meet, the interface is no manifold and this still is.
-TriangleMesh extract_phase(const mesh::TetMesh& mesh, mesh::Label phase);
+/// from outside. Where more than two labels meet, the interface is no manifold and this still is. `vertex_of` as above.
+TriangleMesh extract_phase(const mesh::TetMesh& mesh, mesh::Label phase, std::vector<std::uint32_t>* vertex_of = nullptr);
+
+/// An edge of a view with its faces.
+struct ViewEdge {
+    std::array<std::uint32_t, 2> vertices;  ///< ascending
+    std::array<std::uint32_t, 2> faces;     ///< the two of it with the lowest indices; mesh::none for one that is not there
+    std::uint32_t face_count;               ///< 2, but for edges where three labels or more meet, and the rim of open meshes
+};
+
+/// All edges, in ascending order of their vertices, to `edges`, reusing its memory. [step]
+void build_edges(const SurfaceView& view, std::vector<ViewEdge>& edges);
 
 }  // namespace dsc::surface

@@ -27,7 +27,7 @@ public:
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
 
-    // Once a step. The context lives until the next call.
+    // Before the other calls of a step. The context lives until the next call; state from step to step belongs in advance().
     void prepare(const dsc::hooks::StepContext& context) override {
         surface_ = &context.surface;
         outwards_ = params_.inflation * surface_->mean_edge;

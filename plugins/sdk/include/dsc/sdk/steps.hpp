@@ -9,7 +9,7 @@ namespace dsc::sdk {
 /// A step on the surface: no cloud, the box [-1.5, 1.5]^3, L the mean edge. `view` must outlive it.
 hooks::StepContext step_context(const surface::SurfaceView& view, std::uint64_t step = 1);
 
-/// Prepares the field and evaluates it for all vertices, in blocks as the host does.
+/// A step of the field: advances and prepares it, and evaluates it for all vertices, in blocks as the host does.
 std::vector<Vec3> displacements(hooks::VelocityField& field, const hooks::StepContext& context,
                                 unsigned threads = 1, std::size_t block = 64);
 

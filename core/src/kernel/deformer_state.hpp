@@ -1,0 +1,65 @@
+#pragma once
+// What a Deformer holds; its parts are in deformer.cpp (a step), refinement.cpp (between steps) and deformer_state.cpp.
+
+#include <dsc/kernel/deformer.hpp>
+
+#include "kernel/operations.hpp"
+#include "kernel/queues.hpp"
+#include "kernel/topology.hpp"
+#include "kernel/travels.hpp"
+#include "kernel/vertex_fields.hpp"
+
+namespace dsc::kernel {
+
+/// The field that holds the target lengths: no attribute has such a name.
+inline constexpr std::string_view length_field = "target length";
+
+struct Deformer::State {
+    mesh::Complex complex;
+    DeformerOptions options;
+    Workbench bench;
+    RepairQueues queues;
+    TopologyStage topology;
+    double length = 0.0;
+    std::uint64_t step = 0;
+
+    StarLoop star_loop;
+    Travels travels;
+    VertexFields fields;
+    Workers* workers;  // null: one thread
+
+    std::vector<TetId> step_changes;
+    std::vector<bool> noted;  // per tet: it is in step_changes
+    std::vector<mesh::Request> requests, last_requests;
+    std::vector<mesh::Outcome> outcomes;
+    std::vector<VertexId> smoothed;  // of a batch of requests
+
+    State(mesh::Complex start, const DeformerOptions& wanted, Workers* given);
+
+    void apply_limits(double flatness, const std::optional<mesh::CreaseRule>& creases = {});
+    double mean_interface_edge() const;
+    /// To be called whenever the set of fields has changed.
+    void fields_changed();
+    /// L for the whole surface.
+    void set_length(double everywhere);
+    bool alive(VertexId v) const { return v < complex.vertex_slots() && complex.vertex_alive(v); }
+
+    // ---- the parts of a step
+    void begin(std::span<const VertexId> vertices, std::span<const Vec3> displacements, StepReport& report);
+    void note_changes(std::span<const TetId> changed);
+    void record(std::uint32_t i, Refusal refusal, std::uint32_t date, StepReport& report);
+    struct Smoothing;
+    bool plain_smoothing(const mesh::Request& request) const;
+    std::size_t smooth_from(std::size_t first, StepReport& report);
+    void repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report);
+    StepReport advance(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy);
+
+    // ---- the parts of a refinement
+    bool split_longest_edge(const std::array<VertexId, 3>& face);
+    bool split(const std::array<VertexId, 2>& edge);
+    bool collapse(const CollapseTo& request);
+    bool flip(const FlipTo& request);
+    bool move(const MoveTo& request);
+};
+
+}  // namespace dsc::kernel

@@ -1,0 +1,25 @@
+#pragma once
+// Between strategies, which speak of view vertices and faces, and the kernel: what a refinement asks for, and the numbers per
+// vertex that strategies publish.
+
+#include <dsc/hooks/refinement_policy.hpp>
+#include <dsc/kernel/deformer.hpp>
+#include <dsc/surface/surface_view.hpp>
+
+namespace dsc::run {
+
+/// Hands target lengths and attributes over. `view` is that of the deformer's complex. [step]
+void set_fields(kernel::Deformer& deformer, const surface::SurfaceView& view, const hooks::RefinementRequests& requests);
+/// Hands the attributes over. [step]
+void set_attributes(kernel::Deformer& deformer, const surface::SurfaceView& view, const hooks::Attributes& attributes);
+
+/// All attributes at these vertices of its complex, NaN off the interface.
+hooks::Attributes attributes_at(const kernel::Deformer& deformer, std::span<const mesh::VertexId> vertices);
+
+/// The stricter bounds of two rules; the one that there is, or none.
+std::optional<mesh::CreaseRule> stricter(const std::optional<mesh::CreaseRule>& a, const std::optional<mesh::CreaseRule>& b);
+
+/// The requests that change the mesh, without those for labels.
+kernel::RefineRequests kernel_requests(const surface::SurfaceView& view, const hooks::RefinementRequests& requests, bool owns_sizing);
+
+}  // namespace dsc::run
