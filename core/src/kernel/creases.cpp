@@ -14,19 +14,19 @@ struct Face {
 };
 
 // An edge between two faces of one list, with the cosine between their normals.
-struct Edge {
+struct CreaseEdge {
     VertexId a, b;  // ascending
     double cosine;
-    bool operator<(const Edge& other) const { return a != other.a ? a < other.a : b < other.b; }
+    bool operator<(const CreaseEdge& other) const { return a != other.a ? a < other.a : b < other.b; }
 };
 
 // The faces before and after a change, and the edges inside of each.
 struct Patches {
     std::vector<Face> before, after;
-    std::vector<Edge> edges_before, edges_after;
+    std::vector<CreaseEdge> edges_before, edges_after;
 };
 
-Patches& scratch() {
+Patches& patches() {
     thread_local Patches patches;
     patches.before.clear();
     patches.after.clear();
@@ -42,7 +42,7 @@ Face make_face(const std::array<VertexId, 4>& tet, unsigned f, const At& at) {
 }
 
 // Where three faces or more meet in an edge, three labels do: nothing is said about it.
-void find_edges(const std::vector<Face>& faces, std::vector<Edge>& out) {
+void find_edges(const std::vector<Face>& faces, std::vector<CreaseEdge>& out) {
     struct Side {
         VertexId a, b;
         std::uint32_t face;
@@ -66,8 +66,8 @@ void find_edges(const std::vector<Face>& faces, std::vector<Edge>& out) {
     }
 }
 
-bool is_crease(const std::vector<Edge>& edges, VertexId a, VertexId b, double cosine) {
-    const Edge wanted{std::min(a, b), std::max(a, b), 0.0};
+bool is_crease(const std::vector<CreaseEdge>& edges, VertexId a, VertexId b, double cosine) {
+    const CreaseEdge wanted{std::min(a, b), std::max(a, b), 0.0};
     const auto found = std::lower_bound(edges.begin(), edges.end(), wanted);
     return found != edges.end() && found->a == wanted.a && found->b == wanted.b && found->cosine < cosine;
 }
@@ -95,7 +95,7 @@ bool turns_too_far(const Patches& p, VertexId kept, VertexId removed, double tur
 }
 
 std::size_t creases_at(const Patches& p, VertexId v, double crease) {
-    return static_cast<std::size_t>(std::count_if(p.edges_before.begin(), p.edges_before.end(), [&](const Edge& e) {
+    return static_cast<std::size_t>(std::count_if(p.edges_before.begin(), p.edges_before.end(), [&](const CreaseEdge& e) {
         return e.cosine < crease && (e.a == v || e.b == v);
     }));
 }
@@ -108,7 +108,7 @@ bool leaves_crease(const Patches& p, VertexId kept, VertexId removed, bool kept_
 }
 
 bool loses_crease(const Patches& p, VertexId kept, VertexId removed, double crease) {
-    for (const Edge& e : p.edges_before) {
+    for (const CreaseEdge& e : p.edges_before) {
         if (!(e.cosine < crease)) continue;
         const VertexId a = e.a == removed ? kept : e.a, b = e.b == removed ? kept : e.b;
         if (a == b) continue;  // collapsed along itself
@@ -137,7 +137,7 @@ Refusal check_creases(Workbench& bench, VertexId kept, VertexId removed) {
     if (!bench.limits.keeps_creases()) return Refusal::committed;
     const mesh::Complex& c = bench.complex;
     const mesh::Edit& edit = bench.edit;
-    Patches& p = scratch();
+    Patches& p = patches();
     const auto now = [&c](VertexId v) -> const Vec3& { return c.position(v); };
     for (const TetId t : edit.removed) {
         for (unsigned f = 0; f < 4; ++f) {
@@ -172,7 +172,7 @@ Refusal check_creases(Workbench& bench, VertexId kept, VertexId removed) {
 Refusal check_creases(Workbench& bench, std::span<const TetId> tets, mesh::Label label) {
     if (!bench.limits.keeps_creases()) return Refusal::committed;
     const mesh::Complex& c = bench.complex;
-    Patches& p = scratch();
+    Patches& p = patches();
     const auto now = [&c](VertexId v) -> const Vec3& { return c.position(v); };
     float worst = 1.0F;
     // All of them have one label; outwards from the larger one.

@@ -31,7 +31,7 @@ void inputs(const Subject& subject) {
     require(answers.changed.empty(), "it changes its input: " + answers.changed);
 }
 
-void attributes(const Subject& subject) {
+void output_attributes(const Subject& subject) {
     const Answers answers = subject.answers();
     require(answers.unfit.empty(), answers.unfit);
 }
@@ -57,7 +57,7 @@ void add_output_tests(std::vector<Test>& table) {
     add(table,
         {"out.attributes", Level::standard, false,
          "Published attributes have one value per vertex, and names that are allowed and differ."},
-        attributes, {plugin::Kind::velocity, plugin::Kind::refinement});
+        output_attributes, {plugin::Kind::velocity, plugin::Kind::refinement});
     add(table, {"out.quiet", Level::strict, false, "Nothing is printed."}, quiet);
 }
 

@@ -136,7 +136,7 @@ void require_size(std::size_t size, std::size_t points, const char* what) {
 }
 
 // Attributes fit the points, a point that stays keeps its colour, and the report adds up.
-void attributes(const Subject& subject) {
+void filter_attributes(const Subject& subject) {
     const auto strategy = subject.make();
     const cloud::Cloud given = cloud_of(subject.fixture());
     const cloud::Filtered result = static_cast<hooks::CloudFilter&>(*strategy).apply(given, filter_context({}, nullptr));
@@ -195,7 +195,7 @@ void add_policy_tests(std::vector<Test>& table) {
     add(table,
         {"cloud.attributes", Level::standard, false,
          "A filter's points keep their attributes, and its report counts them."},
-        attributes, {plugin::Kind::filter});
+        filter_attributes, {plugin::Kind::filter});
 }
 
 }  // namespace dsc::conformance
