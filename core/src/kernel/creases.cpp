@@ -26,7 +26,7 @@ struct Patches {
     std::vector<CreaseEdge> edges_before, edges_after;
 };
 
-Patches& patches() {
+Patches& emptied_patches() {
     thread_local Patches patches;
     patches.before.clear();
     patches.after.clear();
@@ -137,7 +137,7 @@ Refusal check_creases(Workbench& bench, VertexId kept, VertexId removed) {
     if (!bench.limits.keeps_creases()) return Refusal::committed;
     const mesh::Complex& c = bench.complex;
     const mesh::Edit& edit = bench.edit;
-    Patches& p = patches();
+    Patches& p = emptied_patches();
     const auto now = [&c](VertexId v) -> const Vec3& { return c.position(v); };
     for (const TetId t : edit.removed) {
         for (unsigned f = 0; f < 4; ++f) {
@@ -172,7 +172,7 @@ Refusal check_creases(Workbench& bench, VertexId kept, VertexId removed) {
 Refusal check_creases(Workbench& bench, std::span<const TetId> tets, mesh::Label label) {
     if (!bench.limits.keeps_creases()) return Refusal::committed;
     const mesh::Complex& c = bench.complex;
-    Patches& p = patches();
+    Patches& p = emptied_patches();
     const auto now = [&c](VertexId v) -> const Vec3& { return c.position(v); };
     float worst = 1.0F;
     // All of them have one label; outwards from the larger one.
