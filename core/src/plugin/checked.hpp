@@ -15,6 +15,9 @@ inline constexpr std::string_view report_it = "report this to the plugin's autho
 /// An entry of a list as a message names it: "normal 3".
 inline std::string entry(std::string_view what, std::size_t index) { return std::string(what) + " " + std::to_string(index); }
 
+/// snake_case: what columns, keys and classes may be called.
+bool plain_name(std::string_view name);
+
 /// What a wrapper knows about its strategy.
 struct Attribution {
     Identity who;

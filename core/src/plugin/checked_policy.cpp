@@ -10,49 +10,6 @@ namespace {
 
 constexpr std::string_view lengths_remedy = "lengths must be finite and above 0; report this to the plugin's authors";
 
-// snake_case: what columns, keys and classes may be called.
-bool plain_name(std::string_view name) {
-    return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-    });
-}
-
-}  // namespace
-
-void judge(const Call& current, const hooks::Attributes& attributes, std::size_t vertices) {
-    std::vector<std::string_view> seen;
-    for (const hooks::Attribute& a : attributes) {
-        if (!hooks::may_name_attribute(a.name) || std::find(seen.begin(), seen.end(), a.name) != seen.end()) {
-            fail(current, "strategy.range", "gave an attribute the name '" + a.name + "'",
-                 "names are snake_case, differ, and are none that files have for other things; report this to the plugin's authors");
-        }
-        seen.push_back(a.name);
-        if (a.values.size() != vertices) {
-            fail(current, "strategy.size",
-                 "gave the attribute '" + a.name + "' " + std::to_string(a.values.size()) + " values for " +
-                     std::to_string(vertices) + " vertices",
-                 report_it);
-        }
-        for (std::size_t i = 0; i < vertices; ++i) {
-            if (std::isfinite(a.values[i])) continue;
-            fail(current, "strategy.not_finite",
-                 "gave the attribute '" + a.name + "' the value " + std::to_string(a.values[i]) + " at " + entry("vertex", i), report_it);
-        }
-    }
-}
-
-void judge(const Call& current, const std::optional<mesh::CreaseRule>& creases) {
-    if (!creases) return;
-    constexpr double pi = 3.14159265358979323846;
-    for (const double angle : {creases->dihedral, creases->turn}) {
-        if (angle > 0 && angle <= pi) continue;
-        fail(current, "strategy.range", "gave the angle " + std::to_string(angle) + " for creases",
-             "angles are above 0 and at most pi; report this to the plugin's authors");
-    }
-}
-
-namespace {
-
 class CheckedRefinement final : public Checked<hooks::RefinementPolicy> {
 public:
     using Checked::Checked;
@@ -361,35 +318,6 @@ private:
 };
 
 }  // namespace
-
-// Figures for columns and keys: named in snake_case, each once, finite.
-void judge(const Call& current, const hooks::Figures& figures) {
-    std::vector<std::string_view> seen;
-    for (const auto& [name, value] : figures) {
-        if (!plain_name(name) || std::find(seen.begin(), seen.end(), name) != seen.end()) {
-            fail(current, "strategy.range", "gave a figure the name '" + name + "'",
-                 "names are snake_case and differ; report this to the plugin's authors");
-        }
-        seen.push_back(name);
-        if (!std::isfinite(value)) {
-            fail(current, "strategy.not_finite", "gave the figure '" + name + "' the value " + std::to_string(value),
-                 report_it);
-        }
-    }
-}
-
-// Warnings for people and programs: a code of lower-case words and dots, a text.
-void judge(const Call& current, const hooks::Warnings& warnings) {
-    for (const hooks::Warning& warning : warnings) {
-        const bool plain = std::all_of(warning.code.begin(), warning.code.end(), [](char c) {
-            return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
-        });
-        if (warning.code.empty() || !plain || warning.text.empty()) {
-            fail(current, "strategy.range", "gave a warning with the code '" + warning.code + "' and the text '" + warning.text + "'",
-                 "a code has lower-case letters, digits, '_' and '.', a text is not empty; report this to the plugin's authors");
-        }
-    }
-}
 
 std::unique_ptr<hooks::Strategy> check_refinement(std::unique_ptr<hooks::RefinementPolicy> inner,
                                                   Attribution attribution) {

@@ -2,10 +2,9 @@
 #include <dsc/base/error.hpp>
 #include <dsc/base/state.hpp>
 #include <dsc/kernel/deformer.hpp>
-#include <dsc/mesh/adopt.hpp>
 #include <dsc/run/driver.hpp>
-#include <dsc/run/mesh_files.hpp>
 
+#include "initial_complex.hpp"
 #include "refinement.hpp"
 #include "saved_run.hpp"
 #include "step_figures.hpp"
@@ -22,17 +21,6 @@ constexpr double stall_ratio = 0.01;
 /// Mean speed, in mean edges, below which a vertex counts as arrived (as in the kernel) and nothing can stall.
 constexpr double stall_speed = 1e-4;
 
-void require_inside(const cloud::TargetCloud& cloud, const Box3& box) {
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-        if (box.contains(cloud[i])) continue;
-        throw GeometryError(
-            "cloud.outside_box",
-            "point " + std::to_string(i + 1) +
-                " of the cloud lies outside the box of the initial mesh; lower input.normalize.scale or "
-                "make the initial mesh larger");
-    }
-}
-
 class Run {
 public:
     Run(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
@@ -45,8 +33,10 @@ public:
           workers_(options.workers != nullptr ? *options.workers : serial_),
           planned_(planned_steps(experiment)),
           resumed_(options.resume),
-          deformer_(options.resume.empty() ? kernel::Deformer(initial_complex(), {}, &workers_)
-                                           : kernel::Deformer::load(resumed_, {}, &workers_)) {
+          deformer_(options.resume.empty()
+                        ? kernel::Deformer(
+                              initial_complex(experiment, strategies, cloud, options.cancel, workers_, result_.totals), {}, &workers_)
+                        : kernel::Deformer::load(resumed_, {}, &workers_)) {
         policy_.propose = [this](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
             strategies_.improvement->propose(*context_, round, out);
         };
@@ -77,26 +67,6 @@ public:
     }
 
 private:
-    mesh::Complex initial_complex() {
-        hooks::InitialMeshContext context;
-        context.cloud = cloud_;
-        context.seed = experiment_.seed;
-        context.cancel = options_.cancel;
-        const MeshFiles files;
-        context.files = &files;
-        context.workers = &workers_;
-        const mesh::TetMesh mesh = strategies_.initial_mesh->build(context);
-        result_.totals.initial_mesh = strategies_.initial_mesh->figures();
-        result_.totals.initial_mesh_seconds = strategies_.initial_mesh->seconds();
-        result_.totals.warnings = strategies_.initial_mesh->warnings();
-        const CpuTimed timed(result_.totals.seconds.adopt);
-        mesh::Complex complex =
-            mesh::adopt(mesh, "initial mesh '" + experiment_.initial_mesh.type + "'", &result_.totals.adopted,
-                        strategies_.improvement->topology_limits().min_component);
-        if (cloud_ != nullptr) require_inside(*cloud_, complex.box());
-        return complex;
-    }
-
     /// `step`: as in metrics.csv and events.jsonl, the first one is 1.
     hooks::StepContext make_context(std::uint64_t step) const {
         const std::uint64_t told = strategies_.velocity->planned_steps();

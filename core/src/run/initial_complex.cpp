@@ -1,0 +1,47 @@
+#include "initial_complex.hpp"
+
+#include <dsc/base/error.hpp>
+#include <dsc/mesh/adopt.hpp>
+#include <dsc/run/mesh_files.hpp>
+#include <string>
+
+#include "stopwatch.hpp"
+
+namespace dsc::run {
+namespace {
+
+void require_inside(const cloud::TargetCloud& cloud, const Box3& box) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        if (box.contains(cloud[i])) continue;
+        throw GeometryError(
+            "cloud.outside_box",
+            "point " + std::to_string(i + 1) +
+                " of the cloud lies outside the box of the initial mesh; lower input.normalize.scale or "
+                "make the initial mesh larger");
+    }
+}
+
+}  // namespace
+
+mesh::Complex initial_complex(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
+                              const CancelToken* cancel, Workers& workers, RunTotals& totals) {
+    hooks::InitialMeshContext context;
+    context.cloud = cloud;
+    context.seed = experiment.seed;
+    context.cancel = cancel;
+    const MeshFiles files;
+    context.files = &files;
+    context.workers = &workers;
+    const mesh::TetMesh mesh = strategies.initial_mesh->build(context);
+    totals.initial_mesh = strategies.initial_mesh->figures();
+    totals.initial_mesh_seconds = strategies.initial_mesh->seconds();
+    totals.warnings = strategies.initial_mesh->warnings();
+    const CpuTimed timed(totals.seconds.adopt);
+    mesh::Complex complex =
+        mesh::adopt(mesh, "initial mesh '" + experiment.initial_mesh.type + "'", &totals.adopted,
+                    strategies.improvement->topology_limits().min_component);
+    if (cloud != nullptr) require_inside(*cloud, complex.box());
+    return complex;
+}
+
+}  // namespace dsc::run
