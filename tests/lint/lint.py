@@ -61,6 +61,8 @@ class Tree:
             names[:] = sorted(n for n in names if self.is_ours(Path(folder), n))
             for name in sorted(files):
                 path = Path(folder) / name
+                if name == ".git":  # a file where the checkout is a worktree
+                    continue
                 if path.suffix in TEXT and path.stat().st_size < 1_000_000:
                     text = path.read_text(encoding="utf-8", errors="replace")
                     self.files[path.relative_to(self.root).as_posix()] = text.splitlines()
