@@ -11,6 +11,8 @@ namespace {
 
 /// Local widths from the nearest sample beyond which the interface closes a gap of the data.
 constexpr double gap_widths = 3.0;
+/// Certain vertices that a part has at least whose attachment counts.
+constexpr std::size_t least_part = 10;
 
 std::size_t changed(const Labels& labels, bool inside) {
     return static_cast<std::size_t>(std::count_if(labels.components.begin(), labels.components.end(), [&](const mesh::LabelComponent& c) {
@@ -34,7 +36,7 @@ std::string rounded(double value, int digits) {
 }  // namespace
 
 bool doubtful(const Labels& labels, const cloud::Orientation& orientation) {
-    return labels.refused_share() > most_refused || orientation.residual > most_residual;
+    return labels.changed_share() > retry_from || orientation.residual > most_residual;
 }
 
 StartSurface measure_start(const mesh::TetMesh& mesh, const cloud::Orientation& orientation, double cloud_area) {
@@ -69,10 +71,10 @@ hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orie
                                          " times the area of the points, and the winding field has a residual of " +
                                          rounded(orientation.residual, 3) + ". Where there are no points the surface is a guess."});
     }
-    if (labels.refused_share() > most_refused) {
+    if (labels.changed_share() > most_changed) {
         out.push_back({"topology.doubtful",
-                       "The topology is doubtful: at " + counted(labels.filter.clusters.size(), "place", "places") + " (" +
-                           rounded(100.0 * labels.refused_share(), 1) +
+                       "The topology is doubtful: at " + counted(labels.filter.clusters.size() + changed(labels, true) + changed(labels, false), "place", "places") + " (" +
+                           rounded(100.0 * labels.changed_share(), 1) +
                            " vertices per 100 points) the solid or a gap is thinner than about one spacing of the points. Without the "
                            "filter: " + in_words(labels.filter.before) + "; with it: " + in_words(labels.counts) +
                            ". A denser cloud decides these places."});
@@ -95,7 +97,8 @@ void add_figures(const Labels& labels, const cloud::Orientation& orientation, co
     whole("lattice_tets", labels.lattice.tets.size());
     whole("split_rounds", labels.rounds);
     whole("refused_vertices", labels.filter.refused);
-    add("refused_share", labels.refused_share());
+    whole("settled_vertices", labels.settled());
+    add("changed_share", labels.changed_share());
     whole("refused_places", labels.filter.clusters.size());
     whole("components_before_filter", labels.filter.before.components);
     whole("cavities_before_filter", labels.filter.before.cavities);
@@ -105,9 +108,10 @@ void add_figures(const Labels& labels, const cloud::Orientation& orientation, co
     add("genus", static_cast<double>(labels.counts.genus()));
     whole("islands_removed", changed(labels, true));
     whole("cavities_filled", changed(labels, false));
-    // Parts that are connected by certain values have no weakest merge: 1/2 is the most that a value can be.
-    add("weakest_bridge", labels.filter.inside ? labels.filter.inside->level : 0.5);
-    add("weakest_gap", labels.filter.outside ? labels.filter.outside->level : 0.5);
+    // Parts that are connected by certain values have no weakest attachment: 1/2 is the most that a value can be.
+    const auto inside = mesh::weakest_attachment(labels.filter, true, least_part), outside = mesh::weakest_attachment(labels.filter, false, least_part);
+    add("weakest_bridge", inside ? inside->level : 0.5);
+    add("weakest_gap", outside ? outside->level : 0.5);
     add("area_ratio", start.cloud_area > 0.0 ? start.area / start.cloud_area : 0.0);
     add("gap_share", start.gap_share);
 }

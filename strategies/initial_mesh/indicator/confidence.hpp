@@ -10,11 +10,11 @@
 
 namespace dsc::strategies {
 
-/// Refused vertices per sample, and residuals of the winding field, above which the topology is doubtful; a residual above
-/// which the cloud is open; area of the start per area of the points above which it is.
-inline constexpr double most_refused = 0.011, most_residual = 0.135, open_residual = 0.17, open_area = 1.3;
+/// Changed vertices per sample from which a finer orientation is tried, and above which the topology stays doubtful; residual of the
+/// winding field above which it is; residual, and area of the start per area of the points, above which the cloud is open.
+inline constexpr double retry_from = 0.004, most_changed = 0.011, most_residual = 0.135, open_residual = 0.17, open_area = 1.3;
 
-/// Whether a finer orientation may help.
+/// Whether a finer orientation may help. [setup]
 bool doubtful(const Labels& labels, const cloud::Orientation& orientation);
 
 /// What the start's interface says about the cloud.

@@ -97,6 +97,16 @@ std::vector<std::uint32_t> vertices_near(const mesh::GradedLattice& lattice, std
 
 }  // namespace
 
+std::size_t Labels::settled() const {
+    std::size_t sum = 0;
+    for (const mesh::LabelComponent& component : components) sum += component.kept ? 0 : component.vertices;
+    return sum;
+}
+
+double Labels::changed_share() const {
+    return samples == 0 ? 0.0 : static_cast<double>(filter.refused + settled()) / static_cast<double>(samples);
+}
+
 Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& options, double half_box, Workers* workers,
                      const CancelToken* cancel) {
     const std::vector<cloud::SurfaceSample> samples = used_samples(orientation);

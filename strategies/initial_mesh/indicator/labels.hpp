@@ -35,8 +35,10 @@ struct Labels {
     double width = 0.0;           ///< median width of the samples
     unsigned rounds = 0;          ///< of further splits
 
-    /// Refused vertices per sample: the share of the cloud whose topology is doubtful.
-    double refused_share() const { return samples == 0 ? 0.0 : static_cast<double>(filter.refused) / static_cast<double>(samples); }
+    /// Vertices of islands and cavities that did not stay.
+    std::size_t settled() const;
+    /// Refused and settled vertices per sample: the share of the cloud whose topology the filters decided, not the field.
+    double changed_share() const;
 };
 
 /// Labels the box of half-width `half_box` round the origin, or a slightly larger one. The orientation is in normalised units and has samples. Throws ConfigError

@@ -1,6 +1,7 @@
 #include "strategy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
 #include <dsc/base/error.hpp>
@@ -13,8 +14,10 @@
 namespace dsc::strategies {
 namespace {
 
-/// Iterations of the coarse stage where all points take part in it.
-constexpr std::size_t retry_iterations = 24;
+/// Where the labels are doubtful, the cloud is oriented again: all points take part in the first stage, more iterations follow
+/// each other, at last in the second stage too.
+constexpr std::array<cloud::OrientOptions, 2> retries = {{{.all_points = true, .coarse_iterations = 60, .fine_iterations = 12},
+                                                          {.all_points = true, .coarse_iterations = 60, .fine_iterations = 40}}};
 
 /// CPU seconds of this process since the last call.
 class Lap {
@@ -75,8 +78,8 @@ void Indicator::declare(config::ParamSchema<Params>& schema) {
         .doc("Volume below which islands are removed and cavities filled.");
     schema.integer("smoothing", &Params::smoothing).range(0, 100).unit("sweeps").doc("Sweeps that smooth the interface at the end.");
     schema.choice("retry", &Params::retry, {{"auto", Retry::automatic}, {"never", Retry::never}})
-        .doc("Where the labels are doubtful, 'auto' orients the cloud once more with all points in the first stage, which takes longer, "
-             "and keeps the better result.");
+        .doc("Where the labels are doubtful, 'auto' orients the cloud up to twice more, with all points in the first stage and more "
+             "iterations, which takes longer, and keeps the labels that the filters changed least.");
 }
 
 Indicator::Indicator(const Params& params, const plugin::Setup&) : params_(params) {}
@@ -98,17 +101,16 @@ mesh::TetMesh Indicator::build(const hooks::InitialMeshContext& context) {
     cloud::Orientation orientation = cloud.orientation();
     if (orientation.empty()) orientation = cloud::orient_points(cloud.points(), {}, context.workers, context.cancel).orientation;
     Labels labels = label_lattice(orientation, params_, half_box, context.workers, context.cancel);
-    const bool retry = params_.retry == Retry::automatic && doubtful(labels, orientation) && !orientation.all_points;
-    bool replaced = false;
-    if (retry) {
-        const cloud::OrientOptions finer{.all_points = true, .coarse_iterations = retry_iterations};
+    unsigned attempts = 1, taken = 1;
+    for (const cloud::OrientOptions& finer : retries) {
+        if (params_.retry == Retry::never || !doubtful(labels, orientation)) break;
         cloud::Orientation again = cloud::orient_points(cloud.points(), finer, context.workers, context.cancel).orientation;
         Labels other = label_lattice(again, params_, half_box, context.workers, context.cancel);
-        if (other.refused_share() <= labels.refused_share()) {
-            replaced = true;
-            labels = std::move(other);
-            orientation = std::move(again);
-        }
+        ++attempts;
+        if (other.changed_share() > labels.changed_share()) continue;
+        taken = attempts;
+        labels = std::move(other);
+        orientation = std::move(again);
     }
     seconds_.emplace_back("labels", lap());
 
@@ -123,8 +125,8 @@ mesh::TetMesh Indicator::build(const hooks::InitialMeshContext& context) {
     const StartSurface start = measure_start(mesh, orientation, cloud.statistics(context.workers).area);
     warnings_ = warnings_of(labels, orientation, start);
     add_figures(labels, orientation, start, figures_);
-    figures_.emplace_back("retried", retry ? 1.0 : 0.0);
-    figures_.emplace_back("retry_taken", replaced ? 1.0 : 0.0);
+    figures_.emplace_back("attempts", attempts);
+    figures_.emplace_back("attempt_taken", taken);
     figures_.emplace_back("interface_vertices", static_cast<double>(report.interface_vertices));
     figures_.emplace_back("tets", static_cast<double>(mesh.tets.size()));
     figures_.emplace_back("least_quality", report.least_quality);
