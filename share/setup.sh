@@ -88,17 +88,17 @@ provide() {
     fi
 }
 
-# One compiler a core, but never more than the memory carries: the heaviest files take 1.5 GB each.
+# One compiler a core, but never more than the memory carries: the heaviest files take 2 GB each.
 compile_jobs() {
     local cores memory
     cores=$(nproc 2>/dev/null || echo 1)
-    memory=$(awk '/^MemAvailable:/ {print int($2 / 1500000)}' /proc/meminfo 2>/dev/null || true)
+    memory=$(awk '/^MemAvailable:/ {print int($2 / 2000000)}' /proc/meminfo 2>/dev/null || true)
     if [ -n "$memory" ] && [ "$memory" -lt "$cores" ]; then cores=$((memory > 0 ? memory : 1)); fi
     echo "$cores"
 }
 
 # What the release build costs in the compiler, in minutes of one core.
-release_minutes=5
+release_minutes=7
 
 # Said before anything else, where nothing is built yet.
 announce() {
