@@ -36,7 +36,7 @@ std::string rounded(double value, int digits) {
 }  // namespace
 
 bool doubtful(const Labels& labels, const cloud::Orientation& orientation) {
-    return labels.changed_share() > retry_from || orientation.residual > most_residual;
+    return labels.changed_share() > most_changed || orientation.residual > retry_residual;
 }
 
 StartSurface measure_start(const mesh::TetMesh& mesh, const cloud::Orientation& orientation, double cloud_area) {

@@ -10,9 +10,13 @@
 
 namespace dsc::strategies {
 
-/// Changed vertices per sample from which a finer orientation is tried, and above which the topology stays doubtful; residual of the
-/// winding field above which it is; residual, and area of the start per area of the points, above which the cloud is open.
-inline constexpr double retry_from = 0.004, most_changed = 0.011, most_residual = 0.135, open_residual = 0.17, open_area = 1.3;
+/// Changed vertices per sample above which the topology is doubtful.
+inline constexpr double most_changed = 0.004;
+/// Residual of the winding field above which a finer orientation is tried, and above which the topology stays doubtful: noisy clouds
+/// reach 0.14 and are right.
+inline constexpr double retry_residual = 0.135, most_residual = 0.15;
+/// Residual, and area of the start per area of the points, above which the cloud is open.
+inline constexpr double open_residual = 0.17, open_area = 1.3;
 
 /// Whether a finer orientation may help. [setup]
 bool doubtful(const Labels& labels, const cloud::Orientation& orientation);

@@ -139,16 +139,21 @@ TEST_CASE("refused vertices and residuals beyond the limits are doubtful") {
     orientation.residual = 0.05;
     CHECK_FALSE(dsc::strategies::doubtful(labels, orientation));
     CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).empty());
-    labels.filter.refused = 6;
-    CHECK(dsc::strategies::doubtful(labels, orientation));
+    labels.filter.refused = 3;
+    CHECK_FALSE(dsc::strategies::doubtful(labels, orientation));
     CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).empty());
-    labels.components.push_back({.inside = true, .kept = false, .vertices = 6});
+    labels.components.resize(1);
+    labels.components.front().kept = false;
+    labels.components.front().vertices = 2;
     CHECK(dsc::strategies::doubtful(labels, orientation));
     CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "topology.doubtful");
     labels.filter.refused = 0;
     labels.components.clear();
     orientation.residual = 0.14;
     CHECK(dsc::strategies::doubtful(labels, orientation));
+    CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).empty());
+    orientation.residual = 0.16;
+    CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "topology.doubtful");
     orientation.residual = 0.2;
     CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "cloud.open");
 }
