@@ -16,7 +16,7 @@ inline constexpr const char* generator_name = "initial mesh 'indicator'";
 
 /// Constants of the labelling; lengths count in the widths of the samples (cloud::SurfaceSample::width).
 struct LabelOptions {
-    double cell = 1.2;          ///< edge of the cells at the samples, from this to 1.2 times this
+    double cell = 1.0;          ///< edge of the cells at the samples, from this to 1.2 times this
     double certain = 0.2;       ///< distance of the field from its value at the surface from which a label is certain
     bool remove_islands = true;
     mesh::CavityPolicy cavities = mesh::CavityPolicy::automatic;
