@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
+#include <dsc/cloud/normalize.hpp>
+#include <dsc/cloud/read.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/io/formats.hpp>
 #include <dsc/run/reconstruct.hpp>
@@ -89,12 +91,20 @@ fs::path source_of(const Target& target, const run::RunOutcome& outcome) {
     throw Error(ExitCode::internal, "reconstruct.format", "the run wrote no ." + target.format);
 }
 
+/// Refuses a cloud that no surface can come from before anything else happens, by the name that the caller gave it: the
+/// experiment has its absolute one, and its filters would see the cloud first.
+void require_good_cloud(const ReconstructArguments& arguments) {
+    const cloud::Cloud cloud = cloud::read_cloud(arguments.cloud, nullptr, {arguments.columns});
+    cloud::require_volume(cloud.points, cloud.source.empty() ? arguments.cloud : cloud.source);
+}
+
 int execute(const ReconstructArguments& arguments, const std::vector<std::string>& command) {
     start_log(arguments.terminal);
     if (!fs::exists(arguments.cloud)) {
         throw IoError("io.missing", arguments.cloud, "", "does not exist", "check the name of the cloud");
     }
     const std::vector<Target> list = targets(arguments);
+    require_good_cloud(arguments);
     config::ConfigNode root =
         run::reconstruction_of(fs::absolute(arguments.cloud).string(),
                                {run::detail_from_name(arguments.detail).value(), arguments.columns});

@@ -10,7 +10,7 @@ namespace {
 using dsc::app::TimeEstimate;
 using dsc::run::Series;
 
-Series steps(std::uint32_t count) { return {.steps = count, .every = {}, .refine = {}}; }
+Series steps(std::uint32_t count) { return {.steps = count, .every = {}, .refine = {}, .until = {}}; }
 Series refinement() { return {}; }
 
 }  // namespace
@@ -43,7 +43,7 @@ TEST_CASE("time estimate: refinements make steps dearer by the factor that the f
 }
 
 TEST_CASE("time estimate: refined every few steps") {
-    TimeEstimate estimate({{.steps = 40, .every = 10, .refine = {}}});
+    TimeEstimate estimate({{.steps = 40, .every = 10, .refine = {}, .until = {}}});
     double now = 0;
     double whole = 0;
     const auto vertices = [](std::uint64_t step) { return step <= 10 ? 100.0 : step <= 20 ? 200.0 : step <= 30 ? 400.0 : 800.0; };

@@ -50,7 +50,7 @@ Outcome drive_to(const Adversary::Destination& destination, std::uint32_t steps,
         "dsc", config::ConfigNode::map(
                    {{"topology", config::ConfigNode::map({{"thickness", events ? 1.0 : 0.0}})}})};
     experiment.velocity = {"rotate", config::ConfigNode::map()};
-    experiment.schedule.push_back({steps, {}, {}});
+    experiment.schedule.push_back({steps, {}, {}, {}});
     run::Strategies strategies = run::make_strategies(experiment, host);
     strategies.velocity = std::make_unique<Adversary>(destination);
     Outcome outcome{run::drive(experiment, strategies, nullptr, {}), {}};

@@ -313,7 +313,12 @@ TEST_CASE("refinement: faces, edges, sizes and labels that do not exist") {
     CHECK(refine([](auto& r) { r.sizing = {1, 1, 0, 1}; }).code == "strategy.not_finite");
     CHECK(refine([](auto& r) { r.sizing = {1, 1, no_number, 1}; }).code == "strategy.not_finite");
     CHECK(refine([](auto& r) { r.relabel = {{0, 0x80000000U}}; }).code == "strategy.range");
-    CHECK(refine([](auto& r) { r = {{1}, {{0, 3}}, {1, 1, 1, 1}, {{0, 2}}}; }).text.empty());
+    CHECK(refine([](auto& r) {
+              r.split_faces = {1};
+              r.split_edges = {{0, 3}};
+              r.sizing = {1, 1, 1, 1};
+              r.relabel = {{0, 2}};
+          }).text.empty());
 }
 
 TEST_CASE("refinement: collapses, flips, moves and target lengths that cannot be") {

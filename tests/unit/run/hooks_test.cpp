@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <dsc/base/error.hpp>
 #include <dsc/io/series.hpp>
 #include <dsc/run/driver.hpp>
 #include <dsc/run/measure.hpp>

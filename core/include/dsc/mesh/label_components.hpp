@@ -38,7 +38,7 @@ struct LabelComponent {
     bool inside = true;  ///< else a cavity
     bool kept = true;    ///< else it was given the other label
     double volume = 0;   ///< sum of its vertices' shares
-    Vec3 place;          ///< mean of the vertices
+    Vec3 place = Vec3::Zero();  ///< mean of the vertices
     std::size_t vertices = 0;
     double peak = 0;         ///< largest distance of its values from 0
     std::size_t points = 0;  ///< nearest to its shell; counted only where CavityPolicy::automatic needs them
