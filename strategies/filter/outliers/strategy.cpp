@@ -15,6 +15,10 @@ void Outliers::declare(config::ParamSchema<Params>& schema) {
         .range(0, 0.99)
         .unit("1")
         .doc("If more than this part of the points would go, none goes.");
+    schema.real("dirty", &Params::dirty)
+        .range(0, 1)
+        .unit("1")
+        .doc("If more than this part of the points lie apart, all are searched, round by round, for outliers among outliers.");
 }
 
 Outliers::Outliers(const Params& params, const plugin::Setup&) : params_(params) {}

@@ -58,7 +58,8 @@ struct RadiusOutliersOptions {
 struct OutliersOptions {
     double isolated = 2.5;  ///< how many times as far apart as its neighbours and as most points an outlier lies
     double far = 8.0;       ///< how many times as far apart as most points a point may lie at all
-    double most = 0.2;      ///< if more than this part of the points would go, none goes: the cloud is uneven, not dirty
+    double most = 0.25;     ///< if more than this part of the points would go, none goes: the cloud is uneven, not dirty
+    double dirty = 0.005;   ///< if more than this part lies apart, it is searched for outliers that only a search round by round finds
 };
 
 struct ClustersOptions {
@@ -95,8 +96,13 @@ Filtered remove_radius_outliers(const Cloud& cloud, const RadiusOutliersOptions&
 
 /// Removes points far from all others. How far apart points lie is the distance to their 8th neighbour; "isolated" ones
 /// exceed `isolated` times both the median of their 8 neighbours' distances and that of all points, "far" ones exceed
-/// `far` times the median of all. Where more than half of the points repeat others, that median is 0 and none goes. The
-/// number of threads changes nothing. `workers` may be null: one thread. [setup]
+/// `far` times the median of all. Where more than half of the points repeat others, that median is 0 and none goes.
+///
+/// If these and the points that fill space as in a ball, twice as far apart as most points, are more than 8 and more than the
+/// part `dirty`, the cloud is dirty. Then these go as well: "strewn" ones, which fill space, 1.5 times as far apart as most;
+/// "off_surface" ones, off the plane of those neighbours that lie closer together; all this again without those that went, up
+/// to 8 times; at last "clump" ones, in small groups, no neighbours of others, that fill space or have 8 points at most. The
+/// number of threads and the order of the points change nothing. `workers` may be null: one thread. [setup]
 Filtered remove_outliers(const Cloud& cloud, const OutliersOptions& options = {}, Workers* workers = nullptr);
 
 /// Thins places where points crowd together: of points that lie much closer to each other than the points round them
