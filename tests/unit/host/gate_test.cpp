@@ -91,12 +91,12 @@ TEST_CASE("an entry of another size") {
 TEST_CASE("other versions of the ABI") {
     CHECK(refusal(fixture("bad_abi_old")).code == "plugin.abi");
     CHECK(refusal(fixture("bad_abi_old")).text == fixture("bad_abi_old").string() +
-                                                      ": was built for ABI 0.0, this dsc has ABI 1.0; "
+                                                      ": was built for ABI 1.0, this dsc has ABI 2.0; "
                                                       "rebuild it against dsc's headers of this version");
     CHECK(refusal(fixture("bad_abi_new")).code == "plugin.abi");
     CHECK(refusal(fixture("bad_abi_new")).text ==
           fixture("bad_abi_new").string() +
-              ": needs ABI 1.1, this dsc has ABI 1.0; install a newer dsc or rebuild it against this one");
+              ": needs ABI 2.1, this dsc has ABI 2.0; install a newer dsc or rebuild it against this one");
 }
 
 namespace {
