@@ -25,6 +25,15 @@ void Trace::part(std::string name, std::size_t width) {
     parts_.push_back({std::move(name), values_.size(), width});
 }
 
+std::vector<Trace::Stretch> Trace::stretches() const {
+    std::vector<Stretch> all;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        const std::size_t end = i + 1 < parts_.size() ? parts_[i + 1].begin : values_.size();
+        all.push_back({parts_[i].begin, end, parts_[i].width});
+    }
+    return all;
+}
+
 std::string Trace::place(std::size_t index) const {
     const auto behind =
         std::find_if(parts_.begin(), parts_.end(), [index](const Part& p) { return p.begin > index; });

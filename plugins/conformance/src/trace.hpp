@@ -25,6 +25,14 @@ public:
     }
 
     const std::vector<double>& values() const { return values_; }
+
+    /// A part: its values are [begin, end), `width` of them an entry.
+    struct Stretch {
+        std::size_t begin;
+        std::size_t end;
+        std::size_t width;
+    };
+    std::vector<Stretch> stretches() const;
     /// "entry 12 of displacements at step 2" for the value at `index`.
     std::string place(std::size_t index) const;
 
