@@ -33,6 +33,11 @@ const std::map<std::string, std::string> experiments = {
      "initial_mesh: {type: corner_box, divisions: 4}\nvelocity: {type: rotate, degrees: 3}\nimprovement: "
      "{type: illinois}\n"
      "observers: [{type: analytic}]\nschedule: [{steps: 40}]\n"},
+    {"a cloud through all filters, labelled by its winding field",
+     "input: {cloud: {sample: {shape: sphere, n: 2000}, filters: [{type: duplicates}, {type: clusters}, {type: voxel_grid, size: 0.001},\n"
+     "  {type: hidden}, {type: radius_outliers, radius: 0.1}, {type: statistical_outliers, deviations: 10}, {type: outliers},\n"
+     "  {type: orient}]}, normalize: {}}\n"
+     "initial_mesh: {type: indicator}\nvelocity: {type: point_cloud}\nimprovement: {type: dsc}\nschedule: [{steps: 40}]\n"},
     {"average",
      "initial_mesh: {type: grid, cells: 12}\nvelocity: {type: average}\nimprovement: {type: dsc}\n"
      "schedule: [{steps: 40}]\n"},
