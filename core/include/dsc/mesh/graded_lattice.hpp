@@ -62,9 +62,9 @@ public:
     /// The same for all leaves that the function chooses; it is asked for every one in order. [setup]
     std::size_t split_where(const std::function<bool(const Leaf&)>& chosen);
 
-    /// The coarsest such lattice in which every leaf with both labels, and every leaf that touches one of these, is a leaf
-    /// as it is here: what is merged has one label. So the mixed tets are the same, and the labels have the same topology.
-    /// One value per vertex, above 0 inside. Its vertices are some of those here: `origins` gets their numbers. [setup]
+    /// The coarsest such lattice in which every leaf with both labels is a leaf as it is here. What is merged has one label,
+    /// so the labels have the same topology. One value per vertex, above 0 inside. Its vertices are some of those here, in
+    /// another order: `origins` gets their numbers here. [setup]
     GradedLattice coarsened(std::span<const double> values, std::vector<std::uint32_t>& origins) const;
 
     /// Tets that fill the box, all positive and conforming, with the lattice's numbers; every vertex is used. They
