@@ -42,6 +42,9 @@ struct GradedLattice::Parts {
     Parts(const LatticeOptions& options, std::string_view caller)
         : name(caller), frame(lattice::frame_of(options)), octree(frame, lattice::top_level(options)) {}
 
+    // The same box in cells of the top level only.
+    explicit Parts(const Parts& other, unsigned top) : name(other.name), frame(other.frame), octree(frame, top) {}
+
     // The smallest cell that contains the place, or the one nearest to it.
     Cell cell_at(const Vec3& place) const {
         Cell out{};
@@ -137,6 +140,7 @@ GradedLattice::GradedLattice(const LatticeOptions& options, std::span<const Cell
     }
     p.list_leaves();
 }
+GradedLattice::GradedLattice(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 GradedLattice::~GradedLattice() = default;
 GradedLattice::GradedLattice(GradedLattice&&) noexcept = default;
 GradedLattice& GradedLattice::operator=(GradedLattice&&) noexcept = default;
@@ -164,6 +168,20 @@ std::size_t GradedLattice::split_where(const std::function<bool(const Leaf&)>& c
         if (chosen(parts_->leaves[i])) leaves.push_back(static_cast<std::uint32_t>(i));
     }
     return split(leaves);
+}
+
+GradedLattice GradedLattice::coarsened(std::span<const double> values, std::vector<std::uint32_t>& origins) const {
+    auto coarse = std::make_unique<Parts>(*parts_, parts_->octree.top());
+    for (std::size_t i = 0; i < parts_->leaves.size(); ++i) {
+        const auto& [level, cell] = parts_->places[i];
+        if (level == coarse->octree.top() || !has_mixed_signs(parts_->leaves[i], values)) continue;
+        coarse->octree.divide(level + 1, Parts::at_level(1, cell));
+    }
+    coarse->list_leaves();
+    origins.clear();
+    origins.reserve(coarse->points.size());
+    for (const Cell& x : coarse->table.points()) origins.push_back(parts_->table.known(x));
+    return GradedLattice(std::move(coarse));
 }
 
 std::vector<std::array<std::uint32_t, 4>> GradedLattice::tets(const CancelToken* cancel) const {

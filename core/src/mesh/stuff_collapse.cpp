@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/quality.hpp>
@@ -9,8 +10,16 @@
 namespace dsc::mesh::stuffing {
 namespace {
 
-// A free vertex beside the interface goes when its shortest edge is below this share of the interface's edges there.
-constexpr double dense = 0.5;
+// A free vertex near the interface goes when its shortest edge is below this share of the interface's edges there, where all
+// tets that this changes keep a quality. From layer to layer its edges may grow.
+constexpr double dense = 0.9;
+constexpr double growth = 1.3;
+constexpr double thin_quality = 0.25;
+// Layers of free vertices that are thinned between the passes over the interface, so that they do not block it, and at the end.
+constexpr unsigned layers_between = 1, layers_at_end = 3;
+// The first passes collapse only those edges of the interface that leave tets of this quality, later ones less and less.
+constexpr double first_quality = 0.3;
+constexpr double relaxation = 0.6;
 
 template <std::size_t N>
 bool has(const std::array<std::uint32_t, N>& cell, std::uint32_t v) {
@@ -92,39 +101,40 @@ public:
     }
 
     void run() {
+        double quality = std::max(first_quality, options_.collapse_quality);
         while (vertices_ > options_.most_interface_vertices) {
             // Long edges come only when no short ones can go: the next pass may shorten the list differently.
             const std::vector<Edge> edges = sorted_edges();
-            std::size_t done = pass(edges, edges.size() / 2);
-            if (done == 0) done = pass(edges, edges.size());
-            if (done == 0) break;
-            if (vertices_ > options_.most_interface_vertices) thin_free_vertices();
+            std::size_t done = pass(edges, edges.size() / 2, quality);
+            if (done == 0) done = pass(edges, edges.size(), quality);
+            if (done == 0 && quality <= options_.collapse_quality) break;
+            quality = std::max(options_.collapse_quality, relaxation * quality);
+            if (vertices_ > options_.most_interface_vertices) thin_free_vertices(layers_between);
         }
+        thin_free_vertices(layers_at_end);
     }
-
-    std::size_t vertices() const { return vertices_; }
 
 private:
     const Vec3& at(std::uint32_t v) const { return s_.mesh.points[v]; }
 
-    std::vector<Edge> sorted_edges() const {
+    std::vector<Edge> sorted_edges() {
         std::vector<Edge> edges;
-        for (const Face& f : s_.faces) {
-            if (f[0] == no_vertex) continue;
-            for (std::size_t i = 0; i < 3; ++i) {
-                const std::uint32_t a = std::min(f[i], f[(i + 1) % 3]), b = std::max(f[i], f[(i + 1) % 3]);
-                edges.push_back({(at(a) - at(b)).norm(), a, b});
+        edges.reserve(3 * vertices_);
+        for (std::uint32_t a = 0; a < touched_.size(); ++a) {
+            if (faces_.empty(a)) continue;
+            neighbours(a, near_a_);
+            for (const std::uint32_t b : near_a_) {
+                if (b > a) edges.push_back({(at(a) - at(b)).norm(), a, b});
             }
         }
         const auto key = [](const Edge& e) { return std::make_tuple(e.length, e.a, e.b); };
         std::sort(edges.begin(), edges.end(), [&](const Edge& x, const Edge& y) { return key(x) < key(y); });
-        const auto same = [](const Edge& x, const Edge& y) { return x.a == y.a && x.b == y.b; };
-        edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
         return edges;
     }
 
-    // Tries the first edges, none beside another that was collapsed before. Returns the number of collapses.
-    std::size_t pass(const std::vector<Edge>& edges, std::size_t count) {
+    // Tries the first edges, except those of merged vertices, whose lengths are not those of the list any more. Returns the
+    // number of collapses.
+    std::size_t pass(const std::vector<Edge>& edges, std::size_t count, double quality) {
         std::fill(touched_.begin(), touched_.end(), 0);
         std::size_t done = 0;
         for (std::size_t i = 0; i < count && vertices_ > options_.most_interface_vertices; ++i) {
@@ -133,7 +143,7 @@ private:
             if (touched_[a] != 0 || touched_[b] != 0 || !link_condition(a, b)) continue;
             const std::array<Vec3, 3> places = {0.5 * (at(a) + at(b)), at(a), at(b)};
             std::size_t best = 3;
-            double best_quality = options_.collapse_quality;
+            double best_quality = quality;
             for (std::size_t k = 0; k < 3; ++k) {
                 const double least = std::min(least_quality(a, b, places[k], best_quality), least_quality(b, a, places[k], best_quality));
                 if (least > best_quality) {
@@ -142,8 +152,7 @@ private:
                 }
             }
             if (best == 3) continue;
-            for (const std::uint32_t v : near_a_) touched_[v] = 1;
-            for (const std::uint32_t v : near_b_) touched_[v] = 1;
+            touched_[a] = touched_[b] = 1;
             tets_.merge(a, b);
             faces_.merge(a, b);
             s_.mesh.points[a] = places[best];
@@ -192,8 +201,18 @@ private:
         out.erase(std::unique(out.begin(), out.end()), out.end());
     }
 
-    // Merges free vertices beside the interface into their nearest neighbours where they are denser than the interface.
-    void thin_free_vertices() {
+    // Merges free vertices near the interface into neighbours where they are denser than the interface.
+    void thin_free_vertices(unsigned layers) {
+        const std::vector<double> wanted = wanted_lengths(layers);
+        for (std::uint32_t v = 0; v < wanted.size(); ++v) {
+            if (wanted[v] == 0.0 || !faces_.empty(v) || tets_.empty(v) || lies_on(box_, at(v))) continue;
+            if (v % 1024 == 0) check_cancelled();
+            merge_free_vertex(v, wanted[v]);
+        }
+    }
+
+    // Least length of the edges of vertices on the interface and in some layers round it; 0 for the others.
+    std::vector<double> wanted_lengths(unsigned layers) const {
         std::vector<double> wanted(s_.mesh.points.size(), 0.0);
         for (const Face& f : s_.faces) {
             if (f[0] == no_vertex) continue;
@@ -201,19 +220,20 @@ private:
             for (std::size_t i = 0; i < 3; ++i) mean += (at(f[i]) - at(f[(i + 1) % 3])).norm() / 3;
             for (const std::uint32_t v : f) wanted[v] = std::max(wanted[v], dense * mean);
         }
-        std::vector<std::pair<std::uint32_t, double>> free;
-        std::vector<double> reach = wanted;
-        for (const Corners& tet : s_.mesh.tets) {
-            if (tet[0] == no_vertex) continue;
-            double most = 0.0;
-            for (const std::uint32_t v : tet) most = std::max(most, wanted[v]);
-            for (const std::uint32_t v : tet) reach[v] = std::max(reach[v], most);
+        for (unsigned layer = 0; layer < layers; ++layer) {
+            const std::vector<double> inner = wanted;
+            const double factor = layer == 0 ? 1.0 : growth;
+            for (const Corners& tet : s_.mesh.tets) {
+                if (tet[0] == no_vertex) continue;
+                double most = 0.0;
+                for (const std::uint32_t v : tet) most = std::max(most, factor * inner[v]);
+                if (most == 0.0) continue;
+                for (const std::uint32_t v : tet) {
+                    if (inner[v] == 0.0) wanted[v] = std::max(wanted[v], most);
+                }
+            }
         }
-        for (std::uint32_t v = 0; v < reach.size(); ++v) {
-            if (reach[v] == 0.0 || !faces_.empty(v) || tets_.empty(v) || lies_on(box_, at(v))) continue;
-            if (v % 1024 == 0) check_cancelled();
-            merge_free_vertex(v, reach[v]);
-        }
+        return wanted;
     }
 
     void merge_free_vertex(std::uint32_t v, double length) {
@@ -234,8 +254,7 @@ private:
             if (has(tet, nearest) || faces_.empty(nearest)) return;
             flat = flat || std::count_if(tet.begin(), tet.end(), [&](std::uint32_t w) { return !faces_.empty(w); }) == 3;
         });
-        if (flat) return;
-        if (least_quality(v, nearest, at(nearest), options_.collapse_quality) <= options_.collapse_quality) return;
+        if (flat || least_quality(v, nearest, at(nearest), thin_quality) <= thin_quality) return;
         tets_.merge(nearest, v);
         ++report_.removed_free_vertices;
     }

@@ -5,9 +5,9 @@
 
 namespace dsc::mesh::stuffing {
 
-/// Collapses interface edges, shortest first, and the free vertices that would be too dense beside them, until the interface
-/// has no more than the wanted number of vertices or no edge can be collapsed. Topology, regular vertices and positive tets
-/// are kept. Vertices get new indices, those without tets go. Counts collapses.
+/// Collapses interface edges, shortest first, until the interface has no more than the wanted number of vertices or no edge can
+/// be collapsed, and the free vertices that would be too dense near them. Topology, regular vertices and positive tets are
+/// kept. Vertices get new indices, those without tets go. Counts collapses.
 void collapse_interface(Stuffed& stuffed, const StuffOptions& options, StuffReport& report, const CancelToken* cancel);
 
 }  // namespace dsc::mesh::stuffing

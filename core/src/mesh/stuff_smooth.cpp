@@ -10,8 +10,7 @@ namespace dsc::mesh::stuffing {
 namespace {
 
 constexpr unsigned halvings = 3;
-constexpr double bad = 0.2;  // quality below which a tet's free vertices are moved
-constexpr unsigned improvements = 3;
+constexpr double bad = 0.35;  // quality below which a tet's free vertices are moved
 
 double quality(const TetMesh& mesh, const Corners& t) {
     const auto& p = mesh.points;
@@ -154,7 +153,8 @@ void smooth_interface(Stuffed& stuffed, std::span<const Snapped> snapped, const 
 double improve_free_vertices(Stuffed& stuffed, Workers* workers) {
     TetMesh& mesh = stuffed.mesh;
     std::vector<std::uint32_t> bad_tets;
-    const double least = find_bad_tets(mesh, workers, bad_tets);
+    const double before = find_bad_tets(mesh, workers, bad_tets);
+    if (bad_tets.empty()) return before;
     std::vector<char> marks(mesh.points.size(), 0);
     for (const std::uint32_t t : bad_tets) {
         for (const std::uint32_t v : mesh.tets[t]) marks[v] = 1;
@@ -168,12 +168,13 @@ double improve_free_vertices(Stuffed& stuffed, Workers* workers) {
         if (marks[v] != 0 && lies_on(box, mesh.points[v])) marks[v] = 0;
         if (marks[v] != 0) free.push_back(v);
     }
-    if (free.empty()) return least;
     const StarTable stars(mesh.tets, marks);
-    for (unsigned round = 0; round < improvements; ++round) {
-        for (const std::uint32_t v : free) improve(mesh, v, stars.of(v));
-    }
-    return find_bad_tets(mesh, workers, bad_tets);
+    for (const std::uint32_t v : free) improve(mesh, v, stars.of(v));
+    // All others have at least the quality that counts as bad.
+    double least = 1.0;
+    for (const std::uint32_t t : bad_tets) least = std::min(least, quality(mesh, mesh.tets[t]));
+    for (const std::uint32_t v : free) least = std::min(least, least_of(mesh, stars.of(v), -1.0));
+    return least < bad ? least : find_bad_tets(mesh, workers, bad_tets);
 }
 
 }  // namespace dsc::mesh::stuffing

@@ -87,6 +87,19 @@ unsigned refine(mesh::GradedLattice& lattice, std::span<const cloud::SurfaceSamp
     return most_rounds;
 }
 
+/// Leaves only those cells small that the interface needs.
+void coarsen(const mesh::GradedLattice& lattice, Labels& labels, const CancelToken* cancel) {
+    std::vector<std::uint32_t> origins;
+    const mesh::GradedLattice coarse = lattice.coarsened(labels.values, origins);
+    std::vector<double> values;
+    values.reserve(origins.size());
+    for (const std::uint32_t v : origins) values.push_back(labels.values[v]);
+    labels.values = std::move(values);
+    labels.lattice.points.assign(coarse.points().begin(), coarse.points().end());
+    labels.lattice.tets = coarse.tets(cancel);
+    labels.lattice.labels.assign(labels.lattice.tets.size(), 0);
+}
+
 /// The vertex near each sample.
 std::vector<std::uint32_t> vertices_near(const mesh::GradedLattice& lattice, std::span<const Vec3> places) {
     std::vector<std::uint32_t> vertices;
@@ -135,6 +148,7 @@ Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& 
     settle.least_volume = options.least_volume;
     settle.certain = options.certain;
     out.components = mesh::settle_components(points, tets, out.values, lattice.volumes(), {places, near}, settle);
+    coarsen(lattice, out, cancel);
     out.counts = mesh::count_topology(points, tets, out.values);
     if (out.counts.components == 0) {
         throw GeometryError("indicator.nothing_inside",

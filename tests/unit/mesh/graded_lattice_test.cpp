@@ -7,7 +7,9 @@
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/graded_lattice.hpp>
+#include <dsc/mesh/topology_filter.hpp>
 #include <dsc/mesh/validate.hpp>
+#include <map>
 #include <random>
 
 #include "implicit.hpp"
@@ -179,6 +181,49 @@ TEST_CASE("dividing cells only adds vertices, so values survive; volumes add up 
     }
     check_tets(l);
     CHECK(validate(adopted(l)).faults == std::vector<std::string>{});
+}
+
+TEST_CASE("a lattice made coarse keeps the leaves with both labels, the topology of any labels and its balance") {
+    // Cells of all sizes beside each other, so that vertices hang on edges and faces of larger cells.
+    GradedLattice fine(with_cell(0.06), uneven_sizes(0.06, 60, 2), "test");
+    std::mt19937 random(6);
+    for (int round = 0; round < 3; ++round) fine.split_where([&](const Leaf&) { return random() % 8 == 0; });
+    const auto tets = fine.tets();
+    const Box3 box = fine.box();
+    std::size_t merged = 0;
+    for (int trial = 0; trial < 12; ++trial) {
+        // A ball with holes of single vertices, and single vertices outside it; none where the trial's share is 0.
+        std::bernoulli_distribution other(trial % 4 * 0.01);
+        std::vector<double> values;
+        for (const Vec3& p : fine.points()) {
+            const bool inside = (p.norm() < 0.3 + 0.06 * trial) != other(random);
+            const bool on_box = ((p - box.low).array() <= 0).any() || ((p - box.high).array() >= 0).any();
+            values.push_back(inside && !on_box ? 1.0 : -1.0);
+        }
+        std::vector<std::uint32_t> origins;
+        const GradedLattice coarse = fine.coarsened(values, origins);
+        REQUIRE(origins.size() == coarse.points().size());
+        std::vector<double> kept;
+        for (std::size_t v = 0; v < origins.size(); ++v) {
+            REQUIRE(fine.points()[origins[v]] == coarse.points()[v]);
+            kept.push_back(values[origins[v]]);
+        }
+        CHECK(count_topology(coarse.points(), coarse.tets(), kept) == count_topology(fine.points(), tets, values));
+        std::map<std::array<double, 3>, double> edges;  // of the coarse lattice's leaves, by their centres
+        for (const Leaf& leaf : coarse.leaves()) {
+            const Vec3& centre = coarse.points()[leaf.vertices[8]];
+            edges[{centre.x(), centre.y(), centre.z()}] = leaf.edge;
+        }
+        for (const Leaf& leaf : fine.leaves()) {
+            const Vec3& centre = fine.points()[leaf.vertices[8]];
+            if (has_mixed_signs(leaf, values)) REQUIRE(edges[{centre.x(), centre.y(), centre.z()}] == leaf.edge);
+        }
+        merged += fine.leaves().size() - coarse.leaves().size();
+        if (trial != 1) continue;
+        check_tets(coarse);
+        CHECK(validate(adopted(coarse)).faults == std::vector<std::string>{});
+    }
+    CHECK(merged > fine.leaves().size());
 }
 
 TEST_CASE("leaves of the smallest size stay when they are chosen") {

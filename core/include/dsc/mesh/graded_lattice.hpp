@@ -62,6 +62,11 @@ public:
     /// The same for all leaves that the function chooses; it is asked for every one in order. [setup]
     std::size_t split_where(const std::function<bool(const Leaf&)>& chosen);
 
+    /// The coarsest such lattice in which every leaf with both labels is a leaf as it is here. What is merged has one label,
+    /// so the labels have the same topology. One value per vertex, above 0 inside. Its vertices are some of those here, in
+    /// another order: `origins` gets their numbers here. [setup]
+    GradedLattice coarsened(std::span<const double> values, std::vector<std::uint32_t>& origins) const;
+
     /// Tets that fill the box, all positive and conforming, with the lattice's numbers; every vertex is used. They
     /// are those of LatticePattern::bcc. Throws CancelledError. [setup]
     std::vector<std::array<std::uint32_t, 4>> tets(const CancelToken* cancel = nullptr) const;
@@ -74,6 +79,7 @@ public:
 
 private:
     struct Parts;
+    explicit GradedLattice(std::unique_ptr<Parts> parts);
     std::unique_ptr<Parts> parts_;
 };
 

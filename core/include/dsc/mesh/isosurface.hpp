@@ -21,8 +21,8 @@ struct StuffOptions {
     std::size_t most_interface_vertices = std::numeric_limits<std::size_t>::max();
     unsigned smoothing_sweeps = 3;
     double cut_low = 0.25, cut_high = 0.75;  ///< range of a cut point along its edge, inside (0, 1)
-    double collapse_quality = 0.05;          ///< of all tets that a collapse changes, at least
-    double least_quality = 0.02;             ///< to which a tet may fall when a vertex moves, unless it is lower already
+    double collapse_quality = 0.08;          ///< of all tets that a collapse changes, at least
+    double least_quality = 0.05;             ///< to which a tet may fall when a vertex moves, unless it is lower already
 };
 
 /// What stuff_interface() did.
