@@ -20,7 +20,7 @@ constexpr std::array unit_words = {
     "1",      "length",  "curvature",    "time",       "radians", "degrees",         "mean edges",
     "steps",  "seconds", "vertices",     "faces",      "tets",    "points",          "diagonals",
     "radius", "cells",   "finest cells", "directions", "levels",  "point distances", "point spacings",
-    "2",      "3",       "threads",      "rounds",
+    "2",      "3",       "threads",      "rounds",     "point widths", "budgets", "sweeps",
 };
 
 bool is_unit(const std::string& unit) {
