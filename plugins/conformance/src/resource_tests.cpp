@@ -56,11 +56,16 @@ void leak(const Subject& subject) {
         return;
     }
     if (sanitized("thread")) throw Skipped("memory is not counted under ThreadSanitizer");
-    const std::size_t before = mallinfo2().uordblks + mallinfo2().hblkhd;
-    for (unsigned i = 0; i < repeats; ++i) use_once(subject, small);
-    const std::size_t after = mallinfo2().uordblks + mallinfo2().hblkhd;
-    const std::size_t lost = after > before ? (after - before) / repeats : 0;
-    require(lost < 256, std::to_string(lost) + " bytes are lost each time it is made, used and destroyed");
+    // The allocator counts what it caches as in use, now and then some hundred bytes more: a leak is there in every round.
+    constexpr std::size_t much = 256;
+    std::size_t lost = much;
+    for (unsigned round = 0; round < 3 && lost >= much; ++round) {
+        const std::size_t before = mallinfo2().uordblks + mallinfo2().hblkhd;
+        for (unsigned i = 0; i < repeats; ++i) use_once(subject, small);
+        const std::size_t after = mallinfo2().uordblks + mallinfo2().hblkhd;
+        lost = after > before ? (after - before) / repeats : 0;
+    }
+    require(lost < much, std::to_string(lost) + " bytes are lost each time it is made, used and destroyed");
 }
 
 // The report of the sanitizer is the verdict; the process that runs the test reads it.
