@@ -255,26 +255,27 @@ public:
 private:
     static void judge(const Call& current, const mesh::Complex& complex, std::size_t classes,
                       const mesh::Request& request, std::size_t index) {
-        const std::string where = "in " + entry("request", index);
+        // Only a fault needs the words: there are many requests.
+        const auto where = [index] { return "in " + entry("request", index); };
         if (static_cast<std::size_t>(request.operation) >= mesh::operation_count) {
-            fail(current, "strategy.range", "named an operation that does not exist " + where, report_it);
+            fail(current, "strategy.range", "named an operation that does not exist " + where(), report_it);
         }
         if (request.tet != mesh::none && request.tet >= complex.tet_slots()) {
             fail(current, "strategy.range",
-                 "named tet " + std::to_string(request.tet) + ", which does not exist, " + where, report_it);
+                 "named tet " + std::to_string(request.tet) + ", which does not exist, " + where(), report_it);
         }
         for (const mesh::VertexId v : request.vertices) {
             if (v == mesh::none || v < complex.vertex_slots()) continue;
             fail(current, "strategy.range",
-                 "named vertex " + std::to_string(v) + ", which does not exist, " + where, report_it);
+                 "named vertex " + std::to_string(v) + ", which does not exist, " + where(), report_it);
         }
         if (request.repair_class >= classes) {
             fail(current, "strategy.range",
-                 "named the class " + std::to_string(request.repair_class) + ", which does not exist, " + where, report_it);
+                 "named the class " + std::to_string(request.repair_class) + ", which does not exist, " + where(), report_it);
         }
         for (const float value : {request.parameter, request.only_below, request.accept_above, request.gain, request.least_edge}) {
             if (std::isnan(value))
-                fail(current, "strategy.not_finite", "gave a number that is NaN " + where, report_it);
+                fail(current, "strategy.not_finite", "gave a number that is NaN " + where(), report_it);
         }
     }
 
