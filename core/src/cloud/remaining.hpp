@@ -20,7 +20,8 @@ public:
     /// All points are there. Throws GeometryError as NearestSearch. The points must outlive it. [setup]
     Remaining(std::span<const Vec3> points, Workers* workers);
 
-    /// Removes the points whose flag is set, and looks for new neighbours where one has gone. At least 17 points must be left. [setup]
+    /// Removes the points whose flag is set, and looks for new neighbours where one has gone. At least 17 points must be
+    /// left. [setup]
     void remove(const std::vector<unsigned char>& gone, Workers* workers);
 
     std::span<const Vec3> points() const { return points_; }

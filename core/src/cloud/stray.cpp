@@ -40,7 +40,8 @@ Eigen::Matrix3d spread_of(const Near& near, std::size_t count, Vec3& mean) {
 /// Least by largest spread of points and their neighbours, found where it is asked for.
 class Roundness {
 public:
-    Roundness(const Remaining& cloud, Workers* workers) : cloud_(cloud), workers_(workers), value_(cloud.points().size(), unknown) {}
+    Roundness(const Remaining& cloud, Workers* workers)
+        : cloud_(cloud), workers_(workers), value_(cloud.points().size(), unknown) {}
 
     /// Makes known the roundness of these points and, with `around`, of their neighbours.
     void find(const std::vector<std::uint32_t>& points, bool around) {
@@ -81,7 +82,8 @@ private:
         for (std::size_t n = 0; n < others.size(); ++n) near[n + 1] = points[others[n]] - points[i];
         Vec3 mean;
         const Eigen::Matrix3d spread = spread_of(near, others.size() + 1, mean);
-        const Vec3 least_first = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>().computeDirect(spread, Eigen::EigenvaluesOnly).eigenvalues();
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+        const Vec3 least_first = solver.computeDirect(spread, Eigen::EigenvaluesOnly).eigenvalues();
         return least_first[2] > 0.0 ? std::max(0.0, least_first[0] / least_first[2]) : 0.0;
     }
 
@@ -158,8 +160,8 @@ Flags strewn_points(const Remaining& cloud, double factor, Workers* workers) {
     std::vector<std::uint32_t> candidates = apart(cloud, factor * cloud.median_reach());
     Roundness roundness(cloud, workers);
     roundness.find(candidates, true);
-    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), [&](std::uint32_t i) { return roundness.around(i) <= round_enough; }),
-                     candidates.end());
+    const auto flat = [&](std::uint32_t i) { return roundness.around(i) <= round_enough; };
+    candidates.erase(std::remove_if(candidates.begin(), candidates.end(), flat), candidates.end());
     std::vector<std::uint32_t> around;
     for (const std::uint32_t i : candidates)
         for (const std::uint32_t j : cloud.neighbours().of(i)) around.push_back(j);
