@@ -74,7 +74,7 @@ void Indicator::declare(config::ParamSchema<Params>& schema) {
              "keeps all above `least_volume`, 'fill' fills all.");
     schema.real("least_volume", static_cast<double Params::*>(&LabelOptions::least_volume))
         .at_least(0)
-        .unit("cubed point widths")
+        .unit("point widths^3")
         .doc("Volume below which islands are removed and cavities filled.");
     schema.integer("smoothing", &Params::smoothing).range(0, 100).unit("sweeps").doc("Sweeps that smooth the interface at the end.");
     schema.choice("retry", &Params::retry, {{"auto", Retry::automatic}, {"never", Retry::never}})
