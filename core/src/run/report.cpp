@@ -57,7 +57,7 @@ std::string report_html(const std::filesystem::path& run_folder, const plugin::C
         const Scene scene = make_scene(record, {}, {catalogue, input}, workers);
         const std::string body = headline_section(record) + warnings_section(record) + viewer_section(record, scene) +
                                  thesis_section(record) + plots_section(record, scene) + time_section(record) +
-                                 topology_section(record) + config_section(record) + provenance_section(record);
+                                 topology_section(record) + cloud_section(record) + config_section(record) + provenance_section(record);
         return report_page(record.name(), subtitle(record), body);
     });
 }

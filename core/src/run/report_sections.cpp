@@ -280,6 +280,22 @@ std::string topology_section(const RunRecord& record) {
     return section("Changes of topology", body);
 }
 
+std::string cloud_section(const RunRecord& record) {
+    std::string body;
+    for (const auto& [key, title] : {std::pair{"cloud", "The points, normalised units"}, std::pair{"initial_mesh", "The initial mesh"}}) {
+        const ordered_json* figures = find(record.summary, key);
+        if (figures == nullptr || !figures->is_object() || figures->empty()) continue;
+        std::vector<std::pair<std::string, std::string>> rows;
+        for (const auto& [figure, value] : figures->items()) {
+            std::string name = figure;
+            std::replace(name.begin(), name.end(), '_', ' ');
+            if (value.is_number()) rows.emplace_back(name, value.is_number_integer() ? integer(value.get<double>()) : real(value.get<double>()));
+        }
+        body += tag("h3", title) + "\n" + html::facts(rows);
+    }
+    return body.empty() ? "" : section("The cloud and the start", body);
+}
+
 std::string config_section(const RunRecord& record) {
     return section("Experiment, all defaults written out", tag("pre", text(record.config), "config"));
 }

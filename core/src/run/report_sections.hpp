@@ -16,6 +16,8 @@ std::string thesis_section(const RunRecord& record);
 std::string plots_section(const RunRecord& record, const Scene& scene);
 std::string time_section(const RunRecord& record);
 std::string topology_section(const RunRecord& record);
+/// Statistics of the cloud and what the initial mesh told; empty without both.
+std::string cloud_section(const RunRecord& record);
 std::string config_section(const RunRecord& record);
 std::string provenance_section(const RunRecord& record);
 

@@ -184,7 +184,8 @@ TEST_CASE("report: a run writes it, and dsc report the same bytes; nothing in it
     CHECK(page == run::report_html(folder.path() / "run", strategies(), &three));
     CHECK(page.substr(0, 15) == "<!DOCTYPE html>");
     for (const char* part : {"In short", "Time and size (table 6.1)", "table 6.2", "Distance, normalised units", "Tets by quality",
-                             "Points of the cloud by distance", "Time by phase", "Changes of topology", "Provenance", "cloud.xyz",
+                             "Points of the cloud by distance", "Time by phase", "Changes of topology", "The cloud and the start",
+                             "noise to width", "Provenance", "cloud.xyz",
                              "counter.count", "\"label\":\"step 0\"", "\"label\":\"step 1\"", "\"label\":\"result\"", "\"tets\":{",
                              "three.js r111", "normalize:"}) {
         CAPTURE(part);
