@@ -26,8 +26,8 @@ constexpr double fine_first = 2.0, fine_last = 0.5, fine_last_noisy = 1.1;
 constexpr double field_smoothing = 0.5;    // of the finished field
 constexpr double normal_smoothing = 0.7;   // where normals between the samples are read from it
 constexpr double far_from_surface = 0.45;  // |w - 1/2| of what lies inside or outside
-constexpr double off_surface = 0.3;        // the same where the point lies apart from its neighbours as well
-constexpr double apart = 1.25;
+constexpr double off_and_apart = 0.3;        // the same where the point lies apart from its neighbours as well
+constexpr double apart_factor = 1.25;
 constexpr std::size_t width_neighbours = 12;
 constexpr double unit_tolerance = 1e-6;
 
@@ -111,7 +111,7 @@ public:
         const std::vector<double> around = median_reaches(samples_.neighbours, workers_);
         for (std::size_t i = 0; i < w.size(); ++i) {
             const double off = std::abs(w[i] - 0.5);
-            dropped[i] = off > far_from_surface || (off > off_surface && samples_.neighbours.reach[i] > apart * around[i]);
+            dropped[i] = off > far_from_surface || (off > off_and_apart && samples_.neighbours.reach[i] > apart_factor * around[i]);
         }
     }
 

@@ -100,7 +100,7 @@ std::vector<std::uint32_t> apart(const Remaining& cloud, double reach) {
     return out;
 }
 
-bool off_surface(const Remaining& cloud, std::size_t i) {
+bool lies_off_surface(const Remaining& cloud, std::size_t i) {
     const Neighbours& neighbours = cloud.neighbours();
     const double reach = neighbours.reach[i];
     Near near{};
@@ -178,7 +178,7 @@ Flags off_surface_points(const Remaining& cloud, Workers* workers) {
     Flags out(cloud.points().size(), 0);
     const std::vector<std::uint32_t> candidates = apart(cloud, least_reach * cloud.median_reach());
     for_blocks(workers, candidates.size(), stray_block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t n = begin; n < end; ++n) out[candidates[n]] = off_surface(cloud, candidates[n]);
+        for (std::size_t n = begin; n < end; ++n) out[candidates[n]] = lies_off_surface(cloud, candidates[n]);
     });
     return out;
 }
