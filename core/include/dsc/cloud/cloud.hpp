@@ -13,11 +13,11 @@ namespace dsc::cloud {
 /// Red, green, blue.
 using Colour = std::array<std::uint8_t, 3>;
 
-/// A piece of surface that stands for one point or for several: what the winding field is made of.
+/// A piece of surface that represents one point or several points. The winding field is the sum over all samples.
 struct SurfaceSample {
     Vec3 position = Vec3::Zero();
     Vec3 area = Vec3::Zero();  ///< area vector: along the normal that points out of the solid, as long as the area
-    double width = 0.0;        ///< root of the area that one sample stands for there (label_width of statistics.hpp)
+    double width = 0.0;        ///< square root of the area per sample at this place (label_width of statistics.hpp)
 };
 
 /// Inside and outside of a cloud, as cloud/orientation.hpp estimates them.

@@ -25,10 +25,10 @@ struct Statistics {
     std::size_t duplicates = 0;         ///< points that repeat an earlier one
 };
 
-/// The root of the area that one point stands for where `neighbours` others lie within `distance`: sqrt(pi r^2 / k). [parallel]
+/// The square root of the area per point where `neighbours` other points lie within `distance`: sqrt(pi r^2 / k). [parallel]
 double width_of(double distance, double neighbours);
 
-/// Vertices that a surface through so many points deserves: 2 per point up to 3,000 points, 1 per point at 20,000, in
+/// The number of vertices that a surface through this number of points gets: 2 per point up to 3,000 points, 1 per point at 20,000, in
 /// proportion between, above that growing with the root of their number. [parallel]
 double vertex_budget(std::size_t points);
 

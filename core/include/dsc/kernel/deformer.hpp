@@ -110,7 +110,7 @@ public:
     void set_attribute(std::string_view name, std::span<const mesh::VertexId> vertices, std::span<const double> values);
     /// Names, in the order in which they were set first.
     std::vector<std::string> attributes() const;
-    /// The numbers of these vertices, NaN for those off the interface; empty if there is no such attribute.
+    /// The value of the attribute at each of these vertices, NaN off the interface; empty if no attribute has this name.
     std::vector<double> attribute(std::string_view name, std::span<const mesh::VertexId> vertices) const;
 
     /// Between steps: the complex, lengths, attributes, the step counter, and what the kernel remembers of refusals and

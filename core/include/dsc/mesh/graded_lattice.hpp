@@ -70,7 +70,7 @@ public:
     /// Tets that fill the box, all positive and conforming, with the lattice's numbers; every vertex is used. They
     /// are those of LatticePattern::bcc. Throws CancelledError. [setup]
     std::vector<std::array<std::uint32_t, 4>> tets(const CancelToken* cancel = nullptr) const;
-    /// The share of the box that each vertex stands for: the centre of a cell half of it, a corner a sixteenth. The sum
+    /// The volume that belongs to each vertex: half of its cell for a centre, a sixteenth of each of its cells for a corner. The sum
     /// is the volume of the box. [parallel]
     std::vector<double> volumes() const;
     /// The nearest of the nine vertices of the leaf that contains the place, the first one of equally near ones. Places
