@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <dsc/base/random.hpp>
-#include <dsc/host/host.hpp>
+#include <dsc/sdk/filters.hpp>
 
 namespace {
 
@@ -13,9 +13,7 @@ using dsc::cloud::Filtered;
 using dsc::config::ConfigNode;
 
 Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map()) {
-    dsc::host::Host host;
-    host.load(DSC_TEST_PLUGIN);
-    return host.create<dsc::hooks::CloudFilter>({"duplicates", params}, "input.cloud.filters.0")->apply(cloud, {});
+    return dsc::sdk::filtered(DSC_TEST_PLUGIN, "duplicates", cloud, params);
 }
 
 /// Points of a small lattice in an order that the seed gives, many of them repeated, with all attributes.

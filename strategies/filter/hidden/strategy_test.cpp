@@ -5,6 +5,7 @@
 #include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
+#include <dsc/sdk/filters.hpp>
 
 namespace {
 
@@ -14,9 +15,7 @@ using dsc::cloud::Filtered;
 using dsc::config::ConfigNode;
 
 Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map()) {
-    dsc::host::Host host;
-    host.load(DSC_TEST_PLUGIN);
-    return host.create<dsc::hooks::CloudFilter>({"hidden", params}, "input.cloud.filters.0")->apply(cloud, {});
+    return dsc::sdk::filtered(DSC_TEST_PLUGIN, "hidden", cloud, params);
 }
 
 /// Points evenly over a sphere, along a spiral; their confidence tells the sphere.

@@ -4,7 +4,7 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
-#include <dsc/host/host.hpp>
+#include <dsc/sdk/filters.hpp>
 
 namespace {
 
@@ -14,9 +14,7 @@ using dsc::cloud::Filtered;
 using dsc::config::ConfigNode;
 
 Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map()) {
-    dsc::host::Host host;
-    host.load(DSC_TEST_PLUGIN);
-    return host.create<dsc::hooks::CloudFilter>({"orient", params}, "input.cloud.filters.0")->apply(cloud, {});
+    return dsc::sdk::filtered(DSC_TEST_PLUGIN, "orient", cloud, params);
 }
 
 /// 1,500 points on a sphere of radius 2.

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include <dsc/host/host.hpp>
+#include <dsc/sdk/filters.hpp>
 
 namespace {
 
@@ -12,27 +12,12 @@ using dsc::cloud::Filtered;
 using dsc::config::ConfigNode;
 
 Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map()) {
-    dsc::host::Host host;
-    host.load(DSC_TEST_PLUGIN);
-    return host.create<dsc::hooks::CloudFilter>({"statistical_outliers", params}, "input.cloud.filters.0")->apply(cloud, {});
-}
-
-
-/// The corners of a square grid of side 1 in the plane z = 0; each point has its index as confidence, in hundredths.
-Cloud grid(int side) {
-    Cloud cloud;
-    for (int j = 0; j < side; ++j) {
-        for (int i = 0; i < side; ++i) {
-            cloud.confidence.push_back(0.001 * static_cast<double>(cloud.points.size()));
-            cloud.points.emplace_back(i, j, 0);
-        }
-    }
-    return cloud;
+    return dsc::sdk::filtered(DSC_TEST_PLUGIN, "statistical_outliers", cloud, params);
 }
 
 /// The grid and two points far above it, one of them first.
 Cloud with_outliers() {
-    Cloud cloud = grid(12);
+    Cloud cloud = dsc::sdk::square_grid(12);
     cloud.points.insert(cloud.points.begin(), Vec3(5, 5, 40));
     cloud.confidence.insert(cloud.confidence.begin(), 1.0);
     cloud.points.emplace_back(5, 5, 60);
@@ -46,8 +31,8 @@ TEST_CASE("points far from all others go, the rest keep their attributes") {
     const Filtered result = filtered(with_outliers());
     CHECK(result.report.filter == "statistical_outliers");
     CHECK(result.report.removed == 2);
-    CHECK(result.cloud.points == grid(12).points);
-    CHECK(result.cloud.confidence == grid(12).confidence);
+    CHECK(result.cloud.points == dsc::sdk::square_grid(12).points);
+    CHECK(result.cloud.confidence == dsc::sdk::square_grid(12).confidence);
 }
 
 TEST_CASE("parameters are heard") {

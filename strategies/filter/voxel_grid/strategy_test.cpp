@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <dsc/host/host.hpp>
+#include <dsc/sdk/filters.hpp>
 
 namespace {
 
@@ -13,28 +13,13 @@ using dsc::cloud::Filtered;
 using dsc::config::ConfigNode;
 
 Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map()) {
-    dsc::host::Host host;
-    host.load(DSC_TEST_PLUGIN);
-    return host.create<dsc::hooks::CloudFilter>({"voxel_grid", params}, "input.cloud.filters.0")->apply(cloud, {});
-}
-
-
-/// The corners of a square grid of side 1 in the plane z = 0; each point has its index as confidence, in hundredths.
-Cloud grid(int side) {
-    Cloud cloud;
-    for (int j = 0; j < side; ++j) {
-        for (int i = 0; i < side; ++i) {
-            cloud.confidence.push_back(0.001 * static_cast<double>(cloud.points.size()));
-            cloud.points.emplace_back(i, j, 0);
-        }
-    }
-    return cloud;
+    return dsc::sdk::filtered(DSC_TEST_PLUGIN, "voxel_grid", cloud, params);
 }
 
 }  // namespace
 
 TEST_CASE("of each cell the point nearest to the middle of its points stays, with its attributes") {
-    Cloud cloud = grid(9);
+    Cloud cloud = dsc::sdk::square_grid(9);
     // The box is 8 wide, its diagonal 8 sqrt 2: cells of 2.8, which hold 3 by 3 points.
     const double size = 2.8 / (8.0 * std::sqrt(2.0));
     const Filtered result = filtered(cloud, ConfigNode::map({{"size", size}}));

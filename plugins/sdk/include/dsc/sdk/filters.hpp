@@ -1,0 +1,18 @@
+#pragma once
+// What a filter is tried with, for tests.
+
+#include <dsc/hooks/cloud_filter.hpp>
+#include <dsc/config/node.hpp>
+#include <string>
+
+namespace dsc::sdk {
+
+/// What the filter `id` of the plugin `library` makes of the cloud. Throws as Host::load, Catalogue::create and the filter.
+cloud::Filtered filtered(const std::string& library, const std::string& id, const cloud::Cloud& cloud,
+                         const config::ConfigNode& params = config::ConfigNode::map());
+
+/// The corners of a square grid of cells of edge 1 in the plane z = 0, side * side points. The confidence of each point is
+/// its index in thousandths.
+cloud::Cloud square_grid(int side);
+
+}  // namespace dsc::sdk
