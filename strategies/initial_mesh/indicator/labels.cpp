@@ -68,11 +68,8 @@ void evaluate(const cloud::WindingField& field, const mesh::GradedLattice& latti
 }
 
 /// Splits cells with both labels that are large for the cloud's samples there, until there are none.
-unsigned refine(mesh::GradedLattice& lattice, std::span<const cloud::SurfaceSample> samples, const cloud::WindingField& field,
-                const LabelOptions& options, std::vector<double>& values, Workers* workers) {
-    std::vector<Vec3> places;
-    places.reserve(samples.size());
-    for (const cloud::SurfaceSample& sample : samples) places.push_back(sample.position);
+unsigned refine(mesh::GradedLattice& lattice, std::span<const cloud::SurfaceSample> samples, std::span<const Vec3> places,
+                const cloud::WindingField& field, const LabelOptions& options, std::vector<double>& values, Workers* workers) {
     const cloud::NearestSearch search(places);
     const auto too_large = [&](const mesh::GradedLattice::Leaf& leaf) {
         if (!mesh::has_mixed_signs(leaf, values)) return false;
@@ -123,11 +120,14 @@ double Labels::changed_share() const {
 Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& options, double half_box, Workers* workers,
                      const CancelToken* cancel) {
     const std::vector<cloud::SurfaceSample> samples = used_samples(orientation);
+    std::vector<Vec3> places;
+    places.reserve(samples.size());
+    for (const cloud::SurfaceSample& sample : samples) places.push_back(sample.position);
     const cloud::WindingField field = cloud::winding_field(samples, smoothing);
     mesh::GradedLattice lattice = make_lattice(samples, options, half_box);
     Labels out;
     evaluate(field, lattice, 0, out.values, workers);
-    out.rounds = refine(lattice, samples, field, options, out.values, workers);
+    out.rounds = refine(lattice, samples, places, field, options, out.values, workers);
     out.samples = orientation.samples.size();
     out.width = width_quantile(samples, 0.5);
 
@@ -137,9 +137,6 @@ Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& 
     const auto &points = out.lattice.points;
     const auto &tets = out.lattice.tets;
     out.filter = mesh::filter_topology(points, tets, out.values, options.certain);
-    std::vector<Vec3> places;
-    places.reserve(samples.size());
-    for (const cloud::SurfaceSample& sample : samples) places.push_back(sample.position);
     const std::vector<std::uint32_t> near = vertices_near(lattice, places);
     mesh::ComponentOptions settle;
     settle.cavities = options.cavities;
