@@ -72,17 +72,38 @@ std::vector<Vec3> used_points(const TetMesh& mesh, std::vector<Tet>& tets, Adopt
     return points;
 }
 
-void orient(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name, AdoptReport& report) {
-    std::size_t flat = 0, first = 0;
-    for (std::size_t i = 0; i < tets.size(); ++i) {
-        auto& v = tets[i].v;
-        const int sign = geometry::orient3d(points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
-        if (sign < 0) {
-            std::swap(v[2], v[3]);
-            ++report.reoriented_tets;
-        } else if (sign == 0 && flat++ == 0) {
-            first = i;
+constexpr std::size_t adopt_block = 16384;
+
+// Results of the blocks of one loop, by their places.
+template <class T>
+std::vector<T> per_block(std::size_t count) {
+    return std::vector<T>(count / adopt_block + 1);
+}
+
+void orient(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name, AdoptReport& report, Workers* workers) {
+    struct Found {
+        std::size_t turned = 0, flat = 0, first_flat = 0;
+    };
+    std::vector<Found> blocks = per_block<Found>(tets.size());
+    for_blocks(workers, tets.size(), adopt_block, [&](std::size_t begin, std::size_t end) {
+        Found found;
+        for (std::size_t i = begin; i < end; ++i) {
+            auto& v = tets[i].v;
+            const int sign = geometry::orient3d(points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
+            if (sign < 0) {
+                std::swap(v[2], v[3]);
+                ++found.turned;
+            } else if (sign == 0 && found.flat++ == 0) {
+                found.first_flat = i;
+            }
         }
+        blocks[begin / adopt_block] = found;
+    });
+    std::size_t flat = 0, first = 0;
+    for (const Found& found : blocks) {
+        report.reoriented_tets += found.turned;
+        if (flat == 0) first = found.first_flat;
+        flat += found.flat;
     }
     if (flat == 0) return;
     refuse(name, "mesh.flat_tet",
@@ -91,28 +112,49 @@ void orient(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string
            "remove flat tets, or write the coordinates with more digits");
 }
 
+// A kind of face that must not be: how many there are, and the first.
+struct Fault {
+    std::size_t count = 0;
+    std::uint32_t tet = 0, vertex = 0;
+
+    void note(const FaceKey& key, const FaceUse& use) {
+        if (count++ == 0) *this = {1, use.code >> 2U, key[0]};
+    }
+    void add(const Fault& later) {
+        const std::size_t sum = count + later.count;
+        if (count == 0) *this = later;
+        count = sum;
+    }
+};
+
 // Joins equal faces; positive tets on both sides of a face see it in opposite order.
-void join_faces(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name) {
-    struct Fault {
-        std::size_t count = 0;
-        std::uint32_t tet = 0, vertex = 0;  // of the first
-    } crowded, same_side;
-    const auto note = [](Fault& fault, const FaceKey& key, const FaceUse& use) {
-        if (fault.count++ == 0) fault = {1, use.code >> 2U, key[0]};
+void join_faces(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name, Workers* workers) {
+    FaceTable table = deal_faces(points.size(), tets.size(), [&](std::size_t t) { return &tets[t].v; });
+    struct Found {
+        Fault crowded, same_side;
     };
-    const auto corners = [&](std::size_t t) { return &tets[t].v; };
-    for_each_face(points.size(), tets.size(), corners, [&](const FaceKey& key, std::span<const FaceUse> uses) {
-        if (uses.size() > 2) {
-            note(crowded, key, uses[2]);
-        } else if (uses.size() == 2) {
-            if (uses[0].odd == uses[1].odd) {
-                note(same_side, key, uses[1]);
-            } else {
-                tets[uses[0].code >> 2U].n[uses[0].code & 3U] = uses[1].code;
-                tets[uses[1].code >> 2U].n[uses[1].code & 3U] = uses[0].code;
+    std::vector<Found> blocks = per_block<Found>(points.size());
+    for_blocks(workers, points.size(), adopt_block, [&](std::size_t begin, std::size_t end) {
+        Found found;
+        visit_faces(table, begin, end, [&](const FaceKey& key, std::span<const FaceUse> uses) {
+            if (uses.size() > 2) {
+                found.crowded.note(key, uses[2]);
+            } else if (uses.size() == 2) {
+                if (uses[0].odd == uses[1].odd) {
+                    found.same_side.note(key, uses[1]);
+                } else {
+                    tets[uses[0].code >> 2U].n[uses[0].code & 3U] = uses[1].code;
+                    tets[uses[1].code >> 2U].n[uses[1].code & 3U] = uses[0].code;
+                }
             }
-        }
+        });
+        blocks[begin / adopt_block] = found;
     });
+    Fault crowded, same_side;
+    for (const Found& found : blocks) {
+        crowded.add(found.crowded);
+        same_side.add(found.same_side);
+    }
     const auto face_text = [&](const Fault& fault) {
         return "tet " + std::to_string(fault.tet) + " at " + point_text(points[fault.vertex]);
     };
@@ -266,19 +308,19 @@ std::size_t orient(TetMesh& mesh) {
     return turned;
 }
 
-Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report, double min_component) {
+Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report, double min_component, Workers* workers) {
     AdoptReport local;
     AdoptReport& out = report != nullptr ? *report : local;
     out = {};
     check_arrays(mesh, name);
     std::vector<Tet> tets;
     std::vector<Vec3> points = used_points(mesh, tets, out);
-    orient(points, tets, name, out);
-    join_faces(points, tets, name);
+    orient(points, tets, name, out, workers);
+    join_faces(points, tets, name, workers);
     check_volume(points, tets, name);
-    Complex complex = Complex::assemble(std::move(points), std::move(tets), mesh.labels);
+    Complex complex = Complex::assemble(std::move(points), std::move(tets), mesh.labels, workers);
     check_stars(complex, name);
-    out.unpinched_vertices = unpinch(complex, name);
+    out.unpinched_vertices = unpinch(complex, name, workers);
     const double edge = mean_interface_edge(complex);
     out.vanished_components = remove_small_components(complex, min_component * geometry::regular_tet_volume(edge));
     return complex;

@@ -81,8 +81,7 @@ void Complex::set_phases(VertexId v, unsigned phases) {
     }
 }
 
-void Complex::refresh_phases(VertexId v) {
-    star(v, star_scratch_);
+unsigned Complex::count_phases(VertexId v, std::span<const TetId> star) const {
     std::array<Label, 3> seen{};
     unsigned count = 0;
     const auto note = [&](Label label) {
@@ -90,9 +89,14 @@ void Complex::refresh_phases(VertexId v) {
             seen[count++] = label;
         }
     };
-    for (const TetId t : star_scratch_) note(labels_[t]);
+    for (const TetId t : star) note(labels_[t]);
     if (on_box(v)) note(0);
-    set_phases(v, count);
+    return count;
+}
+
+void Complex::refresh_phases(VertexId v) {
+    star(v, star_scratch_);
+    set_phases(v, count_phases(v, star_scratch_));
 }
 
 void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star) {
@@ -246,7 +250,8 @@ VertexId Complex::replace(Edit& edit) {
     return created;
 }
 
-Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::span<const Label> labels) {
+Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::span<const Label> labels, Workers* workers) {
+    constexpr std::size_t assembled_tets = 16384, assembled_stars = 2048;  // per block
     Complex c;
     c.vertices_.reserve(points.size());
     for (const Vec3& p : points) {
@@ -261,10 +266,15 @@ Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::
     c.dates_.assign(n, 0);
     c.birth_dates_.assign(n, 1);
     c.clock_ = 1;
+    for_blocks(workers, n, assembled_tets, [&c](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+            const auto& v = c.tets_[t].v;
+            c.qualities_[t] = static_cast<float>(
+                geometry::tet_quality(c.position(v[0]), c.position(v[1]), c.position(v[2]), c.position(v[3])));
+        }
+    });
     for (TetId t = 0; t < n; ++t) {
         const auto& v = c.tets_[t].v;
-        c.qualities_[t] = static_cast<float>(
-            geometry::tet_quality(c.position(v[0]), c.position(v[1]), c.position(v[2]), c.position(v[3])));
         for (unsigned f = 0; f < 4; ++f) {
             c.vertices_[v[f]].seed = t;
             if (c.tets_[t].n[f] != none) continue;
@@ -280,9 +290,20 @@ Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::
             for (const auto i : face_vertices[f]) candidate[c.tets_[t].v[i]] = 1;
         }
     }
+    std::vector<VertexId> ends;
     for (VertexId v = 0; v < c.vertices_.size(); ++v) {
-        if (candidate[v] != 0) c.refresh_phases(v);
+        if (candidate[v] != 0) ends.push_back(v);
     }
+    std::vector<std::uint8_t> phases(ends.size(), 0);
+    for_blocks(workers, ends.size(), assembled_stars, [&](std::size_t begin, std::size_t end) {
+        TetIndex places;
+        std::vector<TetId> around;
+        for (std::size_t i = begin; i < end; ++i) {
+            c.star(ends[i], around, places);
+            phases[i] = static_cast<std::uint8_t>(c.count_phases(ends[i], around));
+        }
+    });
+    for (std::size_t i = 0; i < ends.size(); ++i) c.set_phases(ends[i], phases[i]);
     return c;
 }
 

@@ -184,10 +184,8 @@ GradedLattice GradedLattice::coarsened(std::span<const double> values, std::vect
     return GradedLattice(std::move(coarse));
 }
 
-std::vector<std::array<std::uint32_t, 4>> GradedLattice::tets(const CancelToken* cancel) const {
-    std::vector<std::array<std::uint32_t, 4>> out;
-    lattice::tile(parts_->octree, LatticePattern::bcc, parts_->table, out, cancel);
-    return out;
+std::vector<std::array<std::uint32_t, 4>> GradedLattice::tets(Workers* workers, const CancelToken* cancel) const {
+    return lattice::tile(parts_->octree, LatticePattern::bcc, parts_->table, workers, cancel);
 }
 
 std::vector<double> GradedLattice::volumes() const {

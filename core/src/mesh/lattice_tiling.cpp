@@ -1,5 +1,6 @@
 #include "mesh/lattice_tiling.hpp"
 
+#include <algorithm>
 #include <array>
 #include <dsc/base/error.hpp>
 #include <limits>
@@ -16,26 +17,21 @@ Cell moved(Cell x, std::size_t axis, int by) {
     return x;
 }
 
+// Table: VertexTable, or KnownNumbers.
+template <class Table>
 class Tiling {
 public:
-    Tiling(const Octree& octree, LatticePattern finest, VertexTable& table,
-           std::vector<std::array<std::uint32_t, 4>>& tets, const CancelToken* cancel)
+    Tiling(const Octree& octree, LatticePattern finest, Table& table, std::vector<std::array<std::uint32_t, 4>>& tets,
+           const CancelToken* cancel)
         : octree_(octree), finest_(finest), table_(table), tets_(tets), cancel_(cancel) {}
 
-    void fill() {
+    // The cells of the top level from `begin` to `end`, x running fastest.
+    void fill(std::size_t begin, std::size_t end) {
         const unsigned top = octree_.top();
-        // Five to twelve of a cell, more where sizes change.
-        tets_.reserve(10 * octree_.leaves());
-        const auto roots = static_cast<int>(octree_.side(top));
-        for (int k = 0; k < roots; ++k) {
-            for (int j = 0; j < roots; ++j) {
-                for (int i = 0; i < roots; ++i) {
-                    if (cancel_ != nullptr && cancel_->cancelled()) {
-                        throw CancelledError("the initial mesh was not finished");
-                    }
-                    visit(top, {i, j, k});
-                }
-            }
+        const std::size_t roots = octree_.side(top);
+        for (std::size_t n = begin; n < end; ++n) {
+            if (cancel_ != nullptr && cancel_->cancelled()) throw CancelledError("the initial mesh was not finished");
+            visit(top, {static_cast<int>(n % roots), static_cast<int>(n / roots % roots), static_cast<int>(n / roots / roots)});
         }
     }
 
@@ -174,22 +170,37 @@ private:
 
     const Octree& octree_;
     LatticePattern finest_;
-    VertexTable& table_;
+    Table& table_;
     std::vector<std::array<std::uint32_t, 4>>& tets_;
     const CancelToken* cancel_;
 };
 
 }  // namespace
 
-void tile(const Octree& octree, LatticePattern finest, VertexTable& table,
-          std::vector<std::array<std::uint32_t, 4>>& tets, const CancelToken* cancel) {
-    Tiling(octree, finest, table, tets, cancel).fill();
+std::vector<Corners> tile(const Octree& octree, LatticePattern finest, const VertexTable& table, Workers* workers,
+                          const CancelToken* cancel) {
+    const std::size_t roots = octree.side(octree.top());
+    std::vector<std::vector<Corners>> parts(roots * roots * roots);
+    for_blocks(workers, parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+        KnownNumbers numbers(table);
+        Tiling(octree, finest, numbers, parts[begin], cancel).fill(begin, end);
+    });
+    std::vector<std::size_t> starts(parts.size() + 1, 0);
+    for (std::size_t i = 0; i < parts.size(); ++i) starts[i + 1] = starts[i] + parts[i].size();
+    std::vector<Corners> tets(starts.back());
+    for_blocks(workers, parts.size(), 1, [&](std::size_t begin, std::size_t) {
+        std::copy(parts[begin].begin(), parts[begin].end(), tets.begin() + static_cast<std::ptrdiff_t>(starts[begin]));
+    });
+    return tets;
 }
 
 TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, const CancelToken* cancel) {
     TetMesh out;
     VertexTable table;
-    tile(octree, finest, table, out.tets, cancel);
+    const std::size_t roots = octree.side(octree.top());
+    // Five to twelve of a cell, more where sizes change.
+    out.tets.reserve(10 * octree.leaves());
+    Tiling(octree, finest, table, out.tets, cancel).fill(0, roots * roots * roots);
     out.points.reserve(table.points().size());
     for (const Cell& x : table.points()) out.points.push_back(frame.point(x));
     out.labels.assign(out.tets.size(), 0);

@@ -1,8 +1,12 @@
 #pragma once
 // From the octree's cells to tets [LabelleShewchuk2007].
 
+#include <array>
+#include <cstdint>
 #include <dsc/base/progress.hpp>
+#include <dsc/base/workers.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
+#include <vector>
 
 #include "mesh/lattice_octree.hpp"
 #include "mesh/vertex_table.hpp"
@@ -17,8 +21,12 @@ namespace dsc::mesh::lattice {
 /// Throws CancelledError.
 TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, const CancelToken* cancel);
 
-/// The same tets with the numbers that the table has for their vertices; those it does not have get the next ones.
-void tile(const Octree& octree, LatticePattern finest, VertexTable& table,
-          std::vector<std::array<std::uint32_t, 4>>& tets, const CancelToken* cancel);
+/// Vertices of a tet.
+using Corners = std::array<std::uint32_t, 4>;
+
+/// The same tets with the numbers that the table has for their vertices; it must have all of them. `workers`, null for one
+/// thread, share the work.
+std::vector<Corners> tile(const Octree& octree, LatticePattern finest, const VertexTable& table, Workers* workers,
+                          const CancelToken* cancel);
 
 }  // namespace dsc::mesh::lattice

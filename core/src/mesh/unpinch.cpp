@@ -126,12 +126,19 @@ std::size_t unpinch(Complex& c, std::string_view name, std::span<const VertexId>
     return treated;
 }
 
-std::size_t unpinch(Complex& c, std::string_view name) {
+std::size_t unpinch(Complex& c, std::string_view name, Workers* workers) {
+    const std::span<const VertexId> vertices = c.interface_vertices();
+    std::vector<std::uint8_t> regular(vertices.size(), 0);
+    for_blocks(workers, vertices.size(), 2048, [&](std::size_t begin, std::size_t end) {
+        LocalStar star(c);
+        for (std::size_t i = begin; i < end; ++i) {
+            star.build(vertices[i]);
+            regular[i] = star.regular() ? 1 : 0;
+        }
+    });
     std::vector<VertexId> irregular;
-    LocalStar star(c);
-    for (const VertexId v : c.interface_vertices()) {
-        star.build(v);
-        if (!star.regular()) irregular.push_back(v);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (regular[i] == 0) irregular.push_back(vertices[i]);
     }
     std::sort(irregular.begin(), irregular.end(), [&c](VertexId a, VertexId b) { return c.birth(a) < c.birth(b); });
     return unpinch(c, name, irregular);

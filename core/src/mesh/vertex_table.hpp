@@ -35,6 +35,7 @@ public:
     const std::vector<Cell>& points() const { return points_; }
 
 private:
+    friend class KnownNumbers;
     struct Slot {
         std::uint64_t key;
         std::uint32_t number;
@@ -66,6 +67,27 @@ private:
 
     std::vector<Slot> slots_, recent_;
     std::vector<Cell> points_;
+};
+
+/// Reads the numbers of a table that has all the points; each thread has its own reader.
+class KnownNumbers {
+public:
+    explicit KnownNumbers(const VertexTable& table)
+        : table_(table), recent_(1U << recent_bits, VertexTable::Slot{VertexTable::unused, 0}) {}
+
+    /// Number of a point that has one.
+    std::uint32_t number(const Cell& x) {
+        const std::uint64_t key = VertexTable::key_of(x);
+        VertexTable::Slot& seen = recent_[static_cast<std::size_t>(VertexTable::spread(key) >> (64U - recent_bits))];
+        if (seen.key != key) seen = table_.slots_[table_.slot_of(key)];
+        return seen.number;
+    }
+
+private:
+    static constexpr unsigned recent_bits = 11;
+
+    const VertexTable& table_;
+    std::vector<VertexTable::Slot> recent_;
 };
 
 }  // namespace dsc::mesh::lattice

@@ -32,14 +32,18 @@ mesh::Complex initial_complex(const Experiment& experiment, Strategies& strategi
     const MeshFiles files;
     context.files = &files;
     context.workers = &workers;
-    const mesh::TetMesh mesh = strategies.initial_mesh->build(context);
+    const mesh::TetMesh mesh = [&] {
+        const Timed timed(totals.seconds.initial_mesh_wall);
+        return strategies.initial_mesh->build(context);
+    }();
     totals.initial_mesh = strategies.initial_mesh->figures();
     totals.initial_mesh_seconds = strategies.initial_mesh->seconds();
     totals.warnings = strategies.initial_mesh->warnings();
     const CpuTimed timed(totals.seconds.adopt);
+    const Timed wall_timed(totals.seconds.adopt_wall);
     mesh::Complex complex =
         mesh::adopt(mesh, "initial mesh '" + experiment.initial_mesh.type + "'", &totals.adopted,
-                    strategies.improvement->topology_limits().min_component);
+                    strategies.improvement->topology_limits().min_component, &workers);
     if (cloud != nullptr) require_inside(*cloud, complex.box());
     return complex;
 }

@@ -54,6 +54,7 @@ LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Cat
     context.workers = workers;
     {
         const CpuTimed timed(report.filter_seconds);
+        const Timed wall_timed(report.filter_wall_seconds);
         for (const auto& filter : filters) {
             cloud::Filtered filtered = filter->apply(cloud, context);
             report.filters.push_back(std::move(filtered.report));

@@ -118,6 +118,13 @@ ordered_json start_seconds(const SummaryParts& parts) {
     return all;
 }
 
+/// The same on the clock.
+ordered_json start_wall_seconds(const SummaryParts& parts) {
+    return {{"filters", parts.input == nullptr ? 0.0 : parts.input->report.filter_wall_seconds},
+            {"initial_mesh", parts.totals.seconds.initial_mesh_wall},
+            {"adopt", parts.totals.seconds.adopt_wall}};
+}
+
 /// Of the filtered points, in normalised units.
 ordered_json statistics(const LoadedInput* loaded) {
     if (loaded == nullptr) return nullptr;
@@ -204,6 +211,7 @@ std::string summary_json(const SummaryParts& parts) {
         {"cpu_s", parts.usage.cpu_seconds},
         {"peak_rss_mb", parts.usage.peak_rss_mb},
         {"start_cpu_s", start_seconds(parts)},
+        {"start_wall_s", start_wall_seconds(parts)},
         {"phase_s",
          {{"velocity", totals.seconds.velocity},
           {"move", totals.seconds.move},

@@ -23,10 +23,9 @@ std::array<std::uint32_t, 3> outward(const mesh::TetMesh& mesh, std::uint32_t co
 
 // The faces that `inner` chooses, each counter-clockwise seen from outside the tet that it returns, null for none; the points
 // that they use, in the order of the arrays.
-template <class Inner>
-TriangleMesh extract(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vertex_of, const Inner& inner) {
+template <class Corners, class Inner>
+TriangleMesh extract(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vertex_of, const Corners& corners, const Inner& inner) {
     TriangleMesh surface;
-    const auto corners = [&](std::size_t t) { return &mesh.tets[t]; };
     mesh::for_each_face(mesh.points.size(), mesh.tets.size(), corners, [&](const mesh::FaceKey&, std::span<const mesh::FaceUse> uses) {
         if (const mesh::FaceUse* use = inner(uses); use != nullptr) surface.faces.push_back(outward(mesh, use->code));
     });
@@ -47,11 +46,30 @@ TriangleMesh extract(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vert
     return surface;
 }
 
+// Per vertex, whether tets of label 0 and of others meet in it.
+std::vector<std::uint8_t> vertices_between(const mesh::TetMesh& mesh) {
+    std::vector<std::uint8_t> sides(mesh.points.size(), 0);
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const std::uint8_t side = mesh.labels[t] == 0 ? 1 : 2;
+        for (const std::uint32_t v : mesh.tets[t]) sides[v] = static_cast<std::uint8_t>(sides[v] | side);
+    }
+    for (std::uint8_t& side : sides) side = side == 3 ? 1 : 0;
+    return sides;
+}
+
 }  // namespace
 
 TriangleMesh extract_interface(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vertex_of) {
     const auto label = [&](const mesh::FaceUse& use) { return mesh.labels[use.code >> 2U]; };
-    return extract(mesh, vertex_of, [&](std::span<const mesh::FaceUse> uses) -> const mesh::FaceUse* {
+    // Most tets lie outside and touch no other label with a whole face: their faces need not be sorted. Between two of them there
+    // is no face of the interface, and none where one of them meets the outside of the box.
+    const std::vector<std::uint8_t> between = vertices_between(mesh);
+    const auto corners = [&](std::size_t t) {
+        const auto& v = mesh.tets[t];
+        const bool needed = mesh.labels[t] != 0 || between[v[0]] + between[v[1]] + between[v[2]] + between[v[3]] >= 3;
+        return needed ? &v : nullptr;
+    };
+    return extract(mesh, vertex_of, corners, [&](std::span<const mesh::FaceUse> uses) -> const mesh::FaceUse* {
         const mesh::FaceUse* inner = &uses[0];
         mesh::Label across = 0;  // outside the box
         if (uses.size() > 1) {
@@ -64,7 +82,8 @@ TriangleMesh extract_interface(const mesh::TetMesh& mesh, std::vector<std::uint3
 
 TriangleMesh extract_phase(const mesh::TetMesh& mesh, mesh::Label phase, std::vector<std::uint32_t>* vertex_of) {
     const auto label = [&](const mesh::FaceUse& use) { return mesh.labels[use.code >> 2U]; };
-    return extract(mesh, vertex_of, [&](std::span<const mesh::FaceUse> uses) -> const mesh::FaceUse* {
+    const auto corners = [&](std::size_t t) { return mesh.labels[t] == phase ? &mesh.tets[t] : nullptr; };
+    return extract(mesh, vertex_of, corners, [&](std::span<const mesh::FaceUse> uses) -> const mesh::FaceUse* {
         const mesh::FaceUse* inner = nullptr;
         for (const mesh::FaceUse& use : uses) {
             if (label(use) != phase) continue;

@@ -85,7 +85,7 @@ unsigned refine(mesh::GradedLattice& lattice, std::span<const cloud::SurfaceSamp
 }
 
 /// Leaves only those cells small that the interface needs.
-void coarsen(const mesh::GradedLattice& lattice, Labels& labels, const CancelToken* cancel) {
+void coarsen(const mesh::GradedLattice& lattice, Labels& labels, Workers* workers, const CancelToken* cancel) {
     std::vector<std::uint32_t> origins;
     const mesh::GradedLattice coarse = lattice.coarsened(labels.values, origins);
     std::vector<double> values;
@@ -93,7 +93,7 @@ void coarsen(const mesh::GradedLattice& lattice, Labels& labels, const CancelTok
     for (const std::uint32_t v : origins) values.push_back(labels.values[v]);
     labels.values = std::move(values);
     labels.lattice.points.assign(coarse.points().begin(), coarse.points().end());
-    labels.lattice.tets = coarse.tets(cancel);
+    labels.lattice.tets = coarse.tets(workers, cancel);
     labels.lattice.labels.assign(labels.lattice.tets.size(), 0);
 }
 
@@ -132,7 +132,7 @@ Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& 
     out.width = width_quantile(samples, 0.5);
 
     out.lattice.points.assign(lattice.points().begin(), lattice.points().end());
-    out.lattice.tets = lattice.tets(cancel);
+    out.lattice.tets = lattice.tets(workers, cancel);
     out.lattice.labels.assign(out.lattice.tets.size(), 0);
     const auto &points = out.lattice.points;
     const auto &tets = out.lattice.tets;
@@ -145,7 +145,7 @@ Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& 
     settle.least_volume = options.least_volume;
     settle.certain = options.certain;
     out.components = mesh::settle_components(points, tets, out.values, lattice.volumes(), {places, near}, settle);
-    coarsen(lattice, out, cancel);
+    coarsen(lattice, out, workers, cancel);
     out.counts = mesh::count_topology(points, tets, out.values);
     if (out.counts.components == 0) {
         throw GeometryError("indicator.nothing_inside",

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include <dsc/base/workers.hpp>
 #include <dsc/geometry/vec.hpp>
 #include <dsc/mesh/tet_index.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
@@ -182,7 +183,8 @@ public:
     // ---- making and copying ---------------------------------------------------------------------------------------
     /// Builds from arrays that are already positive, conforming and box-filling (see adopt() for files).
     /// `neighbours` as in Tet::n.
-    static Complex assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::span<const Label> labels);
+    static Complex assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::span<const Label> labels,
+                            Workers* workers = nullptr);
     /// Compact arrays, vertices in birth order, tets in the order of their sorted births: the same complex gives the
     /// same bytes whatever its slots. `ids`, if given, receives the complex' vertex of each point.
     TetMesh to_mesh(std::vector<VertexId>* ids = nullptr) const;
@@ -209,6 +211,7 @@ private:
     void note_change(std::span<const TetId> star);
     void touch(TetId t);
     bool find_relabelled(const Edit& edit);
+    unsigned count_phases(VertexId v, std::span<const TetId> star) const;
     void refresh_phases(VertexId v);
     void set_phases(VertexId v, unsigned phases);
 

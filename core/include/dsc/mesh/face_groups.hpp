@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,19 +22,26 @@ struct FaceUse {
     bool odd;                     ///< the key is an odd permutation of the face's vertices as in face_vertices
 };
 
-/// Calls visit(FaceKey, std::span<const FaceUse>) once for every face, in the order of the keys, its uses in the order of
-/// their codes. `corners(t)` points to the four vertices, all below `points`, of one of `tets` tets, or is null: such a
-/// tet has no faces. Faces are dealt out by their first vertex before they are sorted; 64 bytes a tet.
-template <class Corners, class Visit>
-void for_each_face(std::size_t points, std::size_t tets, const Corners& corners, const Visit& visit) {
-    std::vector<std::uint32_t> start(points + 2, 0);  // of the uses with first vertex v at v + 1 while they are dealt out
+/// All faces of a tet mesh, grouped by their first vertex; 64 bytes a tet.
+struct FaceTable {
+    std::vector<std::size_t> start;  ///< uses of the faces with first vertex v: uses[start[v] .. start[v + 1])
+    std::vector<FaceUse> uses;
+};
+
+/// Deals the faces out by their first vertex, unsorted. `corners(t)` points to the four vertices, all below `points`, of one of
+/// `tets` tets, or is null: such a tet has no faces.
+template <class Corners>
+FaceTable deal_faces(std::size_t points, std::size_t tets, const Corners& corners) {
+    FaceTable table;
+    std::vector<std::size_t>& start = table.start;
+    start.assign(points + 2, 0);  // of the uses with first vertex v at v + 1 while they are dealt out
     for (std::size_t t = 0; t < tets; ++t) {
         const std::array<std::uint32_t, 4>* v = corners(t);
         if (v == nullptr) continue;
         for (const auto& face : face_vertices) ++start[std::min({(*v)[face[0]], (*v)[face[1]], (*v)[face[2]]}) + 2];
     }
     for (std::size_t i = 2; i < start.size(); ++i) start[i] += start[i - 1];
-    std::vector<FaceUse> uses(start.back());
+    table.uses.resize(start.back());
     for (std::size_t t = 0; t < tets; ++t) {
         const std::array<std::uint32_t, 4>* v = corners(t);
         if (v == nullptr) continue;
@@ -49,22 +57,36 @@ void for_each_face(std::size_t points, std::size_t tets, const Corners& corners,
             exchange(0, 1);
             exchange(1, 2);
             exchange(0, 1);
-            uses[start[key[0] + 1]++] = {key[1], key[2], static_cast<std::uint32_t>(4 * t + f), odd};
+            table.uses[start[key[0] + 1]++] = {key[1], key[2], static_cast<std::uint32_t>(4 * t + f), odd};
         }
     }
-    for (std::size_t first = 0; first < points; ++first) {
-        const auto group = std::span(uses).subspan(start[first], start[first + 1] - start[first]);
+    return table;
+}
+
+/// Calls visit(FaceKey, std::span<const FaceUse>) once for every face whose first vertex is in [begin, end), in the order of the
+/// keys, its uses in the order of their codes. Ranges that do not overlap may be visited at the same time. [parallel]
+template <class Visit>
+void visit_faces(FaceTable& table, std::size_t begin, std::size_t end, const Visit& visit) {
+    for (std::size_t first = begin; first < end; ++first) {
+        const auto group = std::span(table.uses).subspan(table.start[first], table.start[first + 1] - table.start[first]);
         std::sort(group.begin(), group.end(), [](const FaceUse& a, const FaceUse& b) {
             const auto ends = [](const FaceUse& use) { return std::uint64_t{use.second} << 32U | use.third; };
             return ends(a) != ends(b) ? ends(a) < ends(b) : a.code < b.code;
         });
-        for (std::size_t begin = 0, end = 0; begin < group.size(); begin = end) {
-            end = begin + 1;
-            while (end < group.size() && group[end].second == group[begin].second && group[end].third == group[begin].third) ++end;
-            visit(FaceKey{static_cast<std::uint32_t>(first), group[begin].second, group[begin].third},
-                  std::span<const FaceUse>(group.subspan(begin, end - begin)));
+        for (std::size_t from = 0, to = 0; from < group.size(); from = to) {
+            to = from + 1;
+            while (to < group.size() && group[to].second == group[from].second && group[to].third == group[from].third) ++to;
+            visit(FaceKey{static_cast<std::uint32_t>(first), group[from].second, group[from].third},
+                  std::span<const FaceUse>(group.subspan(from, to - from)));
         }
     }
+}
+
+/// Calls visit() as above for every face of the mesh, `corners` as in deal_faces().
+template <class Corners, class Visit>
+void for_each_face(std::size_t points, std::size_t tets, const Corners& corners, const Visit& visit) {
+    FaceTable table = deal_faces(points, tets, corners);
+    visit_faces(table, 0, points, visit);
 }
 
 }  // namespace dsc::mesh

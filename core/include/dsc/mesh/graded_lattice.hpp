@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <dsc/base/progress.hpp>
+#include <dsc/base/workers.hpp>
 #include <dsc/geometry/vec.hpp>
 #include <dsc/mesh/lattice.hpp>
 #include <functional>
@@ -68,8 +69,8 @@ public:
     GradedLattice coarsened(std::span<const double> values, std::vector<std::uint32_t>& origins) const;
 
     /// Tets that fill the box, all positive and conforming, with the lattice's numbers; every vertex is used. They
-    /// are those of LatticePattern::bcc. Throws CancelledError. [setup]
-    std::vector<std::array<std::uint32_t, 4>> tets(const CancelToken* cancel = nullptr) const;
+    /// are those of LatticePattern::bcc. `workers`, null for one thread, share the work. Throws CancelledError. [setup]
+    std::vector<std::array<std::uint32_t, 4>> tets(Workers* workers = nullptr, const CancelToken* cancel = nullptr) const;
     /// The volume that belongs to each vertex: half of its cell for a centre, a sixteenth of each of its cells for a corner. The sum
     /// is the volume of the box. [parallel]
     std::vector<double> volumes() const;

@@ -77,6 +77,8 @@ struct PhaseSeconds {
     double measure = 0.0;
     double io = 0.0;
     double adopt = 0.0;  ///< CPU seconds
+    double initial_mesh_wall = 0.0;
+    double adopt_wall = 0.0;
 };
 
 /// Sums over all steps, normalised units.

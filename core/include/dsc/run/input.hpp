@@ -23,6 +23,7 @@ struct InputReport {
     std::size_t dropped = 0;  ///< not finite, left out by the reader
     std::vector<cloud::FilterReport> filters;
     double filter_seconds = 0.0;  ///< CPU seconds
+    double filter_wall_seconds = 0.0;
     std::size_t used = 0;   ///< after the filters
     double diagonal = 0.0;  ///< of the used points' box, in the input's units
 };
