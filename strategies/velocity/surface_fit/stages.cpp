@@ -1,0 +1,48 @@
+#include "stages.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dsc::strategies::fit {
+namespace {
+
+constexpr double even_spread = 3.0;      // ratio of the quantiles of widths from which spacing is uneven
+constexpr double noise_floor = 0.12;     // in widths: below, an under-sampled surface's curvature reads as noise
+constexpr double noise_certain = 0.3;    // in widths: from here on the noise counts in full
+constexpr double start_bending = 1.5;    // widths: carries a staircase to the surface
+constexpr double settling_part = 0.6;    // part of the iterations in which the bending length falls to its last value
+constexpr double start_part = 1.0 / 3.0;  // part of the iterations in which points reach twice as far
+
+}  // namespace
+
+Scales scales_of(const cloud::Statistics& statistics, double noise) {
+    Scales scales;
+    scales.width = statistics.width;
+    scales.noise = noise > 0.0 ? noise * statistics.width : statistics.noise;
+    scales.even = statistics.spread < even_spread;
+    scales.ratio = statistics.width > 0.0 ? scales.noise / statistics.width : 0.0;
+    if (scales.even && noise <= 0.0 && scales.ratio < noise_certain) {
+        scales.ratio = noise_certain * std::max(0.0, scales.ratio - noise_floor) / (noise_certain - noise_floor);
+    }
+    return scales;
+}
+
+Stage stage_of(const Scales& scales, std::size_t iteration, std::size_t iterations, double smoothing) {
+    const double s = scales.ratio;
+    const auto it = static_cast<double>(iteration);
+    const auto all = static_cast<double>(iterations);
+    Stage stage;
+    const double last = smoothing * std::clamp(2.2 * std::sqrt(s), 0.22, 2.0);
+    const double first = std::max(start_bending, last);
+    stage.bending = last > 0.0 ? first * std::pow(last / first, std::min(1.0, it / (settling_part * all))) : 0.0;
+    stage.reach = it < start_part * all ? 2.1 : 1.05;
+    stage.tangential = std::clamp(1.5 * s, 0.02, 1.0);
+    stage.normal = 1e-3;
+    stage.filter_rounds = s > 0.1 ? 4 : 1;
+    stage.filter_range = std::min(0.8, 0.35 + s);
+    return stage;
+}
+
+std::size_t fill_iteration(std::size_t iterations) { return (2 * iterations + 3) / 7; }
+
+}  // namespace dsc::strategies::fit

@@ -1,0 +1,194 @@
+#include "strategy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dsc/base/state.hpp>
+#include <istream>
+#include <iterator>
+#include <ostream>
+
+#include "bending_rows.hpp"
+#include "filtered_normals.hpp"
+#include "hole_fill.hpp"
+#include "holds.hpp"
+#include "local_widths.hpp"
+#include "mean_curvature.hpp"
+
+namespace dsc::strategies {
+namespace {
+
+constexpr std::uint64_t few_iterations = 14;
+constexpr std::uint64_t many_iterations = 24;    // holes take longer
+constexpr double unsupported_beyond = 2.0;       // point widths
+constexpr double many_unsupported = 0.005;       // part of the vertices from which holes matter
+constexpr std::uint64_t fill_repeats = 2;        // the kernel goes on in the second where it did not arrive in the first
+constexpr double longest_way = 0.7;              // target lengths per step
+constexpr double largest_curvature = 0.5;        // over a point width
+constexpr double start_part = 1.0 / 3.0;         // of the iterations in which creases are only about to form
+constexpr double settled_part = 0.6;             // of the iterations after which the motion may end early
+constexpr double quiet_way = 0.01;               // point widths, mean of the vertices
+constexpr std::uint64_t quiet_iterations = 2;
+
+}  // namespace
+
+void SurfaceFit::declare(config::ParamSchema<Params>& schema) {
+    schema.integer("iterations", &Params::iterations)
+        .range(0, 1000)
+        .unit("steps")
+        .doc("Steps of the whole motion: the bending length falls in the first 60 % of them. 0: 14, or 24 where the cloud has holes.");
+    schema.real("smoothing", &Params::smoothing)
+        .range(0, 100)
+        .unit("1")
+        .doc("Factor of the length over which the surface is smooth at the end; that length follows from the noise.");
+    schema.real("crease_angle", &Params::crease_angle)
+        .greater(0)
+        .unit("radians")
+        .doc("Edges with a sharper angle than this between their faces resist bending less and less: they become creases.");
+    schema.real("noise", &Params::noise)
+        .range(0, 100)
+        .unit("point widths")
+        .doc("Standard deviation of the points across the surface, in roots of the area per point. 0: it is measured.");
+    schema.boolean("fill_holes", &Params::fill_holes)
+        .doc("Continue the surrounding surface over holes in the cloud, once, when 2/7 of the steps are done.");
+}
+
+SurfaceFit::SurfaceFit(const Params& params, const plugin::Setup&) : params_(params) {}
+
+void SurfaceFit::advance(const hooks::StepContext& context) {
+    measure(context);
+    if (progress_.iterations == 0) {
+        progress_.first_step = context.step;
+        const auto far = std::count_if(gaps_.begin(), gaps_.end(), [](double gap) { return gap > unsupported_beyond; });
+        const bool holes = static_cast<double>(far) > many_unsupported * static_cast<double>(gaps_.size());
+        progress_.iterations = params_.iterations > 0 ? params_.iterations : holes ? many_iterations : few_iterations;
+    }
+    solve(context, progress_.done);
+    if (params_.fill_holes && progress_.done >= fit::fill_iteration(progress_.iterations) && progress_.filled < fill_repeats) {
+        fill(context);
+        ++progress_.filled;
+    }
+    double way = 0.0;
+    for (const Vec3& d : displacements_) way += d.norm();
+    const bool quiet = way < quiet_way * scales_.width * static_cast<double>(displacements_.size());
+    progress_.quiet = quiet ? progress_.quiet + 1 : 0;
+    ++progress_.done;
+}
+
+void SurfaceFit::prepare(const hooks::StepContext& context) {
+    if (context.cloud != nullptr && progress_.done > 0 && displacements_.size() == context.surface.vertex_count()) return;
+    measure(context);
+    solve(context, progress_.done > 0 ? progress_.done - 1 : 0);
+}
+
+// Everything that the rows need of surface and cloud.
+void SurfaceFit::measure(const hooks::StepContext& context) {
+    if (context.cloud == nullptr) {
+        throw ConfigError(
+            "velocity.no_cloud",
+            "velocity 'surface_fit': the experiment has no cloud to go to; add input: {cloud: {file: ...}}");
+    }
+    const surface::SurfaceView& view = context.surface;
+    scales_ = fit::scales_of(context.cloud->statistics(context.workers), params_.noise);
+    places_ = context.faces_of_points;
+    if (places_.size() != context.cloud->size()) {
+        surface::nearest_faces(view, context.cloud->points(), own_places_, context.workers);
+        places_ = own_places_;
+    }
+    fit::build_links(view, links_);
+    fit::measure_gaps(context, gaps_);
+    fit::measure_widths(context, links_, scales_, widths_);
+    lengths_.resize(view.vertex_count());
+    for (std::size_t v = 0; v < lengths_.size(); ++v) {
+        const double length = context.target_length_at(v);
+        lengths_[v] = length > 0.0 ? length : view.mean_edge;
+    }
+}
+
+void SurfaceFit::solve(const hooks::StepContext& context, std::uint64_t iteration) {
+    const std::uint64_t iterations = std::max<std::uint64_t>(1, progress_.iterations);
+    const fit::Stage stage = fit::stage_of(scales_, iteration, iterations, params_.smoothing);
+    build_system(context, stage);
+    solver_.solve(system_, {}, context.workers, displacements_);
+    bound_displacements(context);
+    fit::measure_support(context.surface, places_, fits_, support_);
+}
+
+void SurfaceFit::build_system(const hooks::StepContext& context, const fit::Stage& stage) {
+    const surface::SurfaceView& view = context.surface;
+    Workers* const workers = context.workers;
+    fit::filter_normals(view, stage.filter_rounds, stage.filter_range, lengths_, workers, normals_);
+    curvature_.clear();
+    if (scales_.noise > 0.0) fit::measure_curvature(view, links_, largest_curvature / scales_.width, workers, curvature_);
+
+    const std::size_t hinges = links_.hinges.size();
+    system_.rows.resize(hinges + places_.size());
+    system_.wanted.resize(system_.rows.size());
+    fit::bending_rows({view, links_.hinges, normals_, widths_, stage.bending, params_.crease_angle}, 0, system_, workers);
+    fit::data_rows({view, context.cloud->points().first(places_.size()), places_, context.cloud->statistics().point_width, widths_, curvature_,
+                    scales_.noise, stage.reach},
+                   hinges, system_, fits_, workers);
+    fit::measure_holds(view, lengths_, stage.tangential, stage.normal, workers, system_.holds);
+    fit::gather_rows(system_, view.movable);
+}
+
+void SurfaceFit::bound_displacements(const hooks::StepContext& context) {
+    for (std::size_t v = 0; v < displacements_.size(); ++v) {
+        Vec3& d = displacements_[v];
+        const double way = d.norm();
+        const double bound = longest_way * lengths_[v];
+        if (context.surface.movable[v] == 0 || !std::isfinite(way)) d = Vec3::Zero();
+        else if (way > bound) d *= bound / way;
+    }
+}
+
+// Over the surface as the solution would move it.
+bool SurfaceFit::fill(const hooks::StepContext& context) {
+    const surface::SurfaceView& view = context.surface;
+    std::vector<Vec3> places = view.positions;
+    for (std::size_t v = 0; v < places.size(); ++v) places[v] += displacements_[v];
+    if (fit::fill_holes(links_, gaps_, view.movable, places) == 0) return false;
+    for (std::size_t v = 0; v < places.size(); ++v) displacements_[v] = places[v] - view.positions[v];
+    return true;
+}
+
+void SurfaceFit::evaluate(hooks::Range range, std::span<Vec3> out) const {
+    std::copy_n(displacements_.begin() + static_cast<std::ptrdiff_t>(range.begin), out.size(), out.begin());
+}
+
+void SurfaceFit::publish(hooks::Attributes& out) const {
+    out.push_back({"support", support_.share});
+    out.push_back({"gap", gaps_});
+    out.push_back({"residual", support_.residual});
+}
+
+bool SurfaceFit::finished() const {
+    if (progress_.iterations == 0) return false;
+    const bool settled = static_cast<double>(progress_.done) >= settled_part * static_cast<double>(progress_.iterations);
+    return progress_.done >= progress_.iterations || (settled && progress_.quiet >= quiet_iterations);
+}
+
+std::uint64_t SurfaceFit::planned_steps() const {
+    return progress_.iterations > 0 ? progress_.first_step + progress_.iterations - 1 : params_.iterations;
+}
+
+std::optional<mesh::CreaseRule> SurfaceFit::keep_creases() const {
+    const bool shaped = progress_.iterations > 0 &&
+                        static_cast<double>(progress_.done) > start_part * static_cast<double>(progress_.iterations);
+    return shaped ? std::optional(mesh::CreaseRule{}) : std::nullopt;
+}
+
+void SurfaceFit::save(std::ostream& out) const {
+    StateWriter state;
+    state.value(progress_);
+    const std::string bytes = state.take();
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+void SurfaceFit::load(std::istream& in) {
+    const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    StateReader state(bytes);
+    state.value(progress_);
+    displacements_.clear();
+}
+
+}  // namespace dsc::strategies
