@@ -35,7 +35,8 @@ PointFit data_row(const DataTerm& term, std::size_t i, Row& row, double& wanted)
     const double own = term.point_widths[i] > 0.0 ? std::min(term.point_widths[i], widest * width) : width;
     const double root = own / (1.0 + ratio * ratio);
     // Noise across a curved sheet moves the mean of its points outwards, by sigma^2 times the mean curvature.
-    const double shift = term.curvature.empty() ? 0.0 : term.noise * term.noise * mixed(term.curvature, face, b) * direction.dot(normal);
+    const double outwards = direction.dot(normal) < 0.0 ? -1.0 : 1.0;
+    const double shift = term.curvature.empty() ? 0.0 : outwards * term.noise * term.noise * mixed(term.curvature, face, b);
     row.direction = root * direction;
     row.factor = {b[0], b[1], b[2], 0.0};
     row.vertex = {face[0], face[1], face[2], face[0]};

@@ -25,8 +25,8 @@ constexpr std::uint64_t fill_repeats = 2;        // the kernel goes on in the se
 constexpr double longest_way = 0.7;              // target lengths per step
 constexpr double largest_curvature = 0.5;        // over a point width
 constexpr double start_part = 1.0 / 3.0;         // of the iterations in which creases are only about to form
-constexpr double settled_part = 0.6;             // of the iterations after which the motion may end early
-constexpr double quiet_way = 0.01;               // point widths, mean of the vertices
+constexpr double settled_part = 0.6;             // of the iterations: then the bending length has its last value
+constexpr double quiet_way = 0.005;              // point widths, mean of the vertices
 constexpr std::uint64_t quiet_iterations = 2;
 
 }  // namespace
@@ -56,6 +56,8 @@ SurfaceFit::SurfaceFit(const Params& params, const plugin::Setup&) : params_(par
 
 void SurfaceFit::advance(const hooks::StepContext& context) {
     measure(context);
+    // Steps count upwards: an earlier one belongs to another motion.
+    if (context.step < progress_.first_step + progress_.done) progress_ = {};
     if (progress_.iterations == 0) {
         progress_.first_step = context.step;
         const auto far = std::count_if(gaps_.begin(), gaps_.end(), [](double gap) { return gap > unsupported_beyond; });
@@ -70,7 +72,8 @@ void SurfaceFit::advance(const hooks::StepContext& context) {
     double way = 0.0;
     for (const Vec3& d : displacements_) way += d.norm();
     const bool quiet = way < quiet_way * scales_.width * static_cast<double>(displacements_.size());
-    progress_.quiet = quiet ? progress_.quiet + 1 : 0;
+    const bool settled = static_cast<double>(progress_.done) >= settled_part * static_cast<double>(progress_.iterations);
+    progress_.quiet = settled && quiet ? progress_.quiet + 1 : 0;
     ++progress_.done;
 }
 
@@ -142,13 +145,12 @@ void SurfaceFit::bound_displacements(const hooks::StepContext& context) {
 }
 
 // Over the surface as the solution would move it.
-bool SurfaceFit::fill(const hooks::StepContext& context) {
+void SurfaceFit::fill(const hooks::StepContext& context) {
     const surface::SurfaceView& view = context.surface;
     std::vector<Vec3> places = view.positions;
     for (std::size_t v = 0; v < places.size(); ++v) places[v] += displacements_[v];
-    if (fit::fill_holes(links_, gaps_, view.movable, places) == 0) return false;
+    if (fit::fill_holes(links_, gaps_, view.movable, places) == 0) return;
     for (std::size_t v = 0; v < places.size(); ++v) displacements_[v] = places[v] - view.positions[v];
-    return true;
 }
 
 void SurfaceFit::evaluate(hooks::Range range, std::span<Vec3> out) const {
@@ -162,9 +164,7 @@ void SurfaceFit::publish(hooks::Attributes& out) const {
 }
 
 bool SurfaceFit::finished() const {
-    if (progress_.iterations == 0) return false;
-    const bool settled = static_cast<double>(progress_.done) >= settled_part * static_cast<double>(progress_.iterations);
-    return progress_.done >= progress_.iterations || (settled && progress_.quiet >= quiet_iterations);
+    return progress_.iterations > 0 && (progress_.done >= progress_.iterations || progress_.quiet >= quiet_iterations);
 }
 
 std::uint64_t SurfaceFit::planned_steps() const {

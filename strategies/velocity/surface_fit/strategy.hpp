@@ -55,14 +55,14 @@ private:
         std::uint64_t iterations = 0;  ///< all that there will be; 0 before the first
         std::uint64_t done = 0;
         std::uint64_t filled = 0;      ///< iterations that have filled holes
-        std::uint64_t quiet = 0;       ///< iterations in a row, up to the last one, that moved next to nothing
+        std::uint64_t quiet = 0;       ///< iterations in a row, up to the last one, that moved next to nothing at the last bending length
     };
 
     void measure(const hooks::StepContext& context);
     void solve(const hooks::StepContext& context, std::uint64_t iteration);
     void build_system(const hooks::StepContext& context, const fit::Stage& stage);
     void bound_displacements(const hooks::StepContext& context);
-    bool fill(const hooks::StepContext& context);
+    void fill(const hooks::StepContext& context);
 
     Params params_;
     Progress progress_;
