@@ -34,7 +34,7 @@ Stage stage_of(const Scales& scales, std::size_t iteration, std::size_t iteratio
     Stage stage;
     const double last = smoothing * std::clamp(2.2 * std::sqrt(s), 0.22, 2.0);
     const double first = std::max(start_bending, last);
-    stage.bending = last > 0.0 ? first * std::pow(last / first, std::min(1.0, it / (settling_part * all))) : 0.0;
+    stage.bending = first * std::pow(last / first, std::min(1.0, it / (settling_part * all)));
     stage.reach = it < start_part * all ? 2.1 : 1.05;
     stage.tangential = std::clamp(1.5 * s, 0.02, 1.0);
     stage.normal = 1e-3;

@@ -26,7 +26,7 @@ struct Stage {
     double filter_range = 0.0;   ///< how far apart unit normals are that a filter averages
 };
 
-/// Iterations count from 0; behind the last one its constants stay. `smoothing` multiplies the last bending length. [step]
+/// Iterations count from 0; behind the last one its constants stay. `smoothing`, above 0, multiplies the last bending length. [step]
 Stage stage_of(const Scales& scales, std::size_t iteration, std::size_t iterations, double smoothing);
 
 /// The iteration at which holes are filled. [step]

@@ -26,7 +26,7 @@ constexpr double longest_way = 0.7;              // target lengths per step
 constexpr double largest_curvature = 0.5;        // over a point width
 constexpr double start_part = 1.0 / 3.0;         // of the iterations in which creases are only about to form
 constexpr double settled_part = 0.6;             // of the iterations: then the bending length has its last value
-constexpr double quiet_way = 0.005;              // point widths, mean of the vertices
+constexpr double quiet_way = 0.005;              // point widths, mean
 constexpr std::uint64_t quiet_iterations = 2;
 
 }  // namespace
@@ -38,6 +38,7 @@ void SurfaceFit::declare(config::ParamSchema<Params>& schema) {
         .doc("Steps of the whole motion: the bending length falls in the first 60 % of them. 0: 14, or 24 where the cloud has holes.");
     schema.real("smoothing", &Params::smoothing)
         .range(0, 100)
+        .open_low()
         .unit("1")
         .doc("Factor of the length over which the surface is smooth at the end; that length follows from the noise.");
     schema.real("crease_angle", &Params::crease_angle)
@@ -69,12 +70,24 @@ void SurfaceFit::advance(const hooks::StepContext& context) {
         fill(context);
         ++progress_.filled;
     }
-    double way = 0.0;
-    for (const Vec3& d : displacements_) way += d.norm();
-    const bool quiet = way < quiet_way * scales_.width * static_cast<double>(displacements_.size());
     const bool settled = static_cast<double>(progress_.done) >= settled_part * static_cast<double>(progress_.iterations);
-    progress_.quiet = settled && quiet ? progress_.quiet + 1 : 0;
+    progress_.quiet = settled && quiet() ? progress_.quiet + 1 : 0;
     ++progress_.done;
+}
+
+// Over holes, which settle last, the surface shall have come to rest as well.
+bool SurfaceFit::quiet() const {
+    double way = 0.0, way_in_holes = 0.0;
+    std::size_t in_holes = 0;
+    for (std::size_t v = 0; v < displacements_.size(); ++v) {
+        const double d = displacements_[v].norm();
+        way += d;
+        if (gaps_[v] <= unsupported_beyond) continue;
+        way_in_holes += d;
+        ++in_holes;
+    }
+    const double bound = quiet_way * scales_.width;
+    return way <= bound * static_cast<double>(displacements_.size()) && way_in_holes <= bound * static_cast<double>(in_holes);
 }
 
 void SurfaceFit::prepare(const hooks::StepContext& context) {

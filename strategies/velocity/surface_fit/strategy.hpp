@@ -62,6 +62,7 @@ private:
     void solve(const hooks::StepContext& context, std::uint64_t iteration);
     void build_system(const hooks::StepContext& context, const fit::Stage& stage);
     void bound_displacements(const hooks::StepContext& context);
+    bool quiet() const;
     void fill(const hooks::StepContext& context);
 
     Params params_;
