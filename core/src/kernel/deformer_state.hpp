@@ -55,11 +55,11 @@ struct Deformer::State {
     StepReport advance(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy);
 
     // ---- the parts of a refinement
-    bool split_longest_edge(const std::array<VertexId, 3>& face);
-    bool split(const std::array<VertexId, 2>& edge);
-    bool collapse(const CollapseTo& request);
-    bool flip(const FlipTo& request);
-    bool move(const MoveTo& request);
+    Refusal split_longest_edge(const std::array<VertexId, 3>& face);
+    Refusal split(const std::array<VertexId, 2>& edge);
+    Refusal collapse(const CollapseTo& request);
+    Refusal flip(const FlipTo& request);
+    Refusal move(const MoveTo& request);
 };
 
 }  // namespace dsc::kernel

@@ -10,8 +10,8 @@
 
 namespace dsc::kernel {
 
-bool Deformer::State::split_longest_edge(const std::array<VertexId, 3>& face) {
-    if (!alive(face[0]) || !alive(face[1]) || !alive(face[2])) return false;
+Refusal Deformer::State::split_longest_edge(const std::array<VertexId, 3>& face) {
+    if (!alive(face[0]) || !alive(face[1]) || !alive(face[2])) return Refusal::stale;
     // Only while the three vertices still bound one interface face.
     std::vector<TetId>& star = bench.star_a;
     complex.star(face[0], star);
@@ -24,7 +24,7 @@ bool Deformer::State::split_longest_edge(const std::array<VertexId, 3>& face) {
             if (opposite && complex.interface_face(t, f)) found = t;
         }
     }
-    if (found == mesh::none) return false;
+    if (found == mesh::none) return Refusal::stale;
     VertexId a = face[0], b = face[1];
     double longest = -1.0;
     for (unsigned k = 0; k < 3; ++k) {
@@ -34,32 +34,33 @@ bool Deformer::State::split_longest_edge(const std::array<VertexId, 3>& face) {
         a = face[k];
         b = face[(k + 1) % 3];
     }
-    return split_edge(bench, found, a, b, 0.5) == Refusal::committed;
+    return split_edge(bench, found, a, b, 0.5);
 }
 
-bool Deformer::State::split(const std::array<VertexId, 2>& edge) {
-    if (!alive(edge[0]) || !alive(edge[1])) return false;
+Refusal Deformer::State::split(const std::array<VertexId, 2>& edge) {
+    if (!alive(edge[0]) || !alive(edge[1])) return Refusal::stale;
     const TetId t = complex.find_edge(edge[0], edge[1]);
-    return t != mesh::none && split_edge(bench, t, edge[0], edge[1], 0.5) == Refusal::committed;
+    return t != mesh::none ? split_edge(bench, t, edge[0], edge[1], 0.5) : Refusal::stale;
 }
 
-bool Deformer::State::collapse(const CollapseTo& request) {
-    if (!alive(request.kept) || !alive(request.removed)) return false;
+Refusal Deformer::State::collapse(const CollapseTo& request) {
+    if (!alive(request.kept) || !alive(request.removed)) return Refusal::stale;
     const TetId t = complex.find_edge(request.kept, request.removed);
-    return t != mesh::none && collapse_edge_to(bench, t, request.kept, request.removed, request.place) == Refusal::committed;
+    return t != mesh::none ? collapse_edge_to(bench, t, request.kept, request.removed, request.place) : Refusal::stale;
 }
 
-bool Deformer::State::flip(const FlipTo& request) {
-    if (!alive(request.a) || !alive(request.b)) return false;
+Refusal Deformer::State::flip(const FlipTo& request) {
+    if (!alive(request.a) || !alive(request.b)) return Refusal::stale;
     const TetId t = complex.find_edge(request.a, request.b);
-    if (t == mesh::none) return false;
+    if (t == mesh::none) return Refusal::stale;
     bench.limits.flatness = request.flatness;
     // Shape may be lost down to the floor.
-    return flip_interface_edge(bench, t, request.a, request.b, 0.0F) == Refusal::committed;
+    return flip_interface_edge(bench, t, request.a, request.b, 0.0F);
 }
 
-bool Deformer::State::move(const MoveTo& request) {
-    if (!alive(request.vertex) || !complex.movable(request.vertex)) return false;
+Refusal Deformer::State::move(const MoveTo& request) {
+    if (!alive(request.vertex)) return Refusal::stale;
+    if (!complex.movable(request.vertex)) return Refusal::not_applicable;
     bool moved = false;
     const Vec3 low = complex.box().low.array() + 2.0 * length, high = complex.box().high.array() - 2.0 * length;
     const Vec3 place = request.place.cwiseMax(low).cwiseMin(high);
@@ -69,7 +70,7 @@ bool Deformer::State::move(const MoveTo& request) {
         moved = moved || motion != Motion::blocked;
         if (motion != Motion::moved) break;
     }
-    return moved;
+    return moved ? Refusal::committed : Refusal::quality;
 }
 
 RefineReport Deformer::refine(std::span<const std::array<VertexId, 3>> faces, std::span<const std::array<VertexId, 2>> edges) {
@@ -85,24 +86,25 @@ RefineReport Deformer::refine(const RefineRequests& requests) {
     s.apply_limits(s.bench.limits.flatness, requests.creases);
     const Limits before = s.bench.limits;
     s.bench.crease_exceptions = 0;
-    const auto each = [&](const auto& list, const auto& act) {
-        std::size_t done = 0;
-        for (const auto& request : list) done += act(request) ? 1 : 0;
+    const auto each = [&report](const auto& list, OperationCounts& counts, const auto& act) {
+        for (const auto& request : list) {
+            const Refusal outcome = act(request);
+            counts.add(outcome);
+            report.committed += outcome == Refusal::committed ? 1 : 0;
+        }
         report.requested += list.size();
-        report.committed += done;
-        return done;
     };
     if (requests.owns_sizing) s.bench.limits.quality_floor = refinement_floor;
-    std::size_t splits = each(requests.split_faces, [&s](const auto& face) { return s.split_longest_edge(face); });
-    splits += each(requests.split_edges, [&s](const auto& edge) { return s.split(edge); });
+    each(requests.split_faces, report.splits, [&s](const auto& face) { return s.split_longest_edge(face); });
+    each(requests.split_edges, report.splits, [&s](const auto& edge) { return s.split(edge); });
     s.bench.limits.quality_floor = refinement_floor;
-    each(requests.collapses, [&s](const CollapseTo& request) { return s.collapse(request); });
-    each(requests.flips, [&s](const FlipTo& request) { return s.flip(request); });
-    each(requests.moves, [&s](const MoveTo& request) { return s.move(request); });
+    each(requests.collapses, report.collapses, [&s](const CollapseTo& request) { return s.collapse(request); });
+    each(requests.flips, report.flips, [&s](const FlipTo& request) { return s.flip(request); });
+    each(requests.moves, report.moves, [&s](const MoveTo& request) { return s.move(request); });
     s.bench.limits = before;
     report.crease_exceptions = s.bench.crease_exceptions;
     s.fields.settle();
-    report.length_changed = splits > 0 && !requests.owns_sizing;
+    report.length_changed = report.splits.committed > 0 && !requests.owns_sizing;
     if (report.length_changed) s.set_length(s.mean_interface_edge());
     return report;
 }

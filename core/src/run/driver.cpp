@@ -91,13 +91,17 @@ private:
         const Timed timed(result_.totals.seconds.velocity);
         surface::build_view(deformer_.complex(), view_, &workers_);
         faces_of_points_.clear();
-        lengths_ = deformer_.target_lengths(view_.vertex_ids);
-        attributes_ = attributes_at(deformer_, view_.vertex_ids);
+        refresh_fields();
         if (cloud_ == nullptr) return;
         nearest_.resize(view_.vertex_count());
         workers_.for_blocks(nearest_.size(), evaluated_block, [this](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) nearest_[i] = cloud_->search().nearest(view_.positions[i]);
         });
+    }
+
+    void refresh_fields() {
+        lengths_ = deformer_.target_lengths(view_.vertex_ids);
+        attributes_ = attributes_at(deformer_, view_.vertex_ids);
     }
 
     /// What the velocity's calls see: the faces of the points too, where it wants them.
@@ -268,8 +272,9 @@ private:
             result_.totals.crease_exceptions += report.crease_exceptions;
             result_.totals.refine_requested += report.requested;
             result_.totals.refine_committed += report.committed;
+            result_.totals.refine_edits.add(report);
             asked = report.requested > 0 || !requests.relabel.empty();
-            refresh_view();
+            asked ? refresh_view() : refresh_fields();
         }
     }
 

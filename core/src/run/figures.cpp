@@ -90,6 +90,13 @@ std::string class_line(const ClassFigures& figures) {
            ",\"committed\":" + std::to_string(figures.committed) + "}\n";
 }
 
+void RefinementCounts::add(const kernel::RefineReport& report) {
+    splits += report.splits;
+    collapses += report.collapses;
+    flips += report.flips;
+    moves += report.moves;
+}
+
 void RunTotals::add(const kernel::StepReport& report) {
     ++steps;
     rounds += report.rounds;

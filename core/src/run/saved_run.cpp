@@ -39,6 +39,7 @@ void each_plain(Totals& t, Visit&& visit) {
     visit(t.refinements);
     visit(t.refine_requested);
     visit(t.refine_committed);
+    visit(t.refine_edits);
     visit(t.operations);
     visit(t.repair_classes);
     visit(t.events);

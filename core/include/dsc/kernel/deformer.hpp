@@ -74,14 +74,6 @@ struct RefineRequests {
 /// min(this, its quality before).
 inline constexpr double refinement_floor = 0.02;
 
-/// What refine() did.
-struct RefineReport {
-    std::size_t requested = 0;
-    std::size_t committed = 0;
-    bool length_changed = false;
-    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule aside for a tet below the quality floor
-};
-
 /// Owns a complex and advances it. Results do not depend on the workers' thread count.
 class Deformer {
 public:

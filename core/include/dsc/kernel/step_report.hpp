@@ -1,5 +1,5 @@
 #pragma once
-// What a step did, in numbers.
+// What a step or a refinement did, in numbers.
 
 #include <array>
 #include <cstdint>
@@ -54,6 +54,15 @@ struct StepReport {
     mesh::EventCounts event_counts;
     double move_seconds = 0.0;       ///< wall time, for phase_s only
     double repair_seconds = 0.0;
+};
+
+/// What Deformer::refine() did.
+struct RefineReport {
+    std::size_t requested = 0;
+    std::size_t committed = 0;
+    OperationCounts splits, collapses, flips, moves;  ///< of which these are the parts, and why the rest was refused
+    bool length_changed = false;
+    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule aside for a tet below the quality floor
 };
 
 }  // namespace dsc::kernel

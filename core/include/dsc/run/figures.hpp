@@ -81,6 +81,12 @@ struct PhaseSeconds {
     double adopt_wall = 0.0;
 };
 
+/// What refinements asked the kernel for, with what became of it.
+struct RefinementCounts {
+    kernel::OperationCounts splits, collapses, flips, moves;
+    void add(const kernel::RefineReport& report);
+};
+
 /// Sums over all steps, normalised units.
 struct RunTotals {
     std::uint64_t steps = 0;
@@ -99,6 +105,7 @@ struct RunTotals {
     std::uint64_t refinements = 0;
     std::uint64_t refine_requested = 0;
     std::uint64_t refine_committed = 0;
+    RefinementCounts refine_edits;
     kernel::OperationTable operations{};
     kernel::RepairClassTable repair_classes{};
     std::vector<std::string> repair_class_names;  ///< of the first entries of repair_classes
