@@ -17,7 +17,7 @@ KINDS = {
     "initial_mesh": ("Initial meshes", "what a run starts from; key `initial_mesh`"),
     "velocity": ("Velocities", "where the interface wants to go; key `velocity`"),
     "curvature": ("Curvatures", "how curved the interface is; a parameter of some velocities"),
-    "refinement": ("Refinements", "which faces are split; key `refine` of an item of the `schedule`"),
+    "refinement": ("Refinements", "which faces and edges are split, collapsed or flipped; key `refine` of an item of the `schedule`"),
     "improvement": ("Improvements", "which repairs a step tries; key `improvement`"),
     "observer": ("Observers", "figures for `metrics.csv` and `summary.json`; items of `observers`"),
     "filter": ("Filters", "what becomes of the cloud before the run; items of `input.cloud.filters`"),

@@ -1,0 +1,120 @@
+#include "strategy.hpp"
+
+#include <cmath>
+#include <istream>
+#include <ostream>
+
+#include <dsc/base/error.hpp>
+
+namespace dsc::strategies {
+namespace {
+
+constexpr std::uint64_t usual_steps = 14;  // of a run that does not say how many it has
+constexpr unsigned first_sweeps = 6, later_sweeps = 2;
+constexpr unsigned last_flips = 2;         // passes of flips alone at the end
+constexpr double sweep_angle = 1.0;        // radians: edges above it are not flipped in sweeps once creases are kept,
+constexpr double flip_angle = 0.5;         // nor those above this one where nothing but flips is done
+constexpr double too_many_factor = 1.02;
+constexpr double far_ratio = 1.25;         // of mean edge and target length, or its inverse: another refinement has not been here
+
+// Whether the surface has yet to get its edge length, though the run is under way.
+bool far_off(const hooks::StepContext& step) {
+    return !(step.surface.mean_edge < far_ratio * step.target_length && step.target_length < far_ratio * step.surface.mean_edge);
+}
+
+}  // namespace
+
+void Remesh::declare(config::ParamSchema<Params>& schema) {
+    schema.integer("vertices", &Params::vertices)
+        .at_least(0)
+        .unit("vertices")
+        .doc("Number of vertices that the surface may have. 0: what the number of points is worth, which is two per point up to 3,000 "
+             "points, 20,000 at 20,000 points, and grows with the root of their number above that.");
+    schema.real("edge_length", &Params::edge_length)
+        .at_least(0)
+        .unit("length")
+        .doc("Length that all edges shall have, in the units of the input. 0: from the number of vertices and the area that the "
+             "cloud's points are worth, longer where the points are noisy, and local where their spacing is uneven.");
+}
+
+Remesh::Remesh(const Params& params, const plugin::Setup&) : params_(params) {}
+
+bool Remesh::keeps() const { return 3 * step_ >= last_step_; }
+
+std::optional<mesh::CreaseRule> Remesh::keep_creases() const {
+    if (refinements_ == 0 || !keeps()) return std::nullopt;
+    return mesh::CreaseRule{remesh::crease_angle, std::acos(remesh::turn_cosine)};
+}
+
+void Remesh::begin(const hooks::StepContext& step) {
+    const double budget = remesh::Sizing::budget({params_.vertices, 0.0}, step.cloud);
+    if (refinements_ > 0 && budget > 0.0 && static_cast<double>(step.surface.vertex_count()) > budget) ++too_many_;
+    step_ = step.step;
+    last_step_ = step.planned_steps > 0 ? step.planned_steps : usual_steps;
+    plan(step);
+    ++refinements_;
+}
+
+void Remesh::plan(const hooks::StepContext& step) {
+    unsigned sweeps = 0;
+    if (refinements_ == 0 && (step.step == 0 || far_off(step))) {
+        sweeps = first_sweeps;
+    } else if (refinements_ == 0 || step.step <= 2 || (step.step % 2 == 0 && 3 * step.step < 2 * last_step_)) {
+        sweeps = later_sweeps;
+    }
+    stages_.clear();
+    for (unsigned i = 0; i < sweeps; ++i) {
+        stages_.insert(stages_.end(), {Stage::sizes, Stage::collapses, Stage::moves});
+    }
+    stages_.insert(stages_.end(), last_flips, Stage::flips);
+    next_stage_ = 0;
+    const double angle = sweeps == 0 ? flip_angle : sweep_angle;
+    flatness_ = sweeps > 0 && !keeps() ? -1.0 : std::cos(keeps() ? std::min(angle, remesh::crease_angle) : angle);
+}
+
+remesh::Lengths Remesh::set_lengths(const hooks::StepContext& step, hooks::RefinementRequests& out) {
+    const remesh::Wish wish{params_.vertices, params_.edge_length * step.to_normalised.scale};
+    const remesh::Lengths lengths = sizing_.lengths(step, mesh_, wish, std::pow(too_many_factor, static_cast<double>(too_many_)));
+    if (lengths.each.empty()) {
+        out.target_length = lengths.everywhere;
+    } else {
+        out.target_lengths.assign(lengths.each.begin(), lengths.each.end());
+    }
+    return lengths;
+}
+
+// True if it asked for anything.
+bool Remesh::ask(Stage stage, const remesh::Lengths& lengths, hooks::RefinementRequests& out) {
+    if (stage == Stage::sizes) edits_.split(mesh_, lengths, out.split_edges);
+    if (stage == Stage::sizes || stage == Stage::collapses) edits_.collapse(mesh_, lengths, keeps(), out.collapse_edges);
+    edits_.flip(mesh_, flatness_, out.flip_edges);
+    const bool edits = !out.split_edges.empty() || !out.collapse_edges.empty() || !out.flip_edges.empty();
+    // A surface that needs no edit at the beginning of a sweep is done, and not even smoothed.
+    if (stage == Stage::sizes && !edits) next_stage_ = stages_.size();
+    if (stage == Stage::moves) edits_.move(mesh_, lengths, out.move_vertices);
+    return edits || !out.move_vertices.empty();
+}
+
+void Remesh::refine(const hooks::RefinementContext& context, hooks::RefinementRequests& out) {
+    if (context.step.surface.face_count() == 0) return;
+    mesh_.build(context.step.surface, context.step.workers);
+    remesh::Lengths lengths{context.step.target_length, context.step.target_lengths};
+    if (context.pass == 0) {
+        begin(context.step);
+        edits_.start_refinement();
+        lengths = set_lengths(context.step, out);
+    }
+    edits_.start_pass(mesh_);
+    while (next_stage_ < stages_.size()) {
+        if (ask(stages_[next_stage_++], lengths, out)) break;
+    }
+}
+
+void Remesh::save(std::ostream& out) const { out << refinements_ << ' ' << step_ << ' ' << last_step_ << ' ' << too_many_ << '\n'; }
+
+void Remesh::load(std::istream& in) {
+    in >> refinements_ >> step_ >> last_step_ >> too_many_;
+    if (!in) throw StrategyError("refinement.state", "refinement 'remesh': the saved state is damaged; start the run anew");
+}
+
+}  // namespace dsc::strategies
