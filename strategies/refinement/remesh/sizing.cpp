@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <dsc/surface/thickness.hpp>
+
 namespace dsc::remesh {
 namespace {
 
@@ -13,6 +15,11 @@ constexpr double widest = 4.0;              // local point widths beyond so many
 constexpr double slope = 0.3;               // by which lengths may grow along an edge
 constexpr unsigned smoothing_rounds = 3;
 constexpr std::size_t vertex_block = 512;
+constexpr double edges_across = 2.0;        // of a thin part: its thickness over its edge length
+constexpr double shortest = 0.5;            // point widths: no part makes edges shorter
+constexpr double most_for_thin = 1.5;       // times the budget
+constexpr double opposite_cosine = 0.7;     // faces that look further past each other are no two sides of a thin part
+constexpr unsigned median_rounds = 3;
 
 double area_of(const surface::SurfaceView& view) {
     double area = 0.0;
@@ -107,18 +114,74 @@ void Sizing::follow_widths(const hooks::StepContext& context, const EdgeMesh& me
     for (double& x : each_) x *= wanted * scale;
 }
 
+// Each value becomes the median of those of the vertex and its neighbours.
+void Sizing::median_of_rings(const EdgeMesh& mesh, std::vector<double>& values) {
+    for (unsigned round = 0; round < median_rounds; ++round) {
+        next_ = values;
+        for (std::uint32_t v = 0; v < values.size(); ++v) {
+            ring_.assign(1, values[v]);
+            for (const std::uint32_t f : mesh.view->faces_of(v)) {
+                // Of each face the corner behind v: on a closed surface every neighbour once.
+                const auto& face = mesh.view->faces[f];
+                for (std::size_t k = 0; k < 3; ++k) {
+                    if (face[k] == v) ring_.push_back(values[face[(k + 1) % 3]]);
+                }
+            }
+            const auto middle = ring_.begin() + static_cast<std::ptrdiff_t>(ring_.size() / 2);
+            std::nth_element(ring_.begin(), middle, ring_.end());
+            next_[v] = *middle;
+        }
+        values.swap(next_);
+    }
+}
+
+// Half of the thickness where that is shorter; less so where it would take too many vertices. False if nothing is thin.
+bool Sizing::shorten_thin_parts(const hooks::StepContext& context, const EdgeMesh& mesh) {
+    const double longest = *std::max_element(each_.begin(), each_.end());
+    surface::measure_thickness(*mesh.view, edges_across * longest, opposite_cosine, thickness_, context.workers);
+    median_of_rings(mesh, thickness_);
+    const double least = shortest * context.cloud->statistics().width;
+    usual_ = each_;
+    const double usual_count = count(mesh);
+    const auto shorten = [&](double relief) {
+        bool thin = false;
+        for (std::size_t v = 0; v < each_.size(); ++v) {
+            const double wanted = std::max(relief * thickness_[v] / edges_across, least);
+            each_[v] = std::min(usual_[v], wanted);
+            thin = thin || wanted < usual_[v];
+        }
+        if (thin) grade(mesh);
+        allowance_ = count(mesh) / usual_count;
+        return thin;
+    };
+    if (!shorten(1.0)) return false;
+    if (allowance_ <= most_for_thin) return true;
+    double low = 1.0, high = longest / least;
+    for (int i = 0; i < 12; ++i) {
+        const double relief = 0.5 * (low + high);
+        shorten(relief);
+        (allowance_ <= most_for_thin ? high : low) = relief;
+    }
+    return shorten(high);
+}
+
+void Sizing::even_lengths(const hooks::StepContext& context, const EdgeMesh& mesh, double vertices, double scale) {
+    each_.assign(mesh.view->vertex_count(), scale * std::sqrt(faces_of_budget * context.cloud->statistics().area / vertices));
+}
+
 Lengths Sizing::lengths(const hooks::StepContext& context, const EdgeMesh& mesh, const Wish& wish, double factor) {
+    allowance_ = 1.0;
     if (wish.edge_length > 0.0) return {wish.edge_length};
     const double vertices = filled_part * budget(wish, context.cloud);
     if (!(vertices > 0.0)) return {context.target_length};
     if (context.cloud == nullptr) return {factor * std::sqrt(faces_of_budget * area_of(*mesh.view) / vertices)};
     const cloud::Statistics& statistics = context.cloud->statistics(context.workers);
     const double scale = factor * noise_factor(statistics);
-    if (statistics.spread >= even_spread) {
-        follow_widths(context, mesh, vertices, scale);
-        return {0.0, each_};
-    }
-    return {scale * std::sqrt(faces_of_budget * statistics.area / vertices)};
+    const bool even = statistics.spread < even_spread;
+    even ? even_lengths(context, mesh, vertices, scale) : follow_widths(context, mesh, vertices, scale);
+    const bool thin = wish.thin_parts && !each_.empty() && shorten_thin_parts(context, mesh);
+    if (even && !thin && !each_.empty()) return {each_.front()};
+    return {0.0, each_};
 }
 
 }  // namespace dsc::remesh

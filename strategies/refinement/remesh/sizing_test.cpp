@@ -13,15 +13,29 @@ using namespace dsc::remesh;
 
 constexpr double pi = 3.14159265358979323846;
 
-// Points on the unit sphere, evenly spread but for `squeeze`, which crowds them towards the north pole.
-dsc::cloud::TargetCloud sphere(std::size_t count, double squeeze = 1.0) {
-    dsc::cloud::Normalized points;
+// Points on a sphere, evenly spread but for `squeeze`, which crowds them towards the north pole.
+void add_sphere(std::size_t count, double squeeze, double radius, dsc::cloud::Normalized& points) {
     for (std::size_t i = 0; i < count; ++i) {
         const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
         const double z = 1.0 - 2.0 * std::pow(t, squeeze), r = std::sqrt(1.0 - z * z), angle = 2.399963229728653 * static_cast<double>(i);
-        points.points.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+        points.points.push_back(radius * Vec3(r * std::cos(angle), r * std::sin(angle), z));
     }
+}
+
+dsc::cloud::TargetCloud sphere(std::size_t count, double squeeze = 1.0) {
+    dsc::cloud::Normalized points;
+    add_sphere(count, squeeze, 1.0, points);
     return dsc::cloud::TargetCloud(points);
+}
+
+// The surface of a wall between two spheres.
+dsc::surface::TriangleMesh hollow_ball(double inner) {
+    dsc::surface::TriangleMesh wall = dsc::sdk::icosphere(5, 1.0);
+    const dsc::surface::TriangleMesh inside = dsc::sdk::icosphere(5, inner);
+    const auto first = static_cast<std::uint32_t>(wall.points.size());
+    wall.points.insert(wall.points.end(), inside.points.begin(), inside.points.end());
+    for (const auto& [a, b, c] : inside.faces) wall.faces.push_back({first + a, first + c, first + b});
+    return wall;
 }
 
 struct Start {
@@ -55,16 +69,16 @@ TEST_CASE("an even cloud gives one length, from the area and the number of its p
     CHECK(lengths.everywhere == doctest::Approx(std::sqrt(1.1547 * 4 * pi / (0.95 * budget))).epsilon(0.05));
     CHECK(s.vertices(lengths) == doctest::Approx(0.95 * budget).epsilon(0.08));
     CHECK(sizing.lengths(s.context(&cloud), s.mesh, {}, 1.02).everywhere == doctest::Approx(1.02 * lengths.everywhere));
-    CHECK(sizing.lengths(s.context(&cloud), s.mesh, {1000, 0.0}, 1.0).everywhere ==
+    CHECK(sizing.lengths(s.context(&cloud), s.mesh, {1000, 0.0, true}, 1.0).everywhere ==
           doctest::Approx(lengths.everywhere * std::sqrt(budget / 1000)));
-    CHECK(sizing.lengths(s.context(&cloud), s.mesh, {1000, 0.2}, 1.0).everywhere == 0.2);
+    CHECK(sizing.lengths(s.context(&cloud), s.mesh, {1000, 0.2, true}, 1.0).everywhere == 0.2);
 }
 
 TEST_CASE("without a cloud the area of the interface counts, and without a wish nothing changes") {
     const Start s(dsc::sdk::icosphere(4, 1.0));
     Sizing sizing;
     CHECK(sizing.lengths(s.context(nullptr), s.mesh, {}, 1.0).everywhere == 0.123);
-    const Lengths lengths = sizing.lengths(s.context(nullptr), s.mesh, {2000, 0.0}, 1.0);
+    const Lengths lengths = sizing.lengths(s.context(nullptr), s.mesh, {2000, 0.0, true}, 1.0);
     CHECK(s.vertices(lengths) == doctest::Approx(1900).epsilon(1e-4));
 }
 
@@ -105,4 +119,33 @@ TEST_CASE("an uneven cloud gives lengths that follow it, graded, for the same nu
         steep += std::abs(lengths.at(a) - lengths.at(b)) > 0.32 * s.mesh.lengths[e] ? 1 : 0;
     }
     CHECK(steep == 0);
+}
+
+TEST_CASE("a thin wall gets edges of half its thickness, within one and a half times the budget") {
+    // Points are 0.057 apart, and the usual edges that long: a wall of 0.2 is not thin, one of 0.1 is. The one of 0.04 would take too
+    // many vertices.
+    for (const double inner : {0.8, 0.9, 0.96}) {
+        CAPTURE(inner);
+        dsc::cloud::Normalized points;
+        for (const double radius : {1.0, inner}) add_sphere(4000, 1.0, radius, points);
+        const dsc::cloud::TargetCloud cloud(points);
+        const Start s(hollow_ball(inner));
+        Sizing sizing;
+        const double usual = sizing.lengths(s.context(&cloud), s.mesh, {0, 0.0, false}, 1.0).at(0);
+        CHECK(sizing.allowance() == 1.0);
+        const Lengths lengths = sizing.lengths(s.context(&cloud), s.mesh, {}, 1.0);
+        const double wall = 1.0 - inner;
+        if (wall > 2.0 * usual) {
+            CHECK(lengths.each.empty());
+            CHECK(sizing.allowance() == 1.0);
+            continue;
+        }
+        REQUIRE(lengths.each.size() == s.view.vertex_count());
+        CHECK(sizing.allowance() > 1.0);
+        CHECK(sizing.allowance() <= 1.5);
+        const double shortened = usual / std::sqrt(sizing.allowance());
+        for (const double l : lengths.each) CHECK(l == doctest::Approx(shortened).epsilon(0.05));
+        if (usual * usual < 1.5 * 0.25 * wall * wall) CHECK(shortened == doctest::Approx(0.5 * wall).epsilon(0.03));
+        CHECK(shortened >= 0.5 * wall * 0.97);
+    }
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <istream>
+#include <limits>
 #include <ostream>
 
 #include <dsc/base/error.hpp>
@@ -35,6 +36,9 @@ void Remesh::declare(config::ParamSchema<Params>& schema) {
         .unit("length")
         .doc("Length that all edges shall have, in the units of the input. 0: from the number of vertices and the area that the "
              "cloud's points are worth, longer where the points are noisy, and local where their spacing is uneven.");
+    schema.boolean("thin_parts", &Params::thin_parts)
+        .doc("Parts that are thinner than two edges get edges of half their thickness, but of at least half a point width, and up to 1.5 "
+             "times as many vertices for that. Only with a cloud and without an edge length.");
 }
 
 Remesh::Remesh(const Params& params, const plugin::Setup&) : params_(params) {}
@@ -47,8 +51,7 @@ std::optional<mesh::CreaseRule> Remesh::keep_creases() const {
 }
 
 void Remesh::begin(const hooks::StepContext& step) {
-    const double budget = remesh::Sizing::budget({params_.vertices, 0.0}, step.cloud);
-    if (refinements_ > 0 && budget > 0.0 && static_cast<double>(step.surface.vertex_count()) > budget) ++too_many_;
+    if (allowed_ > 0.0 && static_cast<double>(step.surface.vertex_count()) > allowed_) ++too_many_;
     step_ = step.step;
     last_step_ = step.planned_steps > 0 ? step.planned_steps : usual_steps;
     plan(step);
@@ -73,8 +76,9 @@ void Remesh::plan(const hooks::StepContext& step) {
 }
 
 remesh::Lengths Remesh::set_lengths(const hooks::StepContext& step, hooks::RefinementRequests& out) {
-    const remesh::Wish wish{params_.vertices, params_.edge_length * step.to_normalised.scale};
+    const remesh::Wish wish{params_.vertices, params_.edge_length * step.to_normalised.scale, params_.thin_parts};
     const remesh::Lengths lengths = sizing_.lengths(step, mesh_, wish, std::pow(too_many_factor, static_cast<double>(too_many_)));
+    allowed_ = wish.edge_length > 0.0 ? 0.0 : sizing_.allowance() * remesh::Sizing::budget(wish, step.cloud);
     if (lengths.each.empty()) {
         out.target_length = lengths.everywhere;
     } else {
@@ -102,7 +106,8 @@ void Remesh::refine(const hooks::RefinementContext& context, hooks::RefinementRe
     if (context.pass == 0) {
         begin(context.step);
         edits_.start_refinement();
-        lengths = set_lengths(context.step, out);
+        // Flips need none, and the kernel remembers those of the last sweep.
+        if (stages_.front() != Stage::flips) lengths = set_lengths(context.step, out);
     }
     edits_.start_pass(mesh_);
     while (next_stage_ < stages_.size()) {
@@ -110,10 +115,13 @@ void Remesh::refine(const hooks::RefinementContext& context, hooks::RefinementRe
     }
 }
 
-void Remesh::save(std::ostream& out) const { out << refinements_ << ' ' << step_ << ' ' << last_step_ << ' ' << too_many_ << '\n'; }
+void Remesh::save(std::ostream& out) const {
+    out.precision(std::numeric_limits<double>::max_digits10);
+    out << refinements_ << ' ' << step_ << ' ' << last_step_ << ' ' << too_many_ << ' ' << allowed_ << '\n';
+}
 
 void Remesh::load(std::istream& in) {
-    in >> refinements_ >> step_ >> last_step_ >> too_many_;
+    in >> refinements_ >> step_ >> last_step_ >> too_many_ >> allowed_;
     if (!in) throw StrategyError("refinement.state", "refinement 'remesh': the saved state is damaged; start the run anew");
 }
 

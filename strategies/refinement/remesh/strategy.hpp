@@ -17,6 +17,7 @@ public:
     struct Params {
         std::uint64_t vertices = 0;
         double edge_length = 0.0;
+        bool thin_parts = true;
     };
     static void declare(config::ParamSchema<Params>& schema);
 
@@ -44,7 +45,8 @@ private:
     std::uint64_t refinements_ = 0;  // begun so far
     std::uint64_t step_ = 0;         // of the last one
     std::uint64_t last_step_ = 0;    // of the run
-    std::uint64_t too_many_ = 0;     // refinements after which there were more vertices than the budget has
+    std::uint64_t too_many_ = 0;     // refinements after which there were more vertices than allowed
+    double allowed_ = 0.0;           // vertices after the last one; 0: any number
 
     // Of the refinement under way.
     std::vector<Stage> stages_;
