@@ -89,7 +89,7 @@ private:
     /// The nearest points serve the velocity of the next step and the figures of this one.
     void refresh_view() {
         const Timed timed(result_.totals.seconds.velocity);
-        surface::build_view(deformer_.complex(), view_, &workers_);
+        surface::build_view(deformer_.complex(), view_, &workers_, &view_memory_);
         faces_of_points_.clear();
         refresh_fields();
         if (cloud_ == nullptr) return;
@@ -364,6 +364,7 @@ private:
     std::vector<cloud::Neighbour> nearest_;
     std::vector<surface::FacePoint> faces_of_points_;  // empty until somebody wants them
     std::vector<double> lengths_;   // of the view's vertices; empty where L is the same everywhere
+    surface::ViewMemory view_memory_;
     hooks::Attributes attributes_;  // of the view's vertices
     std::vector<Vec3> displacements_;
     const hooks::StepContext* context_ = nullptr;  // of the step under way, for the policy

@@ -7,10 +7,7 @@
 namespace dsc::surface {
 namespace {
 
-struct RawFace {
-    std::array<mesh::VertexId, 3> v;
-    mesh::TetId tet;
-};
+using RawFace = ViewMemory::Face;
 
 constexpr std::size_t walk_block = 1024;  // vertices
 
@@ -38,8 +35,36 @@ void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::Te
 
 }  // namespace
 
-void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers) {
+std::span<const ViewMemory::Face> ViewMemory::faces_led_by(const mesh::Complex& complex, mesh::VertexId v, bool& known) const {
+    known = false;
+    if (v >= index_.size() || index_[v] >= births_.size()) return {};
+    const std::uint32_t i = index_[v];
+    // The slot of a vertex may have another one by now.
+    if (births_[i] != complex.birth(v) || complex.vertex_date(v) > clock_) return {};
+    known = true;
+    return std::span(faces_).subspan(starts_[i], starts_[i + 1] - starts_[i]);
+}
+
+void ViewMemory::keep(const mesh::Complex& complex, const SurfaceView& view, std::span<const std::uint32_t> counts) {
+    clock_ = complex.clock();
+    births_ = view.births;
+    if (index_.size() < complex.vertex_slots()) index_.resize(complex.vertex_slots());
+    starts_.resize(counts.size() + 1);
+    starts_[0] = 0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        starts_[i + 1] = starts_[i] + counts[i];
+        index_[view.vertex_ids[i]] = static_cast<std::uint32_t>(i);
+    }
+    faces_.resize(view.faces.size());
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        const auto& [a, b, c] = view.faces[f];
+        faces_[f] = {{view.vertex_ids[a], view.vertex_ids[b], view.vertex_ids[c]}, view.face_tets[f]};
+    }
+}
+
+void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMemory* memory) {
     static thread_local std::vector<std::vector<RawFace>> blocks;
+    static thread_local std::vector<std::uint32_t> led;  // faces by leading vertex
     static thread_local std::vector<std::uint32_t> index_of_vertex;
     std::vector<std::uint32_t>& index = index_of_vertex;  // of this thread, also in the loop of the workers
     const auto interface = c.interface_vertices();
@@ -64,7 +89,10 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers) {
         const SurfaceView& view;
         const std::vector<std::uint32_t>& index;
         std::vector<std::vector<RawFace>>& blocks;
-    } const job{c, view, index, blocks};
+        const ViewMemory* memory;
+        std::vector<std::uint32_t>& led;
+    } const job{c, view, index, blocks, memory, led};
+    led.resize(n);
     for_blocks(workers, n, walk_block, [&job](std::size_t begin, std::size_t end) {
         static thread_local std::vector<mesh::TetId> star;
         static thread_local mesh::TetIndex places;
@@ -72,20 +100,31 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers) {
         raw.clear();
         for (std::size_t i = begin; i < end; ++i) {
             const auto first = static_cast<std::ptrdiff_t>(raw.size());
-            faces_led_by(job.c, job.view.vertex_ids[i], star, places, raw);
-            std::sort(raw.begin() + first, raw.end(), [&](const RawFace& a, const RawFace& b) {
-                return std::pair(job.index[a.v[1]], job.index[a.v[2]]) < std::pair(job.index[b.v[1]], job.index[b.v[2]]);
-            });
+            const mesh::VertexId v = job.view.vertex_ids[i];
+            bool known = false;
+            if (job.memory != nullptr) {
+                const std::span<const RawFace> faces = job.memory->faces_led_by(job.c, v, known);
+                raw.insert(raw.end(), faces.begin(), faces.end());
+            }
+            if (!known) {
+                faces_led_by(job.c, v, star, places, raw);
+                std::sort(raw.begin() + first, raw.end(), [&](const RawFace& a, const RawFace& b) {
+                    return std::pair(job.index[a.vertices[1]], job.index[a.vertices[2]]) <
+                           std::pair(job.index[b.vertices[1]], job.index[b.vertices[2]]);
+                });
+            }
+            job.led[i] = static_cast<std::uint32_t>(raw.end() - raw.begin() - first);
         }
     });
     view.faces.clear();
     view.face_tets.clear();
     for (std::size_t b = 0; b * walk_block < n; ++b) {
         for (const RawFace& face : blocks[b]) {
-            view.faces.push_back({index[face.v[0]], index[face.v[1]], index[face.v[2]]});
+            view.faces.push_back({index[face.vertices[0]], index[face.vertices[1]], index[face.vertices[2]]});
             view.face_tets.push_back(face.tet);
         }
     }
+    if (memory != nullptr) memory->keep(c, view, led);
     const std::size_t m = view.faces.size();
     view.face_normals.resize(m);
     view.face_areas.resize(m);

@@ -36,9 +36,32 @@ struct SurfaceView {
     }
 };
 
+/// What the last view of a complex found round each vertex. Of one complex only; a new or loaded one gets new memory.
+class ViewMemory {
+public:
+    /// A face of the interface, its vertex of least birth first, and the tet with the larger label behind it.
+    struct Face {
+        std::array<mesh::VertexId, 3> vertices;
+        mesh::TetId tet;
+    };
+
+    /// The faces led by the vertex, in the order of a view, if its star is as it was; `known` tells.
+    std::span<const Face> faces_led_by(const mesh::Complex& complex, mesh::VertexId v, bool& known) const;
+    /// Takes over the faces of a view of this complex, `counts[i]` of them led by vertex i.
+    void keep(const mesh::Complex& complex, const SurfaceView& view, std::span<const std::uint32_t> counts);
+
+private:
+    std::uint32_t clock_ = 0;                 // of the complex at the view
+    std::vector<std::uint32_t> births_;       // of the view's vertices
+    std::vector<std::uint32_t> starts_;       // of the faces that vertex i leads
+    std::vector<std::uint32_t> index_;        // in the view, by complex vertex; of those that were not in it, anything
+    std::vector<Face> faces_;
+};
+
 /// Fills `view`, reusing its memory. The cost grows with the interface, not with the volume. `workers`, null for one thread,
-/// share the walks. [step]
-void build_view(const mesh::Complex& complex, SurfaceView& view, Workers* workers = nullptr);
+/// share the walks. With `memory`, only vertices whose star has changed since the last view are walked round; the view is the
+/// same. [step]
+void build_view(const mesh::Complex& complex, SurfaceView& view, Workers* workers = nullptr, ViewMemory* memory = nullptr);
 
 /// The label interface of plain arrays as a triangle mesh, points in the order of the arrays; the judge of results,
 /// independent of Complex. `vertex_of`, if given, receives each point's index in `mesh.points`.
