@@ -122,12 +122,13 @@ std::size_t count_duplicates(std::span<const Vec3> points) {
 
 double width_of(double distance, double neighbours) { return distance * std::sqrt(std::acos(-1.0) / neighbours); }
 
-double vertex_budget(std::size_t points) {
+double vertex_budget(std::size_t points, Detail detail) {
     constexpr double few = 3000.0, many = 20000.0;
+    const double factor = detail == Detail::low ? 0.5 : (detail == Detail::high ? 2.0 : 1.0);
     const auto n = static_cast<double>(points);
-    if (n <= few) return 2.0 * n;
-    if (n <= many) return 2.0 * few + (many - 2.0 * few) * (n - few) / (many - few);
-    return many * std::sqrt(n / many);
+    if (n <= few) return factor * 2.0 * n;
+    if (n <= many) return factor * (2.0 * few + (many - 2.0 * few) * (n - few) / (many - few));
+    return factor * many * std::sqrt(n / many);
 }
 
 Statistics measure_cloud(std::span<const Vec3> points, Workers* workers) {

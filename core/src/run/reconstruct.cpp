@@ -40,15 +40,13 @@ std::string_view detail_name(Detail detail) {
 }
 
 ConfigNode reconstruction_of(const std::string& file, const ReconstructOptions& options) {
-    ConfigNode root = embedded("default.yaml");
+    const ConfigNode root = embedded(std::string(detail_name(options.detail)) + ".yaml");
     const ConfigNode& input = root.at("input");
     ConfigNode cloud = input.at("cloud").without("sample").with("file", ConfigNode(file));
     if (!options.columns.empty()) {
         cloud = cloud.with("columns", ConfigNode::list(std::vector<ConfigNode>(options.columns.begin(), options.columns.end())));
     }
-    root = root.with("input", input.with("cloud", cloud));
-    return root.with("initial_mesh",
-                     root.at("initial_mesh").with("detail", ConfigNode(std::string(detail_name(options.detail)))));
+    return root.with("input", input.with("cloud", cloud));
 }
 
 }  // namespace dsc::run

@@ -44,7 +44,7 @@ const cloud::TargetCloud& cloud_of(const hooks::InitialMeshContext& context) {
 }  // namespace
 
 void Indicator::declare(config::ParamSchema<Params>& schema) {
-    schema.choice("detail", &Params::detail, {{"low", Detail::low}, {"medium", Detail::medium}, {"high", Detail::high}})
+    schema.choice("detail", &Params::detail, {{"low", cloud::Detail::low}, {"medium", cloud::Detail::medium}, {"high", cloud::Detail::high}})
         .doc("Half, all or twice the budget of vertices that the number of points gives: 2 per point up to 3,000 points, then less, "
              "1 per point at 20,000 points, above that growing with the root of their number.");
     schema.integer("vertices", &Params::vertices)
@@ -85,9 +85,8 @@ void Indicator::declare(config::ParamSchema<Params>& schema) {
 Indicator::Indicator(const Params& params, const plugin::Setup&) : params_(params) {}
 
 std::size_t Indicator::most_vertices(std::size_t points) const {
-    double budget = params_.vertices ? static_cast<double>(*params_.vertices) : cloud::vertex_budget(points);
-    if (!params_.vertices && params_.detail == Detail::low) budget *= 0.5;
-    if (!params_.vertices && params_.detail == Detail::high) budget *= 2.0;
+    const double budget =
+        params_.vertices ? static_cast<double>(*params_.vertices) : cloud::vertex_budget(points, params_.detail);
     return static_cast<std::size_t>(std::floor(std::max(4.0, params_.start * budget)));
 }
 

@@ -14,10 +14,9 @@ namespace dsc::strategies {
 /// labels' topology [LabelleShewchuk2007].
 class Indicator final : public hooks::InitialMesh {
 public:
-    enum class Detail { low, medium, high };
     enum class Retry { automatic, never };
     struct Params : LabelOptions {
-        Detail detail = Detail::medium;
+        cloud::Detail detail = cloud::Detail::medium;
         std::optional<std::uint64_t> vertices;  ///< of the interface; empty: the budget that the number of points gives
         double start = 1.0;                     ///< interface vertices of the start, in budgets
         std::uint32_t smoothing = 3;

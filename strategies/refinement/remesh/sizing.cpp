@@ -37,7 +37,7 @@ double noise_factor(const cloud::Statistics& statistics) {
 
 double Sizing::budget(const Wish& wish, const cloud::TargetCloud* cloud) {
     if (wish.vertices > 0) return static_cast<double>(wish.vertices);
-    return cloud != nullptr ? cloud::vertex_budget(cloud->size()) : 0.0;
+    return cloud != nullptr ? cloud::vertex_budget(cloud->size(), wish.detail) : 0.0;
 }
 
 // Vertices that regular triangles of these lengths have on this surface.

@@ -26,6 +26,8 @@ bool far_off(const hooks::StepContext& step) {
 }  // namespace
 
 void Remesh::declare(config::ParamSchema<Params>& schema) {
+    schema.choice("detail", &Params::detail, {{"low", cloud::Detail::low}, {"medium", cloud::Detail::medium}, {"high", cloud::Detail::high}})
+        .doc("Half, all or twice the vertices that the number of points is worth.");
     schema.integer("vertices", &Params::vertices)
         .at_least(0)
         .unit("vertices")
@@ -76,7 +78,7 @@ void Remesh::plan(const hooks::StepContext& step) {
 }
 
 remesh::Lengths Remesh::set_lengths(const hooks::StepContext& step, hooks::RefinementRequests& out) {
-    const remesh::Wish wish{params_.vertices, params_.edge_length * step.to_normalised.scale, params_.thin_parts};
+    const remesh::Wish wish{params_.vertices, params_.detail, params_.edge_length * step.to_normalised.scale, params_.thin_parts};
     const remesh::Lengths lengths = sizing_.lengths(step, mesh_, wish, std::pow(too_many_factor, static_cast<double>(too_many_)));
     allowed_ = wish.edge_length > 0.0 ? 0.0 : sizing_.allowance() * remesh::Sizing::budget(wish, step.cloud);
     if (lengths.each.empty()) {

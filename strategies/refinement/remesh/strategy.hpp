@@ -15,6 +15,7 @@ namespace dsc::strategies {
 class Remesh final : public hooks::RefinementPolicy {
 public:
     struct Params {
+        cloud::Detail detail = cloud::Detail::medium;
         std::uint64_t vertices = 0;
         double edge_length = 0.0;
         bool thin_parts = true;

@@ -28,9 +28,12 @@ struct Statistics {
 /// The square root of the area per point where `neighbours` other points lie within `distance`: sqrt(pi r^2 / k). [parallel]
 double width_of(double distance, double neighbours);
 
+/// How many vertices a surface gets: half, all or twice what the number of points is worth.
+enum class Detail { low, medium, high };
+
 /// The number of vertices that a surface through this number of points gets: 2 per point up to 3,000 points, 1 per point at 20,000, in
-/// proportion between, above that growing with the root of their number. [parallel]
-double vertex_budget(std::size_t points);
+/// proportion between, above that growing with the root of their number; half or twice that at low or high detail. [parallel]
+double vertex_budget(std::size_t points, Detail detail = Detail::medium);
 
 /// Measures the points. The number of threads changes nothing. The noise is measured at 2,000 points at most, evenly spread
 /// over their order; all else does not depend on the order. A cloud of fewer than 12 points has no noise that could be

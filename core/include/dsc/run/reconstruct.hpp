@@ -1,6 +1,7 @@
 #pragma once
 // The main job: the experiment that turns a cloud into a surface and a volume, with no knob but the level of detail.
 
+#include <dsc/cloud/statistics.hpp>
 #include <dsc/config/node.hpp>
 #include <optional>
 #include <string>
@@ -9,8 +10,7 @@
 
 namespace dsc::run {
 
-/// How many vertices the surface gets: half, all or twice the budget that the number of points gives.
-enum class Detail { low, medium, high };
+using cloud::Detail;
 /// Empty for any other word. [parallel]
 std::optional<Detail> detail_from_name(std::string_view name);
 /// "low", "medium", "high". [parallel]
@@ -21,7 +21,7 @@ struct ReconstructOptions {
     std::vector<std::string> columns{};  ///< of a text cloud (cloud::ReadOptions)
 };
 
-/// The experiment in configs/reconstruct/default.yaml with `file`, an absolute name, as its cloud. [setup]
+/// The experiment in configs/reconstruct, low.yaml, medium.yaml or high.yaml, with `file`, an absolute name, as its cloud. [setup]
 config::ConfigNode reconstruction_of(const std::string& file, const ReconstructOptions& options = {});
 
 }  // namespace dsc::run
