@@ -13,9 +13,9 @@ namespace dsc::remesh {
 /// What the user asks for.
 struct Wish {
     std::uint64_t vertices = 0;  ///< budget; 0: what the number of points is worth
-    cloud::Detail detail = cloud::Detail::medium;  ///< of that budget
     double edge_length = 0.0;    ///< in normalised units; 0: from the budget
     bool thin_parts = true;      ///< thin parts get shorter edges
+    cloud::Detail detail = cloud::Detail::medium;  ///< of the budget that the points give
 };
 
 /// Target lengths for a surface. [step]

@@ -78,7 +78,7 @@ void Remesh::plan(const hooks::StepContext& step) {
 }
 
 remesh::Lengths Remesh::set_lengths(const hooks::StepContext& step, hooks::RefinementRequests& out) {
-    const remesh::Wish wish{params_.vertices, params_.detail, params_.edge_length * step.to_normalised.scale, params_.thin_parts};
+    const remesh::Wish wish{params_.vertices, params_.edge_length * step.to_normalised.scale, params_.thin_parts, params_.detail};
     const remesh::Lengths lengths = sizing_.lengths(step, mesh_, wish, std::pow(too_many_factor, static_cast<double>(too_many_)));
     allowed_ = wish.edge_length > 0.0 ? 0.0 : sizing_.allowance() * remesh::Sizing::budget(wish, step.cloud);
     if (lengths.each.empty()) {
