@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <dsc/io/write.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
@@ -12,10 +13,12 @@ namespace dsc::io {
 
 surface::TriangleMesh decode_obj(std::string_view content, std::string_view file);
 surface::TriangleMesh decode_off(std::string_view content, std::string_view file);
-surface::TriangleMesh decode_ply(std::string_view content, std::string_view file);
+/// `further`: what the vertices have beside place, normal and colour; may be null.
+surface::TriangleMesh decode_ply(std::string_view content, std::string_view file, std::vector<DataArray>* further);
 surface::TriangleMesh decode_stl(std::string_view content, std::string_view file);
 mesh::TetMesh decode_dsc(std::string_view content, std::string_view file);
-mesh::TetMesh decode_vtu(const std::string& content, std::string_view file);
+/// `points`: the point arrays of doubles; may be null.
+mesh::TetMesh decode_vtu(const std::string& content, std::string_view file, std::vector<DataArray>* points);
 
 std::string encode_obj(const surface::TriangleMesh& mesh);
 std::string encode_off(const surface::TriangleMesh& mesh);

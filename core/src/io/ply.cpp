@@ -1,4 +1,5 @@
 // PLY surfaces: text, little and big endian. Elements and properties that we do not need are skipped.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -21,6 +22,8 @@ public:
     TextBody(std::string_view body, std::string_view file, std::size_t first_line)
         : tokens_(body, file, first_line) {}
     double real(Type) { return tokens_.coordinate(); }
+    /// A number that may be NaN or infinite.
+    double any(Type) { return tokens_.value(); }
     std::int64_t integer(Type) { return tokens_.integer(); }
     /// Anything that is a number; NaN is allowed where we do not look.
     void skip(Type) { tokens_.require("a number"); }
@@ -42,10 +45,13 @@ public:
     BinaryBody(std::string_view content, std::string_view file, std::size_t start, std::endian order)
         : content_(content), file_(file), at_(start), order_(order) {}
 
+    double any(Type type) {
+        return type == Type::float32   ? static_cast<double>(take<float>())
+               : type == Type::float64 ? take<double>()
+                                       : static_cast<double>(integer(type));
+    }
     double real(Type type) {
-        const double value = type == Type::float32   ? static_cast<double>(take<float>())
-                             : type == Type::float64 ? take<double>()
-                                                     : static_cast<double>(integer(type));
+        const double value = any(type);
         if (!std::isfinite(value)) {
             fail("io.not_finite", place(),
                  "the coordinate before byte " + std::to_string(at_) + " is NaN or infinite",
@@ -108,8 +114,8 @@ private:
 template <class Body>
 class PlyReader {
 public:
-    PlyReader(const Header& header, Body body, std::size_t size, Place end_of_header)
-        : header_(header), body_(std::move(body)), size_(size), header_place_(end_of_header) {}
+    PlyReader(const Header& header, Body body, std::size_t size, Place end_of_header, std::vector<DataArray>* further)
+        : header_(header), body_(std::move(body)), size_(size), header_place_(end_of_header), further_(further) {}
 
     surface::TriangleMesh read() {
         check_header();
@@ -124,6 +130,11 @@ public:
         if (!body_.ended()) {
             fail("io.count", body_.place(), "data after the last element",
                  "the counts of the header are wrong: export the file again");
+        }
+        if (further_ != nullptr) {
+            // A header may name the vertices in two parts, with other properties in each.
+            const auto partial = [&](const DataArray& a) { return a.values.size() != mesh_.points.size(); };
+            further_->erase(std::remove_if(further_->begin(), further_->end(), partial), further_->end());
         }
         return std::move(mesh_);
     }
@@ -176,7 +187,7 @@ private:
     }
 
     void read_vertices(const Element& element) {
-        std::vector<int> axes;  // 0 to 2 a coordinate, 3 to 5 a colour, -1 anything else
+        std::vector<int> axes;  // 0 to 2 a coordinate, 3 to 5 a colour, 6 and up a further number, -1 anything else
         std::array<int, 3> seen{};
         const bool coloured = has_colours(element);
         for (const Property& p : element.properties) {
@@ -186,6 +197,11 @@ private:
                      export_again);
             if (axis >= 0) ++seen[static_cast<std::size_t>(axis)];
             axes.push_back(coloured && axis < 0 ? channel(p) : axis);
+            if (further_ != nullptr && is_further(p)) {
+                axes.back() = 6 + static_cast<int>(further_->size());
+                further_->push_back({std::string(p.name), {}});
+                further_->back().values.reserve(element.count);
+            }
         }
         if (seen != std::array<int, 3>{1, 1, 1}) {
             fail("io.syntax", header_place_, "element 'vertex' needs each of the properties x, y, z once",
@@ -198,6 +214,8 @@ private:
             for (std::size_t k = 0; k < axes.size(); ++k) {
                 if (axes[k] < 0)
                     skip_property(element.properties[k]);
+                else if (axes[k] > 5)
+                    (*further_)[static_cast<std::size_t>(axes[k] - 6)].values.push_back(body_.any(element.properties[k].type));
                 else if (axes[k] > 2)
                     colour[static_cast<std::size_t>(axes[k] - 3)] = read_byte(element.properties[k].type);
                 else
@@ -206,6 +224,12 @@ private:
             mesh_.points.push_back(p);
             if (coloured) mesh_.colours.push_back(colour);
         }
+    }
+
+    /// A single float or double that is no part of a place, a normal or a colour.
+    static bool is_further(const Property& p) {
+        constexpr std::array<std::string_view, 10> known = {"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha"};
+        return !p.count && !is_integer(p.type) && std::find(known.begin(), known.end(), p.name) == known.end();
     }
 
     /// 3, 4 or 5 for red, green or blue as bytes, else -1: colours of another type are not read.
@@ -283,6 +307,7 @@ private:
     Body body_;
     std::size_t size_;
     Place header_place_;
+    std::vector<DataArray>* further_;  ///< may be null
     std::uint64_t points_ = 0;
     surface::TriangleMesh mesh_;
     std::vector<std::uint32_t> polygon_;
@@ -290,16 +315,15 @@ private:
 
 }  // namespace
 
-surface::TriangleMesh decode_ply(std::string_view content, std::string_view file) {
+surface::TriangleMesh decode_ply(std::string_view content, std::string_view file, std::vector<DataArray>* further) {
     const Header header = read_header(content, file);
     const Place place{file, header.lines};
     if (header.order) {
-        return PlyReader(header, BinaryBody(content, file, header.size, *header.order), content.size(), place)
-            .read();
+        const BinaryBody body(content, file, header.size, *header.order);
+        return PlyReader(header, body, content.size(), place, further).read();
     }
-    return PlyReader(header, TextBody(content.substr(header.size), file, header.lines + 1), content.size(),
-                     place)
-        .read();
+    const TextBody body(content.substr(header.size), file, header.lines + 1);
+    return PlyReader(header, body, content.size(), place, further).read();
 }
 
 std::string encode_ply(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points) {

@@ -27,13 +27,14 @@ std::string require_content(const std::filesystem::path& file) {
 
 }  // namespace
 
-surface::TriangleMesh read_surface(const std::filesystem::path& file) {
+surface::TriangleMesh read_surface(const std::filesystem::path& file, std::vector<DataArray>* points) {
+    if (points != nullptr) points->clear();
     const std::string name = file.string();
     const Format* format = find_format(file);
     if (format == nullptr || !format->surface) unknown_format(name, "surface", surface_extensions());
     const std::string content = require_content(file);
     surface::TriangleMesh mesh = format->extension == ".obj"   ? decode_obj(content, name)
-                                 : format->extension == ".ply" ? decode_ply(content, name)
+                                 : format->extension == ".ply" ? decode_ply(content, name, points)
                                  : format->extension == ".off" ? decode_off(content, name)
                                                                : decode_stl(content, name);
     if (mesh.faces.empty()) {
@@ -43,7 +44,8 @@ surface::TriangleMesh read_surface(const std::filesystem::path& file) {
     return mesh;
 }
 
-mesh::TetMesh read_volume(const std::filesystem::path& file) {
+mesh::TetMesh read_volume(const std::filesystem::path& file, std::vector<DataArray>* points) {
+    if (points != nullptr) points->clear();
     const std::string name = file.string();
     const Format* format = find_format(file);
     if (format == nullptr || !format->volume) unknown_format(name, "volume", readable_volume_extensions());
@@ -52,7 +54,7 @@ mesh::TetMesh read_volume(const std::filesystem::path& file) {
              "convert it with meshio to one of " + readable_volume_extensions() + ", as share/doc/formats.md shows");
     }
     const std::string content = require_content(file);
-    mesh::TetMesh mesh = format->extension == ".dsc" ? decode_dsc(content, name) : decode_vtu(content, name);
+    mesh::TetMesh mesh = format->extension == ".dsc" ? decode_dsc(content, name) : decode_vtu(content, name, points);
     if (mesh.tets.empty()) {
         fail("io.no_tets", {name, 0}, "no tets among " + counted(mesh.points.size(), "point"),
              "a volume is needed here; export the file again");

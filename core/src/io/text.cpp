@@ -28,7 +28,7 @@ std::string_view without_plus(std::string_view token) {
 }
 }  // namespace
 
-double parse_coordinate(std::string_view token, const Place& place) {
+double parse_value(std::string_view token, const Place& place) {
     const std::string_view digits = without_plus(token);
     double value = 0.0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -38,6 +38,11 @@ double parse_coordinate(std::string_view token, const Place& place) {
     if (error != std::errc{} || end != digits.data() + digits.size()) {
         fail("io.syntax", place, in_quotes(token) + " is not a number", export_again);
     }
+    return value;
+}
+
+double parse_coordinate(std::string_view token, const Place& place) {
+    const double value = parse_value(token, place);
     if (!std::isfinite(value)) {
         fail("io.not_finite", place, "coordinate " + in_quotes(token) + " is NaN or infinite",
              "remove the point and its faces or export the file again");

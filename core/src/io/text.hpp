@@ -29,6 +29,9 @@ std::string in_quotes(std::string_view token);
 /// The whole token as a finite double. Throws "io.syntax" or "io.not_finite".
 double parse_coordinate(std::string_view token, const Place& place);
 
+/// The whole token as a double; NaN and infinity are values, too. Throws "io.syntax", "io.not_finite" beyond the range.
+double parse_value(std::string_view token, const Place& place);
+
 /// Whether the whole token is a finite double, for numbers that a file may go without.
 bool read_number(std::string_view token, double& value);
 
@@ -84,6 +87,7 @@ public:
     /// The next token; throws "io.truncated" naming what was expected at the end of the file.
     std::string_view require(std::string_view what);
     double coordinate() { return parse_coordinate(require("a number"), place_); }
+    double value() { return parse_value(require("a number"), place_); }
     std::int64_t integer() { return parse_integer(require("an integer"), place_); }
     /// Line of the token that came last.
     const Place& place() const { return place_; }

@@ -72,4 +72,19 @@ std::vector<Vec3> points_of(vtkPointSet& data, std::string_view file) {
     return out;
 }
 
+vtkDoubleArray* doubles_of(vtkFieldData& data, int index, int components, std::size_t elements) {
+    auto* array = vtkDoubleArray::SafeDownCast(data.GetAbstractArray(index));
+    const bool fits = array != nullptr && array->GetName() != nullptr && array->GetNumberOfComponents() == components &&
+                      array->GetNumberOfTuples() == static_cast<vtkIdType>(elements);
+    return fits ? array : nullptr;
+}
+
+void read_arrays(vtkFieldData& from, std::size_t elements, std::vector<DataArray>& out) {
+    for (int i = 0; i < from.GetNumberOfArrays(); ++i) {
+        vtkDoubleArray* array = doubles_of(from, i, 1, elements);
+        if (array == nullptr) continue;
+        out.push_back({array->GetName(), {array->GetPointer(0), array->GetPointer(0) + elements}});
+    }
+}
+
 }  // namespace dsc::io

@@ -2,6 +2,8 @@
 // What the VTK formats share: arrays in VTK's form and back, and VTK's messages, which it would print.
 
 #include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
@@ -12,6 +14,7 @@
 
 #include <algorithm>
 #include <dsc/geometry/vec.hpp>
+#include <dsc/io/data_array.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,5 +71,11 @@ vtkSmartPointer<vtkCellArray> make_cells(const std::vector<Corners>& cells) {
 
 /// Throws IoError "io.not_finite" for a point that is NaN or infinite.
 std::vector<Vec3> points_of(vtkPointSet& data, std::string_view file);
+
+/// The array where it has a name and holds doubles, `components` of them for each of the elements; else null.
+vtkDoubleArray* doubles_of(vtkFieldData& data, int index, int components, std::size_t elements);
+
+/// Appends all arrays of one double per element.
+void read_arrays(vtkFieldData& from, std::size_t elements, std::vector<DataArray>& out);
 
 }  // namespace dsc::io

@@ -92,25 +92,9 @@ void read_faces(vtkPolyData& polygons, surface::TriangleMesh& mesh, std::string_
     }
 }
 
-/// The array's name and values where it holds floating-point numbers of `components`, one tuple an element.
-vtkDoubleArray* doubles(vtkFieldData& data, int index, int components, std::size_t elements) {
-    auto* array = vtkDoubleArray::SafeDownCast(data.GetAbstractArray(index));
-    const bool fits = array != nullptr && array->GetName() != nullptr && array->GetNumberOfComponents() == components &&
-                      array->GetNumberOfTuples() == static_cast<vtkIdType>(elements);
-    return fits ? array : nullptr;
-}
-
-void read_arrays(vtkFieldData& from, std::size_t elements, std::vector<DataArray>& out) {
-    for (int i = 0; i < from.GetNumberOfArrays(); ++i) {
-        vtkDoubleArray* array = doubles(from, i, 1, elements);
-        if (array == nullptr) continue;
-        out.push_back({array->GetName(), {array->GetPointer(0), array->GetPointer(0) + elements}});
-    }
-}
-
 void read_vectors(vtkFieldData& from, std::size_t elements, std::vector<VectorArray>& out) {
     for (int i = 0; i < from.GetNumberOfArrays(); ++i) {
-        vtkDoubleArray* array = doubles(from, i, 3, elements);
+        vtkDoubleArray* array = doubles_of(from, i, 3, elements);
         if (array == nullptr) continue;
         VectorArray& vectors = out.emplace_back(VectorArray{array->GetName(), std::vector<Vec3>(elements)});
         for (std::size_t v = 0; v < elements; ++v) array->GetTuple(static_cast<vtkIdType>(v), vectors.values[v].data());

@@ -113,7 +113,7 @@ void read_labels(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_vie
     }
 }
 
-mesh::TetMesh decode_checked(const std::string& content, std::string_view file) {
+mesh::TetMesh decode_checked(const std::string& content, std::string_view file, std::vector<DataArray>* points) {
     CaptureScope capture;
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     reader->ReadFromInputStringOn();
@@ -126,15 +126,16 @@ mesh::TetMesh decode_checked(const std::string& content, std::string_view file) 
     mesh.points = points_of(*grid, file);
     read_tets(*grid, mesh, file);
     if (!mesh.tets.empty()) read_labels(*grid, mesh, file);
+    if (points != nullptr) read_arrays(*grid->GetPointData(), mesh.points.size(), *points);
     return mesh;
 }
 
 }  // namespace
 
-mesh::TetMesh decode_vtu(const std::string& content, std::string_view file) {
+mesh::TetMesh decode_vtu(const std::string& content, std::string_view file, std::vector<DataArray>* points) {
     check_vtu(content, file);
     try {
-        return decode_checked(content, file);
+        return decode_checked(content, file, points);
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {

@@ -49,6 +49,14 @@ surface::TriangleMesh small_surface() {
     return m;
 }
 
+/// Reads with everything that may be read, which must fit together.
+void read_whole(const std::filesystem::path& file) {
+    std::vector<DataArray> arrays;
+    const surface::TriangleMesh m = read_surface(file, &arrays);
+    surface::require_sound(m);
+    for (const DataArray& a : arrays) CHECK(a.values.size() == m.points.size());
+}
+
 /// Runs the action; counts refusals.
 template <class Action>
 bool refused(Action&& action) {
@@ -71,13 +79,13 @@ TEST_CASE("damaged surfaces") {
         CAPTURE(name);
         surface::TriangleMesh m = small_surface();
         m.points[1] = Vec3(1, 2, 3);  // floats have no room for 1e308
-        write_surface(folder / name, m);
+        write_surface(folder / name, m, {{"gap", std::vector<double>(m.points.size(), 0.5)}});
         const std::string good = test::content_of(folder / name);
         RandomStream random(RandomKey{1, 0, 0, 0});
         int refusals = 0;
         for (int i = 0; i < 1500; ++i) {
             const auto file = folder.with(std::string("bad_") + name, damaged(good, random));
-            if (refused([&] { surface::require_sound(read_surface(file)); })) ++refusals;
+            if (refused([&] { read_whole(file); })) ++refusals;
         }
         CHECK(refusals > 300);
     }
@@ -93,13 +101,13 @@ TEST_CASE("damaged text stl and text ply") {
     stl += "endsolid\n";
     const std::string ply =
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
-        "z\nelement face 2\n"
-        "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n4 0 1 2 "
+        "z\nproperty double gap\nelement face 2\n"
+        "property list uchar int vertex_indices\nend_header\n0 0 0 nan\n1 0 0 1\n0 1 0 2.5\n0 0 1 -3\n3 0 1 2\n4 0 1 2 "
         "3\n";
     RandomStream random(RandomKey{2, 0, 0, 0});
     for (int i = 0; i < 1500; ++i) {
-        refused([&] { surface::require_sound(read_surface(folder.with("a.stl", damaged(stl, random)))); });
-        refused([&] { surface::require_sound(read_surface(folder.with("a.ply", damaged(ply, random)))); });
+        refused([&] { read_whole(folder.with("a.stl", damaged(stl, random))); });
+        refused([&] { read_whole(folder.with("a.ply", damaged(ply, random))); });
     }
 }
 
@@ -107,14 +115,16 @@ TEST_CASE("damaged volumes") {
     const test::Folder folder;
     for (const char* name : {"m.dsc", "m.vtu"}) {
         CAPTURE(name);
-        write_volume(folder / name, test::cube_of_tets());
+        write_volume(folder / name, test::cube_of_tets(), {{}, {{"gap", std::vector<double>(8, 0.5)}}});
         const std::string good = test::content_of(folder / name);
         RandomStream random(RandomKey{3, 0, 0, 0});
         int refusals = 0;
         for (int i = 0; i < 1000; ++i) {
             const auto file = folder.with(std::string("bad_") + name, damaged(good, random));
             const bool bad = refused([&] {
-                const mesh::TetMesh m = read_volume(file);
+                std::vector<DataArray> arrays;
+                const mesh::TetMesh m = read_volume(file, &arrays);
+                for (const DataArray& a : arrays) CHECK(a.values.size() == m.points.size());
                 CHECK(m.labels.size() == m.tets.size());
                 for (const auto& tet : m.tets)
                     CHECK(*std::max_element(tet.begin(), tet.end()) < m.points.size());

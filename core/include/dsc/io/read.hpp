@@ -2,9 +2,11 @@
 // Readers of surfaces and volumes. Strict: whatever is wrong ends in one IoError that names file, place,
 // cause, remedy.
 
+#include <dsc/io/data_array.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
 #include <dsc/surface/triangle_mesh.hpp>
 #include <filesystem>
+#include <vector>
 
 namespace dsc::io {
 
@@ -12,15 +14,20 @@ namespace dsc::io {
 /// coordinates keep every bit of the file's numbers, points of an STL are joined where they are equal. The
 /// vertices of an .obj or .ply keep their colours where all have one. At least one face is required.
 ///
+/// `points`, where it is given, becomes what a .ply tells of its vertices beside place, normal and colour: every
+/// property that is a single float or double, in the order of the file, one value per point; NaN and infinity are
+/// values like others. It becomes empty for the other formats, and these properties are not looked at without it.
+///
 /// Throws IoError: "io.missing", "io.directory", "io.unreadable", "io.empty", "io.format" (unknown
 /// extension), "io.syntax", "io.truncated", "io.index", "io.not_finite", "io.count", "io.no_faces". [setup]
-surface::TriangleMesh read_surface(const std::filesystem::path& file);
+surface::TriangleMesh read_surface(const std::filesystem::path& file, std::vector<DataArray>* points = nullptr);
 
 /// Reads .dsc or .vtu. Tets come in the file's order and orientation; a .vtu needs an integer cell array
-/// "label" and holds tets only. At least one tet is required.
+/// "label" and holds tets only. At least one tet is required. `points`, where it is given, becomes the point arrays
+/// of doubles in a .vtu, one value per point, NaN allowed; a .dsc has none.
 ///
 /// Throws IoError with the codes of read_surface() and "io.no_tets", "io.no_labels", "io.cell_type", and
 /// "io.write_only" for .msh and .mesh. [setup]
-mesh::TetMesh read_volume(const std::filesystem::path& file);
+mesh::TetMesh read_volume(const std::filesystem::path& file, std::vector<DataArray>* points = nullptr);
 
 }  // namespace dsc::io

@@ -2,20 +2,13 @@
 // Writers of surfaces and volumes. Atomic: the file appears whole under its name, or the old one stays and
 // IoError tells why.
 
+#include <dsc/io/data_array.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
 #include <dsc/surface/triangle_mesh.hpp>
 #include <filesystem>
-#include <span>
-#include <string>
 #include <vector>
 
 namespace dsc::io {
-
-/// A further array: one number a tet or face (cells) or a point (points).
-struct DataArray {
-    std::string name;
-    std::vector<double> values;
-};
 
 /// Further arrays of a volume; only .vtu has room for them, the others leave them out.
 struct VolumeData {
