@@ -3,9 +3,14 @@
 #include <dsc/base/error.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/io/picture.hpp>
+#include <dsc/io/read.hpp>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "commands.hpp"
 #include "files.hpp"
@@ -19,6 +24,7 @@ struct RenderArguments {
     std::string view = "iso";
     std::string up = "y";
     std::string size = "1024x768";
+    std::string colour;
     bool edges = false;
 };
 
@@ -30,6 +36,45 @@ void parse_size(const std::string& text, io::RenderOptions& options) {
         if (second == std::errc() && rest == end) return;
     }
     throw UsageError("usage.size", "--size " + text + " is not WIDTHxHEIGHT; write 1024x768");
+}
+
+struct Coloured {
+    surface::TriangleMesh mesh;
+    std::vector<double> values;  ///< one per point
+};
+
+/// The surface and the values of the property that colours it.
+Coloured read_coloured(const RenderArguments& arguments) {
+    std::filesystem::path file = arguments.input;
+    if (std::filesystem::is_directory(file)) file = file / "result" / "surface.ply";
+    if (extension_of(file) != ".ply") {
+        throw UsageError("usage.colour", file.string() + ": only a .ply has numbers per vertex that --colour shows; name such a file");
+    }
+    std::vector<io::DataArray> arrays;
+    surface::TriangleMesh mesh = io::read_surface(file, &arrays);
+    std::string names;
+    for (io::DataArray& array : arrays) {
+        if (array.name == arguments.colour) return {std::move(mesh), std::move(array.values)};
+        names += (names.empty() ? "" : ", ") + array.name;
+    }
+    throw UsageError("usage.colour", file.string() + ": the vertices have no property '" + arguments.colour + "' of floats; they have " +
+                                         (names.empty() ? "none" : names));
+}
+
+/// The picture, and on the terminal what its colours mean.
+int paint(const RenderArguments& arguments, io::RenderOptions& options) {
+    if (arguments.colour.empty()) {
+        io::write_png(arguments.output, io::render(read_any_surface(arguments.input), options));
+        std::cout << arguments.output << "\n";
+        return 0;
+    }
+    const Coloured surface = read_coloured(arguments);
+    options.values = surface.values;
+    io::write_png(arguments.output, io::render(surface.mesh, options));
+    const io::ColourBounds bounds = io::colour_bounds(surface.values);
+    std::cout << arguments.output << "\n"
+              << arguments.colour << ": " << bounds.low << " and less is blue, " << bounds.high << " and more is red\n";
+    return 0;
 }
 
 int execute(const RenderArguments& arguments) {
@@ -45,9 +90,7 @@ int execute(const RenderArguments& arguments) {
     options.edges = arguments.edges;
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));
     options.workers = &workers;
-    io::write_png(arguments.output, io::render(read_any_surface(arguments.input), options));
-    std::cout << arguments.output << "\n";
-    return 0;
+    return paint(arguments, options);
 }
 
 }  // namespace
@@ -65,6 +108,7 @@ void add_render(CLI::App& app, Context& context) {
         ->capture_default_str();
     command->add_option("--size", arguments->size, "Width and height in pixels")->capture_default_str();
     command->add_flag("--edges", arguments->edges, "Draw the edges of the triangles");
+    command->add_option("--colour", arguments->colour, "Colour by this property of the vertices of a .ply, such as an attribute");
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

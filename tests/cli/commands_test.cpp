@@ -92,6 +92,18 @@ TEST_CASE("sample, info, convert, evaluate and render work together") {
         cli.dsc({"render", "truth.obj", "-o", "a.png", "--view", "top", "--size", "64x48", "--edges"}).code ==
         0);
     CHECK(cli.read("a.png").substr(1, 3) == "PNG");
+    cli.write("tet.ply",
+              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float gap\n"
+              "property double support\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0 nan 1\n1 0 0 2 1\n"
+              "0 1 0 3 1\n0 0 1 0.5 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+    const Result coloured = cli.dsc({"render", "tet.ply", "-o", "gap.png", "--size", "64x48", "--colour", "gap"});
+    CHECK(coloured.out == "gap.png\ngap: 0.5 and less is blue, 2 and more is red\n");
+    CHECK(cli.dsc({"render", "tet.ply", "-o", "a.png", "--size", "64x48"}).code == 0);
+    CHECK(cli.read("gap.png") != cli.read("a.png"));
+    const Result unknown = cli.dsc({"render", "tet.ply", "-o", "b.png", "--colour", "age"});
+    CHECK(unknown.code == 2);
+    CHECK(unknown.err.find("tet.ply: the vertices have no property 'age' of floats; they have gap, support") != std::string::npos);
+    CHECK(cli.dsc({"render", "truth.obj", "-o", "b.png", "--colour", "gap"}).code == 2);
     CHECK(cli.dsc({"render", "truth.obj", "-o", "a.jpg"}).code == 2);
     CHECK(cli.dsc({"render", "truth.obj", "-o", "a.png", "--size", "big"}).code == 2);
     CHECK(cli.dsc({"render", "torus.xyz", "-o", "a.png"}).code == 2);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -102,6 +103,31 @@ Colour background(float height) {
     return low + height * (high - low);
 }
 
+/// The ramp of the report's viewer: from good to bad, told apart by those who cannot tell red from green, too.
+Colour ramp(float part) {
+    constexpr std::array<std::array<float, 3>, 5> stops = {
+        {{0.13F, 0.35F, 0.55F}, {0.16F, 0.60F, 0.62F}, {0.55F, 0.75F, 0.38F}, {0.96F, 0.76F, 0.20F}, {0.85F, 0.28F, 0.16F}}};
+    const float at = std::clamp(part, 0.0F, 1.0F) * 4.0F;
+    const auto low = static_cast<std::size_t>(std::min(at, 3.0F));
+    Colour out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const float srgb = stops[low][k] + (at - static_cast<float>(low)) * (stops[low + 1][k] - stops[low][k]);
+        out[static_cast<int>(k)] = srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
+    }
+    return out;
+}
+
+/// Where each value is on the ramp, NaN where it is not finite.
+std::vector<float> ramp_parts(std::span<const double> values) {
+    const ColourBounds bounds = colour_bounds(values);
+    std::vector<float> parts;
+    parts.reserve(values.size());
+    for (const double value : values) {
+        parts.push_back(std::isfinite(value) ? static_cast<float>(colour_part(value, bounds)) : std::numeric_limits<float>::quiet_NaN());
+    }
+    return parts;
+}
+
 Colour shade(const Vec3f& normal, const Colour& material, float open) {
     const Vec3f key = Vec3f(-0.45F, 0.62F, 0.64F).normalized();
     const Vec3f half = (key + Vec3f(0, 0, 1)).normalized();
@@ -135,6 +161,7 @@ struct Surfel {
     bool front = true;
     bool hit = false;
     float open = 1.0F;
+    float part = std::numeric_limits<float>::quiet_NaN();  ///< on the ramp
 };
 
 class Painter {
@@ -144,6 +171,7 @@ public:
           faces_(mesh.faces),
           points_(project(mesh, options)),
           normals_(shading_normals(points_, faces_)),
+          parts_(ramp_parts(options.values)),
           scene_(points_, faces_) {
         Eigen::AlignedBox3f box;
         for (const auto& face : faces_) {
@@ -209,6 +237,7 @@ private:
         out.flat = (points_[b] - points_[a]).cross(points_[c] - points_[a]).normalized();
         out.normal =
             ((1.0F - hit.u - hit.v) * corner[0] + hit.u * corner[1] + hit.v * corner[2]).normalized();
+        if (!parts_.empty()) out.part = (1.0F - hit.u - hit.v) * parts_[a] + hit.u * parts_[b] + hit.v * parts_[c];
         out.front = out.flat.z() >= 0.0F;
         if (!out.front) {
             out.flat = -out.flat;
@@ -222,7 +251,8 @@ private:
         Surfel seen = look(x, y);
         if (!seen.hit) return background(0.5F + y / static_cast<float>(options_.height));
         if (!centres_.empty()) seen.open = gathered(seen, px, py);
-        const Colour colour = shade(seen.normal, seen.front ? front_colour : back_colour, seen.open);
+        const Colour outside = std::isfinite(seen.part) ? ramp(seen.part) : front_colour;
+        const Colour colour = shade(seen.normal, seen.front ? outside : back_colour, seen.open);
         if (!options_.edges) return colour;
         const auto& [a, b, c] = faces_[seen.face];
         return colour + line_strength(x, y, points_[a], points_[b], points_[c]) * (line_colour - colour);
@@ -295,6 +325,7 @@ private:
     const std::vector<std::array<std::uint32_t, 3>>& faces_;
     std::vector<Vec3f> points_;
     std::vector<std::array<Vec3f, 3>> normals_;
+    std::vector<float> parts_;  ///< on the ramp, of the points; empty: one colour
     RayScene scene_;
     float diagonal_ = 0.0F;
     std::vector<Surfel> centres_;  ///< one a pixel; empty without occlusion
@@ -309,6 +340,24 @@ std::optional<View> view_from_name(std::string_view name) {
     return std::nullopt;
 }
 
+ColourBounds colour_bounds(std::span<const double> values) {
+    std::vector<double> finite;
+    std::copy_if(values.begin(), values.end(), std::back_inserter(finite), [](double v) { return std::isfinite(v); });
+    if (finite.empty()) return {};
+    const auto quantile = [&](double part) {
+        const auto at = finite.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(finite.size() - 1));
+        std::nth_element(finite.begin(), at, finite.end());
+        return *at;
+    };
+    return {quantile(0.01), quantile(0.99)};
+}
+
+double colour_part(double value, const ColourBounds& bounds) {
+    if (!(bounds.high > bounds.low)) return 0.0;
+    // The difference of two huge bounds may be infinite, that of their halves is not.
+    return std::clamp((0.5 * value - 0.5 * bounds.low) / (0.5 * bounds.high - 0.5 * bounds.low), 0.0, 1.0);
+}
+
 Image render(const surface::TriangleMesh& mesh, const RenderOptions& options) {
     for (const int size : {options.width, options.height}) {
         if (size >= 1 && size <= largest_size) continue;
@@ -319,6 +368,10 @@ Image render(const surface::TriangleMesh& mesh, const RenderOptions& options) {
     surface::require_sound(mesh);
     if (mesh.faces.empty()) {
         throw GeometryError("surface.empty", "picture: the mesh has no faces; a picture needs at least one");
+    }
+    if (!options.values.empty() && options.values.size() != mesh.points.size()) {
+        throw GeometryError("surface.size", "picture: " + std::to_string(options.values.size()) + " values for " +
+                                                std::to_string(mesh.points.size()) + " points; give one for each or none");
     }
     Painter painter(mesh, options);
     Image image{options.width, options.height, {}};

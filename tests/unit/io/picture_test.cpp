@@ -189,3 +189,46 @@ TEST_CASE("the png holds the pixels and is the same file every time") {
     const auto found = test::refusal(folder / "none/a.png", [&](const auto& f) { write_png(f, image); });
     CHECK(found.code == "io.write");
 }
+
+TEST_CASE("values colour the outside: blue where they are low, red where they are high, plain without one") {
+    const TriangleMesh m = square();
+    RenderOptions options = small(View::front);
+    const Image plain = render(m, options);
+    const std::vector<double> across = {3, 7, 7, 3};
+    options.values = across;
+    const Image image = render(m, options);
+    const int y = image.height / 2, middle = image.width / 2, side = image.height / 4;
+    const auto left = image.at(middle - side, y), right = image.at(middle + side, y), centre = image.at(middle, y);
+    CHECK(left[2] > left[0] + 40);
+    CHECK(right[0] > right[2] + 40);
+    CHECK(centre[1] > centre[0]);  // the ramp's middle is green
+    CHECK(centre[1] > centre[2]);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<double> none = {nan, nan, nan, nan};
+    options.values = none;
+    CHECK(render(m, options).pixels == plain.pixels);
+    // The inside keeps its colour.
+    options.view = View::back;
+    options.values = across;
+    const Image inside = render(m, options);
+    options.values = {};
+    CHECK(inside.pixels == render(m, options).pixels);
+    options.values = std::span(across).first(3);
+    CHECK_THROWS_WITH_AS(render(m, options), "picture: 3 values for 4 points; give one for each or none", GeometryError);
+}
+
+TEST_CASE("bounds of colours leave out the outer hundredths and what is not finite") {
+    std::vector<double> values;
+    for (int i = 100; i >= 0; --i) values.push_back(i);
+    CHECK(colour_bounds(values).low == 1);
+    CHECK(colour_bounds(values).high == 99);
+    values.insert(values.begin(), {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()});
+    CHECK(colour_bounds(values).high == 99);
+    CHECK(colour_bounds({}).high == 0);
+    const ColourBounds bounds{2, 6};
+    CHECK(colour_part(3, bounds) == 0.25);
+    CHECK(colour_part(-1e300, bounds) == 0);
+    CHECK(colour_part(1e300, bounds) == 1);
+    CHECK(colour_part(5, {5, 5}) == 0);
+    CHECK(colour_part(0, {-1.7e308, 1.7e308}) == 0.5);
+}

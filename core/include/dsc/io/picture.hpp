@@ -6,6 +6,7 @@
 #include <dsc/surface/triangle_mesh.hpp>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +36,19 @@ std::optional<View> view_from_name(std::string_view name);
 
 enum class UpAxis { y, z };
 
+/// What the ends of a ramp of colours stand for.
+struct ColourBounds {
+    double low = 0.0;
+    double high = 0.0;
+};
+
+/// The quantiles 0.01 and 0.99 of the finite values, so that a few stray ones do not leave all others in one colour; zeros
+/// without a finite value.
+ColourBounds colour_bounds(std::span<const double> values);
+
+/// Where a finite value is between the bounds: 0 at `low` and below, 1 at `high` and above. [parallel]
+double colour_part(double value, const ColourBounds& bounds);
+
 struct RenderOptions {
     View view = View::iso;
     int width = 1024;       ///< 1 to 16384
@@ -42,11 +56,14 @@ struct RenderOptions {
     bool edges = false;     ///< draw the edges of the triangles
     UpAxis up = UpAxis::y;  ///< what "top" means
     bool ambient_occlusion = true;
+    /// One per point, or none: the outside gets the colours of the report's viewer between their colour_bounds(), blue for
+    /// low and red for high, and is plain where a value is not finite.
+    std::span<const double> values = {};
     Workers* workers = nullptr;  ///< the picture does not depend on it
 };
 
 /// Orthographic picture of the mesh, fitted to the frame, the same bytes every time. Throws GeometryError as
-/// surface::require_sound(), "surface.empty" without faces, UsageError "picture.size". [step]
+/// surface::require_sound(), "surface.empty" without faces, "surface.size" when the values do not fit, UsageError "picture.size". [step]
 Image render(const surface::TriangleMesh& mesh, const RenderOptions& options = {});
 
 /// Writes a PNG, atomically. Throws IoError "io.write". [step]
