@@ -8,6 +8,8 @@
   var DISTANCE = [[0.13, 0.35, 0.55], [0.16, 0.60, 0.62], [0.55, 0.75, 0.38], [0.96, 0.76, 0.20], [0.85, 0.28, 0.16]];
   var QUALITY = DISTANCE.slice().reverse();
   var AXES = ['x', 'y', 'z'];
+  var PLAIN_HEX = 0xd9bd94, PLAIN = [0xd9 / 255, 0xbd / 255, 0x94 / 255];  // the surface's outside
+  var NO_LEVEL = 255;  // of a vertex without a value
 
   function ramp(stops, part) {
     var at = Math.max(0, Math.min(1, part)) * (stops.length - 1), low = Math.min(Math.floor(at), stops.length - 2), rest = at - low;
@@ -49,6 +51,11 @@
       square += size * size;
     }
     return {centre: centre, size: 0.5 * Math.sqrt(square) || 1};
+  }
+
+  // Three digits, and no more zeros than are needed.
+  function figure(value) {
+    return String(Number(value.toPrecision(3)));
   }
 
   function make(name, properties, parent) {
@@ -121,7 +128,15 @@
     this.showEdges = labelled(first, 'edges', make('input', {type: 'checkbox', className: 'edges'}), true);
     this.showCloud = make('input', {type: 'checkbox', className: 'cloud'});
     if (data.cloud) labelled(first, 'cloud', this.showCloud, true);
+    this.attribute = make('select', {className: 'attribute'});
+    make('option', {value: '', textContent: 'none'}, this.attribute);
+    // The last frame is the result; the others have no attribute that it has not.
+    var result = data.frames[data.frames.length - 1], attributes = result && result.attributes || [];
+    attributes.forEach(function (a) { make('option', {value: a.name, textContent: a.name}, view.attribute); });
+    if (attributes.length) labelled(first, 'colour surface by', this.attribute);
     make('button', {type: 'button', textContent: 'reset view', onclick: function () { view.home(); view.ask(); }}, first);
+    this.surfaceLegend = make('span', {className: 'legend surface-legend'}, first);
+    this.surfaceLegend.setAttribute('role', 'status');
     this.cloudLegend = make('span', {className: 'legend'}, first);
     if (data.cloud && data.cloud.distance) this.legend(this.cloudLegend, DISTANCE, '0', data.cloud.top.toPrecision(2) + ' and more', 'point to surface');
 
@@ -146,6 +161,7 @@
       });
     });
     this.step.addEventListener('input', redraw);
+    this.attribute.addEventListener('input', redraw);
   };
 
   View.prototype.legend = function (element, stops, low, high, what) {
@@ -175,10 +191,15 @@
     geometry.setIndex(new THREE.BufferAttribute(faces, 1));
     geometry.computeVertexNormals();
     var offset = {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, clippingPlanes: clip};
-    var outer = Object.assign({color: 0xd9bd94, specular: 0x0d0d0d, shininess: 20, side: THREE.FrontSide}, offset);
+    var outer = Object.assign({color: PLAIN_HEX, specular: 0x0d0d0d, shininess: 20, side: THREE.FrontSide}, offset);
+    var coloured = Object.assign({}, outer, {color: 0xffffff, vertexColors: THREE.VertexColors});
     var inner = Object.assign({color: 0x8797a5, specular: 0x000000, side: THREE.BackSide}, offset);
     group.surface = new THREE.Group();
-    group.surface.add(new THREE.Mesh(geometry, new THREE.MeshPhongMaterial(outer)));
+    group.plain = new THREE.MeshPhongMaterial(outer);
+    group.coloured = new THREE.MeshPhongMaterial(coloured);
+    group.outside = new THREE.Mesh(geometry, group.plain);
+    group.shown = '';
+    group.surface.add(group.outside);
     group.surface.add(new THREE.Mesh(geometry, new THREE.MeshPhongMaterial(inner)));
     for (var i = 0; i < faces.length; ++i) {
       var next = i % 3 === 2 ? i - 2 : i + 1;
@@ -193,6 +214,28 @@
     this.scene.add(group);
     this.frames[index] = group;
     return group;
+  };
+
+  // Colours the outside of a frame by the chosen attribute and says what the colours mean; a step may lack it.
+  View.prototype.colourBy = function (index) {
+    var name = this.attribute.value, group = this.frames[index], key = index + ' ' + name;
+    var found = (this.data.frames[index].attributes || []).filter(function (a) { return a.name === name; })[0];
+    this.surfaceLegend.style.display = name && this.showSurface.checked ? '' : 'none';
+    if (key !== this.legendKey) {
+      this.legendKey = key;
+      this.surfaceLegend.textContent = name && !found ? name + ': no values at this step' : '';
+      if (found) this.legend(this.surfaceLegend, DISTANCE, figure(found.low) + ' and less', figure(found.high) + ' and more', name + ':');
+    }
+    group.outside.material = found ? group.coloured : group.plain;
+    if (!found || group.shown === name) return;
+    group.shown = name;
+    var geometry = group.outside.geometry, levels = bytes(found.data);
+    if (!geometry.getAttribute('color')) geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(3 * levels.length), 3));
+    var colours = geometry.getAttribute('color');
+    for (var i = 0; i < levels.length; ++i) {
+      colours.array.set(levels[i] === NO_LEVEL ? PLAIN : ramp(DISTANCE, levels[i] / (NO_LEVEL - 1)), 3 * i);
+    }
+    colours.needsUpdate = true;
   };
 
   View.prototype.cloud = function () {
@@ -264,6 +307,7 @@
     if (count) {
       this.stepName.textContent = this.data.frames[index].label;
       this.frame(index);
+      this.colourBy(index);
     }
     Object.keys(this.frames).forEach(function (key) {
       var shown = Number(key) === index;

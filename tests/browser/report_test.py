@@ -2,6 +2,7 @@
 """The report's page in a real browser: it loads from the disk, draws, and answers to its controls."""
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -12,6 +13,8 @@ from pathlib import Path
 import webdriver
 
 DSC = os.environ["DSC_BROWSER_COMMAND"]
+PLUGIN = os.environ["DSC_BROWSER_PLUGIN"]  # its velocity "upwards" publishes the attribute "height"
+DOWN = "\ue015"  # the key, for the driver
 KEEP = os.environ.get("DSC_BROWSER_KEEP")  # a folder for what the tests saw
 # From a cube, so that the steps of the page differ; refined, so that the mesh changes.
 EXPERIMENT = """dsc: 1
@@ -23,6 +26,14 @@ improvement: {type: dsc}
 schedule: [{steps: 40}, {refine: {type: average_area}}, {steps: 25}, {refine: {type: average_area}}, {steps: 25},
   {refine: {type: average_area}}, {steps: 25}, {refine: {type: average_area}}, {steps: 25}]
 output: {surface: [obj, ply], volume: [vtu, dsc], report: true}
+"""
+ATTRIBUTE = """dsc: 1
+name: ball
+initial_mesh: {type: grid, cells: 16, shape: sphere, radius: 0.6, project: true}
+velocity: {type: upwards, speed: 0.02}
+improvement: {type: dsc}
+schedule: [{steps: 5}]
+output: {surface: [ply], report: true}
 """
 SMALL = ["initial_mesh.cells=16", "schedule=[{steps: 20}, {refine: {type: average_area}}, {steps: 5}]", "input.cloud.sample.n=1500"]
 
@@ -87,6 +98,8 @@ class Page(unittest.TestCase):
         page = self.folder / "teapot/report.html"
         self.assertLess(page.stat().st_size, 5_000_000)
         self.show("teapot/report.html", 1)
+        # Nothing to choose from where no strategy publishes.
+        self.assertFalse(self.browser.script("return Boolean(document.querySelector('.viewer .attribute'))"))
         keep("report.png", self.browser.page_shot())
         start = self.browser.shot(".viewer canvas")
         keep("surface.png", start.png)
@@ -128,6 +141,38 @@ class Page(unittest.TestCase):
         self.assertGreater(self.browser.shot(".viewer canvas").difference(start), 0.05, "it does not turn")
         self.assertEqual(self.browser.console(), [])
         keep("report.pdf", self.browser.print_pdf())
+
+    def test_colour_by_an_attribute(self):
+        (self.folder / "ball.yaml").write_text(ATTRIBUTE)
+        dsc("run", "ball.yaml", "-o", "ball", "-q", "--plugin", PLUGIN, cwd=self.folder)
+        self.show("ball/report.html", 1)
+        options = "return Array.from(document.querySelectorAll('.viewer .attribute option')).map(o => o.textContent)"
+        self.assertEqual(self.browser.script(options), ["none", "height"])
+        legend = """const l = document.querySelector('.viewer .surface-legend');
+            return l.offsetParent === null ? '' : l.innerText.replace(/\\s+/g, ' ').trim()"""
+        self.assertEqual(self.browser.script(legend), "")
+        plain = self.browser.shot(".viewer canvas")
+        # By keyboard: the next choice.
+        self.browser.press(".viewer .attribute", DOWN)
+        self.settle()
+        coloured = self.browser.shot(".viewer canvas")
+        keep("attribute.png", self.browser.page_shot())
+        self.assertEqual(self.browser.script("return document.querySelector('.viewer .attribute').value"), "height")
+        self.assertGreater(coloured.difference(plain), 0.05)
+        # z before the last of the steps of 0.02: from -0.6 to 0.6, and 0.08 up.
+        said = re.fullmatch(r"height: (\S+) and less (\S+) and more", self.browser.script(legend))
+        self.assertIsNotNone(said)
+        self.assertAlmostEqual(float(said.group(1)), 0.08 - 0.6, delta=0.05)
+        self.assertAlmostEqual(float(said.group(2)), 0.08 + 0.6, delta=0.05)
+        steps = int(self.browser.script("return document.querySelector('.viewer .step').max"))
+        start = self.set(".step", 0)
+        self.assertEqual(self.browser.script(legend), "height: no values at this step")
+        self.assertGreater(start.difference(coloured), 0.05)
+        self.assertGreater(self.set(".step", 1).difference(start), 0.05)
+        self.assertLess(self.set(".step", steps).difference(coloured), 0.001)
+        self.assertLess(self.set(".attribute", "").difference(plain), 0.001, "plain is not what it was")
+        self.assertEqual(self.browser.script(legend), "")
+        self.assertEqual(self.browser.console(), [])
 
     def test_the_same_page_later(self):
         written = (self.folder / "teapot/report.html").read_bytes()

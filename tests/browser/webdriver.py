@@ -83,6 +83,10 @@ class Browser:
         command = {"cmd": "Page.captureScreenshot", "params": {"captureBeyondViewport": True}}
         return base64.b64decode(self.call("POST", "goog/cdp/execute", command)["data"])
 
+    def press(self, selector, keys):
+        """Keys on the keyboard while the element has the focus."""
+        self.call("POST", f"element/{self.find(selector)}/value", {"text": keys})
+
     def print_pdf(self):
         return base64.b64decode(self.call("POST", "print", {}))
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/quality.hpp>
+#include <dsc/io/picture.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/io/series.hpp>
 #include <dsc/run/experiment.hpp>
@@ -15,6 +16,7 @@
 #include <dsc/surface/measure.hpp>
 #include <filesystem>
 
+#include "report_attributes.hpp"
 #include "report_html.hpp"
 #include "state_series.hpp"
 #include "table.hpp"
@@ -80,13 +82,6 @@ std::string pack_levels(const std::vector<double>& values, double top) {
     return html::base64(bytes);
 }
 
-double quantile(std::vector<double> values, double part) {
-    if (values.empty()) return 0.0;
-    const auto at = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + at, values.end());
-    return values[static_cast<std::size_t>(at)];
-}
-
 class SceneMaker {
 public:
     SceneMaker(const RunRecord& record, const SceneLimits& limits, const SceneInput& input, Workers* workers)
@@ -101,7 +96,7 @@ public:
         if (limits_.frames > 0) attempt("the steps on the way are not shown", [&] { add_frames(); });
         if (!surface_.faces.empty()) {
             attempt("the surface is not shown", [&] {
-                json_["frames"].push_back({{"label", "result"}, {"mesh", pack_mesh(thinned(surface_, limits_.faces, "the surface"))}});
+                add_frame("result", thinned(surface_, limits_.faces, "the surface"), attributes_);
                 scene_.empty = false;
             });
         }
@@ -127,14 +122,58 @@ private:
 
     void read_result() {
         const fs::path surface = result_file(record_.folder, "surface", {"obj", "ply", "off", "stl"});
-        if (!surface.empty()) attempt("the surface is not shown", [&] { surface_ = io::read_surface(surface); });
-        const fs::path volume = result_file(record_.folder, "volume", {"dsc", "vtu"});
+        // Of the surface's files the .ply has the attributes, of the volume's the .vtu.
+        const fs::path coloured = result_file(record_.folder, "surface", {"ply"});
+        AttributeSource source;
+        if (!surface.empty()) {
+            attempt("the surface is not shown", [&] {
+                surface_ = io::read_surface(surface, &source.arrays);
+                source.points = surface_.points;
+            });
+        }
+        if (coloured != surface && !coloured.empty()) {
+            attempt("the surface has no attributes", [&] { source.points = io::read_surface(coloured, &source.arrays).points; });
+        }
+        if (!coloured.empty()) take_attributes(std::move(source));
+        const auto order = coloured.empty() ? std::vector<std::string>{"vtu", "dsc"} : std::vector<std::string>{"dsc", "vtu"};
+        const fs::path volume = result_file(record_.folder, "volume", order);
         if (volume.empty()) return;
-        attempt("the volume is not shown", [&] { volume_ = io::read_volume(volume); });
+        attempt("the volume is not shown", [&] {
+            AttributeSource everywhere;
+            volume_ = io::read_volume(volume, &everywhere.arrays);
+            if (!coloured.empty() || surface_.faces.empty()) return;
+            everywhere.points = volume_.points;
+            take_attributes(with_values(everywhere));
+        });
         for (const auto& [a, b, c, d] : volume_.tets) {
             const auto& p = volume_.points;
             scene_.qualities.push_back(geometry::tet_quality(p[a], p[b], p[c], p[d]));
         }
+    }
+
+    void take_attributes(AttributeSource source) {
+        attributes_ = std::move(source);
+        std::vector<io::DataArray>& arrays = attributes_.arrays;
+        arrays = attributes_among(std::move(arrays));
+        if (arrays.size() <= limits_.attributes) return;
+        note("of the surface's " + html::integer(static_cast<double>(arrays.size())) + " attributes it can be coloured by the first " +
+             html::integer(static_cast<double>(limits_.attributes)));
+        arrays.resize(limits_.attributes);
+    }
+
+    /// Attributes that the result has not are left out, so that the same choice is there in all frames.
+    void add_frame(const std::string& label, const surface::TriangleMesh& mesh, AttributeSource source) {
+        std::vector<io::DataArray> arrays;
+        for (const io::DataArray& known : attributes_.arrays) {
+            for (io::DataArray& array : source.arrays) {
+                if (array.name == known.name) arrays.push_back(std::move(array));
+            }
+        }
+        source.arrays = std::move(arrays);
+        ordered_json frame = {{"label", label}, {"mesh", pack_mesh(mesh)}};
+        ordered_json attributes = pack_attributes(source, mesh.points, workers_);
+        if (!attributes.empty()) frame["attributes"] = std::move(attributes);
+        json_["frames"].push_back(std::move(frame));
     }
 
     surface::TriangleMesh thinned(const surface::TriangleMesh& mesh, std::size_t faces, const std::string& what) {
@@ -159,10 +198,10 @@ private:
             const io::SeriesEntry& entry = kept[count == kept.size() ? i : i * (kept.size() - 1) / std::max<std::size_t>(1, count - 1)];
             // The state after the last step is the result, unless a refinement followed.
             if (entry.step >= last && last > 0) continue;
-            const surface::TriangleMesh mesh = io::read_vtp(record_.folder / "series" / entry.file);
+            io::SurfaceData data;
+            const surface::TriangleMesh mesh = io::read_vtp(record_.folder / "series" / entry.file, &data);
             if (mesh.faces.empty()) continue;
-            json_["frames"].push_back({{"label", "step " + std::to_string(entry.step)},
-                                       {"mesh", pack_mesh(thinned(mesh, limits_.frame_faces, ""))}});
+            add_frame("step " + std::to_string(entry.step), thinned(mesh, limits_.frame_faces, ""), {mesh.points, std::move(data.points)});
         }
     }
 
@@ -186,7 +225,7 @@ private:
         if (!surface_.faces.empty()) {
             scene_.distances = distances(points, loaded.target.transform().scale);
             // A few points far away would leave all others in one colour.
-            const double top = quantile(scene_.distances, 0.99);
+            const double top = io::colour_bounds(scene_.distances).high;
             cloud["top"] = top;
             cloud["distance"] = pack_levels(scene_.distances, top);
         }
@@ -276,6 +315,7 @@ private:
     Scene scene_;
     ordered_json json_;
     surface::TriangleMesh surface_;
+    AttributeSource attributes_;  ///< of the result
     mesh::TetMesh volume_;
 };
 

@@ -21,6 +21,7 @@ struct SceneLimits {
     std::size_t frames = 11;          ///< surfaces on the way
     std::size_t points = 20000;       ///< of the cloud
     std::size_t tets = 120000;        ///< for the cut; 0: no cut
+    std::size_t attributes = 6;       ///< to colour a surface by
 };
 
 /// Where the cloud comes from: it is read and filtered again unless it is given.

@@ -45,6 +45,7 @@ public:
           curvature_(setup.create<dsc::hooks::CurvatureEstimator>("curvature", params.curvature)) {}
 
     void prepare(const dsc::hooks::StepContext& context) override {
+        surface_ = &context.surface;
         if (curvature_) curvature_->prepare(context);
     }
     void evaluate(dsc::hooks::Range range, std::span<dsc::Vec3> out) const override {
@@ -56,6 +57,11 @@ public:
             out[i] = dsc::Vec3(0, 0, factor * speed_);
         }
     }
+    void publish(dsc::hooks::Attributes& out) const override {
+        dsc::hooks::Attribute height{"height", {}};
+        for (const dsc::Vec3& p : surface_->positions) height.values.push_back(p.z());
+        out.push_back(height);
+    }
     void save(std::ostream& out) const override { out << speed_; }
     void load(std::istream& in) override {
         if (!(in >> speed_)) throw std::runtime_error("no speed in the saved state");
@@ -64,6 +70,7 @@ public:
 private:
     double speed_;
     std::unique_ptr<dsc::hooks::CurvatureEstimator> curvature_;
+    const dsc::surface::SurfaceView* surface_ = nullptr;
 };
 
 }  // namespace
