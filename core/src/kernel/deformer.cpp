@@ -154,6 +154,7 @@ void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool se
 StepReport Deformer::State::advance(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy) {
     StepReport report;
     apply_limits(policy.flatness, policy.creases);
+    bench.limits.set_floor(policy.quality_floor.value_or(options.quality_floor));
     begin(vertices, displacements, report);
     const PassOptions passes{options.free_path, options.audit, workers};
     double best_left = INFINITY;

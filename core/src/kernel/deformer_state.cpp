@@ -31,10 +31,10 @@ void Deformer::State::apply_limits(double flatness, const std::optional<mesh::Cr
     if (bench.limits.length != length) bench.forget_refusals();
     bench.limits = {length, options.quality_floor, options.max_edit_distance * length,
                     options.max_edit_volume * geometry::regular_tet_volume(length), flatness};
+    bench.limits.set_floor(options.quality_floor);
     if (!creases) return;
     bench.limits.crease = std::cos(creases->dihedral);
     bench.limits.turn = std::cos(creases->turn);
-    bench.limits.crease_floor = options.quality_floor;
 }
 
 double Deformer::State::mean_interface_edge() const {

@@ -94,10 +94,10 @@ RefineReport Deformer::refine(const RefineRequests& requests) {
         }
         report.requested += list.size();
     };
-    if (requests.owns_sizing) s.bench.limits.quality_floor = refinement_floor;
+    if (requests.owns_sizing) s.bench.limits.set_floor(refinement_floor);
     each(requests.split_faces, report.splits, [&s](const auto& face) { return s.split_longest_edge(face); });
     each(requests.split_edges, report.splits, [&s](const auto& edge) { return s.split(edge); });
-    s.bench.limits.quality_floor = refinement_floor;
+    s.bench.limits.set_floor(refinement_floor);
     each(requests.collapses, report.collapses, [&s](const CollapseTo& request) { return s.collapse(request); });
     each(requests.flips, report.flips, [&s](const FlipTo& request) { return s.flip(request); });
     each(requests.moves, report.moves, [&s](const MoveTo& request) { return s.move(request); });

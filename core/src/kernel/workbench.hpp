@@ -29,6 +29,12 @@ struct Limits {
     double turn = -2.0;           ///< least cosine between a face's normals before and after an edit
     double crease_floor = 0.0;    ///< for a tet below this quality creases may go
     bool keeps_creases() const { return crease > -2.0; }
+    /// No move takes a tet below the floor: one that has come close to it holds its vertices, so it counts as degenerate before
+    /// it gets there.
+    void set_floor(double floor) {
+        quality_floor = floor;
+        crease_floor = 1.5 * floor;
+    }
 };
 
 /// By how much one edit may change the interface at a place.

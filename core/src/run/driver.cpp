@@ -144,7 +144,9 @@ private:
         const Series& item = experiment_.schedule[place_.item];
         hooks::RefinementPolicy* refinement = strategies_.refinements[place_.item].get();
         if (stop_asked()) return stop();
-        policy_.size_edits = refinement == nullptr || !refinement->owns_sizing();
+        const bool owned = refinement != nullptr && refinement->owns_sizing();
+        policy_.size_edits = !owned;
+        policy_.quality_floor = owned ? std::optional(kernel::refinement_floor) : std::nullopt;
         if (!item.steps) {
             refine(*refinement);
             return next_item();

@@ -165,6 +165,19 @@ TEST_CASE("L is the owner's, or the mean edge after splits") {
     }
 }
 
+TEST_CASE("where a refinement owns the sizing, steps leave no tet below 0.02; elsewhere they may") {
+    for (const bool owns : {true, false}) {
+        Fixture f("[{steps: 60, every: 60, refine: {type: all}}]", 60);
+        f.refinement->owns = owns;
+        const mesh::TetMesh mesh = f.drive().mesh;
+        double least = 1.0;
+        for (const auto& [a, b, c, d] : mesh.tets) {
+            least = std::min(least, geometry::tet_quality(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]));
+        }
+        CHECK((least >= 0.02) == owns);
+    }
+}
+
 TEST_CASE("attributes are carried to the end of the run, and a run that was stopped goes on to the same bytes") {
     const std::string schedule = "[{steps: 4, every: 2, refine: {type: all}}, {refine: {type: all}}]";
     std::map<std::uint64_t, std::string> states;

@@ -39,6 +39,7 @@ struct RepairPolicy {
     double flatness = 0.995;
     bool size_edits = true;  ///< told to `propose`: false where a refinement owns the sizing
     std::optional<mesh::CreaseRule> creases;  ///< that edits leave; empty: they may remove any
+    std::optional<double> quality_floor;      ///< of this step, instead of the one of the options
 };
 
 /// Edge to become one vertex: `kept` stays and lies at `place` then.
@@ -71,8 +72,9 @@ struct RefineRequests {
 };
 
 /// No collapse, flip or move of a refinement, and no split of one that owns the sizing, leaves a touched tet below
-/// min(this, its quality before).
-inline constexpr double refinement_floor = 0.02;
+/// min(this, its quality before). Steps that such a refinement goes with have it as their floor too, so that a volume that is
+/// written has 0.02 at least; the rest is for rounding.
+inline constexpr double refinement_floor = 0.0201;
 
 /// Owns a complex and advances it. Results do not depend on the workers' thread count.
 class Deformer {

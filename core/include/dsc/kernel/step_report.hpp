@@ -47,7 +47,7 @@ struct StepReport {
     double edit_distance = 0.0;      ///< summed movement of the interface by edits
     double edit_volume = 0.0;        ///< summed volume by which edits changed phases
     double relabelled_volume = 0.0;  ///< summed volume of relabelled tets, topology changes included
-    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule for creases aside, for a tet below the quality floor
+    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule for creases aside, for a tet close to the quality floor
     OperationTable operations{};
     RepairClassTable repair_classes{};
     std::vector<Event> events;
@@ -62,7 +62,7 @@ struct RefineReport {
     std::size_t committed = 0;
     OperationCounts splits, collapses, flips, moves;  ///< of which these are the parts, and why the rest was refused
     bool length_changed = false;
-    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule aside for a tet below the quality floor
+    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule aside for a tet close to the quality floor
 };
 
 }  // namespace dsc::kernel
