@@ -72,7 +72,7 @@ public:
     virtual bool owns_sizing() const { return false; }
     /// Creases that no collapse, flip, relabelling or compound may remove, nor turn a face further than the rule allows, of this
     /// refinement's requests and the improvement's; asked before each step and each refinement. Of two rules the stricter
-    /// bounds count. For a tet below the kernel's quality floor the rule is set aside, which is counted.
+    /// bounds count. For a tet close to the kernel's quality floor the rule is set aside, which is counted.
     virtual std::optional<mesh::CreaseRule> keep_creases() const { return std::nullopt; }
     /// How often refine() is called within one refinement, from 1 to refinement_passes: each time with a fresh view, until it
     /// asks for no change of the mesh.
