@@ -40,6 +40,8 @@ Stage stage_of(const Scales& scales, std::size_t iteration, std::size_t iteratio
     stage.normal = 1e-3;
     stage.filter_rounds = s > 0.1 ? 4 : 1;
     stage.filter_range = std::min(0.8, 0.35 + s);
+    // Not through points with noise; and no vertex is held while a wide bending length has yet to move it.
+    stage.attach = !scales.even && s < noise_floor && it >= settling_part * all;
     return stage;
 }
 

@@ -24,6 +24,7 @@ struct Stage {
     double normal = 0.0;         ///< the same across the surface
     unsigned filter_rounds = 0;  ///< of the normals
     double filter_range = 0.0;   ///< how far apart unit normals are that a filter averages
+    bool attach = false;         ///< vertices go to the points that lie at them
 };
 
 /// Iterations count from 0; behind the last one its constants stay. `smoothing`, above 0, multiplies the last bending length. [step]

@@ -59,3 +59,11 @@ TEST_CASE("reach, holds and filter follow the iteration and the noise") {
     CHECK(fill_iteration(14) == 4);
     CHECK(fill_iteration(24) == 7);
 }
+
+TEST_CASE("vertices go to points only where spacing is uneven, without noise, once the bending length has its last value") {
+    const Scales uneven = scales_of(statistics(0.1, 3.5), 0);
+    CHECK_FALSE(stage_of(uneven, 8, 14, 1.0).attach);
+    CHECK(stage_of(uneven, 9, 14, 1.0).attach);
+    CHECK_FALSE(stage_of(scales_of(statistics(0.1, 2.9), 0), 9, 14, 1.0).attach);
+    CHECK_FALSE(stage_of(scales_of(statistics(0.13, 3.5), 0), 9, 14, 1.0).attach);
+}

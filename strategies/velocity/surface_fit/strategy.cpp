@@ -7,6 +7,7 @@
 #include <iterator>
 #include <ostream>
 
+#include "attachments.hpp"
 #include "bending_rows.hpp"
 #include "filtered_normals.hpp"
 #include "hole_fill.hpp"
@@ -23,6 +24,7 @@ constexpr double unsupported_beyond = 2.0;       // point widths
 constexpr double many_unsupported = 0.005;       // part of the vertices from which holes matter
 constexpr std::uint64_t fill_repeats = 2;        // the kernel goes on in the second where it did not arrive in the first
 constexpr double longest_way = 0.7;              // target lengths per step
+constexpr double attached_within = 0.7;          // target lengths: as far as a vertex may go in one step
 constexpr double largest_curvature = 0.5;        // over a point width
 constexpr double start_part = 1.0 / 3.0;         // of the iterations in which creases are only about to form
 constexpr double settled_part = 0.6;             // of the iterations: then the bending length has its last value
@@ -137,14 +139,22 @@ void SurfaceFit::build_system(const hooks::StepContext& context, const fit::Stag
     if (scales_.noise > 0.0) fit::measure_curvature(view, links_, largest_curvature / scales_.width, workers, curvature_);
 
     const std::size_t hinges = links_.hinges.size();
-    system_.rows.resize(hinges + places_.size());
+    system_.rows.resize(hinges + places_.size() + (stage.attach ? 3 * view.vertex_count() : 0));
     system_.wanted.resize(system_.rows.size());
     fit::bending_rows({view, links_.hinges, normals_, widths_, stage.bending, params_.crease_angle}, 0, system_, workers);
     fit::data_rows({view, context.cloud->points().first(places_.size()), places_, context.cloud->statistics().point_width, widths_, curvature_,
                     scales_.noise, stage.reach},
                    hinges, system_, fits_, workers);
+    if (stage.attach) attach(context, hinges + places_.size());
     fit::measure_holds(view, lengths_, stage.tangential, stage.normal, workers, system_.holds);
     fit::gather_rows(system_, view.movable);
+}
+
+// Where spacing is uneven, round triangles do not have an edge along every ridge that lines of points mark, unless vertices go to points.
+void SurfaceFit::attach(const hooks::StepContext& context, std::size_t first) {
+    const std::span<const Vec3> points = context.cloud->points().first(places_.size());
+    fit::attach_vertices(context.surface, points, places_, lengths_, attached_within, attached_);
+    fit::attachment_rows(context.surface, points, attached_, widths_, first, system_, context.workers);
 }
 
 void SurfaceFit::bound_displacements(const hooks::StepContext& context) {

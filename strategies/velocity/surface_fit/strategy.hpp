@@ -61,6 +61,7 @@ private:
     void measure(const hooks::StepContext& context);
     void solve(const hooks::StepContext& context, std::uint64_t iteration);
     void build_system(const hooks::StepContext& context, const fit::Stage& stage);
+    void attach(const hooks::StepContext& context, std::size_t first);
     void bound_displacements(const hooks::StepContext& context);
     bool quiet() const;
     void fill(const hooks::StepContext& context);
@@ -78,6 +79,7 @@ private:
     std::vector<double> curvature_;
     std::vector<Vec3> normals_;
     std::vector<fit::PointFit> fits_;
+    std::vector<std::uint32_t> attached_;  // the point of each vertex
     fit::RowSystem system_;
     fit::Solver solver_;
     fit::Support support_;
