@@ -97,6 +97,7 @@ ordered_json statistics_figures(const cloud::Statistics& s) {
     return {{"point_width", s.width},
             {"label_width", s.median_label_width},
             {"width_spread", s.spread},
+            {"regularity", s.regularity},
             {"noise", s.noise},
             {"noise_to_width", s.noise_ratio},
             {"area", s.area},

@@ -78,13 +78,14 @@ double noise_of(const NearestSearch& search, const Neighbourhood& size, Workers*
 
 /// Distances to the neighbours that widths are made of, as many as there are.
 struct Reaches {
-    std::vector<double> point, label;
+    std::vector<double> nearest, point, label;
     std::vector<std::uint32_t> neighbours;  ///< label_neighbours of each point, itself where there are fewer
 };
 
 Reaches measure_reaches(const NearestSearch& search, Workers* workers) {
     const std::span<const Vec3> points = search.points();
     Reaches out;
+    out.nearest.resize(points.size());
     out.point.resize(points.size());
     out.label.resize(points.size());
     out.neighbours.resize(points.size() * label_neighbours);
@@ -96,6 +97,7 @@ Reaches measure_reaches(const NearestSearch& search, Workers* workers) {
             const std::size_t i = order[q];
             search.k_nearest(points[i], point_neighbours + 1, found);
             // The point itself comes first, or another one in its place, which is as far away.
+            out.nearest[i] = found[std::min<std::size_t>(1, found.size() - 1)].distance;
             out.point[i] = found.back().distance;
             out.label[i] = found[std::min(label_neighbours, found.size() - 1)].distance;
             for (std::size_t n = 0; n < label_neighbours; ++n) {
@@ -169,6 +171,14 @@ Statistics measure_cloud(const NearestSearch& search, Workers* workers) {
         const double width = std::min(h, 2.0 * out.width);
         out.area += width * width;
     }
+    double ratios = 0.0;
+    std::size_t wide_points = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!(out.point_width[i] > 0.0)) continue;
+        ratios += reach.nearest[i] / (0.5 * out.point_width[i]);
+        ++wide_points;
+    }
+    if (wide_points > 0) out.regularity = ratios / static_cast<double>(wide_points);
     double noise = INFINITY;
     for (const Neighbourhood& size : neighbourhoods) noise = std::min(noise, noise_of(search, size, workers));
     out.noise = std::isfinite(noise) ? noise : 0.0;

@@ -129,7 +129,7 @@ ordered_json start_wall_seconds(const SummaryParts& parts) {
 ordered_json statistics(const LoadedInput* loaded) {
     if (loaded == nullptr) return nullptr;
     const cloud::Statistics& s = loaded->target.statistics();
-    return {{"point_width", s.width},      {"label_width", s.median_label_width}, {"width_spread", s.spread}, {"noise", s.noise},
+    return {{"point_width", s.width},      {"label_width", s.median_label_width}, {"width_spread", s.spread}, {"regularity", s.regularity}, {"noise", s.noise},
             {"noise_to_width", s.noise_ratio}, {"area", s.area},                  {"duplicates", s.duplicates}};
 }
 

@@ -10,6 +10,7 @@ struct Scales {
     double width = 0.0;   ///< h: median of the point widths
     double noise = 0.0;   ///< sigma: standard deviation of the points across the surface
     double ratio = 0.0;   ///< noise over width; for even spacing small ones count as less, since there curvature reads as noise
+    bool regular = false; ///< the points keep a distance from each other, as the vertices of a mesh do
     bool even = true;     ///< one width holds everywhere; otherwise lengths follow the width of the points near by
 };
 

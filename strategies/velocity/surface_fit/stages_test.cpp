@@ -14,6 +14,7 @@ dsc::cloud::Statistics statistics(double ratio, double spread) {
     s.noise = ratio * s.width;
     s.noise_ratio = ratio;
     s.spread = spread;
+    s.regularity = 1.4;
     return s;
 }
 
@@ -64,6 +65,9 @@ TEST_CASE("vertices go to points only where spacing is uneven, without noise, on
     const Scales uneven = scales_of(statistics(0.1, 3.5), 0);
     CHECK_FALSE(stage_of(uneven, 8, 14, 1.0).attach);
     CHECK(stage_of(uneven, 9, 14, 1.0).attach);
+    dsc::cloud::Statistics at_random = statistics(0.1, 3.5);
+    at_random.regularity = 1.05;
+    CHECK_FALSE(stage_of(scales_of(at_random, 0), 9, 14, 1.0).attach);
     CHECK_FALSE(stage_of(scales_of(statistics(0.1, 2.9), 0), 9, 14, 1.0).attach);
     CHECK_FALSE(stage_of(scales_of(statistics(0.13, 3.5), 0), 9, 14, 1.0).attach);
 }

@@ -21,6 +21,8 @@ struct Statistics {
     double noise = 0.0;                 ///< standard deviation of the points across the surface
     double noise_ratio = 0.0;           ///< noise / width, 0 where the width is 0
     double spread = 1.0;                ///< 0.9-quantile of point_width over its 0.1-quantile; below 3 the spacing is even
+    double regularity = 1.0;            ///< mean distance to the nearest other point, over half the width there: 1 for points at
+                                        ///< random, 2.15 for a triangular grid [ClarkEvans1954]
     double area = 0.0;                  ///< sum of min(point_width, 2 width)^2: area of the surface
     std::size_t duplicates = 0;         ///< points that repeat an earlier one
 };
