@@ -49,7 +49,7 @@ VARIANTS = {
     "rough": Variant("a third of the smoothing length (`smoothing: 0.33`)", ("velocity.smoothing=0.33",)),
     "smooth": Variant("three times the smoothing length (`smoothing: 3`)", ("velocity.smoothing=3",)),
     "holes": Variant("holes are not filled (`fill_holes: false`)", ("velocity.fill_holes=false",), clouds="missing"),
-    "thin": Variant("no short edges in thin parts (`thin_parts: false`)", (schedule("{type: remesh, thin_parts: false}"),), clouds="gear|animal-sparse"),
+    "thin": Variant("no short edges in thin parts (`thin_parts: false`)", (schedule("{type: remesh, thin_parts: false}"),), clouds="gear"),
     "remesh": Variant("no remeshing", ("schedule=[{steps: 24, until: finished}]",)),
     "outliers": Variant("no filter `outliers`", filters=(FILTERS[0], FILTERS[2]), clouds="outliers"),
     "start": Variant("the start alone, as `indicator` hands it over",

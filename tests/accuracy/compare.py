@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Judges dsc and other methods on the same clouds, of which the true surface is known.
 
-    compare.py --dsc PATH [--peers PATH] [--work FOLDER] [--only PATTERN] [--pair CLOUD TRUTH]... [--page PAGE] [--full FILE]
+    compare.py --dsc PATH [--peers PATH] [--work FOLDER] [--large] [--only PATTERN]
+               [--pair CLOUD TRUTH]... [--page PAGE] [--full FILE]
 
 --peers is the program that `ninja dsc_peers` builds; without it dsc is alone, and its own count of crossings is taken. Each result is kept
 in --work, and what is there is not run again as long as the programs and clouds are the same. Prints Markdown; --page puts it
@@ -23,10 +24,10 @@ import numpy as np  # noqa: E402
 from accuracy import measure  # noqa: E402
 from reconstruction import run_measured  # noqa: E402
 from surfaces import read_mesh, topology  # noqa: E402
-from trials import COMPARED, files_of, table, with_block  # noqa: E402
+from trials import COMPARED, LARGE, files_of, table, with_block  # noqa: E402
 
 METHODS = {"dsc": "dsc", "advancing_front": "AF", "scale_space": "SS", "poisson": "Poisson"}
-SAMPLES = 50000
+SAMPLES = 20000
 
 
 def stamp(*files):
@@ -157,6 +158,7 @@ def main():
     parser.add_argument("--dsc", type=Path, required=True)
     parser.add_argument("--peers", type=Path)
     parser.add_argument("--work", type=Path, default=Path("accuracy-work"))
+    parser.add_argument("--large", action="store_true", help="clouds of 10,000 points and more, and thinner shapes")
     parser.add_argument("--only", default="", help="a regular expression on names")
     parser.add_argument("--pair", nargs=2, action="append", default=[], metavar=("CLOUD", "TRUTH"), help=".obj or .off; may repeat")
     parser.add_argument("--page", type=Path, help="a page with the markers of 'comparison'")
@@ -165,11 +167,13 @@ def main():
     bench = Bench(options.dsc.resolve(), options.peers.resolve() if options.peers else None, options.work)
     cases = {Path(cloud).stem: (Path(cloud), Path(truth)) for cloud, truth in options.pair}
     if not cases:
-        cases = {t.name: files_of(t, options.work / "clouds") for t in COMPARED if re.search(options.only, t.name)}
+        cases = {t.name: files_of(t, options.work / "clouds") for t in (LARGE if options.large else COMPARED) if re.search(options.only, t.name)}
     if not cases:
         raise SystemExit("no cloud matches")
     results = {name: {m: bench.result(m, name, *files) for m in bench.methods()} for name, files in cases.items()}
-    text = compact(results) + "\n\n" + summary(results)
+    counts = [t.points for t in (LARGE if options.large else COMPARED)] if not options.pair else []
+    caption = f"Clouds of {min(counts):,} points{f', or up to {max(counts):,}' if max(counts) > min(counts) else ''}:\n\n" if counts else ""
+    text = caption + compact(results) + "\n\n" + summary(results)
     if options.full:
         options.full.write_text(full(results) + "\n", encoding="utf-8")
     if options.page:

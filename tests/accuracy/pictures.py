@@ -11,10 +11,9 @@ from pathlib import Path
 PICTURES = Path(__file__).resolve().parent.parent.parent / "share" / "doc" / "pictures"
 # name: (surface, what dsc render is told)
 SHOTS = {
-    "start": ("ablation/block-sparse/start.off", ["--edges"]),
-    "block": ("ablation/block-sparse/full.off", ["--edges"]),
+    "start": ("ablation/block-clean/start.off", ["--edges"]),
+    "block": ("ablation/block-clean/full.off", ["--edges"]),
     "animal": ("results/animal-missing/dsc.off", []),
-    "gear": ("results/gear-noise/dsc.off", []),
 }
 
 
@@ -26,7 +25,7 @@ def main():
     options = parser.parse_args()
     for name, (surface, words) in SHOTS.items():
         subprocess.run([options.dsc.resolve(), "render", options.work / surface, "-o", options.folder / f"reconstruction_{name}.png",
-                        "--size", "480x360", *words], check=True)
+                        "--size", "400x300", *words], check=True)
 
 
 if __name__ == "__main__":
