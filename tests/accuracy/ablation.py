@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What each part of the reconstruction is worth: the same clouds with one part at a time switched off.
 
-    ablation.py --dsc PATH [--work FOLDER] [--only PATTERN] [--page PAGE]
+    ablation.py --dsc PATH [--work FOLDER] [--only PATTERN] [--parts PATTERN] [--kept] [--page PAGE]
 
 Runs configs/reconstruct/medium.yaml with overrides and writes Chamfer and normal consistency of every run as Markdown; --page puts them
 between the markers of a page. Results are kept in --work as those of compare.py are.
@@ -57,8 +57,8 @@ VARIANTS = {
 }
 
 
-def result(dsc, work, variant, name, cloud, truth, programs):
-    """Figures of one run, or a fault."""
+def result(dsc, work, variant, name, cloud, truth, programs, kept_only):
+    """Figures of one run, or a fault; None where nothing is there and nothing shall run."""
     folder = work / "ablation" / name
     folder.mkdir(parents=True, exist_ok=True)
     run, kept = folder / variant, folder / f"{variant}.json"
@@ -67,6 +67,8 @@ def result(dsc, work, variant, name, cloud, truth, programs):
     made_by = [programs, stamp(cloud, truth, CONFIG), overrides, SAMPLES]
     if kept.exists() and json.loads(kept.read_text())["made_by"] == made_by:
         return json.loads(kept.read_text())
+    if kept_only:
+        return None
     print(name, variant, file=sys.stderr, flush=True)
     subprocess.run(["rm", "-rf", run], check=True)
     code, seconds = run_measured([dsc, "run", CONFIG, "-o", run, "--threads", "1", "-q", *overrides], folder / f"{variant}.txt")
@@ -106,6 +108,8 @@ def main():
     parser.add_argument("--dsc", type=Path, required=True)
     parser.add_argument("--work", type=Path, default=Path("accuracy-work"))
     parser.add_argument("--only", default="", help="a regular expression on names")
+    parser.add_argument("--parts", default="", help="a regular expression on the parts: " + ", ".join(VARIANTS))
+    parser.add_argument("--kept", action="store_true", help="run nothing, show what is there")
     parser.add_argument("--page", type=Path, help="a page with the markers of 'ablation'")
     options = parser.parse_args()
     dsc = options.dsc.resolve()
@@ -116,8 +120,10 @@ def main():
             continue
         files = files_of(trial, options.work / "clouds")
         for variant, what in VARIANTS.items():
-            if re.search(what.clouds, trial.name):
-                results[variant][trial.name] = result(dsc, options.work, variant, trial.name, *files, programs)
+            if re.search(what.clouds, trial.name) and re.search(options.parts, variant):
+                found = result(dsc, options.work, variant, trial.name, *files, programs, options.kept)
+                if found:
+                    results[variant][trial.name] = found
     text = written({variant: row for variant, row in results.items() if row})
     if options.page:
         options.page.write_text(with_block(options.page.read_text(encoding="utf-8"), "ablation", text), encoding="utf-8")
