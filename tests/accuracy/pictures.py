@@ -13,7 +13,7 @@ PICTURES = Path(__file__).resolve().parent.parent.parent / "share" / "doc" / "pi
 SHOTS = {
     "start": ("ablation/block-clean/start.off", ["--edges"]),
     "block": ("ablation/block-clean/full.off", ["--edges"]),
-    "animal": ("results/animal-missing/dsc.off", []),
+    "animal": ("results/animal-missing/dsc.off", ["--view", "bottom"]),
 }
 
 
