@@ -9,6 +9,7 @@
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Random.h>
 #include <CGAL/Scale_space_reconstruction_3/Advancing_front_mesher.h>
 #include <CGAL/Scale_space_surface_reconstruction_3.h>
 #include <CGAL/Surface_mesh.h>
@@ -176,6 +177,7 @@ int run(const std::vector<std::string>& words) {
 
 int main(int count, char** words) {
     try {
+        CGAL::get_default_random() = CGAL::Random(1);  // so that Poisson, which starts from random places, can be repeated
         return run({words + 1, words + count});
     } catch (const std::exception& error) {
         std::cerr << "dsc_peers: " << error.what() << '\n';
