@@ -69,14 +69,17 @@ Soup read_soup(const std::string& path) {
     std::ifstream in(path);
     std::string off;
     std::size_t points = 0, faces = 0, edges = 0, corners = 0;
-    if (!(in >> off >> points >> faces >> edges) || off != "OFF") throw std::runtime_error(path + ": is not an OFF file");
+    if (!(in >> off >> points >> faces >> edges) || off != "OFF")
+        throw std::runtime_error(path + ": is not an OFF file");
     Soup soup;
-    for (double x = 0, y = 0, z = 0; soup.points.size() < points && in >> x >> y >> z;) soup.points.emplace_back(x, y, z);
+    for (double x = 0, y = 0, z = 0; soup.points.size() < points && in >> x >> y >> z;)
+        soup.points.emplace_back(x, y, z);
     for (Face f{}; soup.faces.size() < faces && in >> corners >> f[0] >> f[1] >> f[2];) {
         if (corners != 3) throw std::runtime_error(path + ": must have triangles only");
         soup.faces.push_back(f);
     }
-    if (soup.points.size() != points || soup.faces.size() != faces) throw std::runtime_error(path + ": ends too early");
+    if (soup.points.size() != points || soup.faces.size() != faces)
+        throw std::runtime_error(path + ": ends too early");
     return soup;
 }
 
@@ -97,13 +100,15 @@ void write(const Soup& soup, const std::string& path) {
     out.precision(17);
     out << "OFF\n" << used.size() << ' ' << soup.faces.size() << " 0\n";
     for (const Point& p : used) out << p << '\n';
-    for (const Face& f : soup.faces) out << "3 " << number[f[0]] << ' ' << number[f[1]] << ' ' << number[f[2]] << '\n';
+    for (const Face& f : soup.faces)
+        out << "3 " << number[f[0]] << ' ' << number[f[1]] << ' ' << number[f[2]] << '\n';
     if (!out.flush()) throw std::runtime_error(path + ": cannot be written");
 }
 
 Soup advancing_front(Points points) {
     Soup soup{std::move(points), {}};
-    CGAL::advancing_front_surface_reconstruction(soup.points.begin(), soup.points.end(), std::back_inserter(soup.faces));
+    CGAL::advancing_front_surface_reconstruction(soup.points.begin(), soup.points.end(),
+                                                 std::back_inserter(soup.faces));
     return soup;
 }
 
@@ -114,7 +119,8 @@ Soup scale_space(const Points& points) {
     method.increase_scale(smoothing_rounds);
     method.reconstruct_surface(scale::Advancing_front_mesher<Kernel>());
     Soup soup{points, {}};
-    for (auto f = method.facets_begin(); f != method.facets_end(); ++f) soup.faces.push_back({(*f)[0], (*f)[1], (*f)[2]});
+    for (auto f = method.facets_begin(); f != method.facets_end(); ++f)
+        soup.faces.push_back({(*f)[0], (*f)[1], (*f)[2]});
     return soup;
 }
 
@@ -127,10 +133,12 @@ Soup poisson(const Points& points) {
     const auto maps = CGAL::parameters::point_map(place).normal_map(normal);
     CGAL::pca_estimate_normals<CGAL::Sequential_tag>(cloud, neighbours, maps);
     cloud.erase(CGAL::mst_orient_normals(cloud, neighbours, maps), cloud.end());
-    const double spacing = CGAL::compute_average_spacing<CGAL::Sequential_tag>(cloud, 6, CGAL::parameters::point_map(place));
+    const double spacing =
+        CGAL::compute_average_spacing<CGAL::Sequential_tag>(cloud, 6, CGAL::parameters::point_map(place));
     Mesh mesh;
-    if (!CGAL::poisson_surface_reconstruction_delaunay(cloud.begin(), cloud.end(), place, normal, mesh, spacing, least_angle,
-                                                       largest_radius, largest_distance)) {
+    if (!CGAL::poisson_surface_reconstruction_delaunay(cloud.begin(), cloud.end(), place, normal, mesh,
+                                                       spacing, least_angle, largest_radius,
+                                                       largest_distance)) {
         return {};
     }
     Soup soup;
@@ -152,7 +160,8 @@ std::size_t crossings(Soup soup) {
     pmp::polygon_soup_to_polygon_mesh(soup.points, soup.faces, mesh);
     std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> found;
     pmp::self_intersections(mesh, std::back_inserter(found));
-    return static_cast<std::size_t>(std::count_if(found.begin(), found.end(), [](const auto& pair) { return pair.first != pair.second; }));
+    return static_cast<std::size_t>(std::count_if(
+        found.begin(), found.end(), [](const auto& pair) { return pair.first != pair.second; }));
 }
 
 int run(const std::vector<std::string>& words) {
@@ -167,7 +176,8 @@ int run(const std::vector<std::string>& words) {
     } else if (words.size() == 3 && words[0] == "poisson") {
         write(poisson(read_cloud(words[1])), words[2]);
     } else {
-        std::cerr << "usage: dsc_peers advancing_front|scale_space|poisson CLOUD.obj OUT.off, or dsc_peers crossings MESH.off\n";
+        std::cerr << "usage: dsc_peers advancing_front|scale_space|poisson CLOUD.obj OUT.off, or dsc_peers "
+                     "crossings MESH.off\n";
         return 2;
     }
     return 0;
@@ -177,7 +187,8 @@ int run(const std::vector<std::string>& words) {
 
 int main(int count, char** words) {
     try {
-        CGAL::get_default_random() = CGAL::Random(1);  // so that Poisson, which starts from random places, can be repeated
+        CGAL::get_default_random() =
+            CGAL::Random(1);  // so that Poisson, which starts from random places, can be repeated
         return run({words + 1, words + count});
     } catch (const std::exception& error) {
         std::cerr << "dsc_peers: " << error.what() << '\n';
