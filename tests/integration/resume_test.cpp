@@ -38,6 +38,10 @@ const std::map<std::string, std::string> experiments = {
      "  {type: hidden}, {type: radius_outliers, radius: 0.1}, {type: statistical_outliers, deviations: 10}, {type: outliers},\n"
      "  {type: orient}]}, normalize: {}}\n"
      "initial_mesh: {type: indicator}\nvelocity: {type: point_cloud}\nimprovement: {type: dsc}\nschedule: [{steps: 40}]\n"},
+    {"fitted and remeshed, through its hole fill and the last third",
+     "input: {cloud: {sample: {shape: torus, n: 1200}, filters: [{type: duplicates, sort: true}, {type: orient}]}, normalize: {}}\n"
+     "initial_mesh: {type: indicator}\nvelocity: {type: surface_fit, iterations: 40}\nimprovement: {type: dsc, topology: {thickness: 0}}\n"
+     "schedule: [{steps: 40, every: 1, refine: {type: remesh}}]\n"},
     {"average",
      "initial_mesh: {type: grid, cells: 12}\nvelocity: {type: average}\nimprovement: {type: dsc}\n"
      "schedule: [{steps: 40}]\n"},
