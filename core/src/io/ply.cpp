@@ -226,7 +226,7 @@ private:
         }
     }
 
-    /// A single float or double that is no part of a place, a normal or a colour.
+    /// Whether the property is a single float or double and does not belong to the position, the normal or the colour.
     static bool is_further(const Property& p) {
         constexpr std::array<std::string_view, 10> known = {"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha"};
         return !p.count && !is_integer(p.type) && std::find(known.begin(), known.end(), p.name) == known.end();

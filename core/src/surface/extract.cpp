@@ -62,7 +62,7 @@ std::vector<std::uint8_t> vertices_between(const mesh::TetMesh& mesh) {
 TriangleMesh extract_interface(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vertex_of) {
     const auto label = [&](const mesh::FaceUse& use) { return mesh.labels[use.code >> 2U]; };
     // Most tets lie outside and touch no other label with a whole face: their faces need not be sorted. Between two of them there
-    // is no face of the interface, and none where one of them meets the outside of the box.
+    // is not a face of the interface, nor where one of them meets the outside of the box.
     const std::vector<std::uint8_t> between = vertices_between(mesh);
     const auto corners = [&](std::size_t t) {
         const auto& v = mesh.tets[t];

@@ -11,14 +11,14 @@ namespace {
 constexpr double faces_of_budget = 1.1547;  // 2 / sqrt 3: squared edge times vertices of regular triangles, by area
 constexpr double filled_part = 0.95;        // of the budget
 constexpr double even_spread = 3.0;         // quantiles of the point width further apart make local lengths
-constexpr double widest = 4.0;              // local point widths beyond so many medians, or below their inverse, are cut off
+constexpr double widest = 4.0;              // local point widths are limited to this many medians, and to the median over this
 constexpr double slope = 0.3;               // by which lengths may grow along an edge
 constexpr unsigned smoothing_rounds = 3;
 constexpr std::size_t vertex_block = 512;
 constexpr double edges_across = 2.0;        // of a thin part: its thickness over its edge length
 constexpr double shortest = 0.5;            // point widths: no part makes edges shorter
 constexpr double most_for_thin = 1.5;       // times the budget
-constexpr double opposite_cosine = 0.7;     // faces that look further past each other are no two sides of a thin part
+constexpr double opposite_cosine = 0.7;     // faces whose normals differ by more are not the two sides of a thin part
 constexpr unsigned median_rounds = 3;
 
 double area_of(const surface::SurfaceView& view) {

@@ -56,7 +56,7 @@ TEST_CASE("a ball's cap that sank comes back to the ball") {
     CHECK(after < 0.2 * before);
 }
 
-TEST_CASE("gaps between points are no holes, fixed vertices stay, and a piece far from all points stays") {
+TEST_CASE("gaps between points are not holes, fixed vertices stay, and a piece far from all points stays") {
     auto mesh = dsc::sdk::icosphere(2, 1.0);
     const auto links = links_of(mesh);
     std::vector<Vec3> positions = mesh.points;

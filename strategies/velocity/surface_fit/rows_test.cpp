@@ -65,7 +65,7 @@ dsc::surface::TriangleMesh tube(unsigned n, unsigned rows, double radius) {
     return mesh;
 }
 
-/// Mean change of the distance to the axis that bending alone brings about, in vertices that are no rim.
+/// Mean change of the distance to the axis that bending alone brings about, in vertices that are not on a rim.
 double mean_shrinkage(const dsc::surface::TriangleMesh& mesh, bool filtered, bool round) {
     const SurfaceView view = dsc::sdk::view_of(mesh);
     const std::vector<double> lengths(view.vertex_count(), view.mean_edge);

@@ -134,7 +134,7 @@ TEST_CASE("a PLY that ends among its further numbers is refused, with and withou
     CHECK(cut.code == "io.truncated");
 }
 
-TEST_CASE("text that is no number is refused where it is asked for") {
+TEST_CASE("text that is not a number is refused where it is asked for") {
     const test::Folder folder;
     std::string text = mixed_text();
     text.replace(text.find("0.25"), 4, "much");

@@ -188,7 +188,7 @@ TEST_CASE("a vertex of a thinned surface has the value of the nearest vertex of 
     }
 }
 
-TEST_CASE("levels: the outer hundredths are cut, what is not finite has none, huge bounds and a single value are no trouble") {
+TEST_CASE("levels: the outer hundredths are cut, what is not finite has none, huge bounds and a single value are allowed") {
     run::AttributeSource source;
     std::vector<double> values;
     for (int i = 0; i <= 1000; ++i) {

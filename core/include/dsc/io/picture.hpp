@@ -36,7 +36,7 @@ std::optional<View> view_from_name(std::string_view name);
 
 enum class UpAxis { y, z };
 
-/// What the ends of a ramp of colours stand for.
+/// The values that the two ends of a ramp of colours show.
 struct ColourBounds {
     double low = 0.0;
     double high = 0.0;

@@ -14,16 +14,16 @@ namespace dsc::io {
 /// coordinates keep every bit of the file's numbers, points of an STL are joined where they are equal. The
 /// vertices of an .obj or .ply keep their colours where all have one. At least one face is required.
 ///
-/// `points`, where it is given, becomes what a .ply tells of its vertices beside place, normal and colour: every
-/// property that is a single float or double, in the order of the file, one value per point; NaN and infinity are
-/// values like others. It becomes empty for the other formats, and these properties are not looked at without it.
+/// `points`, if it is given, receives the further properties of a .ply's vertices, which are neither position nor normal nor
+/// colour: each property that is a single float or double, in the order of the file, one value per point. NaN and
+/// infinity are allowed. It is empty for the other formats. Without it these properties are skipped.
 ///
 /// Throws IoError: "io.missing", "io.directory", "io.unreadable", "io.empty", "io.format" (unknown
 /// extension), "io.syntax", "io.truncated", "io.index", "io.not_finite", "io.count", "io.no_faces". [setup]
 surface::TriangleMesh read_surface(const std::filesystem::path& file, std::vector<DataArray>* points = nullptr);
 
 /// Reads .dsc or .vtu. Tets come in the file's order and orientation; a .vtu needs an integer cell array
-/// "label" and holds tets only. At least one tet is required. `points`, where it is given, becomes the point arrays
+/// "label" and holds tets only. At least one tet is required. `points`, if it is given, receives the point arrays
 /// of doubles in a .vtu, one value per point, NaN allowed; a .dsc has none.
 ///
 /// Throws IoError with the codes of read_surface() and "io.no_tets", "io.no_labels", "io.cell_type", and
