@@ -124,6 +124,11 @@ std::size_t count_duplicates(std::span<const Vec3> points) {
 
 double width_of(double distance, double neighbours) { return distance * std::sqrt(std::acos(-1.0) / neighbours); }
 
+double certain_noise(double noise_ratio) {
+    if (noise_ratio >= noise_certain) return noise_ratio;
+    return noise_certain * std::max(0.0, noise_ratio - noise_floor) / (noise_certain - noise_floor);
+}
+
 double vertex_budget(std::size_t points, Detail detail) {
     constexpr double few = 3000.0, many = 20000.0;
     const double factor = detail == Detail::low ? 0.5 : (detail == Detail::high ? 2.0 : 1.0);

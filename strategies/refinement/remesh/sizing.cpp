@@ -10,7 +10,6 @@ namespace {
 
 constexpr double faces_of_budget = 1.1547;  // 2 / sqrt 3: squared edge times vertices of regular triangles, by area
 constexpr double filled_part = 0.95;        // of the budget
-constexpr double even_spread = 3.0;         // quantiles of the point width further apart make local lengths
 constexpr double widest = 4.0;              // local point widths are limited to this many medians, and to the median over this
 constexpr double slope = 0.3;               // by which lengths may grow along an edge
 constexpr unsigned smoothing_rounds = 3;
@@ -30,8 +29,7 @@ double area_of(const surface::SurfaceView& view) {
 }  // namespace
 
 double noise_factor(const cloud::Statistics& statistics) {
-    double s = statistics.noise_ratio;
-    if (s < 0.3 && statistics.spread < even_spread) s = 0.3 * std::max(0.0, s - 0.12) / 0.18;
+    const double s = statistics.even() ? cloud::certain_noise(statistics.noise_ratio) : statistics.noise_ratio;
     return std::min(2.0, 1.0 + 1.5 * s);
 }
 
@@ -99,8 +97,7 @@ void Sizing::follow_widths(const hooks::StepContext& context, const EdgeMesh& me
     each_.resize(view.vertex_count());
     for_blocks(context.workers, each_.size(), vertex_block, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-            const std::uint32_t point = context.cloud->search().nearest(view.positions[v]).index;
-            each_[v] = std::clamp(statistics.point_width[point], low, high);
+            each_[v] = std::clamp(statistics.point_width[context.nearest_point(v).index], low, high);
         }
     });
     smooth(mesh);
@@ -177,7 +174,7 @@ Lengths Sizing::lengths(const hooks::StepContext& context, const EdgeMesh& mesh,
     if (context.cloud == nullptr) return {factor * std::sqrt(faces_of_budget * area_of(*mesh.view) / vertices)};
     const cloud::Statistics& statistics = context.cloud->statistics(context.workers);
     const double scale = factor * noise_factor(statistics);
-    const bool even = statistics.spread < even_spread;
+    const bool even = statistics.even();
     even ? even_lengths(context, mesh, vertices, scale) : follow_widths(context, mesh, vertices, scale);
     const bool thin = wish.thin_parts && !each_.empty() && shorten_thin_parts(context, mesh);
     if (even && !thin && !each_.empty()) return {each_.front()};

@@ -8,10 +8,6 @@ namespace {
 constexpr std::size_t width_block = 1024;  // vertices
 constexpr unsigned width_rounds = 3;       // of averages over rings
 
-cloud::Neighbour nearest_point(const hooks::StepContext& context, std::size_t vertex) {
-    return context.nearest.empty() ? context.cloud->search().nearest(context.surface.positions[vertex]) : context.nearest[vertex];
-}
-
 /// Points that others coincide with have no width: then the cloud's counts, and where there is none a target length.
 double width_at(const hooks::StepContext& context, const cloud::Statistics& statistics, std::uint32_t point) {
     if (statistics.point_width[point] > 0.0) return statistics.point_width[point];
@@ -26,7 +22,7 @@ void measure_gaps(const hooks::StepContext& context, std::vector<double>& gaps) 
     gaps.resize(context.surface.vertex_count());
     for_blocks(context.workers, gaps.size(), width_block, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-            const cloud::Neighbour near = nearest_point(context, v);
+            const cloud::Neighbour near = context.nearest_point(v);
             gaps[v] = near.distance / width_at(context, statistics, near.index);
         }
     });
@@ -37,7 +33,7 @@ void measure_widths(const hooks::StepContext& context, const SurfaceLinks& links
     if (scales.even) return;
     const cloud::Statistics& statistics = context.cloud->statistics(context.workers);
     for_blocks(context.workers, widths.size(), width_block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) widths[v] = width_at(context, statistics, nearest_point(context, v).index);
+        for (std::size_t v = begin; v < end; ++v) widths[v] = width_at(context, statistics, context.nearest_point(v).index);
     });
     std::vector<double> before;
     for (unsigned round = 0; round < width_rounds; ++round) {

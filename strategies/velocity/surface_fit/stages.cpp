@@ -7,9 +7,6 @@ namespace dsc::strategies::fit {
 namespace {
 
 constexpr double random_regularity = 1.1;  // points at random have 1, with widths that are estimated up to 1.05
-constexpr double even_spread = 3.0;      // ratio of the quantiles of widths from which spacing is uneven
-constexpr double noise_floor = 0.12;     // in widths: below, an under-sampled surface's curvature reads as noise
-constexpr double noise_certain = 0.3;    // in widths: from here on the noise counts in full
 constexpr double start_bending = 1.5;    // widths: carries a staircase to the surface
 constexpr double settling_part = 0.6;    // part of the iterations in which the bending length falls to its last value
 constexpr double start_part = 1.0 / 3.0;  // part of the iterations in which points reach twice as far
@@ -20,12 +17,10 @@ Scales scales_of(const cloud::Statistics& statistics, double noise) {
     Scales scales;
     scales.width = statistics.width;
     scales.noise = noise > 0.0 ? noise * statistics.width : statistics.noise;
-    scales.even = statistics.spread < even_spread;
+    scales.even = statistics.even();
     scales.regular = statistics.regularity > random_regularity;
     scales.ratio = statistics.width > 0.0 ? scales.noise / statistics.width : 0.0;
-    if (scales.even && noise <= 0.0 && scales.ratio < noise_certain) {
-        scales.ratio = noise_certain * std::max(0.0, scales.ratio - noise_floor) / (noise_certain - noise_floor);
-    }
+    if (scales.even && noise <= 0.0) scales.ratio = cloud::certain_noise(scales.ratio);
     return scales;
 }
 
@@ -43,7 +38,7 @@ Stage stage_of(const Scales& scales, std::size_t iteration, std::size_t iteratio
     stage.filter_rounds = s > 0.1 ? 4 : 1;
     stage.filter_range = std::min(0.8, 0.35 + s);
     // Not through points with noise; and no vertex is held while a wide bending length has yet to move it.
-    stage.attach = !scales.even && scales.regular && s < noise_floor && it >= settling_part * all;
+    stage.attach = !scales.even && scales.regular && s < cloud::noise_floor && it >= settling_part * all;
     return stage;
 }
 

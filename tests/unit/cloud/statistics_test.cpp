@@ -59,6 +59,14 @@ TEST_CASE("widths are the root of the area per point, whatever the density and t
     }
 }
 
+TEST_CASE("little noise counts as none, much in full, without a jump between") {
+    CHECK(dsc::cloud::certain_noise(0.0) == 0.0);
+    CHECK(dsc::cloud::certain_noise(dsc::cloud::noise_floor) == 0.0);
+    CHECK(dsc::cloud::certain_noise(0.21) == doctest::Approx(0.15));
+    CHECK(dsc::cloud::certain_noise(std::nextafter(dsc::cloud::noise_certain, 0.0)) == doctest::Approx(dsc::cloud::noise_certain).epsilon(1e-12));
+    CHECK(dsc::cloud::certain_noise(0.7) == 0.7);
+}
+
 TEST_CASE("a triangular grid has the regularity that Clark and Evans give, 2 sqrt(2 / sqrt 3)") {
     std::vector<Vec3> points;
     for (int row = 0; row < 60; ++row) {

@@ -25,7 +25,19 @@ struct Statistics {
                                         ///< random, 2.15 for a triangular grid [ClarkEvans1954]
     double area = 0.0;                  ///< sum of min(point_width, 2 width)^2: area of the surface
     std::size_t duplicates = 0;         ///< points that repeat an earlier one
+
+    /// Whether one width holds everywhere: `spread` is below 3. [parallel]
+    bool even() const { return spread < 3.0; }
 };
+
+/// Noise in point widths below which it cannot be told from the curvature of an under-sampled surface.
+inline constexpr double noise_floor = 0.12;
+/// Noise in point widths from which it counts in full.
+inline constexpr double noise_certain = 0.3;
+
+/// The part of a measured noise ratio of an even cloud that is certainly noise: 0 up to `noise_floor`, all from `noise_certain` on,
+/// in proportion between. [parallel]
+double certain_noise(double noise_ratio);
 
 /// The square root of the area per point where `neighbours` other points lie within `distance`: sqrt(pi r^2 / k). [parallel]
 double width_of(double distance, double neighbours);

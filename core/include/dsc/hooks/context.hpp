@@ -45,6 +45,10 @@ struct StepContext {
     std::span<const surface::FacePoint> faces_of_points = {};
     std::span<const Attribute> attributes = {};   ///< what strategies have published, carried to this surface
 
+    /// The point of the cloud, which must be there, nearest to a view vertex: from `nearest`, or searched. [parallel]
+    cloud::Neighbour nearest_point(std::size_t vertex) const {
+        return nearest.empty() ? cloud->search().nearest(surface.positions[vertex]) : nearest[vertex];
+    }
     /// The target length at a view vertex. [parallel]
     double target_length_at(std::size_t vertex) const { return target_lengths.empty() ? target_length : target_lengths[vertex]; }
 
