@@ -5,6 +5,7 @@
 #include <dsc/run/driver.hpp>
 
 #include "initial_complex.hpp"
+#include "nearest_points.hpp"
 #include "refinement.hpp"
 #include "saved_run.hpp"
 #include "step_figures.hpp"
@@ -73,7 +74,7 @@ private:
         return {.step = step,
                 .surface = view_,
                 .cloud = cloud_,
-                .nearest = nearest_,
+                .nearest = nearest_.all(),
                 .target_length = deformer_.target_length(),
                 .box = deformer_.complex().box(),
                 .to_normalised = cloud_ != nullptr ? cloud_->transform() : cloud::Transform{},
@@ -93,10 +94,7 @@ private:
         faces_of_points_.clear();
         refresh_fields();
         if (cloud_ == nullptr) return;
-        nearest_.resize(view_.vertex_count());
-        workers_.for_blocks(nearest_.size(), evaluated_block, [this](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) nearest_[i] = cloud_->search().nearest(view_.positions[i]);
-        });
+        nearest_.refresh(view_, cloud_->search(), &workers_);
     }
 
     void refresh_fields() {
@@ -301,7 +299,7 @@ private:
 
     void measure_row(StepMetrics& row) {
         const Timed timed(result_.totals.seconds.measure);
-        measure_state(deformer_.complex(), view_, cloud_, nearest_, workers_, row);
+        measure_state(deformer_.complex(), view_, cloud_, nearest_.all(), workers_, row);
     }
 
     void observe(StepMetrics& row) {
@@ -363,7 +361,7 @@ private:
     kernel::Deformer deformer_;
     kernel::RepairPolicy policy_;
     surface::SurfaceView view_;
-    std::vector<cloud::Neighbour> nearest_;
+    NearestPoints nearest_;
     std::vector<surface::FacePoint> faces_of_points_;  // empty until somebody wants them
     std::vector<double> lengths_;   // of the view's vertices; empty where L is the same everywhere
     surface::ViewMemory view_memory_;
