@@ -21,7 +21,7 @@ from accuracy import measure  # noqa: E402
 from compare import SAMPLES, stamp  # noqa: E402
 from reconstruction import run_measured  # noqa: E402
 from surfaces import read_mesh, topology  # noqa: E402
-from trials import ABLATED, files_of, table, with_block  # noqa: E402
+from trials import ABLATED, files_of, show, table  # noqa: E402
 
 CONFIG = Path(__file__).resolve().parent.parent.parent / "configs" / "reconstruct" / "medium.yaml"
 FILTERS = "{type: duplicates, sort: true}", "{type: outliers}", "{type: orient}"
@@ -125,10 +125,7 @@ def main():
                 if found:
                     results[variant][trial.name] = found
     text = written({variant: row for variant, row in results.items() if row})
-    if options.page:
-        options.page.write_text(with_block(options.page.read_text(encoding="utf-8"), "ablation", text), encoding="utf-8")
-    else:
-        print(text)
+    show(options.page, "ablation", text)
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ import numpy as np  # noqa: E402
 from accuracy import measure  # noqa: E402
 from reconstruction import run_measured  # noqa: E402
 from surfaces import read_mesh, topology  # noqa: E402
-from trials import COMPARED, LARGE, files_of, table, with_block  # noqa: E402
+from trials import COMPARED, LARGE, files_of, show, table  # noqa: E402
 
 METHODS = {"dsc": "dsc", "advancing_front": "AF", "scale_space": "SS", "poisson": "Poisson"}
 SAMPLES = 20000
@@ -177,10 +177,7 @@ def main():
     text = caption + compact(results) + "\n\n" + summary(results)
     if options.full:
         options.full.write_text(full(results) + "\n", encoding="utf-8")
-    if options.page:
-        options.page.write_text(with_block(options.page.read_text(encoding="utf-8"), "comparison", text), encoding="utf-8")
-    else:
-        print(text)
+    show(options.page, "comparison", text)
 
 
 if __name__ == "__main__":

@@ -145,4 +145,12 @@ def with_block(page, name, text):
     return pattern.sub(lambda m: m.group(1) + text + "\n" + m.group(2), page)
 
 
-__all__ = ["ABLATED", "COMPARED", "LARGE", "Trial", "files_of", "read_cloud", "table", "with_block", "write_off"]
+def show(page, name, text):
+    """Puts the text into the block of the page, a file, or prints it where there is no page."""
+    if page:
+        page.write_text(with_block(page.read_text(encoding="utf-8"), name, text), encoding="utf-8")
+    else:
+        print(text)
+
+
+__all__ = ["ABLATED", "COMPARED", "LARGE", "Trial", "files_of", "read_cloud", "show", "table", "with_block", "write_off"]
