@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 #include <string>
 
 #include <dsc/base/error.hpp>
@@ -120,9 +121,60 @@ private:
     Profile upper_, lower_, bottom_;
 };
 
+/// The four patches of the handle or of the spout: an open tube that leaves the body in the direction `side` of x
+/// and encloses a part of its wall.
+class Tube {
+public:
+    Tube(std::span<const Patch> patches, double side) : side_(side) {
+        for (const Patch& patch : patches) {
+            const auto corner = [&](std::size_t i, std::size_t j) {
+                return at(patch, static_cast<double>(i) / cells, static_cast<double>(j) / cells);
+            };
+            for (std::size_t j = 0; j < cells; ++j)
+                for (std::size_t i = 0; i < cells; ++i) {
+                    faces_.push_back({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)});
+                    faces_.push_back({corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)});
+                }
+        }
+        for (const auto& face : faces_)
+            for (const Vec3& p : face) box_.extend(p);
+    }
+
+    /// `p` lies on the body's wall. A ray that leaves the body along x then meets the tube an odd number of
+    /// times from inside and an even number from outside; it never leaves through the tube's ends.
+    bool encloses(const Vec3& p) const {
+        if (!box_.contains(p)) return false;
+        return std::count_if(faces_.begin(), faces_.end(), [&](const auto& face) { return meets(p, face); }) % 2 == 1;
+    }
+
+private:
+    static constexpr std::size_t cells = 16;  // per side of a patch
+
+    bool meets(const Vec3& p, const std::array<Vec3, 3>& face) const {
+        std::array<double, 3> part;  // twice the areas that p's image makes with the edges of the face's image
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 a = face[k] - p, b = face[(k + 1) % 3] - p;
+            part[(k + 2) % 3] = a.y() * b.z() - a.z() * b.y();
+        }
+        if ((part[0] < 0.0) != (part[1] < 0.0) || (part[1] < 0.0) != (part[2] < 0.0)) return false;
+        const double sum = part[0] + part[1] + part[2];
+        if (sum == 0.0) return false;
+        const double x = (part[0] * face[0].x() + part[1] * face[1].x() + part[2] * face[2].x()) / sum;
+        return side_ * (x - p.x()) > 0.0;
+    }
+
+    double side_;
+    std::vector<std::array<Vec3, 3>> faces_;
+    Box3 box_;
+};
+
 class Teapot final : public Shape {
 public:
-    Teapot() : patches_(load_patches()), body_(patches_) {
+    Teapot()
+        : patches_(load_patches()),
+          body_(patches_),
+          handle_(std::span(patches_).subspan(12, 4), -1.0),
+          spout_(std::span(patches_).subspan(16, 4), 1.0) {
         double area = 0.0;
         for (const Patch& patch : patches_) {
             std::array<Vec3, (cells + 1) * (cells + 1)> grid;
@@ -197,10 +249,14 @@ public:
 private:
     static constexpr std::size_t cells = 32;  // a side of a patch
 
-    bool hidden(std::size_t patch, const Vec3& p) const { return enters_body(patch) && body_.contains(p); }
+    bool hidden(std::size_t patch, const Vec3& p) const {
+        if (enters_body(patch)) return body_.contains(p);
+        return handle_.encloses(p) || spout_.encloses(p);
+    }
 
     std::vector<Patch> patches_;
     Body body_;
+    Tube handle_, spout_;
     Box3 box_;
     std::vector<double> area_below_;  ///< summed areas of the triangles of all cells
 };

@@ -24,7 +24,8 @@ std::span<const std::string_view> shape_names();
 /// Samples `n` points uniformly by area from the shape. `noise` is the standard deviation of a normal
 /// displacement of each coordinate, as a fraction of the shape's box diagonal. Of the n points, the last
 /// round(outliers * n) are uniform in the shape's box grown 1.2 times instead. Depends on the arguments only.
-/// The teapot is scanned from outside: the ends of spout and handle inside the body are left out.
+/// The teapot is scanned from outside: the ends of spout and handle inside the body are left out, and so is the
+/// body's wall inside of them.
 /// Throws UsageError "shape.unknown", "shape.option"; IoError if the teapot's data file is missing. [setup]
 Cloud sample_shape(std::string_view name, std::size_t n, std::uint64_t seed, double noise = 0.0,
                    double outliers = 0.0);
