@@ -16,20 +16,43 @@ void report_phase(mesh::Label label, const run::SurfaceMeasure& surface) {
                     solid ? "" : "not ", surface.report.volume));
 }
 
+/// Whether the surface shows what was scanned.
+void report_coverage(const run::RunOutcome& outcome) {
+    if (!outcome.coverage) return;
+    const run::Coverage& c = *outcome.coverage;
+    log(LogLevel::info, fmt::format("{:.2f} % of the points are farther from the surface than noise and spacing explain, the farthest {:.1f} spacings; {:.1f} % of the "
+                                    "surface has no points near by; an edge is {:.1f} spacings long",
+                                    100.0 * c.far_share(), c.width > 0.0 ? c.largest_distance / c.width : 0.0, 100.0 * c.unsupported_share, c.resolution()));
+}
+
+/// A surface with a border, which the volume's has not.
+void report_trimmed(const run::RunOutcome& outcome) {
+    const surface::SurfaceReport& s = outcome.surface.report;
+    const bool sheet = s.nonmanifold_edges == 0 && s.nonmanifold_vertices == 0 && s.misoriented_edges == 0 && outcome.surface.intersections.count == 0;
+    const std::size_t count = outcome.trimmed->islands;
+    const std::string islands = count == 0 ? "" : fmt::format(", {} with it", count == 1 ? "a small piece" : fmt::format("{} small pieces", count));
+    log(sheet ? LogLevel::info : LogLevel::warning,
+        fmt::format("the surface as written is open by request: {:.1f} % of it, which no points support, is cut off{}; the rest is {}oriented, manifold and free of "
+                    "self-intersections, in {} piece{}",
+                    100.0 * outcome.trimmed->area_share, islands, sheet ? "" : "not ", s.shells, s.shells == 1 ? "" : "s"));
+}
+
 }  // namespace
 
 void report(const run::RunOutcome& outcome) {
     const surface::SurfaceReport& s = outcome.surface.report;
+    const std::size_t pieces = outcome.trimmed ? s.shells : s.components;
     log(LogLevel::info,
-        fmt::format("{} after {} steps: surface of {} vertices and {} faces, {} component{}, genus {}; "
-                    "volume of {} tets, least "
-                    "quality {:.3g}",
-                    run::name(outcome.totals.status), outcome.totals.steps, s.vertices, s.faces, s.components,
-                    s.components == 1 ? "" : "s", s.genus, outcome.volume.tets, outcome.volume.min_quality));
+        fmt::format("{} after {} steps: surface of {} vertices and {} faces, {} {}{}, genus {}; volume of {} tets, least quality {:.3g}",
+                    run::name(outcome.totals.status), outcome.totals.steps, s.vertices, s.faces, pieces, outcome.trimmed ? "piece" : "component",
+                    pieces == 1 ? "" : "s", s.genus, outcome.volume.tets, outcome.volume.min_quality));
+    report_coverage(outcome);
     if (outcome.surfaces.empty()) {
         log(LogLevel::warning, "the surface vanished: no tet with a label above 0 is left");
     } else if (!outcome.label_surfaces.empty()) {
         for (const auto& [label, surface] : outcome.label_surfaces) report_phase(label, surface);
+    } else if (outcome.trimmed) {
+        report_trimmed(outcome);
     } else if (outcome.surface.solid()) {
         log(LogLevel::info, "the surface as written is closed, manifold and free of self-intersections");
     } else {

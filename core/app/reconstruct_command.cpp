@@ -11,6 +11,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <thread>
 
 #include "commands.hpp"
@@ -30,6 +31,11 @@ struct ReconstructArguments {
     std::vector<std::string> columns;
     std::vector<std::string> outputs;
     std::string detail = "medium";
+    std::optional<double> edge_length;
+    std::optional<std::uint64_t> vertices;
+    std::string smooth = "auto";
+    bool trim = false;
+    bool strict = false;
     std::string keep_run;
     bool print_config = false;
     unsigned threads = 0;
@@ -98,6 +104,29 @@ void require_good_cloud(const ReconstructArguments& arguments) {
     cloud::require_volume(cloud.points, cloud.source.empty() ? arguments.cloud : cloud.source);
 }
 
+/// The noise of --smooth, in spacings; empty where it shall be measured.
+std::optional<double> noise_of(const std::string& smooth) {
+    if (smooth == "auto") return std::nullopt;
+    std::istringstream text(smooth);
+    double value = 0.0;
+    if (!(text >> value) || !text.eof() || !(value >= 0.0 && value <= 100.0)) {
+        throw UsageError("usage.smooth", "--smooth " + smooth + " is neither auto nor a number from 0 to 100; give the standard deviation of the "
+                                         "points' noise in spacings, such as 0.3");
+    }
+    return value;
+}
+
+run::ReconstructOptions options_of(const ReconstructArguments& arguments) {
+    run::ReconstructOptions options;
+    options.detail = run::detail_from_name(arguments.detail).value();
+    options.columns = arguments.columns;
+    options.edge_length = arguments.edge_length;
+    options.vertices = arguments.vertices;
+    options.noise = noise_of(arguments.smooth);
+    options.trim = arguments.trim;
+    return options;
+}
+
 int execute(const ReconstructArguments& arguments, const std::vector<std::string>& command) {
     start_log(arguments.terminal);
     if (!fs::exists(arguments.cloud)) {
@@ -105,18 +134,14 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     }
     const std::vector<Target> list = targets(arguments);
     require_good_cloud(arguments);
-    config::ConfigNode root =
-        run::reconstruction_of(fs::absolute(arguments.cloud).string(),
-                               {run::detail_from_name(arguments.detail).value(), arguments.columns});
+    config::ConfigNode root = run::reconstruction_of(fs::absolute(arguments.cloud).string(), options_of(arguments));
     const bool kept = !arguments.keep_run.empty();
-    root = root.with("output",
-                     config::ConfigNode::map({{"report", kept},
-                                              {"surface", wanted(list, false,
-                                                                 kept ? std::vector<std::string>{"obj", "ply"}
-                                                                      : std::vector<std::string>{"obj"})},
-                                              {"volume", wanted(list, true,
-                                                                kept ? std::vector<std::string>{"vtu", "dsc"}
-                                                                     : std::vector<std::string>{"dsc"})}}));
+    using Names = std::vector<std::string>;
+    config::ConfigNode output = arguments.trim ? root.at("output") : config::ConfigNode::map();
+    output = output.with("report", kept)
+                 .with("surface", wanted(list, false, kept ? Names{"obj", "ply"} : Names{"obj"}))
+                 .with("volume", wanted(list, true, kept ? Names{"vtu", "dsc"} : Names{"dsc"}));
+    root = root.with("output", output);
     Plugins plugins(arguments.plugins);
     const run::LoadedExperiment loaded = run::resolve_experiment(root, plugins.loader());
     if (arguments.print_config) {
@@ -138,7 +163,9 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     if (exit_code(outcome) != 0) return exit_code(outcome);
     for (const Target& target : list) io::write_file(target.file, io::read_file(source_of(target, outcome)));
     for (const Target& target : list) std::cout << target.file.string() << "\n";
-    return 0;
+    if (!arguments.strict || outcome.totals.warnings.empty()) return 0;
+    log(LogLevel::error, "--strict: the result is written, but there are warnings about it");
+    return static_cast<int>(ExitCode::geometry);
 }
 
 }  // namespace
@@ -158,6 +185,18 @@ void add_reconstruct(CLI::App& app, Context& context) {
     command->add_option("--detail", arguments->detail, "low, medium or high")
         ->check(CLI::IsMember({"low", "medium", "high"}))
         ->capture_default_str();
+    command->add_option("--edge-length", arguments->edge_length, "Length of the triangles' edges, in the units of the cloud, in place of --detail")
+        ->check(CLI::PositiveNumber)
+        ->excludes("--detail");
+    command->add_option("--vertices", arguments->vertices, "Vertices that the surface may have, in place of --detail")
+        ->check(CLI::Range(100, 10000000))
+        ->excludes("--detail")
+        ->excludes("--edge-length");
+    command->add_option("--smooth", arguments->smooth, "auto (the noise is measured) or the standard deviation of the points' noise in spacings: larger is smoother")
+        ->type_name("auto|NUMBER")
+        ->capture_default_str();
+    command->add_flag("--trim", arguments->trim, "Write the surface without the parts that no points support, such as the back of a scan from one side");
+    command->add_flag("--strict", arguments->strict, "Exit with 5 where there are warnings about the result, which is written all the same");
     command->add_flag("--print-config", arguments->print_config, "Print the experiment that would be run; run nothing");
     command->add_option("--keep-run", arguments->keep_run, "Keep the run folder here");
     command

@@ -102,6 +102,7 @@ void set_attributes(const Cloud& cloud, Normalized& result) {
     for (Vec3& area : result.areas) area *= area_scale;
     result.orientation = cloud.orientation;
     result.orientation.noise *= transform.scale;
+    result.orientation.backing *= transform.scale;
     for (SurfaceSample& sample : result.orientation.samples) {
         sample.position = transform.apply(sample.position);
         sample.area *= area_scale;

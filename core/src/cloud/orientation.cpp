@@ -12,6 +12,7 @@
 #include "cells.hpp"
 #include "checks.hpp"
 #include "normal_consistency.hpp"
+#include "one_sided.hpp"
 #include "samples.hpp"
 #include "text.hpp"
 
@@ -91,6 +92,18 @@ public:
         field.evaluate_gradient(samples_.positions, smoothing, vectors, workers_);
         for (std::size_t i = 0; i < vectors.size(); ++i)
             vectors[i] = direction_or(vectors[i], samples_.normals[i]) * (samples_.widths[i] * samples_.widths[i]);
+    }
+
+    /// In place of the coarse stage: the planes' normals, towards where the cloud was recorded from and, in its copy, which holds
+    /// the points from `first_copy` on, away from there.
+    void face_recorder(const Vec3& away, std::size_t first_copy) {
+        std::vector<std::uint8_t> copied(samples_.size(), 0);
+        for (std::size_t i = first_copy; i < samples_.of_point.size(); ++i) copied[samples_.of_point[i]] = 1;
+        for (std::size_t s = 0; s < vectors.size(); ++s) {
+            const bool along = samples_.normals[s].dot(away) > 0.0;
+            const double area = samples_.widths[s] * samples_.widths[s];
+            vectors[s] = (along == (copied[s] != 0) ? area : -area) * samples_.normals[s];
+        }
     }
 
     void fine(const OrientOptions& options) {
@@ -207,12 +220,39 @@ std::vector<Vec3> point_normals(const ScaledSamples& samples, std::span<const Ve
     return out;
 }
 
+Vec3 backing_of(const ScaledSamples& samples) {
+    const std::optional<OneSided> found = find_one_sided(samples, -samples.centre / samples.diagonal);
+    return found ? Vec3(found->away * (found->depth * samples.diagonal)) : Vec3(Vec3::Zero());
+}
+
+/// With a copy of the points, which has no entry in what is returned but its samples.
+OrientedPoints orient_backed(std::span<const Vec3> points, const Vec3& backing, const OrientOptions& options, Workers* workers,
+                             const CancelToken* cancel) {
+    std::vector<Vec3> all(points.begin(), points.end());
+    for (const Vec3& p : points) all.emplace_back(p + backing);
+    const ScaledSamples samples = scaled_samples(all, workers);
+    Orienter orienter(samples, workers, cancel);
+    orienter.face_recorder(backing, points.size());
+    orienter.fine(options);
+    orienter.drop_outliers();
+    orienter.refine_directions();
+    OrientedPoints out = spread(samples, point_normals(samples, all, orienter), orienter);
+    out.normals.resize(points.size());
+    out.areas.resize(points.size());
+    out.confidence.resize(points.size());
+    out.orientation = orientation_of(samples, all, orienter);
+    out.orientation.backing = backing;
+    return out;
+}
+
 }  // namespace
 
 OrientedPoints orient_points(std::span<const Vec3> points, const OrientOptions& options, Workers* workers,
                              const CancelToken* cancel, std::string_view name) {
     require_volume(points, name);
     const ScaledSamples samples = scaled_samples(points, workers);
+    const Vec3 backing = options.backing ? *options.backing : backing_of(samples);
+    if (backing != Vec3::Zero()) return orient_backed(points, backing, options, workers, cancel);
     Orienter orienter(samples, workers, cancel);
     orienter.coarse(options);
     orienter.fine(options);

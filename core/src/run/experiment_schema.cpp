@@ -109,6 +109,17 @@ void declare_states(config::ParamSchema<SeriesOutput>& s) {
     s.integer("every", &SeriesOutput::every).range(1, 1000000).unit("steps").doc("Steps between states.");
 }
 
+void declare_trim(config::ParamSchema<TrimOutput>& s) {
+    s.real("distance", &TrimOutput::distance)
+        .greater(0)
+        .unit("spacings")
+        .doc("Faces with a vertex farther than this from the nearest point go. A spacing is the root of the area per point there.");
+    s.real("support", &TrimOutput::support)
+        .range(0, 1)
+        .unit("1")
+        .doc("Faces with a vertex of less support go, too, where the velocity tells the support of vertices, as surface_fit does. 0: none.");
+}
+
 void declare_output(config::ParamSchema<Output>& s) {
     s.strings("surface", &Output::surface)
         .choices({"obj", "ply", "off", "stl"})
@@ -128,6 +139,8 @@ void declare_output(config::ParamSchema<Output>& s) {
         .doc("States to resume from. Accepted, not written by this version.");
     s.object("series", &Output::series, declare_states)
         .doc("States on the way for ParaView, in series/: surfaces as .vtp, volumes as .vtu, an index .pvd of each.");
+    s.object("trim", &Output::trim, declare_trim)
+        .doc("Write the surface without the parts that no points support, with a border. The volume stays closed. Needs a cloud.");
     s.boolean("report", &Output::report)
         .doc("report.html, a page that shows the run: figures, plots and the surface to turn and cut.");
 }

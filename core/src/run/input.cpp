@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/read.hpp>
 #include <dsc/cloud/shapes.hpp>
 #include <dsc/hooks/cloud_filter.hpp>
 #include <dsc/run/input.hpp>
+#include <iterator>
 
 #include "stopwatch.hpp"
 
@@ -41,6 +43,18 @@ Filters make_filters(const CloudInput& input, const plugin::Catalogue& catalogue
     return filters;
 }
 
+bool earlier(const Vec3& a, const Vec3& b) { return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3); }
+
+/// Places of `before` that have no point in `after`, each once.
+std::vector<Vec3> places_lost(std::vector<Vec3> before, std::vector<Vec3> after) {
+    std::sort(before.begin(), before.end(), earlier);
+    before.erase(std::unique(before.begin(), before.end()), before.end());
+    std::sort(after.begin(), after.end(), earlier);
+    std::vector<Vec3> lost;
+    std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(lost), earlier);
+    return lost;
+}
+
 }  // namespace
 
 LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Catalogue& catalogue, Workers* workers,
@@ -48,6 +62,7 @@ LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Cat
     const Filters filters = make_filters(input.cloud, catalogue);
     InputReport report;
     cloud::Cloud cloud = read_points(input.cloud, seed, report);
+    std::vector<Vec3> removed;
     hooks::FilterContext context;
     context.seed = seed;
     context.cancel = cancel;
@@ -57,6 +72,10 @@ LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Cat
         const Timed wall_timed(report.filter_wall_seconds);
         for (const auto& filter : filters) {
             cloud::Filtered filtered = filter->apply(cloud, context);
+            if (filtered.report.removed > 0) {
+                const std::vector<Vec3> lost = places_lost(cloud.points, filtered.cloud.points);
+                removed.insert(removed.end(), lost.begin(), lost.end());
+            }
             report.filters.push_back(std::move(filtered.report));
             cloud = std::move(filtered.cloud);
         }
@@ -65,7 +84,8 @@ LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Cat
     report.diagonal = bounding_box(cloud.points).diagonal();
     const cloud::Normalized normalized =
         input.normalize ? cloud::normalize(cloud, input.normalize->scale) : cloud::keep_coordinates(cloud);
-    return {std::move(cloud), cloud::TargetCloud(normalized), std::move(report)};
+    for (Vec3& p : removed) p = normalized.transform.apply(p);
+    return {std::move(cloud), cloud::TargetCloud(normalized), std::move(report), std::move(removed)};
 }
 
 }  // namespace dsc::run

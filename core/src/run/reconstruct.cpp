@@ -1,6 +1,8 @@
 // The experiment of `dsc reconstruct`: a file under configs/reconstruct, which is part of the library, and a cloud.
 #include <dsc/run/reconstruct.hpp>
 
+#include <algorithm>
+#include <cstdint>
 #include <dsc/base/error.hpp>
 #include <dsc/config/yaml.hpp>
 
@@ -11,11 +13,30 @@ namespace {
 
 using config::ConfigNode;
 
+constexpr double no_noise = 1e-6;  // spacings; 0 asks for it to be measured
+
 ConfigNode embedded(std::string_view name) {
     for (const EmbeddedFile& file : reconstruct_files()) {
         if (file.path == name) return config::parse_yaml(file.text, "configs/reconstruct/" + std::string(name));
     }
     throw Error(ExitCode::internal, "reconstruct.file", "configs/reconstruct/" + std::string(name) + " is not part of the program");
+}
+
+/// A parameter of every refinement in the schedule.
+ConfigNode with_refinement(const ConfigNode& root, const std::string& key, const ConfigNode& value) {
+    std::vector<ConfigNode> items;
+    for (const ConfigNode& item : root.at("schedule").items()) items.push_back(item.with("refine", item.at("refine").with(key, value)));
+    return root.with("schedule", ConfigNode::list(std::move(items)));
+}
+
+ConfigNode with_size(ConfigNode root, const ReconstructOptions& options) {
+    if (options.edge_length) root = with_refinement(root, "edge_length", ConfigNode(*options.edge_length));
+    if (options.vertices) {
+        const ConfigNode number(static_cast<std::int64_t>(*options.vertices));
+        root = with_refinement(root, "vertices", number);
+        root = root.with("initial_mesh", root.at("initial_mesh").with("vertices", number));
+    }
+    return root;
 }
 
 }  // namespace
@@ -40,7 +61,9 @@ std::string_view detail_name(Detail detail) {
 }
 
 ConfigNode reconstruction_of(const std::string& file, const ReconstructOptions& options) {
-    const ConfigNode root = embedded(std::string(detail_name(options.detail)) + ".yaml");
+    ConfigNode root = with_size(embedded(std::string(detail_name(options.detail)) + ".yaml"), options);
+    if (options.noise) root = root.with("velocity", root.at("velocity").with("noise", ConfigNode(std::max(*options.noise, no_noise))));
+    if (options.trim) root = root.with("output", ConfigNode::map({{"trim", ConfigNode::map()}}));
     const ConfigNode& input = root.at("input");
     ConfigNode cloud = input.at("cloud").without("sample").with("file", ConfigNode(file));
     if (!options.columns.empty()) {

@@ -10,9 +10,11 @@
 #include <dsc/run/run_folder.hpp>
 #include <dsc/run/runner.hpp>
 #include <dsc/surface/surface_view.hpp>
+#include <iterator>
+#include <span>
 
 #include "checkpoints.hpp"
-#include "colours.hpp"
+#include "result_files.hpp"
 #include "run_log.hpp"
 #include "state_series.hpp"
 #include "stopwatch.hpp"
@@ -23,116 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes the result into the staging folder and measures it as it stands on the disk.
-class ResultFiles {
-public:
-    ResultFiles(const RunFolder& folder, const Output& output, Workers& workers)
-        : folder_(folder), output_(output), workers_(workers) {}
-
-    /// Where all vanished, a motion has come to its end, with a volume and no surface; a cloud has got no surface.
-    void write(const mesh::TetMesh& mesh, const hooks::Attributes& attributes, const cloud::TargetCloud* target,
-               RunOutcome& outcome) const {
-        folder_.open_staging();
-        std::vector<std::uint32_t> vertex_of;
-        surface::TriangleMesh surface = surface::extract_interface(mesh, &vertex_of);
-        if (target != nullptr) paint(surface, *target);
-        if (surface.faces.empty() && target != nullptr) {
-            throw GeometryError(
-                "run.vanished",
-                "the surface vanished: no tet with a label above 0 is left, so there is no result; the "
-                "object may be thinner than the mesh is fine: use more cells, smaller steps, or stop "
-                "earlier");
-        }
-        for (const std::string& extension : output_.surface) {
-            if (surface.faces.empty()) break;
-            io::write_surface(staged("surface.", extension), surface, arrays(attributes, vertex_of));
-            outcome.surfaces.push_back(folder_.file("result") / ("surface." + extension));
-        }
-        for (const mesh::Label label : several_phases(mesh)) {
-            surface::TriangleMesh phase = surface::extract_phase(mesh, label, &vertex_of);
-            if (target != nullptr) paint(phase, *target);
-            for (const std::string& extension : output_.surface) {
-                io::write_surface(staged(label_stem(label), extension), phase, arrays(attributes, vertex_of));
-                outcome.surfaces.push_back(folder_.file("result") / (label_stem(label) + extension));
-            }
-        }
-        io::VolumeData data;
-        for (const hooks::Attribute& a : attributes) data.points.push_back({a.name, a.values});
-        for (const std::string& extension : output_.volume) {
-            io::write_volume(staged("volume.", extension), mesh, data);
-            outcome.volumes.push_back(folder_.file("result") / ("volume." + extension));
-        }
-    }
-
-    void measure_files(RunOutcome& outcome) const {
-        const mesh::TetMesh volume =
-            io::read_volume(staged("volume.", preferred(output_.volume, {"dsc", "vtu"})));
-        outcome.volume = measure(volume, &workers_, false);
-        outcome.volume.interface = surface::extract_interface(volume);
-        outcome.conforms = true;
-        if (outcome.surfaces.empty()) {
-            outcome.conforms = outcome.volume.interface.faces.empty();
-            return;
-        }
-        outcome.surface = measure_surface("surface.", outcome.volume.interface, outcome.conforms);
-        for (const mesh::Label label : several_phases(volume)) {
-            outcome.label_surfaces[label] =
-                measure_surface(label_stem(label), surface::extract_phase(volume, label), outcome.conforms);
-        }
-        outcome.volume.interface_measure = outcome.surface;
-    }
-
-private:
-    /// The attributes of a surface's points, which are those of the volume in `vertex_of`.
-    static std::vector<io::DataArray> arrays(const hooks::Attributes& attributes, const std::vector<std::uint32_t>& vertex_of) {
-        std::vector<io::DataArray> all;
-        for (const hooks::Attribute& a : attributes) {
-            io::DataArray& array = all.emplace_back();
-            array.name = a.name;
-            for (const std::uint32_t v : vertex_of) array.values.push_back(a.values[v]);
-        }
-        return all;
-    }
-
-    /// Of a surface as written; `conforms` becomes false where one of its files differs from what the volume says.
-    SurfaceMeasure measure_surface(const std::string& stem, const surface::TriangleMesh& of_volume, bool& conforms) const {
-        for (const std::string& extension : output_.surface) {
-            if (extension == "stl") continue;  // holds floats
-            conforms = conforms && identical(io::read_surface(staged(stem, extension)), of_volume);
-        }
-        return measure(io::read_surface(staged(stem, preferred(output_.surface, {"obj", "ply", "off", "stl"}))), &workers_);
-    }
-
-    /// The labels above 0 where there is more than one: each has a surface of its own, and the interface is no manifold where
-    /// they meet.
-    static std::vector<mesh::Label> several_phases(const mesh::TetMesh& mesh) {
-        std::vector<mesh::Label> labels(mesh.labels);
-        std::sort(labels.begin(), labels.end());
-        labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-        labels.erase(labels.begin(), std::upper_bound(labels.begin(), labels.end(), 0));
-        if (labels.size() < 2) labels.clear();
-        return labels;
-    }
-
-    static std::string label_stem(mesh::Label label) { return "surface_" + std::to_string(label) + "."; }
-
-    fs::path staged(const std::string& stem, const std::string& extension) const {
-        return folder_.staging() / (stem + extension);
-    }
-
-    static std::string preferred(const std::vector<std::string>& given,
-                                 std::initializer_list<const char*> order) {
-        for (const char* extension : order) {
-            if (std::find(given.begin(), given.end(), extension) != given.end()) return extension;
-        }
-        return given.front();
-    }
-
-    const RunFolder& folder_;
-    const Output& output_;
-    Workers& workers_;
-};
-
 void require_valid(const RunOutcome& outcome) {
     const VolumeMeasure& v = outcome.volume;
     if (v.inverted_tets == 0 && v.adjacency_valid() && outcome.conforms) return;
@@ -142,6 +34,11 @@ void require_valid(const RunOutcome& outcome) {
             std::to_string(v.overused_faces + v.folded_faces) + " wrong faces, the surface is " +
             (outcome.conforms ? "" : "not ") +
             "the interface of the volume; if the coordinates are huge, move the input nearer to the origin");
+}
+
+/// What these warn of is not part of a trimmed surface.
+bool settled_by_trimming(std::string_view code) {
+    return code == "cloud.open" || code == "cloud.one_sided" || code == "coverage.unsupported";
 }
 
 fs::path folder_of(const LoadedExperiment& loaded, const std::string& hash) {
@@ -255,24 +152,35 @@ private:
         outcome.folder = folder.path();
         outcome.totals = driven.totals;
         const Stopwatch io_watch;
-        const ResultFiles files(folder, experiment.output, workers_);
-        files.write(to_input(driven.mesh, to_normalised), driven.attributes, target, outcome);
+        std::optional<surface::CloudEvaluation> distances;
+        if (target != nullptr && !driven.surface.faces.empty()) distances = measure_cloud_distances(driven.surface, *target, outcome);
+        ResultFiles files(folder, experiment.output, workers_);
+        files.write(to_input(driven.mesh, to_normalised), driven.attributes, target,
+                    outcome.coverage ? std::span<const double>(outcome.coverage->gaps) : std::span<const double>(), outcome);
         files.measure_files(outcome);
         require_valid(outcome);
         if (!outcome.surfaces.empty()) {
-            draw(folder, outcome.volume.interface, experiment.input && experiment.input->cloud.sample, workers_);
+            draw(folder, files.surface(), experiment.input && experiment.input->cloud.sample, workers_);
             outcome.picture = folder.file("preview.png");
         }
-        std::optional<surface::CloudEvaluation> distances;
-        if (target != nullptr)
-            distances = surface::evaluate_cloud(driven.surface, target->points(), &workers_);
         outcome.totals.seconds.io += io_watch.seconds();
         folder.publish_results();
         folder.write("summary.json",
                      summary_json({loaded_, state_.hash, outcome.totals, input ? &*input : nullptr, distances,
-                                   outcome.surface, outcome.label_surfaces, outcome.volume, outcome.conforms, to_normalised,
+                                   outcome, to_normalised,
                                    run_seconds(), process_usage()}));
         return outcome;
+    }
+
+    /// How far surface and points are apart, and what of it a user must know.
+    surface::CloudEvaluation measure_cloud_distances(const surface::TriangleMesh& surface, const cloud::TargetCloud& target, RunOutcome& outcome) {
+        const surface::CloudDistances distances = surface::cloud_distances(surface, target.points(), &workers_);
+        outcome.coverage = measure_coverage(surface, target.points(), distances, target.statistics(&workers_), input_->removed, &workers_);
+        hooks::Warnings& warnings = outcome.totals.warnings;
+        hooks::Warnings found = warnings_of(*outcome.coverage, target.transform());
+        warnings.insert(warnings.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
+        if (loaded_.experiment.output.trim) std::erase_if(warnings, [](const hooks::Warning& w) { return settled_by_trimming(w.code); });
+        return surface::evaluate_cloud(distances);
     }
 
     /// Made from the folder, as `dsc report` does. A result without its page is still a result.

@@ -7,6 +7,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr std::size_t most_groups = 20;
+
 ordered_json point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
 ordered_json distances(const std::optional<surface::CloudEvaluation>& figures, bool vertices) {
@@ -70,18 +72,18 @@ ordered_json input(const LoadedInput* loaded) {
 
 /// Of all labels above 0; where there are several, the interface as a whole does not enclose it.
 double volume_of(const SummaryParts& parts) {
-    if (parts.label_surfaces.empty()) return parts.surface.report.volume;
+    if (parts.outcome.label_surfaces.empty()) return parts.outcome.surface.report.volume;
     double sum = 0.0;
-    for (const auto& [label, surface] : parts.label_surfaces) sum += surface.report.volume;
+    for (const auto& [label, surface] : parts.outcome.label_surfaces) sum += surface.report.volume;
     return sum;
 }
 
 ordered_json labels(const SummaryParts& parts) {
     ordered_json all = ordered_json::object();
-    for (const auto& [label, tets] : parts.volume.label_tets) {
-        ordered_json row = {{"tets", tets}, {"volume", parts.volume.label_volumes.at(label)}};
-        const auto found = parts.label_surfaces.find(label);
-        if (found != parts.label_surfaces.end()) {
+    for (const auto& [label, tets] : parts.outcome.volume.label_tets) {
+        ordered_json row = {{"tets", tets}, {"volume", parts.outcome.volume.label_volumes.at(label)}};
+        const auto found = parts.outcome.label_surfaces.find(label);
+        if (found != parts.outcome.label_surfaces.end()) {
             const surface::SurfaceReport& s = found->second.report;
             row["surface"] = {{"vertices", s.vertices},
                               {"faces", s.faces},
@@ -133,6 +135,30 @@ ordered_json statistics(const LoadedInput* loaded) {
             {"noise_to_width", s.noise_ratio}, {"area", s.area},                  {"duplicates", s.duplicates}};
 }
 
+/// In normalised units.
+ordered_json coverage(const RunOutcome& outcome) {
+    if (!outcome.coverage) return nullptr;
+    const Coverage& c = *outcome.coverage;
+    ordered_json groups = ordered_json::array();
+    for (const PointGroup& group : c.groups) {
+        if (groups.size() == most_groups) break;
+        groups.push_back({{"points", group.points}, {"centre", point(group.centre)}, {"diameter", group.diameter}, {"farthest", group.farthest}});
+    }
+    return {{"far_points", c.far_points},
+            {"far_share", c.far_share()},
+            {"largest_distance", c.largest_distance},
+            {"farthest_point", point(c.farthest_point)},
+            {"groups_of_far_points", groups},
+            {"unsupported_share", c.unsupported_share},
+            {"mean_edge", c.mean_edge},
+            {"edge_to_spacing", c.resolution()}};
+}
+
+ordered_json trimmed(const RunOutcome& outcome) {
+    if (!outcome.trimmed) return nullptr;
+    return {{"faces", outcome.trimmed->faces}, {"area_share", outcome.trimmed->area_share}, {"islands", outcome.trimmed->islands}};
+}
+
 ordered_json observers(const RunTotals& totals) {
     ordered_json all = ordered_json::object();
     for (const auto& [id, figures] : totals.observers) {
@@ -145,7 +171,7 @@ ordered_json observers(const RunTotals& totals) {
 
 std::string summary_json(const SummaryParts& parts) {
     const RunTotals& totals = parts.totals;
-    const surface::SurfaceReport& s = parts.surface.report;
+    const surface::SurfaceReport& s = parts.outcome.surface.report;
     const double scale = parts.to_normalised.scale;
     const ordered_json root = {
         {"format", "dsc-summary-1"},
@@ -155,22 +181,22 @@ std::string summary_json(const SummaryParts& parts) {
         {"steps", totals.steps},
         {"interface_vertices", s.vertices},
         {"interface_faces", s.faces},
-        {"junction_vertices", parts.volume.junction_vertices},
-        {"tets", parts.volume.tets},
-        {"min_tet_quality", parts.volume.min_quality},
-        {"inverted_tets", parts.volume.inverted_tets},
+        {"junction_vertices", parts.outcome.volume.junction_vertices},
+        {"tets", parts.outcome.volume.tets},
+        {"min_tet_quality", parts.outcome.volume.min_quality},
+        {"inverted_tets", parts.outcome.volume.inverted_tets},
         {"components", s.components},
         {"genus", s.genus},
         {"boundary_edges", s.boundary_edges},
         {"nonmanifold_edges", s.nonmanifold_edges},
         {"nonmanifold_vertices", s.nonmanifold_vertices},
-        {"self_intersections", parts.surface.intersections.count},
+        {"self_intersections", parts.outcome.surface.intersections.count},
         {"volume", volume_of(parts)},
         {"volume_initial", totals.volume_initial / (scale * scale * scale)},
         {"shells", s.shells},
         {"cavities", s.cavities},
         {"labels", labels(parts)},
-        {"surface_is_interface_of_volume", parts.conforms},
+        {"surface_is_interface_of_volume", parts.outcome.conforms},
         {"events", events(totals)},
         {"target_length", totals.target_length},
         {"clamped", totals.clamped},
@@ -193,6 +219,8 @@ std::string summary_json(const SummaryParts& parts) {
         {"to_normalised", {{"centre", point(parts.to_normalised.centre)}, {"scale", scale}}},
         {"input", input(parts.input)},
         {"cloud", statistics(parts.input)},
+        {"coverage", coverage(parts.outcome)},
+        {"trimmed", trimmed(parts.outcome)},
         {"warnings", warnings(totals)},
         {"adopted",
          {{"reoriented_tets", totals.adopted.reoriented_tets},

@@ -5,6 +5,7 @@
 #include <dsc/run/input.hpp>
 #include <dsc/run/measure.hpp>
 #include <dsc/run/provenance.hpp>
+#include <dsc/run/runner.hpp>
 #include <dsc/surface/distance.hpp>
 #include <optional>
 #include <string>
@@ -18,10 +19,7 @@ struct SummaryParts {
     const RunTotals& totals;
     const LoadedInput* input;                                  ///< null without a cloud
     const std::optional<surface::CloudEvaluation>& distances;  ///< normalised units
-    const SurfaceMeasure& surface;
-    const std::map<mesh::Label, SurfaceMeasure>& label_surfaces;  ///< of surface_LABEL files
-    const VolumeMeasure& volume;
-    bool conforms;
+    const RunOutcome& outcome;
     cloud::Transform to_normalised;
     double wall_seconds;
     Usage usage;

@@ -138,23 +138,28 @@ Evaluation evaluate(const TriangleMesh& recon, const TriangleMesh& truth, const 
     return out;
 }
 
-CloudEvaluation evaluate_cloud(const TriangleMesh& surface, std::span<const Vec3> cloud, Workers* workers) {
+CloudDistances cloud_distances(const TriangleMesh& surface, std::span<const Vec3> cloud, Workers* workers) {
     const TriangleTree faces(surface);
     const PointTree points(cloud);
     std::vector<bool> used(surface.points.size(), false);
     for (const auto& face : surface.faces) {
         for (const std::uint32_t v : face) used[v] = true;
     }
-    std::vector<Vec3> vertices;
-    for (std::size_t i = 0; i < surface.points.size(); ++i) {
-        if (used[i]) vertices.push_back(surface.points[i]);
+    CloudDistances out;
+    for (std::uint32_t v = 0; v < surface.points.size(); ++v) {
+        if (used[v]) out.vertices.push_back(v);
     }
-    CloudEvaluation out;
-    out.vertex_to_cloud = figures_of(
-        all_nearest(vertices.size(), workers, [&](std::size_t i) { return points.nearest(vertices[i]); }));
-    out.cloud_to_surface = figures_of(
-        all_nearest(cloud.size(), workers, [&](std::size_t i) { return faces.nearest(cloud[i]); }));
+    out.of_vertices = all_nearest(out.vertices.size(), workers, [&](std::size_t i) { return points.nearest(surface.points[out.vertices[i]]); });
+    out.of_points = all_nearest(cloud.size(), workers, [&](std::size_t i) { return faces.nearest(cloud[i]); });
     return out;
+}
+
+CloudEvaluation evaluate_cloud(const CloudDistances& distances) {
+    return {figures_of(distances.of_vertices), figures_of(distances.of_points)};
+}
+
+CloudEvaluation evaluate_cloud(const TriangleMesh& surface, std::span<const Vec3> cloud, Workers* workers) {
+    return evaluate_cloud(cloud_distances(surface, cloud, workers));
 }
 
 }  // namespace dsc::surface

@@ -25,6 +25,7 @@ cloud::Filtered with_attributes(const cloud::Cloud& cloud, cloud::OrientedPoints
                              {"noise", found.orientation.noise},
                              {"samples", static_cast<double>(found.orientation.samples.size())},
                              {"dropped", static_cast<double>(found.dropped)},
+                             {"one_sided", found.orientation.one_sided() ? 1.0 : 0.0},
                              {"mean_confidence", mean(found.confidence)}};
     result.cloud.points = cloud.points;
     result.cloud.colours = cloud.colours;
@@ -49,6 +50,9 @@ void Orient::declare(config::ParamSchema<Params>& schema) {
         .range(1, 1000)
         .unit("1")
         .doc("Iterations of the coarse stage of the estimate.");
+    schema.choice("one_sided", &Params::one_sided, {{"auto", OneSided::automatic}, {"never", OneSided::never}})
+        .doc("A cloud that was recorded from one side, such as a depth image or terrain, bounds no solid. 'auto' recognises it by its "
+             "single layer of points and closes it by a copy of it farther away, from where its surface can be cut off again.");
 }
 
 Orient::Orient(const Params& params, const plugin::Setup&) : params_(params) {}
@@ -57,6 +61,7 @@ cloud::OrientedPoints Orient::estimated(const cloud::Cloud& cloud, const hooks::
     cloud::OrientOptions options;
     options.all_points = params_.all_points;
     options.coarse_iterations = params_.iterations;
+    if (params_.one_sided == OneSided::never) options.backing = Vec3(Vec3::Zero());
     return cloud::orient_points(cloud.points, options, context.workers, context.cancel, cloud.source);
 }
 

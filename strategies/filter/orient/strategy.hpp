@@ -10,6 +10,9 @@ namespace dsc::strategies {
 /// Where the normals come from.
 enum class NormalSource { automatic, file, estimate };
 
+/// Whether a cloud that was recorded from one side is closed by a copy of it.
+enum class OneSided { automatic, never };
+
 /// cloud::orient_points and cloud::orient_by_normals as a filter of experiments.
 class Orient final : public hooks::CloudFilter {
 public:
@@ -17,6 +20,7 @@ public:
         NormalSource from = NormalSource::automatic;
         bool all_points = false;
         std::size_t iterations = 40;
+        OneSided one_sided = OneSided::automatic;
     };
     static void declare(config::ParamSchema<Params>& schema);
 

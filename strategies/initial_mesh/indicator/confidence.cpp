@@ -66,10 +66,15 @@ StartSurface measure_start(const mesh::TetMesh& mesh, const cloud::Orientation& 
 hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orientation, const StartSurface& start) {
     hooks::Warnings out;
     const double area_ratio = start.cloud_area > 0.0 ? start.area / start.cloud_area : 0.0;
-    if (orientation.residual > open_residual || area_ratio > open_area) {
+    if (orientation.one_sided()) {
+        out.push_back({"cloud.one_sided", "The points lie in one layer, as a scan from one side records them, so they bound no volume. It is closed by a copy of "
+                                          "the surface farther back and by walls between the two, which are not measured. --trim (in an experiment output: "
+                                          "{trim: {}}) writes the measured side alone."});
+    } else if (orientation.residual > open_residual || area_ratio > open_area) {
         out.push_back({"cloud.open", "The cloud seems to be open, such as a scan of one side: the closed surface has " + rounded(area_ratio, 2) +
                                          " times the area of the points, and the winding field has a residual of " +
-                                         rounded(orientation.residual, 3) + ". Where there are no points the surface is a guess."});
+                                         rounded(orientation.residual, 3) + ". Where there are no points the surface is a guess. --trim (in an experiment output: {trim: {}}) writes it "
+                                         "without these parts."});
     }
     if (labels.changed_share() > most_changed) {
         out.push_back({"topology.doubtful",

@@ -101,8 +101,9 @@ mesh::TetMesh Indicator::build(const hooks::InitialMeshContext& context) {
     if (orientation.empty()) orientation = cloud::orient_points(cloud.points(), {}, context.workers, context.cancel).orientation;
     Labels labels = label_lattice(orientation, params_, half_box, context.workers, context.cancel);
     unsigned attempts = 1, taken = 1;
-    for (const cloud::OrientOptions& finer : retries) {
+    for (cloud::OrientOptions finer : retries) {
         if (params_.retry == Retry::never || !doubtful(labels, orientation)) break;
+        finer.backing = orientation.backing;
         cloud::Orientation again = cloud::orient_points(cloud.points(), finer, context.workers, context.cancel).orientation;
         Labels other = label_lattice(again, params_, half_box, context.workers, context.cancel);
         ++attempts;

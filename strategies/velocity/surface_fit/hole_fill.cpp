@@ -9,6 +9,7 @@ namespace {
 
 constexpr double filled_beyond = 1.0;      // point widths
 constexpr std::size_t alike_neighbours = 2;  // fewer: a vertex between points, not a hole
+constexpr std::size_t largest_part = 4;      // of the surface: a hole has at most a quarter of its vertices
 constexpr int no_unknown = -1;
 
 /// Numbers of the unknowns, by vertex.
@@ -44,7 +45,7 @@ public:
 private:
     enum class State : std::uint8_t { outside, inside, seen };
 
-    // The hole that a vertex belongs to; unless nothing surrounds it.
+    // The hole that a vertex belongs to; unless nothing surrounds it, or it is rather the side that nobody has seen.
     void take_piece(std::uint32_t start) {
         std::vector<std::uint32_t> piece = {start};
         states_[start] = State::seen;
@@ -57,7 +58,7 @@ private:
                 piece.push_back(w);
             }
         }
-        if (!surrounded) return;
+        if (!surrounded || piece.size() > states_.size() / largest_part) return;
         for (const std::uint32_t v : piece) {
             unknown_[v] = static_cast<int>(vertices_.size());
             vertices_.push_back(v);

@@ -26,6 +26,10 @@ struct Orientation {
     double residual = 0.0;    ///< root mean square of 1/2 - w at the samples; w is their winding field
     double noise = 0.0;       ///< noise scale of the samples (sigma_q), in the cloud's units
     bool all_points = false;  ///< the coarse stage used every sample, so no finer orientation can be asked for
+    /// For a cloud that was recorded from one side: the way of a copy behind it, with which it bounds a solid. The samples
+    /// hold those of the copy. Otherwise zero.
+    Vec3 backing = Vec3::Zero();
+    bool one_sided() const { return backing != Vec3::Zero(); }
     bool empty() const { return samples.empty(); }
 };
 

@@ -2,6 +2,7 @@
 // Inside and outside of a cloud from its points alone: area vectors whose winding number is 1/2 at the points.
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,7 @@ struct OrientOptions {
     bool all_points = false;  ///< the coarse stage uses every sample instead of 8,000 means: slower, better at thin parts
     std::size_t coarse_iterations = 40;
     std::size_t fine_iterations = 12;
+    std::optional<Vec3> backing{};  ///< Orientation::backing: zero for none; empty: it is found out whether the cloud needs one
 };
 
 /// A cloud with normals that point out of the solid. One entry per given point, in its order.
@@ -35,7 +37,8 @@ struct OrientedPoints {
 inline constexpr std::size_t most_samples = 30000;
 
 /// Estimates normals and area vectors by winding number normal consistency [Lin2024], in two stages, over clusters of sources
-/// (WindingField). Lengths are taken from the spacing (Statistics::label_width). The order of the points, repeated points
+/// (WindingField). A cloud that was recorded from one side bounds no solid: a copy of it farther away from the recorder closes
+/// one, and the normals start, in place of the first stage, towards the recorder. Lengths are taken from the spacing (Statistics::label_width). The order of the points, repeated points
 /// and the number of threads change nothing. `cancel` and `workers` may be null. `name` opens messages. Throws
 /// GeometryError as require_volume (normalize.hpp), CancelledError. [setup]
 OrientedPoints orient_points(std::span<const Vec3> points, const OrientOptions& options = {}, Workers* workers = nullptr,

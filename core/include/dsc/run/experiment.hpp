@@ -68,11 +68,18 @@ struct SeriesOutput {
     std::uint32_t every = 10;
 };
 
+/// Which part of the surface is written: without the faces that have a vertex too far from the points or with too little support.
+struct TrimOutput {
+    double distance = 2.0;  ///< spacings of the points
+    double support = 0.0;   ///< of the velocity's attribute of this name
+};
+
 struct Output {
     std::vector<std::string> surface = {"obj", "ply"};
     std::vector<std::string> volume = {"vtu", "dsc"};
     std::optional<CheckpointOutput> checkpoint;
     std::optional<SeriesOutput> series;
+    std::optional<TrimOutput> trim;  ///< empty: the closed surface
     std::optional<bool> report;
 };
 

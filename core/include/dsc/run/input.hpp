@@ -32,6 +32,7 @@ struct LoadedInput {
     cloud::Cloud cloud;  ///< filtered, in the input's units
     cloud::TargetCloud target;
     InputReport report;
+    std::vector<Vec3> removed{};  ///< points of the file that no filter left where they were, in normalised units
 };
 
 /// Reads or samples, filters and normalises. `seed` is that of the experiment; `catalogue` makes the filters, which see

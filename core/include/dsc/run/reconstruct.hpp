@@ -1,6 +1,7 @@
 #pragma once
-// The main job: the experiment that turns a cloud into a surface and a volume, with no knob but the level of detail.
+// The main job: the experiment that turns a cloud into a surface and a volume, with few knobs.
 
+#include <cstdint>
 #include <dsc/cloud/statistics.hpp>
 #include <dsc/config/node.hpp>
 #include <optional>
@@ -19,6 +20,10 @@ std::string_view detail_name(Detail detail);
 struct ReconstructOptions {
     Detail detail = Detail::medium;
     std::vector<std::string> columns{};  ///< of a text cloud (cloud::ReadOptions)
+    std::optional<double> edge_length{};    ///< in the units of the input, in place of `detail`
+    std::optional<std::uint64_t> vertices{};  ///< that the surface may have, in place of `detail`
+    std::optional<double> noise{};          ///< standard deviation of the points across the surface, in spacings; empty: it is measured
+    bool trim = false;                      ///< write the surface without the parts that no points support
 };
 
 /// The experiment in configs/reconstruct, low.yaml, medium.yaml or high.yaml, with `file`, an absolute name, as its cloud. [setup]

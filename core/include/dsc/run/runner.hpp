@@ -1,10 +1,12 @@
 #pragma once
 // A whole run: from a loaded experiment to a run folder.
 
+#include <dsc/run/coverage.hpp>
 #include <dsc/run/driver.hpp>
 #include <dsc/run/experiment.hpp>
 #include <dsc/run/input.hpp>
 #include <dsc/run/measure.hpp>
+#include <dsc/surface/trim.hpp>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -35,7 +37,9 @@ struct RunOutcome {
     SurfaceMeasure surface;
     std::map<mesh::Label, SurfaceMeasure> label_surfaces;  ///< of surface_LABEL.*, where there are two labels above 0 or more
     VolumeMeasure volume;
-    bool conforms = false;  ///< the surface is, bit for bit, the label interface of the volume
+    std::optional<Coverage> coverage;  ///< of the whole surface, in normalised units; empty without a cloud
+    std::optional<surface::TrimReport> trimmed;  ///< where the surface was written without the parts that no points support
+    bool conforms = false;  ///< the surface is, bit for bit, the label interface of the volume, or the part that trimming leaves
 };
 
 /// Runs it. On an error the folder says "failed" and holds no result, and the error goes on. A result that is not

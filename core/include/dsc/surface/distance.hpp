@@ -100,8 +100,19 @@ struct CloudEvaluation {
     DistanceFigures cloud_to_surface;  ///< cloud points to the nearest point of the surface
 };
 
-/// Judges a surface by the cloud that it was made from; points that no face uses are left out. Throws as
-/// TriangleTree and PointTree. [step]
+/// Who is nearest to whom, in the units of the arguments.
+struct CloudDistances {
+    std::vector<NearestHit> of_vertices;  ///< per point of the mesh that a face uses: the nearest point of the cloud
+    std::vector<std::uint32_t> vertices;  ///< those points of the mesh
+    std::vector<NearestHit> of_points;    ///< per point of the cloud: the nearest place of the surface, its index is a face
+};
+
+/// Throws as TriangleTree and PointTree. The number of threads changes nothing. [step]
+CloudDistances cloud_distances(const TriangleMesh& surface, std::span<const Vec3> cloud, Workers* workers = nullptr);
+
+/// Judges a surface by the cloud that it was made from; points that no face uses are left out. [parallel]
+CloudEvaluation evaluate_cloud(const CloudDistances& distances);
+/// The same from the meshes. Throws as cloud_distances. [step]
 CloudEvaluation evaluate_cloud(const TriangleMesh& surface, std::span<const Vec3> cloud,
                                Workers* workers = nullptr);
 

@@ -1,0 +1,53 @@
+#pragma once
+// How well a surface explains the points that it was made from.
+
+#include <cstddef>
+#include <dsc/base/workers.hpp>
+#include <dsc/cloud/normalize.hpp>
+#include <dsc/cloud/statistics.hpp>
+#include <dsc/hooks/figures.hpp>
+#include <dsc/surface/distance.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
+#include <span>
+#include <vector>
+
+namespace dsc::run {
+
+/// Points that lie together and have no surface.
+struct PointGroup {
+    std::size_t points = 0;
+    Vec3 centre = Vec3::Zero();  ///< mean of the points
+    double diameter = 0.0;       ///< diagonal of their box
+    double farthest = 0.0;       ///< largest distance of one of them from the surface
+};
+
+/// Lengths and places are in the units of surface and points. A spacing is the local Statistics::point_width.
+struct Coverage {
+    std::size_t points = 0;
+    double width = 0.0;                 ///< median spacing
+    double noise = 0.0;                 ///< Statistics::noise
+    std::size_t far_points = 0;         ///< farther from the surface than 3 noise scales and 1 spacing
+    double largest_distance = 0.0;      ///< of a point from the surface
+    Vec3 farthest_point = Vec3::Zero();
+    std::vector<PointGroup> groups;     ///< far points, those that a filter removed among them, which lie together: largest first
+    double mean_edge = 0.0;             ///< of the surface
+    double unsupported_share = 0.0;     ///< of its area: no point within 3 spacings
+    std::vector<double> gaps;           ///< per vertex of the surface: distance to the nearest point, in spacings of that point
+
+    double far_share() const { return points == 0 ? 0.0 : static_cast<double>(far_points) / static_cast<double>(points); }
+    /// Mean edge over spacing: how fine the surface is. 0 where the spacing is.
+    double resolution() const { return width > 0.0 ? mean_edge / width : 0.0; }
+};
+
+/// `distances` are those between the surface and the points, `statistics` those of the points; `removed` are points that filters
+/// took out of the cloud. The number of threads changes nothing. [step]
+Coverage measure_coverage(const surface::TriangleMesh& surface, std::span<const Vec3> points, const surface::CloudDistances& distances,
+                          const cloud::Statistics& statistics, std::span<const Vec3> removed, Workers* workers);
+
+/// What a user must know, with places in the units of the input: `to_normalised`
+/// leads from there to those of the coverage. Codes
+/// "coverage.points" where more than 1 % of the points are far, "coverage.missing" for groups of at least 0.1 % of the points,
+/// "coverage.unsupported" where more than 5 % of the area has no points. [setup]
+hooks::Warnings warnings_of(const Coverage& coverage, const cloud::Transform& to_normalised);
+
+}  // namespace dsc::run

@@ -1,0 +1,24 @@
+#pragma once
+// Clouds that were recorded from one side: depth images, single scans, terrain from the air.
+
+#include <optional>
+
+#include <dsc/geometry/vec.hpp>
+
+#include "samples.hpp"
+
+namespace dsc::cloud {
+
+/// A cloud that lines along some direction meet in one layer only, so that it bounds no solid by itself.
+struct OneSided {
+    Vec3 away = Vec3::Zero();    ///< unit vector from where the cloud was recorded to the cloud
+    double depth = 0.0;          ///< scaled units; a copy of the cloud that is moved so far away closes a solid
+    double area_ratio = 0.0;     ///< area of the cloud as seen along `away` over that of its footprint: about 1; of a solid 2 or more
+    double layered_share = 0.0;  ///< part of the footprint where there is more than one layer
+};
+
+/// Empty for a cloud that surrounds a solid, and for fewer than 100 samples. `origin` is the origin of the input's
+/// coordinates in scaled units: where a depth camera stands. [setup]
+std::optional<OneSided> find_one_sided(const ScaledSamples& samples, const Vec3& origin);
+
+}  // namespace dsc::cloud

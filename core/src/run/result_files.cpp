@@ -1,0 +1,134 @@
+#include "result_files.hpp"
+
+#include <algorithm>
+#include <dsc/base/error.hpp>
+#include <dsc/io/read.hpp>
+#include <dsc/io/write.hpp>
+#include <dsc/surface/surface_view.hpp>
+
+#include "colours.hpp"
+
+namespace dsc::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The attributes of a surface's points, which are those of the volume in `vertex_of`.
+std::vector<io::DataArray> arrays(const hooks::Attributes& attributes, const std::vector<std::uint32_t>& vertex_of) {
+    std::vector<io::DataArray> all;
+    for (const hooks::Attribute& a : attributes) {
+        io::DataArray& array = all.emplace_back();
+        array.name = a.name;
+        for (const std::uint32_t v : vertex_of) array.values.push_back(a.values[v]);
+    }
+    return all;
+}
+
+/// The labels above 0 where there is more than one: each has a surface of its own, and the interface is no manifold where
+/// they meet.
+std::vector<mesh::Label> several_phases(const mesh::TetMesh& mesh) {
+    std::vector<mesh::Label> labels(mesh.labels);
+    std::sort(labels.begin(), labels.end());
+    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+    labels.erase(labels.begin(), std::upper_bound(labels.begin(), labels.end(), 0));
+    if (labels.size() < 2) labels.clear();
+    return labels;
+}
+
+std::string label_stem(mesh::Label label) { return "surface_" + std::to_string(label) + "."; }
+
+std::string preferred(const std::vector<std::string>& given, std::initializer_list<const char*> order) {
+    for (const char* extension : order) {
+        if (std::find(given.begin(), given.end(), extension) != given.end()) return extension;
+    }
+    return given.front();
+}
+
+}  // namespace
+
+void ResultFiles::write(const mesh::TetMesh& mesh, const hooks::Attributes& attributes, const cloud::TargetCloud* target,
+                        std::span<const double> gaps, RunOutcome& outcome) {
+    folder_.open_staging();
+    std::vector<std::uint32_t> vertex_of;
+    surface_ = surface::extract_interface(mesh, &vertex_of);
+    if (surface_.faces.empty() && target != nullptr) {
+        throw GeometryError("run.vanished",
+                            "the surface vanished: no tet with a label above 0 is left, so there is no result; the "
+                            "object may be thinner than the mesh is fine: use more cells, smaller steps, or stop "
+                            "earlier");
+    }
+    if (output_.trim && target != nullptr) trim_surface(attributes, gaps, vertex_of, outcome);
+    if (target != nullptr) paint(surface_, *target);
+    for (const std::string& extension : output_.surface) {
+        if (surface_.faces.empty()) break;
+        io::write_surface(staged("surface.", extension), surface_, arrays(attributes, vertex_of));
+        outcome.surfaces.push_back(folder_.file("result") / ("surface." + extension));
+    }
+    for (const mesh::Label label : several_phases(mesh)) {
+        surface::TriangleMesh phase = surface::extract_phase(mesh, label, &vertex_of);
+        if (target != nullptr) paint(phase, *target);
+        for (const std::string& extension : output_.surface) {
+            io::write_surface(staged(label_stem(label), extension), phase, arrays(attributes, vertex_of));
+            outcome.surfaces.push_back(folder_.file("result") / (label_stem(label) + extension));
+        }
+    }
+    io::VolumeData data;
+    for (const hooks::Attribute& a : attributes) data.points.push_back({a.name, a.values});
+    for (const std::string& extension : output_.volume) {
+        io::write_volume(staged("volume.", extension), mesh, data);
+        outcome.volumes.push_back(folder_.file("result") / ("volume." + extension));
+    }
+}
+
+void ResultFiles::trim_surface(const hooks::Attributes& attributes, std::span<const double> gaps, std::vector<std::uint32_t>& vertex_of,
+                               RunOutcome& outcome) {
+    gaps_.assign(gaps.begin(), gaps.end());
+    support_.clear();
+    for (const hooks::Attribute& a : attributes) {
+        if (a.name != "support" || !(output_.trim->support > 0.0)) continue;
+        for (const std::uint32_t v : vertex_of) support_.push_back(a.values[v]);
+    }
+    std::vector<std::uint32_t> points_of;
+    surface_ = surface::trim(surface_, gaps_, support_, {output_.trim->distance, output_.trim->support}, &points_of, &outcome.trimmed.emplace());
+    if (surface_.faces.empty()) {
+        throw GeometryError("run.trimmed", "trimming leaves nothing of the surface: every face has a vertex farther than " +
+                                               std::to_string(output_.trim->distance) +
+                                               " spacings from the points or with too little support; raise output.trim.distance, lower "
+                                               "output.trim.support, or write the whole surface");
+    }
+    for (std::uint32_t& p : points_of) p = vertex_of[p];
+    vertex_of = std::move(points_of);
+}
+
+void ResultFiles::measure_files(RunOutcome& outcome) const {
+    const mesh::TetMesh volume = io::read_volume(staged("volume.", preferred(output_.volume, {"dsc", "vtu"})));
+    outcome.volume = measure(volume, &workers_, false);
+    outcome.volume.interface = surface::extract_interface(volume);
+    outcome.conforms = true;
+    if (outcome.surfaces.empty()) {
+        outcome.conforms = outcome.volume.interface.faces.empty();
+        return;
+    }
+    const surface::TriangleMesh& whole = outcome.volume.interface;
+    outcome.surface = outcome.trimmed ? measure_surface("surface.", surface::trim(whole, gaps_, support_, {output_.trim->distance, output_.trim->support}), outcome.conforms)
+                                      : measure_surface("surface.", whole, outcome.conforms);
+    for (const mesh::Label label : several_phases(volume)) {
+        outcome.label_surfaces[label] = measure_surface(label_stem(label), surface::extract_phase(volume, label), outcome.conforms);
+    }
+    outcome.volume.interface_measure = outcome.trimmed ? measure(whole, &workers_) : outcome.surface;
+}
+
+/// `conforms` becomes false where one of the files differs from what is expected.
+SurfaceMeasure ResultFiles::measure_surface(const std::string& stem, const surface::TriangleMesh& expected, bool& conforms) const {
+    for (const std::string& extension : output_.surface) {
+        if (extension == "stl") continue;  // holds floats
+        conforms = conforms && identical(io::read_surface(staged(stem, extension)), expected);
+    }
+    return measure(io::read_surface(staged(stem, preferred(output_.surface, {"obj", "ply", "off", "stl"}))), &workers_);
+}
+
+fs::path ResultFiles::staged(const std::string& stem, const std::string& extension) const {
+    return folder_.staging() / (stem + extension);
+}
+
+}  // namespace dsc::run

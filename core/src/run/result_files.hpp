@@ -1,0 +1,49 @@
+#pragma once
+// The surfaces and volumes of a run: written into the staging folder, then measured as they stand on the disk.
+
+#include <dsc/base/workers.hpp>
+#include <dsc/cloud/target.hpp>
+#include <dsc/hooks/attributes.hpp>
+#include <dsc/mesh/tet_mesh.hpp>
+#include <dsc/run/experiment.hpp>
+#include <dsc/run/run_folder.hpp>
+#include <dsc/run/runner.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace dsc::run {
+
+class ResultFiles {
+public:
+    ResultFiles(const RunFolder& folder, const Output& output, Workers& workers)
+        : folder_(folder), output_(output), workers_(workers) {}
+
+    /// `mesh` is in the units of the input. `gaps` are the distances of the interface's vertices to the points, in spacings; empty
+    /// without a cloud. Where all vanished, a motion has come to its end, with a volume and no surface; a cloud has got no surface:
+    /// GeometryError "run.vanished", and "run.trimmed" where trimming leaves nothing.
+    void write(const mesh::TetMesh& mesh, const hooks::Attributes& attributes, const cloud::TargetCloud* target,
+               std::span<const double> gaps, RunOutcome& outcome);
+
+    void measure_files(RunOutcome& outcome) const;
+
+    /// The surface that surface.* hold, after write().
+    const surface::TriangleMesh& surface() const { return surface_; }
+
+private:
+    SurfaceMeasure measure_surface(const std::string& stem, const surface::TriangleMesh& expected, bool& conforms) const;
+    std::filesystem::path staged(const std::string& stem, const std::string& extension) const;
+    void trim_surface(const hooks::Attributes& attributes, std::span<const double> gaps, std::vector<std::uint32_t>& vertex_of,
+                      RunOutcome& outcome);
+
+    const RunFolder& folder_;
+    const Output& output_;
+    Workers& workers_;
+    surface::TriangleMesh surface_;
+    std::vector<double> gaps_, support_;  // of trimming
+};
+
+}  // namespace dsc::run
