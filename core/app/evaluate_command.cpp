@@ -2,6 +2,8 @@
 #include <dsc/base/error.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/read.hpp>
+#include <dsc/cloud/statistics.hpp>
+#include <dsc/run/coverage.hpp>
 #include <dsc/surface/distance.hpp>
 #include <fstream>
 #include <memory>
@@ -78,7 +80,8 @@ ordered_json distances(const surface::DistanceFigures& f, double factor) {
 ordered_json against_cloud(const surface::TriangleMesh& result, const EvaluateArguments& arguments,
                            Workers& workers) {
     const cloud::Cloud cloud = cloud::read_cloud(arguments.cloud, nullptr, {arguments.columns});
-    const surface::CloudEvaluation e = surface::evaluate_cloud(result, cloud.points, &workers);
+    const surface::CloudDistances between = surface::cloud_distances(result, cloud.points, &workers);
+    const surface::CloudEvaluation e = surface::evaluate_cloud(between);
     const double diagonal = bounding_box(cloud.points).diagonal();
     ordered_json figures = {{"file", arguments.cloud},
                             {"diagonal", diagonal},
@@ -91,6 +94,15 @@ ordered_json against_cloud(const surface::TriangleMesh& result, const EvaluateAr
     if (const auto scale = scale_of(arguments.result)) {
         figures["vertex_to_cloud_normalised"] = distances(e.vertex_to_cloud, *scale);
     }
+    const cloud::Statistics statistics = cloud::measure_cloud(cloud.points, &workers);
+    const run::Coverage c = run::measure_coverage(result, cloud.points, between, statistics, {}, &workers);
+    figures["coverage"] = {{"spacing", c.width},
+                           {"noise", c.noise},
+                           {"far_points", c.far_points},
+                           {"far_points_percent", 100.0 * c.far_share()},
+                           {"groups_of_far_points", c.groups.size()},
+                           {"unsupported_percent", 100.0 * c.unsupported_share},
+                           {"edge_to_spacing", c.resolution()}};
     return figures;
 }
 
@@ -99,6 +111,8 @@ ordered_json cloud_formulas() {
              "over the result's vertices v: distance to the nearest cloud point (table 6.2 of the thesis)"},
             {"cloud_to_surface",
              "over the cloud's points p: distance to the nearest point of the result's triangles"},
+            {"coverage.far_points", "points farther from the surface than 3 noise scales and 1 spacing; a spacing is the root of the area per point"},
+            {"coverage.unsupported_percent", "100 * area of the surface without a point within 3 spacings / its area"},
             {"_percent", "100 * distance / diagonal of the cloud's box"},
             {"_normalised",
              "distance * scale of the run's normalisation, the units of table 6.2; for run folders only"}};

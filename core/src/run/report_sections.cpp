@@ -163,6 +163,42 @@ std::string warnings_section(const RunRecord& record) {
     return list.empty() ? "" : section("Warnings", tag("ul", list), "warnings");
 }
 
+std::string coverage_section(const RunRecord& record) {
+    if (!record.has("coverage")) return "";
+    const double width = record.number("cloud.point_width"), scale = record.number("to_normalised.scale");
+    const auto percent = [&](const char* path) { return real(100.0 * record.number(path)) + " %"; };
+    std::vector<html::Row> rows = {
+        {"points farther from the surface than 3 noise scales and 1 spacing", percent("coverage.far_share")},
+        {"largest distance of a point from the surface", real(record.number("coverage.largest_distance") / width) + " spacings"},
+        {"area of the surface without a point within 3 spacings", percent("coverage.unsupported_share")},
+        {"mean edge of the surface", real(record.number("coverage.edge_to_spacing")) + " spacings"},
+        {"spacing, root of the area per point", real(width / scale) + ", in the units of the input"}};
+    if (record.has("trimmed")) rows.push_back({"area that trimming cut off", percent("trimmed.area_share")});
+    std::string body = html::table({"how well the surface explains its points", ""}, rows);
+    std::vector<html::Row> groups;
+    const ordered_json* told = find(record.summary, "coverage.groups_of_far_points");
+    const ordered_json* centre = find(record.summary, "to_normalised.centre");
+    if (told != nullptr && told->is_array() && centre != nullptr && centre->is_array() && centre->size() == 3) {
+        for (const ordered_json& group : *told) {
+            html::Row row = {integer(group.value("points", 0.0))};
+            std::string place;
+            for (std::size_t k = 0; k < 3; ++k) {
+                place += (k == 0 ? "" : ", ") + real(group["centre"][k].get<double>() / scale + (*centre)[k].get<double>());
+            }
+            row.push_back(place);
+            row.push_back(real(group.value("diameter", 0.0) / scale));
+            row.push_back(real(group.value("farthest", 0.0) / scale));
+            groups.push_back(std::move(row));
+        }
+    }
+    if (!groups.empty()) {
+        body += tag("p", "Points without a surface, by groups, in the units of the input:") + "\n" +
+                html::table({"points", "centre", "diameter", "largest distance"}, groups);
+    }
+    return section("Points and surface", body + tag("p", "The viewer colours the surface by gap, the distance to the nearest point in spacings, and by support, where the "
+                                                         "velocity tells them.", "hint"));
+}
+
 std::string viewer(const RunRecord& record, const Scene& scene, const std::string& id) {
     if (scene.empty) return "";
     std::string picture;

@@ -34,14 +34,15 @@ std::vector<Check> validity(const RunRecord& record) {
         if (record.several_labels()) {
             add_labels(record, checks);
         } else {
-            checks.push_back(zero(record, "boundary edges", "boundary_edges"));
+            if (record.has("trimmed")) checks.push_back({"boundary edges", html::integer(record.number("boundary_edges")) + ", open by request", true});
+            else checks.push_back(zero(record, "boundary edges", "boundary_edges"));
             checks.push_back(zero(record, "non-manifold edges", "nonmanifold_edges"));
             checks.push_back(zero(record, "non-manifold vertices", "nonmanifold_vertices"));
             checks.push_back(zero(record, "self-intersections", "self_intersections"));
         }
     }
     const bool conforms = record.flag("surface_is_interface_of_volume");
-    checks.push_back({"surface is the interface of the volume", conforms ? "bit for bit" : "no", conforms});
+    checks.push_back({record.has("trimmed") ? "surface is the part of the volume's interface that points support" : "surface is the interface of the volume", conforms ? "bit for bit" : "no", conforms});
     return checks;
 }
 
@@ -76,6 +77,8 @@ std::vector<std::string> warnings(const RunRecord& record) {
                               html::integer(kept + removed) + " points.");
         }
     }
+    if (record.number("trimmed.islands") > 0)
+        out.push_back("Trimming removed " + html::integer(record.number("trimmed.islands")) + " small pieces of the surface.");
     const double quality = record.number("min_tet_quality");
     if (quality < 1e-3) out.push_back("The least tet quality is " + html::real(quality) + ": some tets are nearly flat.");
     const ordered_json* labels = find(record.summary, "labels");
