@@ -113,6 +113,13 @@ public:
         measure_winding();
     }
 
+    /// Vectors along the sums of the points' normals, which may be zero, as long as the samples' areas.
+    void start_from(std::span<const Vec3> normals) {
+        for (std::size_t i = 0; i < normals.size(); ++i) vectors[samples_.of_point[i]] += normals[i];
+        for (std::size_t s = 0; s < vectors.size(); ++s)
+            vectors[s] = direction_or(vectors[s], Vec3::Zero()) * (samples_.widths[s] * samples_.widths[s]);
+    }
+
     /// w at the samples, of vectors that are there already.
     void measure_winding() {
         set_smoothing(field_, samples_.widths, field_smoothing);
@@ -260,6 +267,21 @@ OrientedPoints orient_points(std::span<const Vec3> points, const OrientOptions& 
     orienter.refine_directions();
     OrientedPoints out = spread(samples, point_normals(samples, points, orienter), orienter);
     out.orientation = orientation_of(samples, points, orienter);
+    return out;
+}
+
+OrientedPoints orient_from_normals(std::span<const Vec3> points, std::span<const Vec3> normals, const OrientOptions& options,
+                                   Workers* workers, const CancelToken* cancel, std::string_view name) {
+    require_volume(points, name);
+    const ScaledSamples samples = scaled_samples(points, workers);
+    Orienter orienter(samples, workers, cancel);
+    orienter.start_from(normals);
+    orienter.fine(options);
+    orienter.drop_outliers();
+    orienter.refine_directions();
+    OrientedPoints out = spread(samples, point_normals(samples, points, orienter), orienter);
+    out.orientation = orientation_of(samples, points, orienter);
+    out.orientation.all_points = true;  // a coarse stage would forget where this began
     return out;
 }
 
