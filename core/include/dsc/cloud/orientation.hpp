@@ -44,11 +44,6 @@ inline constexpr std::size_t most_samples = 30000;
 OrientedPoints orient_points(std::span<const Vec3> points, const OrientOptions& options = {}, Workers* workers = nullptr,
                              const CancelToken* cancel = nullptr, std::string_view name = {});
 
-/// The same from normals to start from, one per point, unit vectors or zero: the fine stage alone, so that the signs of the given
-/// normals decide which side is inside, and their noise is gone. Throws as orient_points. [setup]
-OrientedPoints orient_from_normals(std::span<const Vec3> points, std::span<const Vec3> normals, const OrientOptions& options = {},
-                                   Workers* workers = nullptr, const CancelToken* cancel = nullptr, std::string_view name = {});
-
 /// The same from normals that are known, one per point, of any length above 0: the area vectors lie along them, as long as the
 /// square of the width (width_of the 12th neighbour). Throws as orient_points, and GeometryError "cloud.normals" for a
 /// normal that is not finite or zero. [setup]
