@@ -34,7 +34,7 @@ constexpr double one_piece_cosine = 0.8;  // between the planes of two neighbour
 constexpr double one_piece_offset = 0.3;  // how far a neighbour lies off the plane, of its distance: the two sides of a sheet are apart
 constexpr std::size_t pair_neighbours = 6;
 constexpr std::size_t view_neighbours = 4;
-constexpr double field_smoothing = 0.5;
+constexpr double judged_smoothing = 0.5;
 
 double share_of(std::size_t part, std::size_t all) {
     return all == 0 ? 1.0 : static_cast<double>(part) / static_cast<double>(all);
@@ -94,7 +94,7 @@ double mean_winding(const ScaledSamples& samples, const std::vector<Vec3>& norma
         vectors[i] *= areas[i];
     }
     WindingField field(samples.positions, areas);
-    set_smoothing(field, samples.widths, field_smoothing);
+    set_smoothing(field, samples.widths, judged_smoothing);
     field.set_vectors(vectors);
     field.winding(w, workers);
     double sum = 0.0;

@@ -96,15 +96,14 @@ TEST_CASE("normals of PLY and PCD, scaled to unit vectors; one without a directi
     const std::string properties = "property float nx\nproperty float ny\nproperty float nz\n";
     const Normals expected{{0, 0, 1}, {0.6, 0.8, 0}};
     CHECK(files.read("a.ply", ply(properties, "0 0 1", "3 4 0")).normals == expected);
-    CHECK(files.read("a.pcd", pcd("x y z normal_x normal_y normal_z", "4 4 4 8 8 8", "F F F F F F", "1 2 3 0 0 1\n4 5 6 3 4 0\n")).normals ==
-          expected);
+    const std::string fields = "x y z normal_x normal_y normal_z", types = "F F F F F F";
+    CHECK(files.read("a.pcd", pcd(fields, "4 4 4 8 8 8", types, "1 2 3 0 0 1\n4 5 6 3 4 0\n")).normals == expected);
     CHECK(files.read("a.ply", ply(properties, "nan 0 1", "3 4 0")).normals == Normals{{0, 0, 0}, {0.6, 0.8, 0}});
     CHECK(files.read("a.ply", ply(properties, "0 0 0", "1e-30 0 0")).normals == Normals{{0, 0, 0}, {1, 0, 0}});
     CHECK(files.read("a.ply", ply(properties, "0 0 0", "nan nan nan")).normals.empty());
     CHECK(files.read("a.ply", ply("property float nx\nproperty float ny\n", "0 1", "1 0")).normals.empty());
     // A point that is dropped takes its normal with it.
-    CHECK(files.read("a.pcd", pcd("x y z normal_x normal_y normal_z", "4 4 4 4 4 4", "F F F F F F",
-                                  "nan 2 3 0 0 1\n4 5 6 0 1 0\n")).normals == Normals{{0, 1, 0}});
+    CHECK(files.read("a.pcd", pcd(fields, "4 4 4 4 4 4", types, "nan 2 3 0 0 1\n4 5 6 0 1 0\n")).normals == Normals{{0, 1, 0}});
 }
 
 TEST_CASE("normals of text clouds: named, and unit vectors without a name") {
