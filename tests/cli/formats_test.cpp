@@ -135,6 +135,13 @@ TEST_CASE("info lists every property of a cloud with its use, and judges normals
     CHECK(judged["properties"]["nx"] == "normal");
     CHECK(judged["normals"].get<std::string>().find("The normals of the file are not used, since at ") == 0);
     CHECK_FALSE(judged.contains("viewpoint"));
+    // A run says the same in the terminal and in summary.json.
+    cli.write("a.yaml", "dsc: 1\ninput: {cloud: {file: sphere.csv, filters: [{type: orient}]}, normalize: {}}\ninitial_mesh: {type: grid, "
+                        "cells: 8}\nvelocity: {type: point_cloud}\nimprovement: {type: dsc}\nschedule: [{steps: 1}]\n");
+    const Result run = cli.dsc({"run", "a.yaml", "-o", "out"});
+    REQUIRE(run.code == 0);
+    CHECK(run.err.find("info: " + judged["normals"].get<std::string>() + "\n") != std::string::npos);
+    CHECK(json::parse(cli.read("out/summary.json"))["input"]["filters"][0]["notes"] == json::array({judged["normals"]}));
     REQUIRE(cli.dsc({"convert", "sphere.csv", "sphere.pcd"}).code == 0);
     CHECK(json::parse(cli.dsc({"info", "sphere.pcd", "--json"}).out)["viewpoint"] == json({0.0, 0.0, 0.0}));
 }
