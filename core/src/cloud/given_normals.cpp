@@ -10,6 +10,7 @@
 
 #include "checks.hpp"
 #include "normal_consistency.hpp"
+#include "one_sided.hpp"
 #include "orient_samples.hpp"
 #include "text.hpp"
 
@@ -160,7 +161,36 @@ double behind_share(const ScaledSamples& samples, const Vec3& place) {
     return share_of(behind, all);
 }
 
-double dropped_share(const ScaledSamples& samples, const OrientedPoints& found) { return share_of(found.dropped, samples.size()); }
+double dropped_share(const OrientedPoints& found) { return share_of(found.dropped, found.dropped + found.orientation.samples.size()); }
+
+/// The way of the copy that closes a cloud of one layer (Orientation::backing), away from where the normals point; zero for a cloud
+/// that needs none. `place`: where it may have been recorded from, in scaled units.
+Vec3 backing_behind(const ScaledSamples& samples, const std::vector<Vec3>& given, const Vec3& place, const OrientOptions& options) {
+    if (options.backing) return *options.backing;
+    const std::optional<OneSided> found = find_one_sided(samples, place);
+    if (!found) return Vec3::Zero();
+    double towards = 0.0;
+    for (const Vec3& normal : given) towards += normal.dot(found->away);
+    return (towards > 0.0 ? -samples.diagonal : samples.diagonal) * found->depth * found->away;
+}
+
+/// orient_samples_from, with a copy of the points and the opposite normals there unless `backing` is zero.
+OrientedPoints orient_with_backing(const ScaledSamples& samples, std::span<const Vec3> points, const std::vector<Vec3>& given,
+                                   const Vec3& backing, const StartOptions& options, Workers* workers, const CancelToken* cancel) {
+    if (backing.isZero(0.0)) return orient_samples_from(samples, points, given, options, workers, cancel);
+    std::vector<Vec3> all(points.begin(), points.end()), normals;
+    normals.reserve(2 * points.size());
+    for (const Vec3& p : points) all.emplace_back(p + backing);
+    for (std::size_t i = 0; i < points.size(); ++i) normals.push_back(given[samples.of_point[i]]);
+    for (std::size_t i = 0; i < points.size(); ++i) normals.emplace_back(-normals[i]);
+    const ScaledSamples both = scaled_samples(all, workers);
+    OrientedPoints out = orient_samples_from(both, all, normals_of_samples(both, normals), options, workers, cancel);
+    out.normals.resize(points.size());
+    out.areas.resize(points.size());
+    out.confidence.resize(points.size());
+    out.orientation.backing = backing;
+    return out;
+}
 
 }  // namespace
 
@@ -194,17 +224,21 @@ GivenOrientation orient_by_file_normals(const Cloud& cloud, const OrientOptions&
     if (inverted) turn(given);
     const std::string used = inverted ? "The normals of the file point into the solid; they are used with the opposite sign."
                                       : "The normals of the file are used.";
+    const Vec3 backing = backing_behind(samples, given, -samples.centre / samples.diagonal, options);
+    const auto start = [&](std::size_t iterations, bool hold_sides) {
+        return orient_with_backing(samples, cloud.points, given, backing, {iterations, hold_sides}, workers, cancel);
+    };
     if (agreement.agreeing >= sides_agreeing) {
-        const std::size_t iterations = std::abs(winding) > closed ? options.fine_iterations : options.coarse_iterations;
-        OrientedPoints held = orient_samples_from(samples, cloud.points, given, {iterations, true}, workers, cancel);
-        if (dropped_share(samples, held) <= most_dropped) {
+        const bool is_closed = std::abs(winding) > closed || !backing.isZero(0.0);
+        OrientedPoints held = start(is_closed ? options.fine_iterations : options.coarse_iterations, true);
+        if (dropped_share(held) <= most_dropped) {
             out.figures.emplace_back("normals_kept", kept_share(samples, given, held));
             out.oriented = std::move(held);
             out.note = used;
             return out;
         }
     }
-    OrientedPoints found = orient_samples_from(samples, cloud.points, given, {options.fine_iterations, false}, workers, cancel);
+    OrientedPoints found = start(options.fine_iterations, false);
     const double kept = kept_share(samples, given, found);
     out.figures.emplace_back("normals_kept", kept);
     if (kept < least_kept) return refuse("together they bound no solid: " + percent(1.0 - kept) + " contradict the others");
@@ -238,9 +272,11 @@ GivenOrientation orient_by_sensor(const Cloud& cloud, const OrientOptions& optio
     const double winding = mean_winding(samples, given, workers);
     out.figures.emplace_back("viewpoint_winding", winding);
     if (!stated && winding <= 0.0) return out;
-    OrientedPoints found = orient_samples_from(samples, cloud.points, given, {options.coarse_iterations, true}, workers, cancel);
-    if (dropped_share(samples, found) > most_dropped)
-        return refuse(percent(dropped_share(samples, found)) + " of the points would then lie inside or outside");
+    const Vec3 backing = backing_behind(samples, given, place, options);
+    const std::size_t iterations = backing.isZero(0.0) ? options.coarse_iterations : options.fine_iterations;
+    OrientedPoints found = orient_with_backing(samples, cloud.points, given, backing, {iterations, true}, workers, cancel);
+    if (dropped_share(found) > most_dropped)
+        return refuse(percent(dropped_share(found)) + " of the points would then lie inside or outside");
     out.oriented = std::move(found);
     out.note = "Normals point towards the " + viewpoint + " of the file, from which all points were seen.";
     return out;
