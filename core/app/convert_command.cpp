@@ -6,6 +6,7 @@
 #include <dsc/io/formats.hpp>
 #include <dsc/io/write.hpp>
 #include <dsc/mesh/adopt.hpp>
+#include <dsc/surface/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
 #include <iostream>
 #include <memory>
@@ -63,8 +64,8 @@ int execute(const ConvertArguments& arguments) {
     } else if (content.cloud) {
         cloud::write_cloud(arguments.output, *content.cloud);
     } else {
-        io::write_surface(arguments.output,
-                          content.surface ? *content.surface : surface::extract_interface(*content.volume));
+        const surface::TriangleMesh surface = content.surface ? std::move(*content.surface) : surface::extract_interface(*content.volume);
+        io::write_surface(arguments.output, surface, {}, surface::vertex_normals(surface));
     }
     std::cout << arguments.output << "\n";
     return 0;

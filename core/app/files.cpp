@@ -26,6 +26,7 @@ Content read_any(const fs::path& file, const std::vector<std::string>& columns) 
         cloud::ReadReport report;
         content.cloud = cloud::read_cloud(file, &report, {columns});
         content.dropped = report.dropped_non_finite;
+        content.properties = std::move(report.properties);
         return content;
     };
     const io::Format* format = io::find_format(file);

@@ -1,7 +1,7 @@
 #pragma once
 // Files as the commands see them: what a name on the command line holds.
 
-#include <dsc/cloud/cloud.hpp>
+#include <dsc/cloud/read.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
 #include <dsc/surface/triangle_mesh.hpp>
 #include <filesystem>
@@ -21,6 +21,7 @@ struct Content {
     std::optional<mesh::TetMesh> volume;
     std::optional<cloud::Cloud> cloud;
     std::size_t dropped = 0;  ///< points of a cloud that were not finite
+    std::vector<cloud::FoundProperty> properties{};  ///< of a cloud
 };
 
 /// Reads a surface, a volume or a cloud. A surface format without faces is read as a cloud. `columns` are those of a text

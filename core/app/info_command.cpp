@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/base/workers.hpp>
+#include <dsc/cloud/given_normals.hpp>
+#include <dsc/cloud/read.hpp>
 #include <dsc/cloud/search.hpp>
 #include <dsc/cloud/statistics.hpp>
 #include <dsc/io/read.hpp>
@@ -105,6 +107,43 @@ ordered_json statistics_figures(const cloud::Statistics& s) {
             {"largest_outlier_score", farthest}};
 }
 
+/// Every property of the points' file with what it is used for.
+ordered_json properties(const std::vector<cloud::FoundProperty>& found) {
+    ordered_json all = ordered_json::object();
+    for (const cloud::FoundProperty& property : found) all[property.name] = property.use.empty() ? "not used" : property.use;
+    return all;
+}
+
+/// Adds what would become of normals and of the scanner's place in a reconstruction, and why.
+void add_orientation(const cloud::Cloud& cloud, Workers& workers, ordered_json& figures) {
+    if (cloud.sensor) {
+        const Vec3& at = cloud.sensor->position;
+        figures["viewpoint"] = {at.x(), at.y(), at.z()};
+    }
+    try {
+        const cloud::GivenOrientation by_normals = cloud::orient_by_file_normals(cloud, {}, &workers);
+        if (!by_normals.note.empty()) figures["normals"] = by_normals.note;
+        if (by_normals.oriented) return;
+        const cloud::GivenOrientation by_sensor = cloud::orient_by_sensor(cloud, {}, &workers);
+        if (!by_sensor.note.empty()) figures["viewpoint_use"] = by_sensor.note;
+    } catch (const GeometryError&) {
+        return;  // a flat cloud has no inside, and is still a cloud to look at
+    }
+}
+
+/// Of a surface that a cloud could be read from: its points' properties; else nothing.
+ordered_json surface_properties(const std::string& file) {
+    const std::string extension = extension_of(file);
+    if (extension != ".ply" && extension != ".obj") return nullptr;
+    try {
+        cloud::ReadReport report;
+        cloud::read_cloud(file, &report);
+        return properties(report.properties);
+    } catch (const Error&) {
+        return nullptr;
+    }
+}
+
 ordered_json cloud_figures(const Content& content, Workers& workers) {
     const std::vector<Vec3>& points = content.cloud->points;
     const cloud::NearestSearch search(points);
@@ -117,14 +156,17 @@ ordered_json cloud_figures(const Content& content, Workers& workers) {
         spacing += distance;
         if (neighbours.size() > 1 && distance == 0.0) ++repeated;
     }
-    return {{"points", points.size()},
-            {"coloured", !content.cloud->colours.empty()},
-            {"dropped_not_finite", content.dropped},
-            {"points_with_a_twin", repeated},
-            {"mean_spacing", spacing / static_cast<double>(points.size())},
-            {"statistics", statistics_figures(cloud::measure_cloud(search, &workers))},
-            {"box", box_figures(bounding_box(points))},
-            {"solid", false}};
+    ordered_json figures = {{"points", points.size()},
+                            {"coloured", !content.cloud->colours.empty()},
+                            {"dropped_not_finite", content.dropped},
+                            {"points_with_a_twin", repeated},
+                            {"mean_spacing", spacing / static_cast<double>(points.size())},
+                            {"statistics", statistics_figures(cloud::measure_cloud(search, &workers))},
+                            {"box", box_figures(bounding_box(points))},
+                            {"solid", false}};
+    if (!content.properties.empty()) figures["properties"] = properties(content.properties);
+    add_orientation(*content.cloud, workers, figures);
+    return figures;
 }
 
 int execute(const InfoArguments& arguments) {
@@ -135,6 +177,7 @@ int execute(const InfoArguments& arguments) {
         figures["kind"] = "surface";
         figures.update(surface_figures(run::measure(*content.surface, &workers)));
         figures["coloured"] = !content.surface->colours.empty();
+        if (const ordered_json found = surface_properties(arguments.file); !found.is_null()) figures["properties"] = found;
     } else if (content.volume) {
         figures["kind"] = "volume";
         figures.update(volume_figures(arguments.file, run::measure(*content.volume, &workers)));

@@ -139,6 +139,7 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     using Names = std::vector<std::string>;
     config::ConfigNode output = arguments.trim ? root.at("output") : config::ConfigNode::map();
     output = output.with("report", kept)
+                 .with("normals", true)
                  .with("surface", wanted(list, false, kept ? Names{"obj", "ply"} : Names{"obj"}))
                  .with("volume", wanted(list, true, kept ? Names{"vtu", "dsc"} : Names{"dsc"}));
     root = root.with("output", output);

@@ -70,7 +70,11 @@ TEST_CASE("sample, info, convert, evaluate and render work together") {
     CHECK(cli.dsc({"convert", "truth.obj", "truth.stl"}).code == 0);
     CHECK(cli.dsc({"convert", "truth.obj", "truth.off"}).code == 0);
     CHECK(cli.dsc({"convert", "truth.off", "back.obj"}).code == 0);
-    CHECK(cli.read("back.obj") == cli.read("truth.obj"));
+    // A surface gets normals, and is the same besides.
+    CHECK(cli.dsc({"convert", "truth.obj", "normals.obj"}).code == 0);
+    CHECK(cli.read("back.obj") == cli.read("normals.obj"));
+    CHECK(cli.read("back.obj").find("\nvn ") != std::string::npos);
+    CHECK(json::parse(cli.dsc({"info", "back.obj", "--json"}).out)["volume"] == truth["volume"]);
     CHECK(cli.dsc({"convert", "torus.ply", "torus.xyz"}).code == 0);
     CHECK(cli.dsc({"convert", "truth.obj", "truth.obj"}).code == 2);
     CHECK(cli.dsc({"convert", "truth.obj", "truth.vtu"}).code == 2);

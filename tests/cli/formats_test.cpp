@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -31,7 +32,7 @@ std::string coloured_csv() {
 const std::string experiment =
     "dsc: 1\ninput: {cloud: {file: cloud.csv, columns: [east, north, 4, red, green, blue]}, normalize: {}}\n"
     "initial_mesh: {type: grid, cells: 12}\nvelocity: {type: point_cloud}\nimprovement: {type: dsc}\n"
-    "schedule: [{steps: 8}]\noutput: {surface: [obj, ply, off, stl], volume: [vtu, dsc, msh, mesh]}\n";
+    "schedule: [{steps: 8}]\noutput: {surface: [obj, ply, off, stl], volume: [vtu, dsc, msh, mesh], normals: true}\n";
 
 }  // namespace
 
@@ -112,6 +113,39 @@ TEST_CASE("a run carries the colours to the surface and writes every format; all
     }
 }
 
+TEST_CASE("info lists every property of a cloud with its use, and judges normals and viewpoint") {
+    const Cli cli;
+    cli.write("u16.ply",
+              "ply\nformat ascii 1.0\nelement vertex 5\nproperty double x\nproperty double y\nproperty double z\nproperty uint16 "
+              "red\nproperty uint16 green\nproperty uint16 blue\nproperty float quality\nend_header\n"
+              "0 0 0 65535 0 0 1\n1 0 0 0 9 0 1\n0 1 0 0 0 9 1\n0 0 1 0 0 0 1\n1 1 1 0 0 0 1\n");
+    const json coloured = json::parse(cli.dsc({"info", "u16.ply", "--json"}).out);
+    CHECK(coloured["coloured"] == true);
+    CHECK(coloured["properties"] == json({{"x", "position"}, {"y", "position"}, {"z", "position"}, {"red", "colour"},
+                                          {"green", "colour"}, {"blue", "colour"}, {"quality", "not used"}}));
+    CHECK(cli.dsc({"info", "u16.ply"}).out.find("properties.quality ") != std::string::npos);
+    // A sphere whose normals all point to one side.
+    std::string sphere = "x,y,z,nx,ny,nz\n";
+    for (int i = 0; i < 500; ++i) {
+        const double z = (2.0 * i + 1.0) / 500.0 - 1.0, r = std::sqrt(1.0 - z * z), angle = 2.4 * i;
+        sphere += std::to_string(r * std::cos(angle)) + "," + std::to_string(r * std::sin(angle)) + "," + std::to_string(z) + ",0,0,1\n";
+    }
+    cli.write("sphere.csv", sphere);
+    const json judged = json::parse(cli.dsc({"info", "sphere.csv", "--json"}).out);
+    CHECK(judged["properties"]["nx"] == "normal");
+    CHECK(judged["normals"].get<std::string>().find("The normals of the file are not used, since at ") == 0);
+    CHECK_FALSE(judged.contains("viewpoint"));
+    // A run says the same in the terminal and in summary.json.
+    cli.write("a.yaml", "dsc: 1\ninput: {cloud: {file: sphere.csv, filters: [{type: orient}]}, normalize: {}}\ninitial_mesh: {type: grid, "
+                        "cells: 8}\nvelocity: {type: point_cloud}\nimprovement: {type: dsc}\nschedule: [{steps: 1}]\n");
+    const Result run = cli.dsc({"run", "a.yaml", "-o", "out"});
+    REQUIRE(run.code == 0);
+    CHECK(run.err.find("info: " + judged["normals"].get<std::string>() + "\n") != std::string::npos);
+    CHECK(json::parse(cli.read("out/summary.json"))["input"]["filters"][0]["notes"] == json::array({judged["normals"]}));
+    REQUIRE(cli.dsc({"convert", "sphere.csv", "sphere.pcd"}).code == 0);
+    CHECK(json::parse(cli.dsc({"info", "sphere.pcd", "--json"}).out)["viewpoint"] == json({0.0, 0.0, 0.0}));
+}
+
 TEST_CASE("reconstruct writes a volume for Gmsh and one for MEDIT") {
     const Cli cli;
     cli.write("cloud.csv", coloured_csv());
@@ -119,7 +153,9 @@ TEST_CASE("reconstruct writes a volume for Gmsh and one for MEDIT") {
                                 "-o", "v.msh", "-o", "v.mesh", "-o", "s.ply", "-o", "v.dsc", "-q"});
     CHECK(run.err == "");
     CHECK(run.out == "v.msh\nv.mesh\ns.ply\nv.dsc\n");
-    CHECK(json::parse(cli.dsc({"info", "s.ply", "--json"}).out)["coloured"] == true);
+    const json surface = json::parse(cli.dsc({"info", "s.ply", "--json"}).out);
+    CHECK(surface["coloured"] == true);
+    CHECK(surface["properties"]["nx"] == "normal");
     REQUIRE(cli.dsc({"convert", "cloud.csv", "xyz.csv", "--columns", "east,north,up"}).code == 0);
     const auto judged = [&](std::vector<std::string> cloud) {
         cloud.insert(cloud.begin(), {"evaluate", "s.ply", "--json", "--cloud"});

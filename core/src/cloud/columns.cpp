@@ -149,8 +149,10 @@ void ColumnChoice::take_names(const std::vector<std::string>& names) {
     }
     named_ = true;
     coordinates_ = find_names(names, {"x", "y", "z"}).value();
-    colours_ = find_names(names, {"red", "green", "blue"});
-    if (!colours_) colours_ = find_names(names, {"r", "g", "b"});
+    const AttributeColumns attributes = attribute_columns(names);
+    colours_ = attributes.colours;
+    normals_ = attributes.normals;
+    intensity_ = attributes.intensity;
 }
 
 void ColumnChoice::require_names(const std::vector<std::string>& header, std::size_t line) const {

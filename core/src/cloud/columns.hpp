@@ -10,6 +10,8 @@
 
 #include <dsc/cloud/read.hpp>
 
+#include "attributes.hpp"
+
 namespace dsc::cloud {
 
 /// How the columns of a line are divided: ';', ',', with `tabs` '\t', or ' ' for blanks and tabs. A line with a
@@ -34,6 +36,8 @@ public:
     bool named() const { return named_; }
     const std::array<std::size_t, 3>& coordinates() const { return coordinates_; }
     const std::optional<std::array<std::size_t, 3>>& colours() const { return colours_; }
+    const std::optional<std::array<std::size_t, 3>>& normals() const { return normals_; }
+    const std::optional<std::size_t>& intensity() const { return intensity_; }
 
     /// Whether the words hold all names that are needed: the chosen ones, else x, y and z.
     bool knows(const std::vector<std::string>& words) const;
@@ -55,6 +59,8 @@ private:
     const ReadOptions& options_;
     std::array<std::size_t, 3> coordinates_{0, 1, 2};
     std::optional<std::array<std::size_t, 3>> colours_;
+    std::optional<std::array<std::size_t, 3>> normals_;
+    std::optional<std::size_t> intensity_;
     bool wants_names_ = false;
     bool named_ = false;
 };

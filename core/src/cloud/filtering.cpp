@@ -55,6 +55,7 @@ Cloud pick(const Cloud& cloud, std::span<const std::size_t> indices) {
     result.confidence = picked(cloud.confidence, points, indices);
     if (identity(indices, points)) result.orientation = cloud.orientation;
     result.source = cloud.source;
+    result.sensor = cloud.sensor;
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,10 +17,13 @@ namespace dsc::cloud {
 /// Where the check of a header ended.
 struct FileCheck {
     std::size_t points = 0;  ///< as the header promises and the file's size allows
+    std::vector<std::string> names{};  ///< of the points' properties
+    std::optional<Sensor> sensor{};
 };
 
-Cloud read_obj(const std::string& file, std::string_view text);
-Cloud read_table(const std::string& file, std::string_view text, const ReadOptions& options);
+/// `names` receives what the columns are called, as far as they have names.
+Cloud read_obj(const std::string& file, std::string_view text, std::vector<std::string>& names);
+Cloud read_table(const std::string& file, std::string_view text, const ReadOptions& options, std::vector<std::string>& names);
 
 /// Colours as they stand in a text, of which `largest_value` is full light, as bytes.
 std::vector<std::array<std::uint8_t, 3>> to_bytes(const std::vector<Vec3>& colours, double largest_value);

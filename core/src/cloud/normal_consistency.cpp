@@ -42,9 +42,10 @@ double descend(WindingField& field, std::vector<Vec3>& vectors, Buffers& buffers
     return residual;
 }
 
-void turn_to_gradient(WindingField& field, std::vector<Vec3>& vectors, Buffers& buffers, Workers* workers) {
+void turn_to_gradient(WindingField& field, std::vector<Vec3>& vectors, Sides sides, Buffers& buffers, Workers* workers) {
     field.gradient(buffers.direction, workers);
     for (std::size_t i = 0; i < vectors.size(); ++i) {
+        if (!sides.empty() && buffers.direction[i].dot(sides[i]) < 0.0) buffers.direction[i] = sides[i];
         const double length = buffers.direction[i].norm();
         if (length > 0.0) vectors[i] = buffers.direction[i] * (vectors[i].norm() / length);
     }
@@ -66,7 +67,7 @@ void set_smoothing(WindingField& field, std::span<const double> widths, double f
 }
 
 double make_consistent(WindingField& field, std::span<const double> widths, const ConsistencySchedule& schedule,
-                       std::vector<Vec3>& vectors, Workers* workers, const CancelToken* cancel) {
+                       std::vector<Vec3>& vectors, Workers* workers, const CancelToken* cancel, Sides sides) {
     Buffers buffers(vectors.size());
     field.set_vectors(vectors);
     double residual = 0.0;
@@ -74,7 +75,7 @@ double make_consistent(WindingField& field, std::span<const double> widths, cons
         if (cancel != nullptr && cancel->cancelled()) throw CancelledError("the cloud was not oriented");
         set_smoothing(field, widths, smoothing_at(schedule, t));
         residual = descend(field, vectors, buffers, workers);
-        turn_to_gradient(field, vectors, buffers, workers);
+        turn_to_gradient(field, vectors, sides, buffers, workers);
     }
     return residual;
 }

@@ -17,11 +17,14 @@ struct ConsistencySchedule {
     double first = 1.0, last = 1.0;
 };
 
+/// The side that a sensor saw, per vector: a vector never turns from it. Zero: any. Empty: any for all.
+using Sides = std::span<const Vec3>;
+
 /// Improves `vectors` by steps of steepest descent on |1/2 - A mu|^2, each with the best length, after each of which every
 /// vector turns to the direction of the field's negative gradient and keeps its length. The field is left with the last
 /// smoothing and the result. Returns the root mean square of 1/2 - A mu at the beginning of the last iteration. Throws CancelledError. [setup]
 double make_consistent(WindingField& field, std::span<const double> widths, const ConsistencySchedule& schedule,
-                       std::vector<Vec3>& vectors, Workers* workers, const CancelToken* cancel);
+                       std::vector<Vec3>& vectors, Workers* workers, const CancelToken* cancel, Sides sides = {});
 
 /// Root mean square of 1/2 - w.
 double winding_residual(std::span<const double> w);

@@ -13,6 +13,7 @@
 #include "checks.hpp"
 #include "normal_consistency.hpp"
 #include "one_sided.hpp"
+#include "orient_samples.hpp"
 #include "samples.hpp"
 #include "text.hpp"
 
@@ -106,12 +107,20 @@ public:
         }
     }
 
-    void fine(const OrientOptions& options) {
+    void fine(std::size_t iterations) {
         residual = make_consistent(field_, samples_.widths,
-                                   {options.fine_iterations, fine_first, samples_.noisy() ? fine_last_noisy : fine_last},
-                                   vectors, workers_, cancel_);
+                                   {iterations, fine_first, samples_.noisy() ? fine_last_noisy : fine_last},
+                                   vectors, workers_, cancel_, sides_);
         measure_winding();
     }
+
+    /// Vectors along unit normals of the samples, or zero, as long as the samples' areas.
+    void start_from(std::span<const Vec3> given) {
+        for (std::size_t s = 0; s < vectors.size(); ++s) vectors[s] = given[s] * (samples_.widths[s] * samples_.widths[s]);
+    }
+
+    /// Holds every vector on the side where it is now.
+    void hold_sides() { sides_ = vectors; }
 
     /// w at the samples, of vectors that are there already.
     void measure_winding() {
@@ -172,6 +181,7 @@ private:
     WindingField field_;
     Workers* workers_;
     const CancelToken* cancel_;
+    std::vector<Vec3> sides_;
 };
 
 Orientation orientation_of(const ScaledSamples& samples, std::span<const Vec3> points, const Orienter& found) {
@@ -233,7 +243,7 @@ OrientedPoints orient_backed(std::span<const Vec3> points, const Vec3& backing, 
     const ScaledSamples samples = scaled_samples(all, workers);
     Orienter orienter(samples, workers, cancel);
     orienter.face_recorder(backing, points.size());
-    orienter.fine(options);
+    orienter.fine(options.fine_iterations);
     orienter.drop_outliers();
     orienter.refine_directions();
     OrientedPoints out = spread(samples, point_normals(samples, all, orienter), orienter);
@@ -255,11 +265,25 @@ OrientedPoints orient_points(std::span<const Vec3> points, const OrientOptions& 
     if (backing != Vec3::Zero()) return orient_backed(points, backing, options, workers, cancel);
     Orienter orienter(samples, workers, cancel);
     orienter.coarse(options);
-    orienter.fine(options);
+    orienter.fine(options.fine_iterations);
     orienter.drop_outliers();
     orienter.refine_directions();
     OrientedPoints out = spread(samples, point_normals(samples, points, orienter), orienter);
     out.orientation = orientation_of(samples, points, orienter);
+    return out;
+}
+
+OrientedPoints orient_samples_from(const ScaledSamples& samples, std::span<const Vec3> points, std::span<const Vec3> given,
+                                   const StartOptions& options, Workers* workers, const CancelToken* cancel) {
+    Orienter orienter(samples, workers, cancel);
+    orienter.start_from(given);
+    if (options.hold_sides) orienter.hold_sides();
+    orienter.fine(options.iterations);
+    orienter.drop_outliers();
+    orienter.refine_directions();
+    OrientedPoints out = spread(samples, point_normals(samples, points, orienter), orienter);
+    out.orientation = orientation_of(samples, points, orienter);
+    out.orientation.all_points = true;  // a coarse stage would forget where this began
     return out;
 }
 

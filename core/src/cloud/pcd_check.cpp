@@ -47,6 +47,7 @@ struct PcdHeader {
     std::string_view data;  ///< "ascii", "binary", "binary_compressed"
     std::string_view body;
     std::size_t lines = 0;
+    std::optional<Sensor> sensor;
 
     std::size_t step() const {
         std::size_t sum = 0;
@@ -111,6 +112,7 @@ private:
             seen_ += name == "COUNT" ? 0 : 1;
         } else if (name == "VIEWPOINT") {
             if (values.size() != 7) fail("VIEWPOINT has " + counted(values.size(), "value") + ", it needs 7");
+            viewpoint(values);
         } else if (name != "VERSION") {
             if (values.size() != 1)
                 fail(std::string(name) + " has " + counted(values.size(), "value") + ", it needs 1");
@@ -122,6 +124,14 @@ private:
             has_width_ = has_width_ || name == "WIDTH";
             has_height_ = has_height_ || name == "HEIGHT";
         }
+    }
+
+    /// The first three numbers are the sensor's place; what is no number is none.
+    void viewpoint(const std::vector<std::string_view>& values) {
+        Vec3 place;
+        for (int k = 0; k < 3; ++k)
+            if (parse_number(values[static_cast<std::size_t>(k)], place[k]) != Number::ok) return;
+        header_.sensor = Sensor{place, !place.isZero(0.0)};
     }
 
     void column(Field& field, std::string_view name, std::string_view value) const {
@@ -154,6 +164,8 @@ private:
             if (std::count_if(header_.fields.begin(), header_.fields.end(), named) != 1 || found->count != 1)
                 fail("a point needs the fields x, y and z, each once; " + in_quotes(axis) + " is not");
         }
+        // Of a picture of depths the scanner's own place is the origin; elsewhere 0 0 0 is what is written by default.
+        if (header_.sensor && has_height_ && height_ > 1) header_.sensor->stated = true;
         header_.body = rest_;
         header_.lines = line_;
     }
@@ -241,7 +253,11 @@ FileCheck check_pcd(const std::string& file, std::string_view bytes) {
                      in_quotes(header.data) +
                          " is no kind of PCD data; known are ascii, binary and binary_compressed");
     }
-    return {header.points};
+    FileCheck check{header.points};
+    for (const Field& field : header.fields)
+        if (field.name != "_") check.names.emplace_back(field.name);
+    check.sensor = header.sensor;
+    return check;
 }
 
 }  // namespace dsc::cloud

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <optional>
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/console/print.h>
@@ -11,6 +12,7 @@
 
 #include <dsc/base/error.hpp>
 
+#include "attributes.hpp"
 #include "formats.hpp"
 #include "text.hpp"
 
@@ -56,6 +58,74 @@ Getter getter(std::uint8_t type) {
     }
 }
 
+/// A number of every point.
+struct Numbers {
+    Getter get = nullptr;
+    std::size_t offset = 0;
+    bool whole = false;
+};
+
+/// Numbers of these fields; nothing where one of them is not a single number.
+template <std::size_t n>
+std::optional<std::array<Numbers, n>> numbers_of(const pcl::PCLPointCloud2& blob, const std::array<std::size_t, n>& fields) {
+    std::array<Numbers, n> out;
+    for (std::size_t k = 0; k < n; ++k) {
+        const pcl::PCLPointField& field = blob.fields[fields[k]];
+        out[k] = {getter(field.datatype), field.offset,
+                  field.datatype != pcl::PCLPointField::FLOAT32 && field.datatype != pcl::PCLPointField::FLOAT64};
+        if (field.count != 1 || out[k].get == nullptr) return std::nullopt;
+    }
+    return out;
+}
+
+/// Normals and colours of the points, taken one by one.
+class Attributes {
+public:
+    explicit Attributes(const pcl::PCLPointCloud2& blob) {
+        std::vector<std::string> names;
+        for (const pcl::PCLPointField& field : blob.fields) names.push_back(field.name);
+        const AttributeColumns columns = attribute_columns(names);
+        if (columns.normals) normals_ = numbers_of(blob, *columns.normals);
+        if (columns.colours) colours_ = numbers_of(blob, *columns.colours);
+        if (columns.intensity) intensity_ = numbers_of<1>(blob, {*columns.intensity});
+        if (columns.packed) {
+            const pcl::PCLPointField& field = blob.fields[*columns.packed];
+            if (field.count == 1 && (field.datatype == pcl::PCLPointField::FLOAT32 || field.datatype == pcl::PCLPointField::UINT32))
+                packed_ = field.offset;
+        }
+    }
+
+    void take(const std::uint8_t* point, Cloud& cloud) {
+        if (normals_) cloud.normals.push_back(direction_of(vector(point, *normals_)));
+        if (colours_) values_.push_back(vector(point, *colours_));
+        if (intensity_) greys_.push_back((*intensity_)[0].get(point + (*intensity_)[0].offset));
+        if (!packed_) return;
+        std::uint32_t packed = 0;
+        std::memcpy(&packed, point + *packed_, sizeof packed);
+        cloud.colours.push_back({static_cast<std::uint8_t>(packed >> 16U), static_cast<std::uint8_t>(packed >> 8U),
+                                 static_cast<std::uint8_t>(packed)});
+    }
+
+    void finish(Cloud& cloud) const {
+        if (colours_) cloud.colours = colours_from(values_, (*colours_)[0].whole);
+        if (intensity_) cloud.colours = greys_from(greys_);
+        keep_whole_normals(cloud);
+    }
+
+private:
+    static Vec3 vector(const std::uint8_t* point, const std::array<Numbers, 3>& numbers) {
+        Vec3 out;
+        for (std::size_t k = 0; k < 3; ++k) out[static_cast<int>(k)] = numbers[k].get(point + numbers[k].offset);
+        return out;
+    }
+
+    std::optional<std::array<Numbers, 3>> normals_, colours_;
+    std::optional<std::array<Numbers, 1>> intensity_;
+    std::optional<std::size_t> packed_;
+    std::vector<Vec3> values_;
+    std::vector<double> greys_;
+};
+
 [[noreturn]] void refused(const std::string& file, std::string_view format) {
     throw IoError("io.syntax", file, "", "PCL's " + std::string(format) + " reader does not accept the file",
                   "save the cloud again, for instance as PLY with x, y and z alone");
@@ -77,12 +147,8 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
     }
     const std::size_t step = blob.point_step;
     if (blob.data.size() != check.points * step) refused(file, report.format);
-    const pcl::PCLPointField* colour = find_field(blob, "rgb");
-    if (!colour) colour = find_field(blob, "rgba");
-    if (colour && (colour->count != 1 || (colour->datatype != pcl::PCLPointField::FLOAT32 &&
-                                          colour->datatype != pcl::PCLPointField::UINT32)))
-        colour = nullptr;
 
+    Attributes attributes(blob);
     Cloud cloud;
     cloud.points.reserve(check.points);
     for (std::size_t i = 0; i < check.points; ++i) {
@@ -90,12 +156,10 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
         const Vec3 p(get[0](data[0] + at), get[1](data[1] + at), get[2](data[2] + at));
         if (!p.allFinite()) continue;
         cloud.points.push_back(p);
-        if (!colour) continue;
-        std::uint32_t packed = 0;
-        std::memcpy(&packed, blob.data.data() + at + colour->offset, sizeof packed);
-        cloud.colours.push_back({static_cast<std::uint8_t>(packed >> 16U),
-                                 static_cast<std::uint8_t>(packed >> 8U), static_cast<std::uint8_t>(packed)});
+        attributes.take(blob.data.data() + at, cloud);
     }
+    attributes.finish(cloud);
+    cloud.sensor = check.sensor;
     report.dropped_non_finite = check.points - cloud.points.size();
     if (cloud.points.empty())
         throw IoError("io.non_finite", file, "",

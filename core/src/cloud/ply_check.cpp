@@ -285,7 +285,9 @@ FileCheck check_ply(const std::string& file, std::string_view bytes) {
         check_ascii_body(file, header);
     else
         check_binary(file, header);
-    return {vertex->count};
+    FileCheck check{vertex->count};
+    for (const Property& property : vertex->properties) check.names.emplace_back(property.name);
+    return check;
 }
 
 }  // namespace dsc::cloud

@@ -5,6 +5,7 @@
 
 #include <dsc/base/error.hpp>
 
+#include "attributes.hpp"
 #include "formats.hpp"
 #include "text.hpp"
 
@@ -76,9 +77,10 @@ Cloud read_cloud(const std::filesystem::path& path, ReadReport* report, const Re
     ReadReport& filled = report ? *report : local;
     filled = {};
     Cloud cloud;
+    std::vector<std::string> names;
     if (obj || table) {
         const std::string text = read_file(path);
-        cloud = obj ? read_obj(file, text) : read_table(file, text, options);
+        cloud = obj ? read_obj(file, text, names) : read_table(file, text, options, names);
         filled.points = cloud.points.size();
         filled.format = obj ? "OBJ" : extension == ".csv" ? "CSV" : "XYZ";
     } else {
@@ -90,7 +92,9 @@ Cloud read_cloud(const std::filesystem::path& path, ReadReport* report, const Re
         filled.points = check.points;
         filled.format = pcd ? "PCD" : "PLY";
         cloud = pcd ? read_pcd(path, check, filled) : read_ply(path, check, filled);
+        names = check.names;
     }
+    filled.properties = found_properties(names, cloud);
     cloud.source = file;
     return cloud;
 }

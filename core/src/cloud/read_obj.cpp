@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <dsc/base/error.hpp>
 
+#include "attributes.hpp"
 #include "formats.hpp"
 #include "text.hpp"
 
@@ -40,14 +43,80 @@ void no_points(const std::string& file, std::string_view remedy) {
     throw IoError("io.no_points", file, "", "the file has no points", remedy);
 }
 
-Cloud read_obj(const std::string& file, std::string_view text) {
+namespace {
+
+/// Normals of an OBJ: lines `vn`, and which point each belongs to.
+class ObjNormals {
+public:
+    void add(const std::string& file, std::size_t line, std::string_view rest) {
+        Vec3 normal = Vec3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            const std::string_view word = next_word(rest);
+            if (word.empty()) throw_short(file, line);
+            if (parse_number(word, normal[k]) == Number::not_a_number) coordinate(file, line, word);
+        }
+        normals_.push_back(direction_of(normal));
+    }
+
+    /// The corners of a face that name a point and a normal: "7//3", "7/1/3"; negative numbers count from the last backwards.
+    /// What is none of these belongs to no point: faces are not what a cloud is read for.
+    void add_corners(std::string_view rest, std::size_t points) {
+        for (std::string_view word = next_word(rest); !word.empty() && word.front() != '#'; word = next_word(rest)) {
+            const std::size_t first = word.find('/');
+            const std::size_t last = word.rfind('/');
+            if (first == std::string_view::npos || first == last) continue;
+            const auto point = index_of(word.substr(0, first), points);
+            const auto normal = index_of(word.substr(last + 1), normals_.size());
+            if (point && normal) corners_.emplace_back(*point, *normal);
+        }
+    }
+
+    bool any() const { return !normals_.empty(); }
+
+    /// Of every point: the mean of those that corners give it, or its own where there are as many as points. One that all corners
+    /// repeat keeps its bits.
+    std::vector<Vec3> of_points(std::size_t points) const {
+        std::vector<Vec3> out;
+        if (corners_.empty()) return normals_.size() == points ? normals_ : out;
+        out.assign(points, Vec3::Zero());
+        for (const auto& [point, normal] : corners_)
+            if (point < points && normal < normals_.size() && out[point] != normals_[normal]) out[point] += normals_[normal];
+        for (Vec3& normal : out) normal = direction_of(normal);
+        return out;
+    }
+
+private:
+    [[noreturn]] static void throw_short(const std::string& file, std::size_t line) {
+        throw IoError("io.syntax", file, std::to_string(line), "the normal has fewer than 3 numbers",
+                      "a 'vn' line is 'vn x y z'; the file may be cut off, write it again");
+    }
+
+    static std::optional<std::size_t> index_of(std::string_view word, std::size_t count) {
+        const bool backwards = !word.empty() && word.front() == '-';
+        if (backwards) word.remove_prefix(1);
+        std::size_t index = 0;
+        if (!parse_count(word, index) || index == 0 || (backwards && index > count)) return std::nullopt;
+        return backwards ? count - index : index - 1;
+    }
+
+    std::vector<Vec3> normals_;
+    std::vector<std::pair<std::size_t, std::size_t>> corners_;
+};
+
+}  // namespace
+
+Cloud read_obj(const std::string& file, std::string_view text, std::vector<std::string>& names) {
     Cloud cloud;
     std::vector<Vec3> colours;
     std::size_t previous = 0;  // numbers of the v line before
+    ObjNormals normals;
     Lines lines(text);
     for (std::string_view line; lines.next(line);) {
         std::string_view rest = line;
-        if (next_word(rest) != "v") continue;
+        const std::string_view keyword = next_word(rest);
+        if (keyword == "vn") normals.add(file, lines.number(), rest);
+        if (keyword == "f" && normals.any()) normals.add_corners(rest, cloud.points.size());
+        if (keyword != "v") continue;
         std::array<double, 6> values{};
         std::size_t count = 0;
         for (std::string_view word = next_word(rest); !word.empty() && word.front() != '#';
@@ -68,12 +137,13 @@ Cloud read_obj(const std::string& file, std::string_view text) {
         previous = count;
     }
     if (cloud.points.empty()) no_points(file, "a cloud in OBJ has a line 'v x y z' for each point");
-    if (colours.size() == cloud.points.size()) {
-        // Fractions or bytes, which only the largest number tells.
-        double largest = 0.0;
-        for (const Vec3& c : colours) largest = std::max(largest, c.maxCoeff());
-        cloud.colours = to_bytes(colours, largest > 1.0 ? 255.0 : 1.0);
-    }
+    // Fractions or bytes, which only the largest number tells.
+    if (colours.size() == cloud.points.size()) cloud.colours = colours_from(colours, false);
+    cloud.normals = normals.of_points(cloud.points.size());
+    keep_whole_normals(cloud);
+    names = {"x", "y", "z"};
+    if (!colours.empty()) names.insert(names.end(), {"r", "g", "b"});
+    if (normals.any()) names.insert(names.end(), {"nx", "ny", "nz"});
     return cloud;
 }
 

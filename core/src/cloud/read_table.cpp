@@ -1,9 +1,12 @@
 // XYZ, CSV and the like: a point a line. Our own reader because PCL's round every coordinate to float.
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <optional>
 
 #include <dsc/base/error.hpp>
 
+#include "attributes.hpp"
 #include "columns.hpp"
 #include "formats.hpp"
 #include "text.hpp"
@@ -42,10 +45,43 @@ public:
         check_announced();
         if (cloud_.points.empty()) no_points(file_, "a cloud in text has a line 'x y z' for each point");
         finish_colours();
+        finish_normals();
+        names_ = find_names();
         return std::move(cloud_);
     }
 
+    /// What the columns are called, by a header or by what they were taken for; empty where they have no names.
+    const std::vector<std::string>& names() const { return names_; }
+
 private:
+    std::vector<std::string> find_names() const {
+        if (!header_.empty()) return header_;
+        if (!comment_.empty() && comment_.size() == previous_) return comment_;
+        if (choice_.chosen()) return {};
+        std::vector<std::string> out = {"x", "y", "z"};
+        for (std::size_t first = 3; first < previous_; first += 3) {
+            const std::size_t triple = first / 3 - 1;
+            if (triple < guesses_.size() && !cloud_.colours.empty() && guesses_[triple].colour(cloud_.points.size()))
+                out.insert(out.end(), {"red", "green", "blue"});
+            else if (triple < guesses_.size() && !cloud_.normals.empty() && guesses_[triple].normal(cloud_.points.size()))
+                out.insert(out.end(), {"nx", "ny", "nz"});
+            else
+                for (std::size_t column = first; column < std::min(first + 3, previous_); ++column)
+                    out.push_back("column " + std::to_string(column + 1));
+        }
+        return out;
+    }
+
+    /// Three columns without names, and in how many lines they may be colours or normals.
+    struct Guess {
+        std::vector<Vec3> values;
+        std::size_t bytes = 0, units = 0;
+        double largest = 0.0;
+        /// Unit normals along the axes are whole numbers, too, so a colour has a number above 1.
+        bool colour(std::size_t points) const { return bytes == points && largest > 1.0; }
+        bool normal(std::size_t points) const { return units == points; }
+    };
+
     [[noreturn]] void syntax(const std::string& cause, std::string_view remedy) const {
         throw IoError("io.syntax", file_, std::to_string(lines_.number()), cause, remedy);
     }
@@ -133,10 +169,12 @@ private:
         }
         cloud_.points.push_back(point);
         previous_ = words_.size();
+        if (choice_.normals()) named_normal(*choice_.normals());
+        if (choice_.intensity()) named_intensity(*choice_.intensity());
         if (choice_.colours())
             named_colour(*choice_.colours());
         else
-            guessed_colour();
+            guess();
     }
 
     /// Of columns that are called so, or chosen; only chosen ones must hold a colour in every line.
@@ -156,27 +194,56 @@ private:
         colours_.push_back(colour);
     }
 
-    /// Without names: six columns, the last three whole numbers that fit a byte.
-    void guessed_colour() {
-        if (!header_.empty() || choice_.chosen() || choice_.named() || words_.size() != 6) return;
-        Vec3 colour;
-        for (std::size_t k = 0; k < 3; ++k) {
-            std::size_t value = 0;
-            if (!parse_count(words_[3 + k], value) || value > 255) return;
-            colour[static_cast<int>(k)] = static_cast<double>(value);
+    /// Zero, no direction, where a line lacks it.
+    void named_normal(const std::array<std::size_t, 3>& columns) {
+        Vec3 normal = Vec3::Zero();
+        bool whole = true;
+        for (int k = 0; k < 3; ++k)
+            whole = parse_number(word(columns[static_cast<std::size_t>(k)]), normal[k]) == Number::ok && whole;
+        cloud_.normals.push_back(whole ? direction_of(normal) : Vec3(Vec3::Zero()));
+    }
+
+    void named_intensity(std::size_t column) {
+        double value = 0.0;
+        if (parse_number(word(column), value) == Number::ok) intensities_.push_back(value);
+    }
+
+    /// Without names: columns 4 to 6 of six, and 7 to 9 of nine.
+    void guess() {
+        if (!header_.empty() || choice_.chosen() || choice_.named() || (words_.size() != 6 && words_.size() != 9)) return;
+        for (std::size_t triple = 0; 3 * triple + 3 < words_.size(); ++triple) {
+            Guess& guess = guesses_[triple];
+            Vec3 values = Vec3::Zero();
+            bool bytes = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::string& text = words_[3 * triple + 3 + k];
+                std::size_t count = 0;
+                bytes = bytes && parse_count(text, count) && count <= 255;
+                if (parse_number(text, values[static_cast<int>(k)]) != Number::ok) values = Vec3::Constant(infinite);
+            }
+            guess.bytes += bytes ? 1U : 0U;
+            guess.units += looks_like_unit(values) ? 1U : 0U;
+            guess.largest = std::max(guess.largest, values.maxCoeff());
+            guess.values.push_back(values);
         }
-        colours_.push_back(colour);
     }
 
     void finish_colours() {
-        if (colours_.size() != cloud_.points.size()) return;
-        double largest = 0.0;
-        for (const Vec3& c : colours_) largest = std::max(largest, c.maxCoeff());
-        // Unit normals along the axes are whole numbers, too.
-        if (!choice_.colours() && largest <= 1.0) return;
-        const bool fractions = !whole_ && largest <= 1.0;
-        cloud_.colours = to_bytes(colours_, fractions ? 1.0 : largest > 255.0 ? 65535.0 : 255.0);
+        if (!colours_.empty() && colours_.size() == cloud_.points.size()) cloud_.colours = colours_from(colours_, whole_);
+        if (!choice_.colours() && intensities_.size() == cloud_.points.size()) cloud_.colours = greys_from(intensities_);
+        for (const Guess& guess : guesses_)
+            if (cloud_.colours.empty() && guess.colour(cloud_.points.size())) cloud_.colours = colours_from(guess.values, true);
     }
+
+    void finish_normals() {
+        for (const Guess& guess : guesses_) {
+            if (!cloud_.normals.empty() || !guess.normal(cloud_.points.size())) continue;
+            for (const Vec3& value : guess.values) cloud_.normals.push_back(direction_of(value));
+        }
+        keep_whole_normals(cloud_);
+    }
+
+    static constexpr double infinite = std::numeric_limits<double>::infinity();
 
     const std::string& file_;
     Lines lines_;
@@ -188,14 +255,20 @@ private:
     std::vector<std::string> header_;   ///< empty where there is none
     std::optional<char> separator_;   ///< of chosen columns
     std::vector<Vec3> colours_;
+    std::vector<double> intensities_;
+    std::array<Guess, 2> guesses_;
+    std::vector<std::string> names_;
     std::size_t previous_ = 0;  ///< columns of the point before
     bool whole_ = true;  ///< no colour has a fraction
 };
 
 }  // namespace
 
-Cloud read_table(const std::string& file, std::string_view text, const ReadOptions& options) {
-    return TableReader(file, text, options).read();
+Cloud read_table(const std::string& file, std::string_view text, const ReadOptions& options, std::vector<std::string>& names) {
+    TableReader reader(file, text, options);
+    Cloud cloud = reader.read();
+    names = reader.names();
+    return cloud;
 }
 
 }  // namespace dsc::cloud

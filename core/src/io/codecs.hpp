@@ -20,9 +20,10 @@ mesh::TetMesh decode_dsc(std::string_view content, std::string_view file);
 /// `points`: the point arrays of doubles; may be null.
 mesh::TetMesh decode_vtu(const std::string& content, std::string_view file, std::vector<DataArray>* points);
 
-std::string encode_obj(const surface::TriangleMesh& mesh);
+/// `normals`: one per point, or none.
+std::string encode_obj(const surface::TriangleMesh& mesh, const std::vector<Vec3>& normals);
 std::string encode_off(const surface::TriangleMesh& mesh);
-std::string encode_ply(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points);
+std::string encode_ply(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points, const std::vector<Vec3>& normals);
 std::string encode_stl(const surface::TriangleMesh& mesh);
 std::string encode_dsc(const mesh::TetMesh& mesh);
 std::string encode_medit(const mesh::TetMesh& mesh);

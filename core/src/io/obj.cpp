@@ -152,7 +152,7 @@ surface::TriangleMesh decode_obj(std::string_view content, std::string_view file
     return ObjReader(content, file).read();
 }
 
-std::string encode_obj(const surface::TriangleMesh& mesh) {
+std::string encode_obj(const surface::TriangleMesh& mesh, const std::vector<Vec3>& normals) {
     std::string out;
     out.reserve(60 * mesh.points.size() + 24 * mesh.faces.size());
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -169,10 +169,21 @@ std::string encode_obj(const surface::TriangleMesh& mesh) {
         }
         out += '\n';
     }
+    for (const Vec3& normal : normals) {
+        out += "vn";
+        for (int k = 0; k < 3; ++k) {
+            out += ' ';
+            append_number(out, normal[k]);
+        }
+        out += '\n';
+    }
     for (const auto& face : mesh.faces) {
         out += 'f';
         for (const std::uint32_t v : face) {
             out += ' ';
+            append_number(out, std::uint64_t{v} + 1);
+            if (normals.empty()) continue;
+            out += "//";
             append_number(out, std::uint64_t{v} + 1);
         }
         out += '\n';

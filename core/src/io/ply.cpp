@@ -326,17 +326,21 @@ surface::TriangleMesh decode_ply(std::string_view content, std::string_view file
     return PlyReader(header, body, content.size(), place, further).read();
 }
 
-std::string encode_ply(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points) {
+std::string encode_ply(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points, const std::vector<Vec3>& normals) {
     std::string further;
     for (const DataArray& a : points) further += "property double " + a.name + "\n";
     std::string out =
         "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.points.size()) +
         "\nproperty double x\nproperty double y\nproperty double z\n" +
+        (normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n") +
         (mesh.colours.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n") +
         further + "element face " + std::to_string(mesh.faces.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
-    out.reserve(out.size() + (27 + 8 * points.size()) * mesh.points.size() + 13 * mesh.faces.size());
+    out.reserve(out.size() + (39 + 8 * points.size()) * mesh.points.size() + 13 * mesh.faces.size());
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         for (int k = 0; k < 3; ++k) append_bytes(out, mesh.points[i][k]);
+        if (!normals.empty()) {
+            for (int k = 0; k < 3; ++k) append_bytes(out, static_cast<float>(normals[i][k]));
+        }
         if (!mesh.colours.empty()) {
             for (const std::uint8_t c : mesh.colours[i]) append_bytes(out, c);
         }

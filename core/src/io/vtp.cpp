@@ -8,6 +8,7 @@
 #include <vtkDoubleArray.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
@@ -18,6 +19,8 @@
 namespace dsc::io {
 namespace {
 
+constexpr const char* colour_array = "colour";
+
 void require_surface_size(std::size_t count, std::size_t expected, const std::string& array) {
     if (count == expected) return;
     throw GeometryError("surface.size", "surface: array " + in_quotes(array) + " has " + counted(count, "value") + " for " +
@@ -27,6 +30,7 @@ void require_surface_size(std::size_t count, std::size_t expected, const std::st
 void check_arrays(const surface::TriangleMesh& mesh, const SurfaceData& data) {
     for (const DataArray& a : data.cells) require_surface_size(a.values.size(), mesh.faces.size(), a.name);
     for (const DataArray& a : data.points) require_surface_size(a.values.size(), mesh.points.size(), a.name);
+    if (!mesh.colours.empty()) require_surface_size(mesh.colours.size(), mesh.points.size(), colour_array);
     for (const VectorArray& a : data.vectors) require_surface_size(a.values.size(), mesh.points.size(), a.name);
 }
 
@@ -40,6 +44,25 @@ vtkSmartPointer<vtkDoubleArray> make_vectors(const VectorArray& vectors) {
     return array;
 }
 
+/// Bytes as ParaView shows them without a colour map.
+vtkSmartPointer<vtkUnsignedCharArray> make_colours(const surface::TriangleMesh& mesh) {
+    auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+    array->SetName(colour_array);
+    array->SetNumberOfComponents(3);
+    array->SetNumberOfTuples(static_cast<vtkIdType>(mesh.colours.size()));
+    unsigned char* to = array->GetPointer(0);
+    for (const auto& colour : mesh.colours) to = std::copy(colour.begin(), colour.end(), to);
+    return array;
+}
+
+void read_colours(vtkFieldData& from, surface::TriangleMesh& mesh) {
+    auto* array = vtkUnsignedCharArray::SafeDownCast(from.GetAbstractArray(colour_array));
+    const auto points = static_cast<vtkIdType>(mesh.points.size());
+    if (array == nullptr || array->GetNumberOfComponents() != 3 || array->GetNumberOfTuples() != points) return;
+    for (vtkIdType i = 0; i < points; ++i)
+        mesh.colours.push_back({array->GetValue(3 * i), array->GetValue(3 * i + 1), array->GetValue(3 * i + 2)});
+}
+
 std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& data, std::string_view file) {
     vtkNew<vtkPolyData> polygons;
     polygons->SetPoints(make_points(mesh.points));
@@ -48,6 +71,7 @@ std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& dat
         polygons->GetCellData()->AddArray(make_array<vtkDoubleArray>(a.name.c_str(), a.values));
     for (const DataArray& a : data.points)
         polygons->GetPointData()->AddArray(make_array<vtkDoubleArray>(a.name.c_str(), a.values));
+    if (!mesh.colours.empty()) polygons->GetPointData()->AddArray(make_colours(mesh));
     for (const VectorArray& a : data.vectors) polygons->GetPointData()->AddArray(make_vectors(a));
     CaptureScope capture;
     vtkNew<vtkXMLPolyDataWriter> writer;
@@ -113,6 +137,7 @@ surface::TriangleMesh decode_checked(const std::string& content, std::string_vie
     surface::TriangleMesh mesh;
     mesh.points = points_of(*polygons, file);
     read_faces(*polygons, mesh, file);
+    read_colours(*polygons->GetPointData(), mesh);
     if (data == nullptr) return mesh;
     read_arrays(*polygons->GetCellData(), mesh.faces.size(), data->cells);
     read_arrays(*polygons->GetPointData(), mesh.points.size(), data->points);

@@ -75,7 +75,10 @@ void require_colours(const surface::TriangleMesh& mesh) {
                                                "; give one for each or none");
 }
 
-void require_fit(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points) {
+void require_fit(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points, const std::vector<Vec3>& normals) {
+    if (!normals.empty() && normals.size() != mesh.points.size())
+        throw GeometryError("surface.size", "surface: " + counted(normals.size(), "normal") + " for " +
+                                                counted(mesh.points.size(), "point") + "; give one for each or none");
     for (const DataArray& a : points) {
         if (a.values.size() == mesh.points.size()) continue;
         throw GeometryError("surface.size", "surface: array " + in_quotes(a.name) + " has " + counted(a.values.size(), "value") +
@@ -85,13 +88,14 @@ void require_fit(const surface::TriangleMesh& mesh, const std::vector<DataArray>
 
 }  // namespace
 
-void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh, const std::vector<DataArray>& points) {
+void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh, const std::vector<DataArray>& points,
+                   const std::vector<Vec3>& normals) {
     const Format& format = require_format(file, &Format::surface, "surface", surface_extensions());
     surface::require_sound(mesh);
     require_colours(mesh);
-    require_fit(mesh, points);
-    write_file(file, format.extension == ".obj"   ? encode_obj(mesh)
-                     : format.extension == ".ply" ? encode_ply(mesh, points)
+    require_fit(mesh, points, normals);
+    write_file(file, format.extension == ".obj"   ? encode_obj(mesh, normals)
+                     : format.extension == ".ply" ? encode_ply(mesh, points, normals)
                      : format.extension == ".off" ? encode_off(mesh)
                                                   : encode_stl(mesh));
 }

@@ -29,9 +29,9 @@ void judge_finite(const Call& current, std::string_view what, const std::vector<
 void judge_normals(const Call& current, const std::vector<Vec3>& normals) {
     constexpr double tolerance = 1e-6;  // wide enough for normals that went through floats
     for (std::size_t i = 0; i < normals.size(); ++i) {
-        if (std::abs(normals[i].norm() - 1.0) <= tolerance) continue;
+        if (std::abs(normals[i].norm() - 1.0) <= tolerance || normals[i].isZero(0.0)) continue;
         fail(current, "strategy.range", "gave " + entry("normal", i) + " the length " + config::real_text(normals[i].norm()),
-             "normals are unit vectors; report this to the plugin's authors");
+             "normals are unit vectors, or zero where they are unknown; report this to the plugin's authors");
     }
 }
 
@@ -102,6 +102,10 @@ void judge_report(const Call& current, const cloud::FilterReport& told, std::siz
     if (!told.reasons.empty() && (!adds_up || rest != 0)) {
         fail(current, "strategy.size",
              "gave reasons whose counts do not add up to the " + count_of(told.removed, "removed point"), report_it);
+    }
+    for (const std::string& note : told.notes) {
+        if (note.empty() || note.find('\n') != std::string::npos)
+            fail(current, "strategy.range", "gave a note that is not one line of text", report_it);
     }
     judge(current, told.figures);
 }

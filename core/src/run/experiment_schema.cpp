@@ -143,6 +143,8 @@ void declare_output(config::ParamSchema<Output>& s) {
         .doc("Write the surface without the parts that no points support, with a border. The volume stays closed. Needs a cloud.");
     s.boolean("report", &Output::report)
         .doc("report.html, a page that shows the run: figures, plots and the surface to turn and cut.");
+    s.boolean("normals", &Output::normals)
+        .doc("Writes a unit normal with each vertex of a surface, to .obj and .ply. dsc reconstruct does.");
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ std::string report_html(const std::filesystem::path& run_folder, const plugin::C
     return guarded_report([&] {
         const RunRecord record = read_record(run_folder);
         const Scene scene = make_scene(record, {}, {catalogue, input}, workers);
-        const std::string body = headline_section(record) + warnings_section(record) + coverage_section(record) + viewer_section(record, scene) +
+        const std::string body = headline_section(record) + warnings_section(record) + coverage_section(record) + notes_section(record) +
+                                 viewer_section(record, scene) +
                                  thesis_section(record) + plots_section(record, scene) + time_section(record) +
                                  topology_section(record) + cloud_section(record) + config_section(record) + provenance_section(record);
         return report_page(record.name(), subtitle(record), body);

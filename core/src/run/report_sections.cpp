@@ -199,6 +199,19 @@ std::string coverage_section(const RunRecord& record) {
                                                          "velocity tells them.", "hint"));
 }
 
+std::string notes_section(const RunRecord& record) {
+    const nlohmann::ordered_json* filters = find(record.summary, "input.filters");
+    if (filters == nullptr || !filters->is_array()) return "";
+    std::string list;
+    for (const nlohmann::ordered_json& filter : *filters) {
+        const auto notes = filter.is_object() ? filter.find("notes") : filter.end();
+        if (notes == filter.end() || !notes->is_array()) continue;
+        for (const nlohmann::ordered_json& note : *notes)
+            if (note.is_string()) list += tag("li", text(note.get<std::string>())) + "\n";
+    }
+    return list.empty() ? "" : section("Notes on the cloud", tag("ul", list), "notes");
+}
+
 std::string viewer(const RunRecord& record, const Scene& scene, const std::string& id) {
     if (scene.empty) return "";
     std::string picture;

@@ -13,6 +13,8 @@ std::string headline_section(const RunRecord& record);
 std::string warnings_section(const RunRecord& record);
 /// How well the surface explains its points; empty without a cloud.
 std::string coverage_section(const RunRecord& record);
+/// What filters say of the cloud; empty where they say nothing.
+std::string notes_section(const RunRecord& record);
 std::string viewer_section(const RunRecord& record, const Scene& scene);
 std::string thesis_section(const RunRecord& record);
 std::string plots_section(const RunRecord& record, const Scene& scene);

@@ -4,6 +4,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
+#include <dsc/surface/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
 
 #include "colours.hpp"
@@ -35,6 +36,11 @@ std::vector<mesh::Label> several_phases(const mesh::TetMesh& mesh) {
     return labels;
 }
 
+/// Of a surface's points where they are wanted, else none.
+std::vector<Vec3> normals(const Output& output, const surface::TriangleMesh& surface) {
+    return output.normals.value_or(false) ? surface::vertex_normals(surface) : std::vector<Vec3>();
+}
+
 std::string label_stem(mesh::Label label) { return "surface_" + std::to_string(label) + "."; }
 
 std::string preferred(const std::vector<std::string>& given, std::initializer_list<const char*> order) {
@@ -61,14 +67,14 @@ void ResultFiles::write(const mesh::TetMesh& mesh, const hooks::Attributes& attr
     if (target != nullptr) paint(surface_, *target);
     for (const std::string& extension : output_.surface) {
         if (surface_.faces.empty()) break;
-        io::write_surface(staged("surface.", extension), surface_, arrays(attributes, vertex_of));
+        io::write_surface(staged("surface.", extension), surface_, arrays(attributes, vertex_of), normals(output_, surface_));
         outcome.surfaces.push_back(folder_.file("result") / ("surface." + extension));
     }
     for (const mesh::Label label : several_phases(mesh)) {
         surface::TriangleMesh phase = surface::extract_phase(mesh, label, &vertex_of);
         if (target != nullptr) paint(phase, *target);
         for (const std::string& extension : output_.surface) {
-            io::write_surface(staged(label_stem(label), extension), phase, arrays(attributes, vertex_of));
+            io::write_surface(staged(label_stem(label), extension), phase, arrays(attributes, vertex_of), normals(output_, phase));
             outcome.surfaces.push_back(folder_.file("result") / (label_stem(label) + extension));
         }
     }

@@ -219,6 +219,8 @@ private:
             text += ", " + filter.filter + " removed " + std::to_string(filter.removed);
         }
         log(report.dropped > 0 ? LogLevel::warning : LogLevel::info, text);
+        for (const cloud::FilterReport& filter : report.filters)
+            for (const std::string& note : filter.notes) log(LogLevel::info, note);
     }
 
     /// The folder tells of the failure and holds nothing that looks like a result. The first error counts: what goes

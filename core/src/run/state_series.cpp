@@ -164,6 +164,9 @@ void StateSeries::write_surface(const hooks::StepContext& context, const mesh::C
     data.vectors.push_back({"normal", view.normals});
     surface::TriangleMesh mesh{view.positions, view.faces};
     to_input(mesh.points, context.to_normalised);
+    if (context.cloud != nullptr && !context.cloud->colours().empty()) {
+        for (const auto& nearest : context.nearest) mesh.colours.push_back(context.cloud->colours()[nearest.index]);
+    }
     const std::string name = file_name("surface", context.step);
     io::write_vtp(folder_ / name, mesh, data);
     note(surfaces_, {context.step, name});

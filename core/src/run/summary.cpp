@@ -63,6 +63,7 @@ ordered_json input(const LoadedInput* loaded) {
         ordered_json row = {{"type", f.filter}, {"kept", f.kept}, {"removed", f.removed}};
         for (const cloud::RemovedPoints& removed : f.reasons) row["reasons"][removed.reason] = removed.count;
         for (const auto& [figure, value] : f.figures) row["figures"][figure] = value;
+        for (const std::string& note : f.notes) row["notes"].push_back(note);
         filters.push_back(std::move(row));
     }
     return {{"source", report.source},    {"format", report.format}, {"points", report.points},

@@ -335,6 +335,7 @@ private:
             answers_.trace.add(static_cast<double>(stream_id(removed.reason) >> 12U));
             answers_.trace.add(static_cast<double>(removed.count));
         }
+        for (const std::string& note : report.notes) answers_.trace.add(static_cast<double>(stream_id(note) >> 12U));
         add("figures", report.figures);
     }
 

@@ -1,17 +1,17 @@
 #include "strategy.hpp"
 
 #include <numeric>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <dsc/base/error.hpp>
+#include <dsc/cloud/given_normals.hpp>
 
 namespace dsc::strategies {
 
 namespace {
-
-// Normals of a file whose winding number is farther than this from 1/2 do not all point outwards: halfway between what the worst
-// scans reach and what normals of random signs have.
-constexpr double most_residual = 0.25;
 
 double mean(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -30,6 +30,7 @@ cloud::Filtered with_attributes(const cloud::Cloud& cloud, cloud::OrientedPoints
     result.cloud.points = cloud.points;
     result.cloud.colours = cloud.colours;
     result.cloud.source = cloud.source;
+    result.cloud.sensor = cloud.sensor;
     result.cloud.normals = std::move(found.normals);
     result.cloud.areas = std::move(found.areas);
     result.cloud.confidence = std::move(found.confidence);
@@ -43,7 +44,7 @@ void Orient::declare(config::ParamSchema<Params>& schema) {
     schema
         .choice("from", &Params::from,
                 {{"auto", NormalSource::automatic}, {"file", NormalSource::file}, {"estimate", NormalSource::estimate}})
-        .doc("Where the normals come from: the file, the points alone, or (auto) the file if it has normals that point outwards.");
+        .doc("Where the normals come from: the file, the points alone, or (auto) the file if its normals or its viewpoint are consistent.");
     schema.boolean("all_points", &Params::all_points)
         .doc("Estimates with every point, or cell of a large cloud, from the start: slower, better at parts thinner than a few points.");
     schema.integer("iterations", &Params::iterations)
@@ -57,12 +58,16 @@ void Orient::declare(config::ParamSchema<Params>& schema) {
 
 Orient::Orient(const Params& params, const plugin::Setup&) : params_(params) {}
 
-cloud::OrientedPoints Orient::estimated(const cloud::Cloud& cloud, const hooks::FilterContext& context) const {
+cloud::OrientOptions Orient::options() const {
     cloud::OrientOptions options;
     options.all_points = params_.all_points;
     options.coarse_iterations = params_.iterations;
     if (params_.one_sided == OneSided::never) options.backing = Vec3(Vec3::Zero());
-    return cloud::orient_points(cloud.points, options, context.workers, context.cancel, cloud.source);
+    return options;
+}
+
+cloud::OrientedPoints Orient::estimated(const cloud::Cloud& cloud, const hooks::FilterContext& context) const {
+    return cloud::orient_points(cloud.points, options(), context.workers, context.cancel, cloud.source);
 }
 
 cloud::OrientedPoints Orient::from_file(const cloud::Cloud& cloud, const hooks::FilterContext& context) const {
@@ -78,11 +83,26 @@ cloud::Filtered Orient::apply(const cloud::Cloud& cloud, const hooks::FilterCont
                                                     "from: estimate, or take a file with normals");
         return with_attributes(cloud, from_file(cloud, context), false);
     }
-    if (params_.from == NormalSource::automatic && has_normals) {
-        cloud::OrientedPoints found = from_file(cloud, context);
-        if (found.orientation.residual <= most_residual) return with_attributes(cloud, std::move(found), false);
+    if (params_.from == NormalSource::estimate) return with_attributes(cloud, estimated(cloud, context), true);
+    return automatic(cloud, context);
+}
+
+cloud::Filtered Orient::automatic(const cloud::Cloud& cloud, const hooks::FilterContext& context) const {
+    std::vector<std::pair<std::string, double>> figures;
+    std::vector<std::string> notes;
+    std::optional<cloud::OrientedPoints> oriented;
+    for (const auto& by_file : {cloud::orient_by_file_normals, cloud::orient_by_sensor}) {
+        if (oriented) break;
+        cloud::GivenOrientation given = by_file(cloud, options(), context.workers, context.cancel);
+        figures.insert(figures.end(), given.figures.begin(), given.figures.end());
+        if (!given.note.empty()) notes.push_back(std::move(given.note));
+        oriented = std::move(given.oriented);
     }
-    return with_attributes(cloud, estimated(cloud, context), true);
+    const bool by_points = !oriented;
+    cloud::Filtered result = with_attributes(cloud, by_points ? estimated(cloud, context) : std::move(*oriented), by_points);
+    result.report.figures.insert(result.report.figures.end(), figures.begin(), figures.end());
+    result.report.notes = std::move(notes);
+    return result;
 }
 
 }  // namespace dsc::strategies

@@ -31,6 +31,8 @@ public:
     cloud::Filtered apply(const cloud::Cloud& cloud, const hooks::FilterContext& context) override;
 
 private:
+    cloud::OrientOptions options() const;
+    cloud::Filtered automatic(const cloud::Cloud& cloud, const hooks::FilterContext& context) const;
     cloud::OrientedPoints estimated(const cloud::Cloud& cloud, const hooks::FilterContext& context) const;
     cloud::OrientedPoints from_file(const cloud::Cloud& cloud, const hooks::FilterContext& context) const;
 

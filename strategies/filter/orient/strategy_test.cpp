@@ -77,12 +77,40 @@ TEST_CASE("normals of the file are taken where they are wanted") {
     CHECK(figure(filtered(good, from("estimate")), "estimated") == 1.0);
 }
 
-TEST_CASE("normals that point inwards are estimated anew unless they are insisted on") {
+TEST_CASE("normals that point inwards are turned unless they are insisted on") {
     const Cloud bad = with_normals(-1.0);
+    const Filtered result = filtered(bad);
+    CHECK(figure(result, "estimated") == 0.0);
+    CHECK(figure(result, "normals_winding") < -0.4);
+    CHECK(outwards(result.cloud));
+    REQUIRE(result.report.notes.size() == 1);
+    CHECK(result.report.notes[0].find("opposite sign") != std::string::npos);
+    const Filtered insisted = filtered(bad, from("file"));
+    CHECK(insisted.cloud.normals == bad.normals);
+    CHECK(insisted.report.notes.empty());
+}
+
+TEST_CASE("normals that contradict the points are estimated anew, and a note says why") {
+    Cloud bad = with_normals(1.0);
+    for (Vec3& normal : bad.normals) normal = Vec3::UnitX();
     const Filtered result = filtered(bad);
     CHECK(figure(result, "estimated") == 1.0);
     CHECK(outwards(result.cloud));
-    CHECK(filtered(bad, from("file")).cloud.normals == bad.normals);
+    REQUIRE(result.report.notes.size() == 1);
+    CHECK(result.report.notes[0].find("do not stand on the surface") != std::string::npos);
+    CHECK(filtered(bad, from("estimate")).report.notes.empty());
+}
+
+TEST_CASE("the scanner's place is used where there are no normals to use") {
+    Cloud view;
+    for (const Vec3& p : sphere().points)
+        if (p.z() > 0.6) view.points.push_back(p);
+    view.sensor = dsc::cloud::Sensor{Vec3(0, 0, 9), true};
+    const Filtered result = filtered(view);
+    CHECK(figure(result, "estimated") == 0.0);
+    CHECK(outwards(result.cloud));
+    CHECK(result.report.notes.at(0).find("viewpoint 0 0 9") != std::string::npos);
+    CHECK(result.cloud.sensor.has_value());
 }
 
 TEST_CASE("without normals, those of the file cannot be taken") {

@@ -56,6 +56,20 @@ TEST_CASE("vtp: the file is what other programs expect; nothing at all is a surf
     CHECK(read_vtp(folder / "none.vtp").faces.empty());
 }
 
+TEST_CASE("vtp: colours come back, and are bytes that ParaView shows as they are") {
+    const test::Folder folder;
+    surface::TriangleMesh m = test::awkward_mesh();
+    m.colours = {{255, 0, 7}, {0, 0, 0}, {1, 2, 3}, {254, 255, 128}};
+    write_vtp(folder / "a.vtp", m, arrays());
+    SurfaceData back;
+    const surface::TriangleMesh read = read_vtp(folder / "a.vtp", &back);
+    CHECK(read.colours == m.colours);
+    CHECK(back.points.size() == 2);
+    CHECK(test::content_of(folder / "a.vtp").find("type=\"UInt8\" Name=\"colour\" NumberOfComponents=\"3\"") != std::string::npos);
+    m.colours.pop_back();
+    CHECK_THROWS_WITH_AS(write_vtp(folder / "a.vtp", m), "surface: array 'colour' has 3 values for 4; give one for each", GeometryError);
+}
+
 TEST_CASE("vtp: arrays that do not fit and damaged files are refused") {
     const test::Folder folder;
     SurfaceData data = arrays();

@@ -572,7 +572,7 @@ TEST_CASE("filter: attributes that do not fit the points or are out of range") {
     CHECK(apply([](Filtered& f) { f.cloud.points[1].z() = no_number; }).text == gave + "point 1 a coordinate that is not finite" + report);
     CHECK(apply([](Filtered& f) { f.cloud.areas.assign(3, Vec3::Constant(no_number)); }).code == "strategy.not_finite");
     CHECK(apply([](Filtered& f) { f.cloud.normals = {Vec3::UnitX(), Vec3(0, 0, 0.5), Vec3::UnitX()}; }).text ==
-          gave + "normal 1 the length 0.5; normals are unit vectors" + report);
+          gave + "normal 1 the length 0.5; normals are unit vectors, or zero where they are unknown" + report);
     CHECK(apply([](Filtered& f) { f.cloud.normals.assign(3, Vec3(0, 0, 1 + 1e-8)); }).text.empty());
     CHECK(apply([](Filtered& f) { f.cloud.confidence = {0, 1, 1.5}; }).code == "strategy.range");
     CHECK(apply([](Filtered& f) { f.cloud.confidence = {0, no_number, 1}; }).code == "strategy.range");

@@ -264,7 +264,7 @@ TEST_CASE("report: hostile names in every file of the run stay text") {
         json["events"][evil] = 1;
         json["operations"][evil] = {{"tried", 1}, {"committed", 1}};
         json["labels"][evil] = {{"surface", {{"closed_manifold", false}}}};
-        json["input"] = {{"filters", {{{"type", evil}, {"kept", 1}, {"removed", 9}}}}};
+        json["input"] = {{"filters", {{{"type", evil}, {"kept", 1}, {"removed", 9}, {"notes", {evil}}}}}};
     });
     spoil("provenance.json", [&](auto& json) {
         json["command"] = {evil};
@@ -279,6 +279,7 @@ TEST_CASE("report: hostile names in every file of the run stay text") {
     metrics.replace(metrics.find(column), column.size(), "observers." + evil);
     folder.write("run/metrics.csv", metrics);
     folder.write("run/config.resolved.yaml", folder.read("run/config.resolved.yaml") + "# " + evil + "\n");
+    CHECK(run::report_html(folder.path() / "run", strategies()).find("Notes on the cloud") != std::string::npos);
     const fs::path folders[] = {folder.path() / "run", folder.path() / "run"};
     for (const std::string& page : {run::report_html(folder.path() / "run", strategies()), run::comparison_html(folders, strategies())}) {
         CHECK(page.find("<script>alert") == std::string::npos);

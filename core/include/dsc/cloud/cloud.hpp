@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,16 +34,24 @@ struct Orientation {
     bool empty() const { return samples.empty(); }
 };
 
+/// Where the scanner stood while it saw all points of a cloud.
+struct Sensor {
+    Vec3 position = Vec3::Zero();  ///< in the units of the points
+    bool stated = false;           ///< false: the file has the value that programs write where they know none
+};
+
 /// Points in the units of their file, with the attributes that files and filters give them. Each attribute is empty or
 /// has one entry per point.
 struct Cloud {
     std::vector<Vec3> points;
     std::vector<Colour> colours{};
     std::string source{};  ///< the file or shape that they come from, named in error messages; may be empty
-    std::vector<Vec3> normals{};       ///< unit vectors that point out of the solid
+    std::vector<Vec3> normals{};       ///< unit vectors, or zero where one is unknown; they point out of the solid after the
+                                       ///< filter `orient`, before it they are as the file has them
     std::vector<Vec3> areas{};         ///< area vectors, in squared units
     std::vector<double> confidence{};  ///< of the normals, 0 to 1
     Orientation orientation{};         ///< empty before the filter `orient`
+    std::optional<Sensor> sensor{};    ///< where the file names one
 };
 
 }  // namespace dsc::cloud

@@ -29,6 +29,7 @@ struct FilterReport {
     std::size_t removed = 0;
     std::vector<RemovedPoints> reasons{};  ///< empty where there is only one; else their counts add up to `removed`
     std::vector<std::pair<std::string, double>> figures{};  ///< further figures for summary.json: snake_case name and value
+    std::vector<std::string> notes{};  ///< what a user should hear, a sentence on one line each: in the log, summary.json and report
 };
 
 struct Filtered {

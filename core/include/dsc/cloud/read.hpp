@@ -11,11 +11,18 @@
 
 namespace dsc::cloud {
 
+/// A column, field or property of a cloud's file.
+struct FoundProperty {
+    std::string name;
+    std::string use;  ///< "position", "normal", "colour", "colour (grey)"; empty where it is not used
+};
+
 /// What reading a file met.
 struct ReadReport {
     std::string format;                  ///< "PCD", "PLY", "OBJ", "XYZ" or "CSV"
     std::size_t points = 0;              ///< points of the file, dropped ones included
     std::size_t dropped_non_finite = 0;  ///< points with NaN or infinity, left out (PCD and PLY only)
+    std::vector<FoundProperty> properties{};  ///< in the order of the file; empty where columns have no names
 };
 
 /// Which columns of a text cloud hold the coordinates, and the colours if there are six.
@@ -26,14 +33,16 @@ struct ReadOptions {
 };
 
 /// Reads a cloud; the extension, in any case, decides the format:
-/// - .pcd (ascii, binary, binary_compressed) and .ply (ascii, binary of both byte orders) with x y z of any
-///   numeric type; points with NaN or infinity are left out and counted;
-/// - .obj: `v x y z` or `v x y z r g b`, other statements are skipped;
+/// - .pcd (ascii, binary, binary_compressed) and .ply (ascii, binary of both byte orders) with x y z, normals, colours or
+///   intensities of any numeric type; points with NaN or infinity are left out and counted;
+/// - .obj: `v x y z` or `v x y z r g b`, and `vn` as the corners of `f` say or one per point; other statements are skipped;
 /// - .xyz .txt .asc .pts .csv: columns separated by blanks, tabs, commas or semicolons, quoted or not. Those
 ///   that a header line or a comment before the first point calls x, y, z, else the first three; colours from
-///   r, g, b or red, green, blue, without such a header from columns 4 to 6 where there are six and these
-///   hold whole numbers from 0 to 255 (one above 1). Comments (# or //), empty lines and the count lines of
-///   .pts are skipped.
+///   r, g, b or red, green, blue, normals from nx, ny, nz or normal_x, ..., greys from intensity where there are no colours.
+///   Without such a header columns 4 to 6 of six, and 7 to 9 of nine, are colours where they hold whole numbers from 0 to 255
+///   (one above 1), normals where they are unit vectors in every line. Comments (# or //), empty lines and the count
+///   lines of .pts are skipped.
+/// A normal is scaled to a unit vector, one without a direction is zero; whether they agree with the points is not judged here.
 /// Throws IoError for a file that is missing, not readable, empty, without points, truncated or malformed,
 /// for NaN and infinity in text, for what is not read here (.las, .laz, .e57, range grids in PLY, ...), and
 /// "io.columns" for chosen columns that are not 3 or 6, not there, or of a format without columns. [setup]

@@ -24,11 +24,11 @@ struct SurfaceData {
     std::vector<VectorArray> vectors;
 };
 
-/// Writes VTK polygons: doubles, zlib. A mesh without faces is written, too: a state may have vanished. Throws IoError
+/// Writes VTK polygons: doubles, zlib; colours as an array `colour` of three bytes per point. A mesh without faces is written, too: a state may have vanished. Throws IoError
 /// "io.write"; GeometryError as surface::require_sound(), "surface.size" when an array does not fit. [setup]
 void write_vtp(const std::filesystem::path& file, const surface::TriangleMesh& mesh, const SurfaceData& data = {});
 
-/// A surface and its arrays of floating-point numbers, every bit as written. Throws IoError with the codes of read_surface();
+/// A surface with its colours and its arrays of floating-point numbers, every bit as written. Throws IoError with the codes of read_surface();
 /// "io.cell_type" for anything but triangles. [setup]
 surface::TriangleMesh read_vtp(const std::filesystem::path& file, SurfaceData* data = nullptr);
 

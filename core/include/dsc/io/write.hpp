@@ -19,12 +19,13 @@ struct VolumeData {
 /// Writes .obj or .off (shortest decimal text that reads back to the same double), .ply (binary, doubles) or
 /// .stl (binary floats). An STL holds floats only: where the mesh is farther from the origin than it is
 /// large, its centre is subtracted before the cast and named in the header, and read_surface() adds it again.
-/// Colours are written to .obj and .ply, `points` to .ply as further properties of the vertices, doubles under their names; the
-/// other formats leave them out.
+/// Colours and `normals` (unit vectors, one per point, or none) are written to .obj and .ply, the latter as floats in .ply; `points`
+/// to .ply as further properties of the vertices, doubles under their names; the other formats leave them out.
 ///
 /// Throws IoError "io.format", "io.write", and GeometryError as surface::require_sound(), "surface.colours" where there is
-/// neither no colour nor one a point, "surface.size" when an array does not fit. [setup]
-void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh, const std::vector<DataArray>& points = {});
+/// neither no colour nor one a point, "surface.size" when an array or the normals do not fit. [setup]
+void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh, const std::vector<DataArray>& points = {},
+                   const std::vector<Vec3>& normals = {});
 
 /// Writes .dsc (shortest decimal text that reads back to the same double), .vtu (doubles, zlib, cell arrays
 /// "label" and "quality" first), .msh (Gmsh 4.1, the same text; a label is the physical group "label_N" with

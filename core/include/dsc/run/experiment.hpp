@@ -81,6 +81,7 @@ struct Output {
     std::optional<SeriesOutput> series;
     std::optional<TrimOutput> trim;  ///< empty: the closed surface
     std::optional<bool> report;
+    std::optional<bool> normals;
 };
 
 /// Everything that a run depends on, defaults included.
