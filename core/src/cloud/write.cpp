@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
 #include <cstring>
 #include <string>
-#include <system_error>
-
-#include <unistd.h>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/replace_file.hpp>
 #include <dsc/cloud/read.hpp>
 
 #include "text.hpp"
@@ -118,32 +114,6 @@ std::string ply_bytes(const Cloud& cloud, bool coloured) {
     return bytes;
 }
 
-[[noreturn]] void failed(const fs::path& path, int error) {
-    throw IoError("io.write", path.string(), "",
-                  "cannot be written: " + std::generic_category().message(error),
-                  "check the folder, its permissions and the free space");
-}
-
-/// Whoever looks at `path` sees the old file or the whole new one.
-void write_atomically(const fs::path& path, const std::string& bytes) {
-    fs::path part = path;
-    part += ".part" + std::to_string(::getpid());
-    std::FILE* const file = std::fopen(part.c_str(), "wb");
-    if (!file) failed(path, errno);
-    int error = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() ? 0 : errno;
-    if (std::fclose(file) != 0 && error == 0) error = errno;
-    std::error_code renamed;
-    if (error == 0) {
-        fs::rename(part, path, renamed);
-        error = renamed.value();
-    }
-    if (error != 0) {
-        std::error_code ignored;
-        fs::remove(part, ignored);
-        failed(path, error);
-    }
-}
-
 }  // namespace
 
 void write_cloud(const fs::path& path, const Cloud& cloud) {
@@ -152,15 +122,15 @@ void write_cloud(const fs::path& path, const Cloud& cloud) {
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const bool coloured = !cloud.points.empty() && cloud.colours.size() == cloud.points.size();
     if (extension == ".obj")
-        write_atomically(path, obj_text(cloud, coloured));
+        replace_file(path, obj_text(cloud, coloured));
     else if (extension == ".xyz" || extension == ".txt" || extension == ".asc" || extension == ".pts")
-        write_atomically(path, xyz_text(cloud, coloured));
+        replace_file(path, xyz_text(cloud, coloured));
     else if (extension == ".ply")
-        write_atomically(path, ply_bytes(cloud, coloured));
+        replace_file(path, ply_bytes(cloud, coloured));
     else if (extension == ".csv")
-        write_atomically(path, csv_text(cloud, coloured));
+        replace_file(path, csv_text(cloud, coloured));
     else if (extension == ".pcd")
-        write_atomically(path, pcd_bytes(cloud, coloured));
+        replace_file(path, pcd_bytes(cloud, coloured));
     else
         throw IoError("io.format", path.string(), "",
                       extension.empty() ? "the file's name has no extension"
