@@ -7,11 +7,11 @@
 #include <dsc/io/write.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <iostream>
 #include <memory>
 
 #include "commands.hpp"
 #include "files.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -66,7 +66,7 @@ int execute(const ConvertArguments& arguments) {
         io::write_surface(arguments.output,
                           content.surface ? *content.surface : surface::extract_interface(*content.volume));
     }
-    std::cout << arguments.output << "\n";
+    data_out() << arguments.output << "\n";
     return 0;
 }
 

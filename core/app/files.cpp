@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <dsc/base/error.hpp>
+#include <dsc/base/replace_file.hpp>
 #include <dsc/cloud/read.hpp>
 #include <dsc/io/formats.hpp>
 #include <dsc/io/read.hpp>
@@ -90,6 +91,7 @@ void require_output(const fs::path& out, const fs::path& input) {
     if (fs::is_directory(out)) {
         throw UsageError("file.folder", out.string() + " is a folder; name a file with -o");
     }
+    require_replaceable(out);
 }
 
 }  // namespace dsc::app

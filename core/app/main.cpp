@@ -1,12 +1,13 @@
 // The `dsc` command: parses, dispatches, and turns every error into one message and an exit code.
-#include <cstdio>
 #include <dsc/base/error.hpp>
 #include <dsc/run/provenance.hpp>
 #include <exception>
-#include <iostream>
+#include <string>
 #include <string_view>
 
 #include "commands.hpp"
+#include "exit_guard.hpp"
+#include "standard_streams.hpp"
 #include "terminal.hpp"
 
 namespace {
@@ -16,8 +17,7 @@ void print_error(const dsc::Error& error) {
     std::string_view text = error.what();
     while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
     const bool diagnostics = text.find(": error: ") != std::string_view::npos;
-    std::fprintf(stderr, "%s%.*s\n", diagnostics ? "" : "error: ", static_cast<int>(text.size()),
-                 text.data());
+    dsc::app::tell((diagnostics ? "" : "error: ") + std::string(text) + "\n");
 }
 
 int usage_error(const CLI::App& app, const CLI::ParseError& error) {
@@ -26,8 +26,18 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error) {
         command = given.front();
     std::string name = "dsc";
     if (command != &app) name += " " + command->get_name();
-    std::fprintf(stderr, "error: %s; see %s --help\n", error.what(), name.c_str());
+    dsc::app::tell(std::string("error: ") + error.what() + "; see " + name + " --help\n");
     return static_cast<int>(dsc::ExitCode::usage);
+}
+
+/// A job that has something of its own to say by its exit code says that.
+void finish_data(int code) {
+    try {
+        dsc::app::flush_data();
+    } catch (const dsc::Error& error) {
+        if (code == 0) throw;
+        print_error(error);
+    }
 }
 
 int run(int argc, char** argv) {
@@ -53,32 +63,45 @@ int run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {
-        return app.exit(success);  // --help, --version: on stdout
+        app.exit(success, dsc::app::data_out());  // --help, --version
+        dsc::app::flush_data();
+        return 0;
     } catch (const CLI::ParseError& error) {
         return usage_error(app, error);
     }
-    const int code = context.action();
-    if (!std::cout.flush()) {
-        throw dsc::IoError("io.write", "stdout cannot be written; check where it goes");
+    int code = 0;
+    try {
+        code = context.action();
+    } catch (...) {
+        dsc::app::data_out().flush();  // what was said before the error
+        throw;
     }
+    finish_data(code);
     return code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    dsc::app::start_log({});
+/// The exit code of the command; every error has become a message.
+int run_and_explain(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const dsc::Error& error) {
         print_error(error);
         return static_cast<int>(error.exit_code());
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "error: out of memory; use a smaller cloud or a coarser mesh\n");
+        dsc::app::tell("error: out of memory; use a smaller cloud or a coarser mesh\n");
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "error: internal: %s; please report it with the command\n", error.what());
+        dsc::app::tell(std::string("error: internal: ") + error.what() + "; please report it with the command\n");
     } catch (...) {
-        std::fprintf(stderr, "error: internal: unknown exception; please report it with the command\n");
+        dsc::app::tell("error: internal: unknown exception; please report it with the command\n");
     }
     return static_cast<int>(dsc::ExitCode::internal);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    dsc::app::take_standard_streams();
+    dsc::app::guard_exit();
+    dsc::app::start_log({});
+    return dsc::app::leave(run_and_explain(argc, argv));
 }

@@ -1,12 +1,12 @@
 // dsc plugin doctor FILE
 #include <dsc/base/error.hpp>
 #include <dsc/host/doctor.hpp>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "plugins.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -54,7 +54,7 @@ std::string json(const std::string& file, const std::vector<host::Examination>& 
 
 int execute(const DoctorArguments& arguments) {
     const auto examinations = host::examine(arguments.file, Plugins({}).search_path());
-    std::cout << (arguments.json ? json(arguments.file, examinations) : text(examinations));
+    data_out() << (arguments.json ? json(arguments.file, examinations) : text(examinations));
     if (host::healthy(examinations)) return 0;
     return static_cast<int>(ExitCode::plugin);
 }

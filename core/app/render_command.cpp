@@ -5,7 +5,6 @@
 #include <dsc/io/picture.hpp>
 #include <dsc/io/read.hpp>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <string>
 #include <thread>
@@ -14,6 +13,7 @@
 
 #include "commands.hpp"
 #include "files.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -65,14 +65,14 @@ Coloured read_coloured(const RenderArguments& arguments) {
 int paint(const RenderArguments& arguments, io::RenderOptions& options) {
     if (arguments.colour.empty()) {
         io::write_png(arguments.output, io::render(read_any_surface(arguments.input), options));
-        std::cout << arguments.output << "\n";
+        data_out() << arguments.output << "\n";
         return 0;
     }
     const Coloured surface = read_coloured(arguments);
     options.values = surface.values;
     io::write_png(arguments.output, io::render(surface.mesh, options));
     const io::ColourBounds bounds = io::colour_bounds(surface.values);
-    std::cout << arguments.output << "\n"
+    data_out() << arguments.output << "\n"
               << arguments.colour << ": " << bounds.low << " and less is blue, " << bounds.high << " and more is red\n";
     return 0;
 }
