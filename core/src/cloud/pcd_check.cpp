@@ -188,8 +188,7 @@ void check_ascii_rows(const std::string& file, const PcdHeader& header) {
             const std::string_view name = header.fields[field].name;
             if ((name == "x" || name == "y" || name == "z") &&
                 parse_number(word, value) == Number::not_a_number)
-                throw IoError("io.syntax", file, std::to_string(number), in_quotes(word) + " is not a number",
-                              "write its true coordinate");
+                not_a_number(file, number, word, "write its true coordinate");
             if (--left == 0 && ++field < header.fields.size()) left = header.fields[field].count;
         }
         if (column < columns)
@@ -241,7 +240,7 @@ FileCheck check_pcd(const std::string& file, std::string_view bytes) {
                      in_quotes(header.data) +
                          " is no kind of PCD data; known are ascii, binary and binary_compressed");
     }
-    return {header.points};
+    return {header.points, {}};
 }
 
 }  // namespace dsc::cloud
