@@ -33,7 +33,7 @@ bool unexpected() noexcept {
         const std::string who = call.empty() ? "a plugin or a library" : call;
         const std::string text = who + " ended the process; a strategy must throw instead; report this to the plugin's authors";
         tell("error: " + text + "\n");
-        run::abandon_runs("strategy.exit", text);
+        run::abandon_runs(PluginError("strategy.exit", text));
     } catch (...) {
         tell("error: a plugin or a library ended the process\n");
     }

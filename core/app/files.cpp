@@ -9,6 +9,7 @@
 #include <dsc/io/formats.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/surface/surface_view.hpp>
+#include <nlohmann/json.hpp>
 
 namespace dsc::app {
 
@@ -71,6 +72,15 @@ surface::TriangleMesh read_any_surface(const fs::path& path) {
                          path.string() + " holds points without faces; a surface or a volume is needed here");
     }
     return std::move(*content.surface);
+}
+
+bool is_utf8(const std::string& text) {
+    try {
+        static_cast<void>(nlohmann::json(text).dump());
+        return true;
+    } catch (const nlohmann::json::type_error&) {
+        return false;
+    }
 }
 
 bool same_file(const fs::path& a, const fs::path& b) {

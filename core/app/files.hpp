@@ -37,6 +37,9 @@ surface::TriangleMesh read_any_surface(const std::filesystem::path& path);
 /// Extension in lower case, with its dot.
 std::string extension_of(const std::filesystem::path& file);
 
+/// Whether the text is UTF-8, as JSON and experiments need it.
+bool is_utf8(const std::string& text);
+
 /// Whether both names lead to the same file.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 

@@ -2,13 +2,16 @@
 #include <dsc/base/error.hpp>
 #include <dsc/run/provenance.hpp>
 #include <exception>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "commands.hpp"
 #include "exit_guard.hpp"
 #include "standard_streams.hpp"
 #include "terminal.hpp"
+#include "usage.hpp"
 
 namespace {
 
@@ -20,14 +23,32 @@ void print_error(const dsc::Error& error) {
     dsc::app::tell((diagnostics ? "" : "error: ") + std::string(text) + "\n");
 }
 
-int usage_error(const CLI::App& app, const CLI::ParseError& error) {
-    const CLI::App* command = &app;
-    for (auto given = command->get_subcommands(); !given.empty(); given = command->get_subcommands())
-        command = given.front();
-    std::string name = "dsc";
-    if (command != &app) name += " " + command->get_name();
-    dsc::app::tell(std::string("error: ") + error.what() + "; see " + name + " --help\n");
-    return static_cast<int>(dsc::ExitCode::usage);
+/// `dsc help` and `dsc version`, for those who try them before --help and --version.
+void add_help(CLI::App& app, dsc::app::Context& context) {
+    CLI::App* help = app.add_subcommand("help", "The help of a command");
+    const auto words = std::make_shared<std::vector<std::string>>();
+    help->add_option("COMMAND", *words, "Command, such as run or plugin check; default all commands");
+    help->callback([&app, &context, words] {
+        context.action = [&app, words] {
+            dsc::app::data_out() << dsc::app::help_text(app, *words);
+            return 0;
+        };
+    });
+    app.add_subcommand("version", "Version, as --version")->callback([&context] {
+        context.action = [] {
+            dsc::app::data_out() << dsc::run::version_text() << "\n";
+            return 0;
+        };
+    });
+}
+
+/// Readers ask for a choice of columns; how it is made is the command's own.
+dsc::Error with_choice_of_columns(const CLI::App& app, const dsc::Error& error) {
+    const std::string text = error.what();
+    if (text.find("choose ") == std::string::npos || text.rfind("from 1") != text.size() - std::string_view("from 1").size()) return error;
+    const auto commands = app.get_subcommands();
+    const bool option = !commands.empty() && commands.front()->get_option_no_throw("--columns") != nullptr;
+    return {error.exit_code(), error.code(), text + (option ? ": --columns X,Y,Z" : ": input.cloud.columns")};
 }
 
 /// A job that has something of its own to say by its exit code says that.
@@ -60,6 +81,12 @@ int run(int argc, char** argv) {
     dsc::app::add_plugin(app, context);
     dsc::app::add_schema(app, context);
     dsc::app::add_sweep(app, context);
+    add_help(app, context);
+    if (argc < 2) {
+        dsc::app::data_out() << app.help();
+        dsc::app::flush_data();
+        return static_cast<int>(dsc::ExitCode::usage);
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {
@@ -67,13 +94,18 @@ int run(int argc, char** argv) {
         dsc::app::flush_data();
         return 0;
     } catch (const CLI::ParseError& error) {
-        return usage_error(app, error);
+        const std::vector<std::string> words(argv + 1, argv + argc);
+        dsc::app::tell("error: " + dsc::app::usage_text(app, words, error) + "\n");
+        return static_cast<int>(dsc::ExitCode::usage);
     }
     int code = 0;
     try {
         code = context.action();
-    } catch (...) {
+    } catch (const dsc::Error& error) {
         dsc::app::data_out().flush();  // what was said before the error
+        throw with_choice_of_columns(app, error);
+    } catch (...) {
+        dsc::app::data_out().flush();
         throw;
     }
     finish_data(code);

@@ -40,7 +40,7 @@ void print_json(const std::vector<Described>& all, const std::vector<host::Fault
                          {"code", fault.code},
                          {"reason", fault.message}});
     }
-    data_out() << array.dump(2) << "\n";
+    data_out() << array.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
 
 int list(const PluginArguments& arguments) {
@@ -80,7 +80,7 @@ int describe(const PluginArguments& arguments) {
     if (arguments.format == "json") {
         ordered_json array = ordered_json::array();
         for (const Described& d : found) array.push_back(full_json(d));
-        data_out() << (array.size() == 1 ? array[0] : array).dump(2) << "\n";
+        data_out() << (array.size() == 1 ? array[0] : array).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
         return 0;
     }
     for (std::size_t i = 0; i < found.size(); ++i) {

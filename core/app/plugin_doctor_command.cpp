@@ -48,7 +48,7 @@ std::string json(const std::string& file, const std::vector<host::Examination>& 
         steps.push_back({{"step", e.step}, {"result", std::string(name(e.result))}, {"text", e.text}});
     }
     return nlohmann::ordered_json{{"file", file}, {"healthy", host::healthy(examinations)}, {"steps", steps}}
-               .dump(2) +
+               .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
            "\n";
 }
 

@@ -21,6 +21,7 @@
 #include "standard_streams.hpp"
 #include "temporary_folder.hpp"
 #include "progress.hpp"
+#include "reconstruct_remedies.hpp"
 
 namespace dsc::app {
 namespace {
@@ -144,6 +145,16 @@ void deliver(const std::vector<Target>& list, const run::RunOutcome& outcome, st
     throw IoError("io.write", faults + "the result is kept in " + (outcome.folder / "result").string());
 }
 
+/// An experiment is text in UTF-8, and a name of a file need not be: then it gets a link with a plain name.
+fs::path plain_name(const fs::path& cloud, std::optional<TemporaryFolder>& links) {
+    const fs::path whole = fs::absolute(cloud);
+    if (is_utf8(whole.string())) return whole;
+    links.emplace();
+    const fs::path link = links->path() / ("cloud" + extension_of(cloud));
+    fs::create_symlink(whole, link);
+    return link;
+}
+
 /// The run; one that is stopped before there is a surface leaves nothing behind, and says so.
 run::RunOutcome carry_out(const run::LoadedExperiment& loaded, const Plugins& plugins, const run::RunOptions& options) {
     try {
@@ -152,6 +163,8 @@ run::RunOutcome carry_out(const run::LoadedExperiment& loaded, const Plugins& pl
         throw CancelledError(std::string(error.what()) +
                              "; there was no surface yet: no output was written and nothing is kept; --keep-run FOLDER keeps "
                              "the folder of a run, whatever ends it");
+    } catch (const Error& error) {
+        throw with_own_remedy(error);
     }
 }
 
@@ -162,7 +175,8 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     }
     const std::vector<Target> list = targets(arguments);
     require_good_cloud(arguments);
-    config::ConfigNode root = run::reconstruction_of(fs::absolute(arguments.cloud).string(), options_of(arguments));
+    std::optional<TemporaryFolder> links;
+    config::ConfigNode root = run::reconstruction_of(plain_name(arguments.cloud, links).string(), options_of(arguments));
     const bool kept = !arguments.keep_run.empty();
     using Names = std::vector<std::string>;
     config::ConfigNode output = arguments.trim ? root.at("output") : config::ConfigNode::map();

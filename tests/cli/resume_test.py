@@ -87,15 +87,20 @@ class Resume(unittest.TestCase):
     def test_stopped_by_a_signal(self):
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGHUP, signal.SIGXCPU):
             folder = f"signal_{number}"
-            process = subprocess.Popen(self.command(folder), cwd=self.scratch, stderr=subprocess.DEVNULL,
-                                       stdout=subprocess.DEVNULL)
-            while process.poll() is None and not list(self.scratch.glob(f"{folder}/checkpoint/*")):
-                time.sleep(0.01)
-            process.send_signal(number)
-            self.assertEqual(process.wait(), 75)
-            self.assertEqual(self.status(folder), "stopped")
+            self.stop(folder, number)
             self.run_dsc(folder, "--resume")
             self.assertEqual(digest(self.scratch / folder), self.whole)
+
+    def stop(self, folder, number):
+        """A run that is stopped once it has written a checkpoint; its checkpoints."""
+        process = subprocess.Popen(self.command(folder), cwd=self.scratch, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))  # nohup may have changed it
+        while process.poll() is None and not list(self.scratch.glob(f"{folder}/checkpoint/*.dscstate")):
+            time.sleep(0.01)
+        process.send_signal(number)
+        self.assertEqual(process.wait(), 75)
+        self.assertEqual(self.status(folder), "stopped")
+        return sorted(self.scratch.glob(f"{folder}/checkpoint/*.dscstate"))
 
     def test_time_budgets(self):
         # How long a run takes is not known beforehand on a busy machine: shorter and shorter, until one is stopped.
@@ -149,18 +154,12 @@ class Resume(unittest.TestCase):
         self.assertEqual(len(rows), 7)  # the header, row 0, five steps
 
     def test_checkpoints_of_no_use_are_refused_and_left_alone(self):
-        def stopped(folder):
-            self.run_dsc(folder, "--time-budget", f"{0.3 * self.seconds:.3f}s", expect=75)
-            files = sorted((self.scratch / folder / "checkpoint").glob("*.dscstate"))
-            self.assertTrue(files)
-            return files
-
-        for file in stopped("useless"):
+        for file in self.stop("useless", signal.SIGTERM):
             file.write_bytes(file.read_bytes()[:-100])
         done = self.run_dsc("useless", "--resume", expect=2)
         self.assertIn("it is damaged", done.stderr)
         self.assertTrue((self.scratch / "useless/result").is_dir())
-        stopped("short")
+        self.stop("short", signal.SIGTERM)
         (self.scratch / "short/metrics.csv").write_text("step\n")
         done = self.run_dsc("short", "--resume", expect=2)
         self.assertIn("metrics.csv is shorter than it was then", done.stderr)

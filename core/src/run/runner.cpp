@@ -81,8 +81,8 @@ public:
                                          : "no checkpoint of this experiment in " + path.string() + ": from the start");
         }
         folder.write("status.json", status_json(state_));
-        const Running running([this, &folder](const std::string& code, const std::string& message) {
-            fail(folder, static_cast<int>(ExitCode::plugin), code, message);
+        const Running running([this, &folder](const Error& error) {
+            fail(folder, static_cast<int>(error.exit_code()), error.code(), error.what());
         });
         try {
             RunOutcome outcome = work(folder, strategies, checkpoints);

@@ -31,9 +31,9 @@ Running::~Running() {
     all.erase(std::find(all.begin(), all.end(), &abandon_));
 }
 
-void abandon_runs(const std::string& code, const std::string& message) {
+void abandon_runs(const Error& error) {
     const std::lock_guard lock(runs_of_process().mutex);
-    for (const Running::Abandon* abandon : runs_of_process().all) (*abandon)(code, message);
+    for (const Running::Abandon* abandon : runs_of_process().all) (*abandon)(error);
 }
 
 }  // namespace dsc::run

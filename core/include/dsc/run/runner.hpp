@@ -1,6 +1,7 @@
 #pragma once
 // A whole run: from a loaded experiment to a run folder.
 
+#include <dsc/base/error.hpp>
 #include <dsc/run/coverage.hpp>
 #include <dsc/run/driver.hpp>
 #include <dsc/run/experiment.hpp>
@@ -49,8 +50,8 @@ struct RunOutcome {
 RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
                           const RunOptions& options);
 
-/// The process is about to end inside of its runs: their folders say "failed", with this code and text. [setup]
-void abandon_runs(const std::string& code, const std::string& message);
+/// The process is about to end inside of its runs: their folders say "failed", and why. [setup]
+void abandon_runs(const Error& error);
 
 /// Whether the folder holds the finished run of this experiment: then there is nothing to resume. [setup]
 bool is_finished(const std::filesystem::path& folder, const LoadedExperiment& loaded, const plugin::Catalogue& catalogue);
