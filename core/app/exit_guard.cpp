@@ -61,11 +61,11 @@ int leave(int code) noexcept {
 
 // The program's own names come before those of the C library: a plugin that calls one of these reaches the guard.
 extern "C" {
-[[noreturn]] __attribute__((visibility("default"))) void _exit(int code) {
+__attribute__((visibility("default"))) void _exit(int code) {
     dsc::app::on_exit_of_anyone();
     dsc::app::end_now(code);
 }
-[[noreturn]] __attribute__((visibility("default"))) void _Exit(int code) noexcept {
+__attribute__((visibility("default"))) void _Exit(int code) noexcept {
     dsc::app::on_exit_of_anyone();
     dsc::app::end_now(code);
 }

@@ -45,7 +45,8 @@ void add_help(CLI::App& app, dsc::app::Context& context) {
 /// Readers ask for a choice of columns; how it is made is the command's own.
 dsc::Error with_choice_of_columns(const CLI::App& app, const dsc::Error& error) {
     const std::string text = error.what();
-    if (text.find("choose ") == std::string::npos || text.rfind("from 1") != text.size() - std::string_view("from 1").size()) return error;
+    constexpr std::string_view request = "by their numbers from 1";
+    if (text.size() < request.size() || text.compare(text.size() - request.size(), request.size(), request) != 0) return error;
     const auto commands = app.get_subcommands();
     const bool option = !commands.empty() && commands.front()->get_option_no_throw("--columns") != nullptr;
     return {error.exit_code(), error.code(), text + (option ? ": --columns X,Y,Z" : ": input.cloud.columns")};

@@ -66,9 +66,11 @@ private:
 std::string difference_to(const fs::path& folder, const LoadedExperiment& loaded) {
     const fs::path file = folder / "config.resolved.yaml";
     try {
-        // Both went through the same writer, so a number is the same number.
-        const std::string told = differences(config::parse_yaml(io::read_file(file), file.string()),
-                                             config::parse_yaml(resolved_text(loaded), "the experiment"));
+        // What stands in them is final: `${` is text. Both went through the same writer, so a number is the same number.
+        config::YamlOptions options;
+        options.environment = [](const std::string&) { return std::optional<std::string>(); };
+        const std::string told = experiment_differences(config::parse_yaml(io::read_file(file), file.string(), options),
+                                                        config::parse_yaml(resolved_text(loaded), "the experiment", options));
         return told.empty() ? "a file or a plugin that it names has another content now" : told;
     } catch (const Error&) {
         return "its " + file.filename().string() + " cannot be read";
@@ -88,7 +90,7 @@ void require_tables(const fs::path& folder, const Checkpoint& checkpoint) {
 
 }  // namespace
 
-std::string differences(const ConfigNode& there, const ConfigNode& here) {
+std::string experiment_differences(const ConfigNode& there, const ConfigNode& here) {
     Comparison comparison;
     comparison.compare(&there, &here, "");
     return comparison.told();

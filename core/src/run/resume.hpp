@@ -19,6 +19,6 @@ std::optional<Checkpoint> checkpoint_to_resume(const std::filesystem::path& fold
 
 /// Where two experiments differ, "velocity.part is 0.05 there and 0.06 here", the first few places; empty where they do not.
 /// [setup]
-std::string differences(const config::ConfigNode& there, const config::ConfigNode& here);
+std::string experiment_differences(const config::ConfigNode& there, const config::ConfigNode& here);
 
 }  // namespace dsc::run
