@@ -8,11 +8,11 @@
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/surface/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <iostream>
 #include <memory>
 
 #include "commands.hpp"
 #include "files.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -67,7 +67,7 @@ int execute(const ConvertArguments& arguments) {
         const surface::TriangleMesh surface = content.surface ? std::move(*content.surface) : surface::extract_interface(*content.volume);
         io::write_surface(arguments.output, surface, {}, surface::vertex_normals(surface));
     }
-    std::cout << arguments.output << "\n";
+    data_out() << arguments.output << "\n";
     return 0;
 }
 

@@ -1,10 +1,11 @@
 #include "figures_output.hpp"
 
 #include <algorithm>
-#include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -27,7 +28,7 @@ void flatten(const ordered_json& value, const std::string& name, Lines& lines) {
 
 void print_figures(const ordered_json& figures, bool as_json) {
     if (as_json) {
-        std::cout << figures.dump(2, ' ', false, ordered_json::error_handler_t::replace) << "\n";
+        data_out() << figures.dump(2, ' ', false, ordered_json::error_handler_t::replace) << "\n";
         return;
     }
     Lines lines;
@@ -35,7 +36,7 @@ void print_figures(const ordered_json& figures, bool as_json) {
     std::size_t width = 0;
     for (const auto& [name, text] : lines) width = std::max(width, name.size());
     for (const auto& [name, text] : lines)
-        std::cout << name << std::string(width + 2 - name.size(), ' ') << text << "\n";
+        data_out() << name << std::string(width + 2 - name.size(), ' ') << text << "\n";
 }
 
 ordered_json box_figures(const Box3& box) {

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cctype>
 #include <dsc/base/error.hpp>
+#include <dsc/base/replace_file.hpp>
 #include <dsc/cloud/read.hpp>
 #include <dsc/io/formats.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/surface/surface_view.hpp>
+#include <nlohmann/json.hpp>
 
 namespace dsc::app {
 
@@ -73,6 +75,15 @@ surface::TriangleMesh read_any_surface(const fs::path& path) {
     return std::move(*content.surface);
 }
 
+bool is_utf8(const std::string& text) {
+    try {
+        static_cast<void>(nlohmann::json(text).dump());
+        return true;
+    } catch (const nlohmann::json::type_error&) {
+        return false;
+    }
+}
+
 bool same_file(const fs::path& a, const fs::path& b) {
     std::error_code error;
     if (fs::exists(a, error) && fs::exists(b, error)) return fs::equivalent(a, b, error);
@@ -91,6 +102,7 @@ void require_output(const fs::path& out, const fs::path& input) {
     if (fs::is_directory(out)) {
         throw UsageError("file.folder", out.string() + " is a folder; name a file with -o");
     }
+    require_replaceable(out);
 }
 
 }  // namespace dsc::app

@@ -38,10 +38,14 @@ surface::TriangleMesh read_any_surface(const std::filesystem::path& path);
 /// Extension in lower case, with its dot.
 std::string extension_of(const std::filesystem::path& file);
 
+/// Whether the text is UTF-8, as JSON and experiments need it.
+bool is_utf8(const std::string& text);
+
 /// Whether both names lead to the same file.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// Throws UsageError "file.same" when `out` is one of the inputs, IoError "io.folder" when its folder does not exist.
+/// For every output, before the work for it begins. Throws UsageError "file.same" when `out` is the input, IoError "io.folder"
+/// when its folder does not exist, "io.write" when it cannot be written.
 void require_output(const std::filesystem::path& out, const std::filesystem::path& input);
 
 }  // namespace dsc::app

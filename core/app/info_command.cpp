@@ -8,12 +8,14 @@
 #include <dsc/cloud/statistics.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/run/measure.hpp>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
 #include "commands.hpp"
 #include "figures_output.hpp"
 #include "files.hpp"
+#include "run_figures.hpp"
 
 namespace dsc::app {
 namespace {
@@ -171,9 +173,14 @@ ordered_json cloud_figures(const Content& content, Workers& workers) {
 
 int execute(const InfoArguments& arguments) {
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));
-    const Content content = read_any(arguments.file, arguments.columns);
     ordered_json figures = {{"file", arguments.file}};
-    if (content.surface) {
+    const bool is_run = std::filesystem::is_directory(arguments.file);
+    const Content content = is_run ? Content{} : read_any(arguments.file, arguments.columns);
+    if (is_run) {
+        figures["kind"] = "run";
+        figures.update(run_figures(arguments.file));
+        figures["solid"] = figures.contains("result") && run::measure(read_any_surface(arguments.file), &workers).solid();
+    } else if (content.surface) {
         figures["kind"] = "surface";
         figures.update(surface_figures(run::measure(*content.surface, &workers)));
         figures["coloured"] = !content.surface->colours.empty();
@@ -198,9 +205,9 @@ int execute(const InfoArguments& arguments) {
 }  // namespace
 
 void add_info(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("info", "What a surface, a volume or a cloud holds");
+    CLI::App* command = app.add_subcommand("info", "What a surface, a volume, a cloud or the folder of a run holds");
     const auto arguments = std::make_shared<InfoArguments>();
-    command->add_option("FILE", arguments->file, "Surface, volume or cloud")->required();
+    command->add_option("FILE", arguments->file, "Surface, volume, cloud or run folder")->required();
     add_columns(*command, arguments->columns);
     command->add_flag("--json", arguments->json, "JSON instead of text");
     command->add_flag("--require-solid", arguments->require_solid, "Exit 5 unless it is a valid solid");

@@ -1,13 +1,17 @@
 // The `dsc` command: parses, dispatches, and turns every error into one message and an exit code.
-#include <cstdio>
 #include <dsc/base/error.hpp>
 #include <dsc/run/provenance.hpp>
 #include <exception>
-#include <iostream>
+#include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "commands.hpp"
+#include "exit_guard.hpp"
+#include "standard_streams.hpp"
 #include "terminal.hpp"
+#include "usage.hpp"
 
 namespace {
 
@@ -16,18 +20,46 @@ void print_error(const dsc::Error& error) {
     std::string_view text = error.what();
     while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
     const bool diagnostics = text.find(": error: ") != std::string_view::npos;
-    std::fprintf(stderr, "%s%.*s\n", diagnostics ? "" : "error: ", static_cast<int>(text.size()),
-                 text.data());
+    dsc::app::tell((diagnostics ? "" : "error: ") + std::string(text) + "\n");
 }
 
-int usage_error(const CLI::App& app, const CLI::ParseError& error) {
-    const CLI::App* command = &app;
-    for (auto given = command->get_subcommands(); !given.empty(); given = command->get_subcommands())
-        command = given.front();
-    std::string name = "dsc";
-    if (command != &app) name += " " + command->get_name();
-    std::fprintf(stderr, "error: %s; see %s --help\n", error.what(), name.c_str());
-    return static_cast<int>(dsc::ExitCode::usage);
+/// `dsc help` and `dsc version`, for those who try them before --help and --version.
+void add_help(CLI::App& app, dsc::app::Context& context) {
+    CLI::App* help = app.add_subcommand("help", "The help of a command");
+    const auto words = std::make_shared<std::vector<std::string>>();
+    help->add_option("COMMAND", *words, "Command, such as run or plugin check; default all commands");
+    help->callback([&app, &context, words] {
+        context.action = [&app, words] {
+            dsc::app::data_out() << dsc::app::help_text(app, *words);
+            return 0;
+        };
+    });
+    app.add_subcommand("version", "Version, as --version")->callback([&context] {
+        context.action = [] {
+            dsc::app::data_out() << dsc::run::version_text() << "\n";
+            return 0;
+        };
+    });
+}
+
+/// Readers ask for a choice of columns; how it is made is the command's own.
+dsc::Error with_choice_of_columns(const CLI::App& app, const dsc::Error& error) {
+    const std::string text = error.what();
+    constexpr std::string_view request = "by their numbers from 1";
+    if (text.size() < request.size() || text.compare(text.size() - request.size(), request.size(), request) != 0) return error;
+    const auto commands = app.get_subcommands();
+    const bool option = !commands.empty() && commands.front()->get_option_no_throw("--columns") != nullptr;
+    return {error.exit_code(), error.code(), text + (option ? ": --columns X,Y,Z" : ": input.cloud.columns")};
+}
+
+/// A job that has something of its own to say by its exit code says that.
+void finish_data(int code) {
+    try {
+        dsc::app::flush_data();
+    } catch (const dsc::Error& error) {
+        if (code == 0) throw;
+        print_error(error);
+    }
 }
 
 int run(int argc, char** argv) {
@@ -50,35 +82,59 @@ int run(int argc, char** argv) {
     dsc::app::add_plugin(app, context);
     dsc::app::add_schema(app, context);
     dsc::app::add_sweep(app, context);
+    add_help(app, context);
+    if (argc < 2) {
+        dsc::app::data_out() << app.help();
+        dsc::app::flush_data();
+        return static_cast<int>(dsc::ExitCode::usage);
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {
-        return app.exit(success);  // --help, --version: on stdout
+        app.exit(success, dsc::app::data_out());  // --help, --version
+        dsc::app::flush_data();
+        return 0;
     } catch (const CLI::ParseError& error) {
-        return usage_error(app, error);
+        const std::vector<std::string> words(argv + 1, argv + argc);
+        dsc::app::tell("error: " + dsc::app::usage_text(app, words, error) + "\n");
+        return static_cast<int>(dsc::ExitCode::usage);
     }
-    const int code = context.action();
-    if (!std::cout.flush()) {
-        throw dsc::IoError("io.write", "stdout cannot be written; check where it goes");
+    int code = 0;
+    try {
+        code = context.action();
+    } catch (const dsc::Error& error) {
+        dsc::app::data_out().flush();  // what was said before the error
+        throw with_choice_of_columns(app, error);
+    } catch (...) {
+        dsc::app::data_out().flush();
+        throw;
     }
+    finish_data(code);
     return code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    dsc::app::start_log({});
+/// The exit code of the command; every error has become a message.
+int run_and_explain(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const dsc::Error& error) {
         print_error(error);
         return static_cast<int>(error.exit_code());
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "error: out of memory; use a smaller cloud or a coarser mesh\n");
+        dsc::app::tell("error: out of memory; use a smaller cloud or a coarser mesh\n");
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "error: internal: %s; please report it with the command\n", error.what());
+        dsc::app::tell(std::string("error: internal: ") + error.what() + "; please report it with the command\n");
     } catch (...) {
-        std::fprintf(stderr, "error: internal: unknown exception; please report it with the command\n");
+        dsc::app::tell("error: internal: unknown exception; please report it with the command\n");
     }
     return static_cast<int>(dsc::ExitCode::internal);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    dsc::app::take_standard_streams();
+    dsc::app::guard_exit();
+    dsc::app::start_log({});
+    return dsc::app::leave(run_and_explain(argc, argv));
 }

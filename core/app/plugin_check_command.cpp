@@ -3,11 +3,12 @@
 #include <dsc/config/spelling.hpp>
 #include <dsc/conformance/check.hpp>
 #include <dsc/io/atomic_file.hpp>
-#include <iostream>
 #include <memory>
 
 #include "commands.hpp"
+#include "files.hpp"
 #include "plugins.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -34,7 +35,7 @@ int list_tests() {
         row.resize(18, ' ');
         row += conformance::name(test.level);
         row.resize(28, ' ');
-        std::cout << row << test.doc << "\n";
+        data_out() << row << test.doc << "\n";
     }
     return 0;
 }
@@ -72,6 +73,7 @@ std::string formatted(const conformance::Report& report, const std::string& form
 int execute(const CheckArguments& arguments) {
     if (arguments.list) return list_tests();
     if (arguments.target.empty()) throw UsageError("usage.check", "name a plugin's file or a strategy's id");
+    if (!arguments.output.empty()) require_output(arguments.output, arguments.target);
     conformance::CheckOptions options;
     options.level = conformance::find_level(arguments.level).value();
     options.seed = arguments.seed;
@@ -88,15 +90,15 @@ int execute(const CheckArguments& arguments) {
     const bool live = arguments.output.empty() && arguments.format == "text";
     if (live)
         options.on_outcome = [](const conformance::Outcome& o) {
-            std::cout << conformance::text(o) << std::flush;
+            data_out() << conformance::text(o) << std::flush;
         };
     const conformance::Report report = conformance::check(file, options);
     if (!arguments.output.empty()) {
         io::write_file(arguments.output, formatted(report, arguments.format));
     } else if (live) {
-        std::cout << conformance::sums(report);
+        data_out() << conformance::sums(report);
     } else {
-        std::cout << formatted(report, arguments.format);
+        data_out() << formatted(report, arguments.format);
     }
     return report.passed() ? 0 : static_cast<int>(ExitCode::plugin);
 }

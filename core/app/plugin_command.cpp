@@ -1,12 +1,12 @@
 // dsc plugin list | describe ID | path
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
-#include <iostream>
 #include <memory>
 
 #include "commands.hpp"
 #include "describe.hpp"
 #include "plugins.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -40,7 +40,7 @@ void print_json(const std::vector<Described>& all, const std::vector<host::Fault
                          {"code", fault.code},
                          {"reason", fault.message}});
     }
-    std::cout << array.dump(2) << "\n";
+    data_out() << array.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
 
 int list(const PluginArguments& arguments) {
@@ -50,8 +50,8 @@ int list(const PluginArguments& arguments) {
     if (arguments.json) {
         print_json(all, host.faults());
     } else {
-        std::cout << list_text(all);
-        for (const host::Fault& fault : host.faults()) std::cout << state(fault) << "  " << fault.message << "\n";
+        data_out() << list_text(all);
+        for (const host::Fault& fault : host.faults()) data_out() << state(fault) << "  " << fault.message << "\n";
     }
     return host.faults().empty() ? 0 : static_cast<int>(ExitCode::plugin);
 }
@@ -80,19 +80,19 @@ int describe(const PluginArguments& arguments) {
     if (arguments.format == "json") {
         ordered_json array = ordered_json::array();
         for (const Described& d : found) array.push_back(full_json(d));
-        std::cout << (array.size() == 1 ? array[0] : array).dump(2) << "\n";
+        data_out() << (array.size() == 1 ? array[0] : array).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
         return 0;
     }
     for (std::size_t i = 0; i < found.size(); ++i) {
-        if (i > 0) std::cout << "\n";
-        std::cout << described(found[i], arguments.format);
+        if (i > 0) data_out() << "\n";
+        data_out() << described(found[i], arguments.format);
     }
     return 0;
 }
 
 int path(const PluginArguments& arguments) {
     for (const host::SearchEntry& entry : Plugins(arguments.plugins).search_path()) {
-        std::cout << entry.path.string() << "  (" << entry.origin << ")\n";
+        data_out() << entry.path.string() << "  (" << entry.origin << ")\n";
     }
     return 0;
 }

@@ -1,12 +1,12 @@
 // dsc plugin doctor FILE
 #include <dsc/base/error.hpp>
 #include <dsc/host/doctor.hpp>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "plugins.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -48,13 +48,13 @@ std::string json(const std::string& file, const std::vector<host::Examination>& 
         steps.push_back({{"step", e.step}, {"result", std::string(name(e.result))}, {"text", e.text}});
     }
     return nlohmann::ordered_json{{"file", file}, {"healthy", host::healthy(examinations)}, {"steps", steps}}
-               .dump(2) +
+               .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
            "\n";
 }
 
 int execute(const DoctorArguments& arguments) {
     const auto examinations = host::examine(arguments.file, Plugins({}).search_path());
-    std::cout << (arguments.json ? json(arguments.file, examinations) : text(examinations));
+    data_out() << (arguments.json ? json(arguments.file, examinations) : text(examinations));
     if (host::healthy(examinations)) return 0;
     return static_cast<int>(ExitCode::plugin);
 }

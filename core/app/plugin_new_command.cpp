@@ -4,11 +4,11 @@
 #include <dsc/config/spelling.hpp>
 #include <dsc/host/search_path.hpp>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 
 #include "commands.hpp"
 #include "plugin_project.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -63,7 +63,7 @@ int execute(const NewArguments& arguments) {
     require_free_name(arguments.name);
     const std::vector<ProjectFile> files = plugin_project(arguments.name, kind);
     write_project(fs::path(".") / arguments.name, files);
-    for (const ProjectFile& file : files) std::cout << arguments.name << "/" << file.name << "\n";
+    for (const ProjectFile& file : files) data_out() << arguments.name << "/" << file.name << "\n";
     log_next(arguments.name);
     return 0;
 }

@@ -1,13 +1,12 @@
 #include "progress.hpp"
 
 #include <spdlog/fmt/fmt.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "standard_streams.hpp"
 #include "time_estimate.hpp"
 
 namespace dsc::app {
@@ -61,8 +60,9 @@ private:
         const bool last = row.step >= planned;
         if (!last && now - told_ < rewrite_seconds) return;
         told_ = now;
-        fmt::print(stderr, "\r{}\x1b[K{}", text(row, planned, now), last ? "\n" : "");
-        std::fflush(stderr);
+        // A line that wraps is not rewritten by "\r"; the last column stays free, where some terminals wrap already.
+        const unsigned columns = stderr_columns();
+        tell(fmt::format("\r{}\x1b[K{}", text(row, planned, now).substr(0, columns > 1 ? columns - 1 : 1), last ? "\n" : ""));
     }
 
     void line(const run::StepMetrics& row, std::uint64_t planned, double now) {
@@ -70,8 +70,7 @@ private:
         if (row.step == 0 || (tenth == told_tenth_ && now - told_ < line_seconds)) return;
         told_tenth_ = tenth;
         told_ = now;
-        fmt::print(stderr, "{}\n", text(row, planned, now));
-        std::fflush(stderr);
+        tell(text(row, planned, now) + "\n");
     }
 
     void json(const run::StepMetrics& row, std::uint64_t planned, double now) const {
@@ -87,7 +86,7 @@ private:
         if (row.vertex_to_cloud_mean) json["vertex_to_cloud_mean"] = *row.vertex_to_cloud_mean;
         if (row.cloud_to_surface_mean) json["cloud_to_surface_mean"] = *row.cloud_to_surface_mean;
         if (const auto left = estimate_.remaining()) json["remaining_s"] = *left;
-        fmt::print(stderr, "{}\n", json.dump());
+        tell(json.dump() + "\n");
     }
 
     Form form_;
@@ -113,8 +112,8 @@ std::function<void(const run::StepMetrics&, std::uint64_t)> progress_reporter(
     using Form = Progress::Form;
     if (options.progress == "never" || (options.quiet && options.progress != "json")) return {};
     const Form form = options.progress == "json"   ? Form::json
-                      : isatty(STDERR_FILENO) != 0 ? Form::live
-                                                   : Form::lines;
+                      : stderr_rewrites()        ? Form::live
+                                                 : Form::lines;
     const auto progress = std::make_shared<Progress>(form, experiment);
     return [progress](const run::StepMetrics& row, std::uint64_t planned) { (*progress)(row, planned); };
 }

@@ -11,8 +11,9 @@ namespace dsc::app {
 
 void add_progress(CLI::App& command, TerminalOptions& options);
 
-/// Reports steps on stderr: one line that is rewritten on a terminal, elsewhere a line every 10 % or 30 s, with "json" an
-/// object a step; nothing with "never" or -q.
+/// Reports steps on stderr: one line that is rewritten on a terminal and cut to its width; on a terminal that cannot rewrite
+/// (TERM=dumb) and elsewhere a line every 10 % or 30 s; with "json" an object per step; nothing with "never" or -q. What
+/// cannot be written is dropped.
 std::function<void(const run::StepMetrics&, std::uint64_t planned)> progress_reporter(
     const TerminalOptions& options, const run::Experiment& experiment);
 

@@ -8,18 +8,20 @@
 #include <dsc/io/formats.hpp>
 #include <dsc/run/reconstruct.hpp>
 #include <dsc/run/runner.hpp>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <sstream>
 #include <thread>
 
 #include "commands.hpp"
+#include "exit_guard.hpp"
 #include "files.hpp"
 #include "outcome.hpp"
 #include "plugins.hpp"
+#include "standard_streams.hpp"
 #include "temporary_folder.hpp"
 #include "progress.hpp"
+#include "reconstruct_remedies.hpp"
 
 namespace dsc::app {
 namespace {
@@ -127,6 +129,45 @@ run::ReconstructOptions options_of(const ReconstructArguments& arguments) {
     return options;
 }
 
+/// The outputs, out of the run folder. Where one cannot be written the others are, and the run folder stays.
+void deliver(const std::vector<Target>& list, const run::RunOutcome& outcome, std::optional<TemporaryFolder>& temporary) {
+    std::string faults;
+    for (const Target& target : list) {
+        try {
+            io::write_file(target.file, io::read_file(source_of(target, outcome)));
+            data_out() << target.file.string() << "\n";
+        } catch (const IoError& error) {
+            faults += std::string(error.what()) + "; ";
+        }
+    }
+    if (faults.empty()) return;
+    if (temporary) temporary->keep();
+    throw IoError("io.write", faults + "the result is kept in " + (outcome.folder / "result").string());
+}
+
+/// An experiment is text in UTF-8, and a name of a file need not be: then it gets a link with a plain name.
+fs::path plain_name(const fs::path& cloud, std::optional<TemporaryFolder>& links) {
+    const fs::path whole = fs::absolute(cloud);
+    if (is_utf8(whole.string())) return whole;
+    links.emplace();
+    const fs::path link = links->path() / ("cloud" + extension_of(cloud));
+    fs::create_symlink(whole, link);
+    return link;
+}
+
+/// The run; one that is stopped before there is a surface leaves nothing behind, and says so.
+run::RunOutcome carry_out(const run::LoadedExperiment& loaded, const Plugins& plugins, const run::RunOptions& options) {
+    try {
+        return run::run_experiment(loaded, plugins.host(), options);
+    } catch (const CancelledError& error) {
+        throw CancelledError(std::string(error.what()) +
+                             "; there was no surface yet: no output was written and nothing is kept; --keep-run FOLDER keeps "
+                             "the folder of a run, whatever ends it");
+    } catch (const Error& error) {
+        throw with_own_remedy(error);
+    }
+}
+
 int execute(const ReconstructArguments& arguments, const std::vector<std::string>& command) {
     start_log(arguments.terminal);
     if (!fs::exists(arguments.cloud)) {
@@ -134,7 +175,8 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     }
     const std::vector<Target> list = targets(arguments);
     require_good_cloud(arguments);
-    config::ConfigNode root = run::reconstruction_of(fs::absolute(arguments.cloud).string(), options_of(arguments));
+    std::optional<TemporaryFolder> links;
+    config::ConfigNode root = run::reconstruction_of(plain_name(arguments.cloud, links).string(), options_of(arguments));
     const bool kept = !arguments.keep_run.empty();
     using Names = std::vector<std::string>;
     config::ConfigNode output = arguments.trim ? root.at("output") : config::ConfigNode::map();
@@ -145,8 +187,9 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     root = root.with("output", output);
     Plugins plugins(arguments.plugins);
     const run::LoadedExperiment loaded = run::resolve_experiment(root, plugins.loader());
+    guard_exit();
     if (arguments.print_config) {
-        std::cout << run::resolved_text(loaded);
+        data_out() << run::resolved_text(loaded);
         return 0;
     }
 
@@ -159,12 +202,10 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     options.cancel = &cancel_on_signals();
     options.command = command;
     options.on_step = progress_reporter(arguments.terminal, loaded.experiment);
-    const run::RunOutcome outcome = run::run_experiment(loaded, plugins.host(), options);
+    const run::RunOutcome outcome = carry_out(loaded, plugins, options);
     report(outcome);
-    if (exit_code(outcome) != 0) return exit_code(outcome);
-    for (const Target& target : list) io::write_file(target.file, io::read_file(source_of(target, outcome)));
-    for (const Target& target : list) std::cout << target.file.string() << "\n";
-    if (!arguments.strict || outcome.totals.warnings.empty()) return 0;
+    deliver(list, outcome, temporary);
+    if (exit_code(outcome) != 0 || !arguments.strict || outcome.totals.warnings.empty()) return exit_code(outcome);
     log(LogLevel::error, "--strict: the result is written, but there are warnings about it");
     return static_cast<int>(ExitCode::geometry);
 }

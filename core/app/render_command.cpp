@@ -1,11 +1,12 @@
 // dsc render
 #include <charconv>
 #include <dsc/base/error.hpp>
+#include <dsc/base/log.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/io/picture.hpp>
 #include <dsc/io/read.hpp>
+#include <dsc/run/report.hpp>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <string>
 #include <thread>
@@ -14,6 +15,7 @@
 
 #include "commands.hpp"
 #include "files.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -22,7 +24,7 @@ struct RenderArguments {
     std::string input;
     std::string output;
     std::string view = "iso";
-    std::string up = "y";
+    std::string up = "auto";
     std::string size = "1024x768";
     std::string colour;
     bool edges = false;
@@ -61,18 +63,28 @@ Coloured read_coloured(const RenderArguments& arguments) {
                                          (names.empty() ? "none" : names));
 }
 
+/// As the picture and the report of a run have it: the built-in shapes stand along z, most models in files along y. A file does
+/// not tell, so what was taken is said.
+io::UpAxis up_axis(const RenderArguments& arguments) {
+    if (arguments.up != "auto") return arguments.up == "z" ? io::UpAxis::z : io::UpAxis::y;
+    const bool z = std::filesystem::is_directory(arguments.input) && run::stands_along_z(arguments.input);
+    log(LogLevel::info, z ? "z points up, as in the report of the run; --up y turns it"
+                          : "y points up; --up z stands a model upright whose height is z");
+    return z ? io::UpAxis::z : io::UpAxis::y;
+}
+
 /// The picture, and on the terminal what its colours mean.
 int paint(const RenderArguments& arguments, io::RenderOptions& options) {
     if (arguments.colour.empty()) {
         io::write_png(arguments.output, io::render(read_any_surface(arguments.input), options));
-        std::cout << arguments.output << "\n";
+        data_out() << arguments.output << "\n";
         return 0;
     }
     const Coloured surface = read_coloured(arguments);
     options.values = surface.values;
     io::write_png(arguments.output, io::render(surface.mesh, options));
     const io::ColourBounds bounds = io::colour_bounds(surface.values);
-    std::cout << arguments.output << "\n"
+    data_out() << arguments.output << "\n"
               << arguments.colour << ": " << bounds.low << " and less is blue, " << bounds.high << " and more is red\n";
     return 0;
 }
@@ -86,7 +98,7 @@ int execute(const RenderArguments& arguments) {
     io::RenderOptions options;
     parse_size(arguments.size, options);
     options.view = io::view_from_name(arguments.view).value();
-    options.up = arguments.up == "z" ? io::UpAxis::z : io::UpAxis::y;
+    options.up = up_axis(arguments);
     options.edges = arguments.edges;
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));
     options.workers = &workers;
@@ -103,8 +115,8 @@ void add_render(CLI::App& app, Context& context) {
     command->add_option("--view", arguments->view, "Where the viewer stands")
         ->check(CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "iso"}))
         ->capture_default_str();
-    command->add_option("--up", arguments->up, "The axis that points up: y or z")
-        ->check(CLI::IsMember({"y", "z"}))
+    command->add_option("--up", arguments->up, "The axis that points up: y, z, or auto, which says what it took")
+        ->check(CLI::IsMember({"auto", "y", "z"}))
         ->capture_default_str();
     command->add_option("--size", arguments->size, "Width and height in pixels")->capture_default_str();
     command->add_flag("--edges", arguments->edges, "Draw the edges of the triangles");

@@ -2,12 +2,13 @@
 #include <dsc/base/error.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/run/report.hpp>
-#include <iostream>
 #include <memory>
 #include <thread>
 
 #include "commands.hpp"
+#include "files.hpp"
 #include "plugins.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -28,6 +29,7 @@ fs::path output_of(const ReportArguments& arguments) {
 int execute(const ReportArguments& arguments) {
     const std::vector<fs::path> folders(arguments.folders.begin(), arguments.folders.end());
     const fs::path output = output_of(arguments);
+    if (!arguments.output.empty()) require_output(output, "");
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));
     // They make the cloud's filters. A run whose plugins are gone still has its page, and it says what is not shown.
     Plugins plugins(arguments.plugins);
@@ -35,7 +37,7 @@ int execute(const ReportArguments& arguments) {
     const std::string page = folders.size() == 1 ? run::report_html(folders.front(), host, &workers)
                                                  : run::comparison_html(folders, host, &workers);
     io::write_file(output, page);
-    std::cout << output.string() << "\n";
+    data_out() << output.string() << "\n";
     return 0;
 }
 

@@ -3,15 +3,16 @@
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/run/runner.hpp>
-#include <iostream>
 #include <memory>
 #include <thread>
 
 #include "commands.hpp"
 #include "duration.hpp"
+#include "exit_guard.hpp"
 #include "outcome.hpp"
 #include "plugins.hpp"
 #include "progress.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -34,7 +35,7 @@ int check(const run::LoadedExperiment& loaded, const host::Host& host, const Run
     const std::filesystem::path folder = arguments.folder.empty() ? run::default_folder(loaded, host)
                                                                   : std::filesystem::path(arguments.folder);
     if (arguments.print_config) return 0;
-    std::cout << arguments.config << ": valid, " << run::planned_steps(loaded.experiment)
+    data_out() << arguments.config << ": valid, " << run::planned_steps(loaded.experiment)
               << " steps, would write " << folder.string() << "\n";
     return 0;
 }
@@ -46,8 +47,9 @@ int execute(const RunArguments& arguments, const std::vector<std::string>& comma
     Plugins plugins(arguments.plugins);
     const run::LoadedExperiment loaded =
         run::load_experiment(arguments.config, arguments.overrides, plugins.loader());
+    guard_exit();
     if (!loaded.warnings.empty()) log(LogLevel::warning, loaded.warnings);
-    if (arguments.print_config) std::cout << run::resolved_text(loaded);
+    if (arguments.print_config) data_out() << run::resolved_text(loaded);
     if (arguments.check) return check(loaded, plugins.host(), arguments);
     if (arguments.print_config) return 0;
 
@@ -55,7 +57,7 @@ int execute(const RunArguments& arguments, const std::vector<std::string>& comma
         arguments.folder.empty() ? run::default_folder(loaded, plugins.host()) : std::filesystem::path(arguments.folder);
     if (arguments.resume && run::is_finished(folder, loaded, plugins.host())) {
         log(LogLevel::info, folder.string() + " is finished, there is nothing to resume");
-        std::cout << folder.string() << "\n";
+        data_out() << folder.string() << "\n";
         return 0;
     }
     run::RunOptions options;
@@ -69,7 +71,7 @@ int execute(const RunArguments& arguments, const std::vector<std::string>& comma
     options.on_step = progress_reporter(arguments.terminal, loaded.experiment);
     const run::RunOutcome outcome = run::run_experiment(loaded, plugins.host(), options);
     report(outcome);
-    std::cout << outcome.folder.string() << "\n";
+    data_out() << outcome.folder.string() << "\n";
     return exit_code(outcome);
 }
 
@@ -93,7 +95,7 @@ void add_run(CLI::App& app, Context& context) {
                       "Print the experiment with all defaults, run nothing");
     command->add_flag("--resume", arguments->resume,
                       "Go on from the last checkpoint in the run folder, from the start where there is none; a finished run "
-                      "stays as it is");
+                      "stays as it is, the run of another experiment is refused");
     command->add_option("--time-budget", arguments->time_budget, "Save a checkpoint and stop, with exit code 75, after this time: 90, 90s, 10m, 1.5h");
     add_progress(*command, arguments->terminal);
     add_verbosity(*command, arguments->terminal);

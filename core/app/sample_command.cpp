@@ -2,11 +2,11 @@
 #include <dsc/cloud/shapes.hpp>
 #include <dsc/cloud/write.hpp>
 #include <dsc/io/write.hpp>
-#include <iostream>
 #include <memory>
 
 #include "commands.hpp"
 #include "files.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -33,7 +33,7 @@ int execute(const SampleArguments& arguments) {
         written.push_back(arguments.mesh);
     }
     cloud::write_cloud(arguments.output, cloud);
-    for (const std::string& file : written) std::cout << file << "\n";
+    for (const std::string& file : written) data_out() << file << "\n";
     return 0;
 }
 

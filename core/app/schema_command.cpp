@@ -1,10 +1,10 @@
 // dsc schema
-#include <iostream>
 #include <memory>
 
 #include "commands.hpp"
 #include "json_schema.hpp"
 #include "plugins.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 
@@ -18,7 +18,7 @@ void add_schema(CLI::App& app, Context& context) {
     command->callback([paths, &context] {
         context.action = [paths] {
             Plugins plugins(*paths);
-            std::cout << json_schema(all_strategies(plugins.load())).dump(2) << "\n";
+            data_out() << json_schema(all_strategies(plugins.load())).dump(2) << "\n";
             return 0;
         };
     });

@@ -3,11 +3,12 @@
 #include <dsc/base/log.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/run/sweep.hpp>
-#include <iostream>
 #include <memory>
 
 #include "commands.hpp"
+#include "files.hpp"
 #include "plugins.hpp"
+#include "standard_streams.hpp"
 
 namespace dsc::app {
 namespace {
@@ -37,7 +38,7 @@ int expand(const ExpandArguments& arguments) {
     Plugins plugins(arguments.plugins);
     const std::vector<std::string> experiments = run::sweep_experiments(sweep, plugins.loader(), plugins.host());
     if (arguments.check) {
-        std::cout << arguments.file << ": valid, " << points_text(sweep.points.size()) << "\n";
+        data_out() << arguments.file << ": valid, " << points_text(sweep.points.size()) << "\n";
         return 0;
     }
     const run::Expansion done = run::expand_sweep(sweep, experiments, arguments.folder);
@@ -47,21 +48,22 @@ int expand(const ExpandArguments& arguments) {
         text += "; the table has " + std::to_string(done.others) + " more, which the sweep does not name any longer";
     }
     log(LogLevel::info, text);
-    std::cout << (fs::path(arguments.folder) / "jobs.tsv").string() << "\n";
+    data_out() << (fs::path(arguments.folder) / "jobs.tsv").string() << "\n";
     return 0;
 }
 
 int collect(const CollectArguments& arguments) {
+    if (!arguments.output.empty()) require_output(arguments.output, arguments.folder);
     run::SweepStates states;
     const std::string table = run::collect_sweep(arguments.folder, states);
     log(LogLevel::info, points_text(states.points) + ": " + std::to_string(states.done) + " done, " +
                             std::to_string(states.failed) + " failed, " + std::to_string(states.unfinished) +
                             " unfinished, " + std::to_string(states.missing) + " not started");
     if (arguments.output.empty()) {
-        std::cout << table;
+        data_out() << table;
     } else {
         io::write_file(arguments.output, table);
-        std::cout << arguments.output << "\n";
+        data_out() << arguments.output << "\n";
     }
     return 0;
 }

@@ -28,6 +28,7 @@ TemporaryFolder::TemporaryFolder(const std::filesystem::path& parent, const std:
 }
 
 TemporaryFolder::~TemporaryFolder() {
+    if (kept_) return;
     std::error_code error;
     std::filesystem::remove_all(path_, error);
 }

@@ -8,6 +8,8 @@
 #include <dsc/base/log.hpp>
 #include <memory>
 
+#include "standard_streams.hpp"
+
 namespace dsc::app {
 namespace {
 
@@ -15,7 +17,9 @@ CancelToken cancel_token;
 
 extern "C" void on_signal(int signal) {
     cancel_token.cancel();
-    std::signal(signal, SIG_DFL);
+    // A person who asks twice wants an end at once. The others may come twice for one cause: SIGXCPU comes every second of
+    // time that is used up, SIGHUP from the shell and from the terminal.
+    if (signal == SIGINT || signal == SIGTERM) std::signal(signal, SIG_DFL);
 }
 
 spdlog::level::level_enum spdlog_level(LogLevel level) {
@@ -43,7 +47,7 @@ void start_log(const TerminalOptions& options) {
     const auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
     // https://no-color.org: set and not empty means no colours.
     const char* no_color = std::getenv("NO_COLOR");
-    if (no_color != nullptr && *no_color != '\0') sink->set_color_mode(spdlog::color_mode::never);
+    if (!stderr_rewrites() || (no_color != nullptr && *no_color != '\0')) sink->set_color_mode(spdlog::color_mode::never);
     const auto logger = std::make_shared<spdlog::logger>("dsc", sink);
     logger->set_pattern("%^%l%$: %v");
     logger->set_level(options.quiet     ? spdlog::level::err
@@ -56,9 +60,9 @@ void start_log(const TerminalOptions& options) {
 }
 
 const CancelToken& cancel_on_signals() {
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
-    std::signal(SIGUSR1, on_signal);
+    for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) std::signal(signal, on_signal);
+    // Under nohup it is ignored, and stays so.
+    if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
     return cancel_token;
 }
 

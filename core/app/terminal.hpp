@@ -18,7 +18,8 @@ void add_verbosity(CLI::App& command, TerminalOptions& options);
 /// Sends the library's log to stderr. [setup]
 void start_log(const TerminalOptions& options);
 
-/// Set by SIGINT, SIGTERM and SIGUSR1; the second signal ends the process at once. [setup]
+/// Set by SIGINT, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1; a second SIGINT or SIGTERM ends the process at once. A SIGHUP that
+/// was ignored when the program started stays ignored. [setup]
 const CancelToken& cancel_on_signals();
 
 }  // namespace dsc::app

@@ -183,13 +183,49 @@
     this.controls.update();
   };
 
+  // A normal for each corner of each face, as `dsc render` has them: the area-weighted mean over the faces at the corner's point
+  // that are within 40 degrees of the face. Smooth over gentle edges, sharp at creases.
+  function cornerNormals(points, faces) {
+    var crease = 0.766, count = faces.length / 3, weighted = new Float32Array(3 * count), unit = new Float32Array(3 * count);
+    var first = new Uint32Array(points.length / 3 + 1), around = new Uint32Array(faces.length), normals = new Float32Array(3 * faces.length);
+    for (var f = 0; f < count; ++f) {
+      var a = 3 * faces[3 * f], b = 3 * faces[3 * f + 1], c = 3 * faces[3 * f + 2];
+      var ux = points[b] - points[a], uy = points[b + 1] - points[a + 1], uz = points[b + 2] - points[a + 2];
+      var vx = points[c] - points[a], vy = points[c + 1] - points[a + 1], vz = points[c + 2] - points[a + 2];
+      var n = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx], length = Math.hypot(n[0], n[1], n[2]) || 1;
+      weighted.set(n, 3 * f);
+      unit.set([n[0] / length, n[1] / length, n[2] / length], 3 * f);
+    }
+    for (var i = 0; i < faces.length; ++i) ++first[faces[i] + 1];
+    for (var v = 1; v < first.length; ++v) first[v] += first[v - 1];
+    var next = first.slice();
+    for (i = 0; i < faces.length; ++i) around[next[faces[i]]++] = (i - i % 3) / 3;
+    for (i = 0; i < faces.length; ++i) {
+      var own = i - i % 3, x = 0, y = 0, z = 0;
+      for (var j = first[faces[i]]; j < first[faces[i] + 1]; ++j) {
+        var other = 3 * around[j];
+        var near = unit[own] * unit[other] + unit[own + 1] * unit[other + 1] + unit[own + 2] * unit[other + 2] > crease;
+        if (other !== own && !near) continue;
+        x += weighted[other];
+        y += weighted[other + 1];
+        z += weighted[other + 2];
+      }
+      var size = Math.hypot(x, y, z) || 1;
+      normals.set([x / size, y / size, z / size], 3 * i);
+    }
+    return normals;
+  }
+
   View.prototype.frame = function (index) {
     if (this.frames[index]) return this.frames[index];
     var mesh = this.data.frames[index].mesh, group = new THREE.Group(), geometry = new THREE.BufferGeometry(), clip = [this.plane];
-    var faces = indices(mesh.faces), edges = [];
-    geometry.setAttribute('position', new THREE.BufferAttribute(coordinates(mesh.points, this.place), 3));
-    geometry.setIndex(new THREE.BufferAttribute(faces, 1));
-    geometry.computeVertexNormals();
+    var faces = indices(mesh.faces), points = coordinates(mesh.points, this.place), edges = [], corners = new Float32Array(3 * faces.length);
+    for (var corner = 0; corner < faces.length; ++corner) {
+      for (var axis = 0; axis < 3; ++axis) corners[3 * corner + axis] = points[3 * faces[corner] + axis];
+    }
+    geometry.setAttribute('position', new THREE.BufferAttribute(corners, 3));
+    geometry.setAttribute('normal', new THREE.BufferAttribute(cornerNormals(points, faces), 3));
+    group.faces = faces;
     var offset = {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, clippingPlanes: clip};
     var outer = Object.assign({color: PLAIN_HEX, specular: 0x0d0d0d, shininess: 20, side: THREE.FrontSide}, offset);
     var coloured = Object.assign({}, outer, {color: 0xffffff, vertexColors: THREE.VertexColors});
@@ -206,7 +242,7 @@
       if (faces[i] < faces[next]) edges.push(faces[i], faces[next]);
     }
     var lines = new THREE.BufferGeometry();
-    lines.setAttribute('position', geometry.getAttribute('position'));
+    lines.setAttribute('position', new THREE.BufferAttribute(points, 3));
     lines.setIndex(new THREE.BufferAttribute(new Uint32Array(edges), 1));
     group.edges = new THREE.LineSegments(lines, new THREE.LineBasicMaterial({color: 0x2c3a45, transparent: true, opacity: 0.55, clippingPlanes: clip}));
     group.add(group.surface);
@@ -230,10 +266,12 @@
     if (!found || group.shown === name) return;
     group.shown = name;
     var geometry = group.outside.geometry, levels = bytes(found.data);
-    if (!geometry.getAttribute('color')) geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(3 * levels.length), 3));
+    var faces = group.faces;
+    if (!geometry.getAttribute('color')) geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(3 * faces.length), 3));
     var colours = geometry.getAttribute('color');
-    for (var i = 0; i < levels.length; ++i) {
-      colours.array.set(levels[i] === NO_LEVEL ? PLAIN : ramp(DISTANCE, levels[i] / (NO_LEVEL - 1)), 3 * i);
+    for (var i = 0; i < faces.length; ++i) {
+      var level = levels[faces[i]];
+      colours.array.set(level === NO_LEVEL ? PLAIN : ramp(DISTANCE, level / (NO_LEVEL - 1)), 3 * i);
     }
     colours.needsUpdate = true;
   };

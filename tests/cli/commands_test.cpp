@@ -19,7 +19,6 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
     CHECK(cli.dsc({"--help"}).code == 0);
     CHECK(cli.dsc({"run", "--help"}).out.find("--time-budget") != std::string::npos);
     for (const std::vector<std::string>& wrong : std::vector<std::vector<std::string>>{
-             {},
              {"walk"},
              {"run"},
              {"run", "a.yaml", "--fast"},
@@ -48,9 +47,65 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
         CHECK(result.err.substr(0, 7) == "error: ");
         CHECK(std::count(result.err.begin(), result.err.end(), '\n') == 1);
     }
+    const Result bare = cli.dsc({});
+    CHECK(bare.code == 2);
+    CHECK(bare.out == cli.dsc({"--help"}).out);
+    CHECK(cli.dsc({"help"}).out == bare.out);
+    CHECK(cli.dsc({"help", "run"}).out == cli.dsc({"run", "--help"}).out);
+    CHECK(cli.dsc({"help", "plugin", "check"}).out == cli.dsc({"plugin", "check", "--help"}).out);
+    CHECK(cli.dsc({"version"}).out == version.out);
+    CHECK(cli.dsc({"help", "recon"}).code == 2);
+    const auto said = [&](const std::vector<std::string>& words) { return cli.dsc(words).err; };
+    CHECK(said({"recon"}) == "error: no command 'recon'; did you mean 'reconstruct'?; see dsc --help\n");
+    CHECK(said({"rnu", "a.yaml"}) == "error: no command 'rnu'; did you mean 'run'?; see dsc --help\n");
+    CHECK(said({"plugin", "lst"}) == "error: dsc plugin has no command 'lst'; did you mean 'list'?; see dsc plugin --help\n");
+    CHECK(said({"frobnicate"}).find("; there are run, reconstruct, ") != std::string::npos);
+    CHECK(said({"reconstruct", "c.ply", "--detial", "low"}) ==
+          "error: dsc reconstruct has no option '--detial'; did you mean '--detail'?; see dsc reconstruct --help\n");
+    CHECK(said({"reconstruct", "c.ply", "-detail=low"}) ==
+          "error: dsc reconstruct has no option '-detail'; did you mean '--detail'?; see dsc reconstruct --help\n");
+    CHECK(said({"sample", "torus", "--nose", "0.1", "-o", "a.xyz"}) ==
+          "error: dsc sample has no option '--nose'; did you mean '--noise'?; see dsc sample --help\n");
     CHECK(cli.dsc({"plugin", "describe", "point_clod"}).err ==
           "error: no strategy is called 'point_clod'; did you mean 'point_cloud'?; dsc plugin list shows "
           "all\n");
+}
+
+TEST_CASE("a configuration that is too large is a wrong experiment, read from a file as well") {
+    const Cli cli;
+    std::string text = "dsc: 1\nschedule:\n";
+    while (text.size() < 1100000) text += "  - {steps: 1}\n";
+    cli.write("large.yaml", text);
+    const Result result = cli.dsc({"run", "large.yaml", "--check"});
+    CHECK(result.code == 3);
+    CHECK(result.err.find("large.yaml: error: the configuration is larger than ") != std::string::npos);
+    cli.write("part.yaml", "include: large.yaml\ndsc: 1\n");
+    CHECK(cli.dsc({"run", "part.yaml", "--check"}).code == 3);
+}
+
+TEST_CASE("info of a run folder, and render as its report has it") {
+    const Cli cli;
+    cli.write("a.yaml",
+              "dsc: 1\ninput: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {}}\ninitial_mesh: {type: grid, cells: 10}\n"
+              "velocity: {type: point_cloud, curvature: {type: implicit_fairing}}\nimprovement: {type: dsc}\nschedule: [{steps: 2}]\n");
+    REQUIRE(cli.dsc({"run", "a.yaml", "-o", "r", "-q"}).code == 0);
+    const json run = json::parse(cli.dsc({"info", "r", "--json"}).out);
+    CHECK(run.at("kind") == "run");
+    CHECK(run.at("state") == "done");
+    CHECK(run.at("exit_code") == 0);
+    CHECK(run.at("result").size() >= 2);
+    CHECK(run.at("summary").is_object());
+    CHECK(cli.dsc({"info", "r", "--require-solid"}).code == 0);
+    cli.write("r/status.json", "{\"format\": \"dsc-run-1\", \"state\": \"running\"}");
+    CHECK(json::parse(cli.dsc({"info", "r", "--json"}).out).at("state") == "killed");
+    CHECK(cli.dsc({"info", "."}).code == 6);
+    const Result picture = cli.dsc({"render", "r", "-o", "r.png"});
+    CHECK(picture.err == "info: z points up, as in the report of the run; --up y turns it\n");
+    REQUIRE(cli.dsc({"render", "r", "-o", "z.png", "--up", "z"}).err.empty());
+    CHECK(cli.read("r.png") == cli.read("z.png"));
+    CHECK(cli.dsc({"render", "r/result/surface.obj", "-o", "y.png"}).err ==
+          "info: y points up; --up z stands a model upright whose height is z\n");
+    CHECK(cli.read("y.png") != cli.read("z.png"));
 }
 
 TEST_CASE("sample, info, convert, evaluate and render work together") {

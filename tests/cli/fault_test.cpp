@@ -68,3 +68,26 @@ TEST_CASE("after a strategy's fault the last good state is kept, and is a start 
     CHECK(run(cli, "none").code == 0);
     CHECK_FALSE(std::filesystem::exists(cli.folder() / "out" / "last_good"));
 }
+
+TEST_CASE("a strategy that ends the process: no success, and the run folder tells") {
+    for (const std::string fault : {"exits", "quick_exits", "ends"}) {
+        CAPTURE(fault);
+        const Cli cli;
+        const Result result = run(cli, fault, 2);
+        CHECK(result.code == 4);
+        CHECK(result.err.find("error: velocity 'faulty' (plugin faulty 0.3.0, ") == 0);
+        CHECK(result.err.find("evaluate at step 2 ended the process") != std::string::npos);
+        CHECK_FALSE(dsc::test::looks_finished(cli.folder() / "out"));
+        CHECK(cli.read("out/status.json").find("\"error_code\": \"strategy.exit\"") != std::string::npos);
+        CHECK(cli.read("out/status.json").find("\"failed\"") != std::string::npos);
+    }
+}
+
+TEST_CASE("what a plugin prints is no data of the command") {
+    const Cli cli;
+    const Result result = run(cli, "prints");
+    CHECK(result.code == 0);
+    CHECK(result.out == "out\n");
+    CHECK(result.err.find("** C **") != std::string::npos);
+    CHECK(result.err.find("** C++ **") != std::string::npos);
+}

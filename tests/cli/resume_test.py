@@ -85,17 +85,22 @@ class Resume(unittest.TestCase):
         self.assertGreater(killed, KILLS // 2)  # most were under way
 
     def test_stopped_by_a_signal(self):
-        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1):
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGHUP, signal.SIGXCPU):
             folder = f"signal_{number}"
-            process = subprocess.Popen(self.command(folder), cwd=self.scratch, stderr=subprocess.DEVNULL,
-                                       stdout=subprocess.DEVNULL)
-            while process.poll() is None and not list(self.scratch.glob(f"{folder}/checkpoint/*")):
-                time.sleep(0.01)
-            process.send_signal(number)
-            self.assertEqual(process.wait(), 75)
-            self.assertEqual(self.status(folder), "stopped")
+            self.stop(folder, number)
             self.run_dsc(folder, "--resume")
             self.assertEqual(digest(self.scratch / folder), self.whole)
+
+    def stop(self, folder, number):
+        """A run that is stopped once it has written a checkpoint; its checkpoints."""
+        process = subprocess.Popen(self.command(folder), cwd=self.scratch, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))  # nohup may have changed it
+        while process.poll() is None and not list(self.scratch.glob(f"{folder}/checkpoint/*.dscstate")):
+            time.sleep(0.01)
+        process.send_signal(number)
+        self.assertEqual(process.wait(), 75)
+        self.assertEqual(self.status(folder), "stopped")
+        return sorted(self.scratch.glob(f"{folder}/checkpoint/*.dscstate"))
 
     def test_time_budgets(self):
         # How long a run takes is not known beforehand on a busy machine: shorter and shorter, until one is stopped.
@@ -138,11 +143,27 @@ class Resume(unittest.TestCase):
         self.assertIn("going on after step " + str(int(files[-2].stem.split("_")[1])), said)
         self.assertEqual(digest(self.scratch / "damaged"), self.whole)
 
-    def test_another_experiment_begins_anew(self):
-        self.run_dsc("other", "schedule=[{steps: 4}]")
-        self.run_dsc("other", "schedule=[{steps: 5}]", "--resume")
+    def test_another_experiment_is_refused_and_left_alone(self):
+        self.run_dsc("other", "schedule=[{steps: 4}]", "output.checkpoint={every: 1, keep: 2}")
+        before = {path: path.read_bytes() for path in (self.scratch / "other").rglob("*") if path.is_file()}
+        done = self.run_dsc("other", "schedule=[{steps: 5}]", "output.checkpoint={every: 1, keep: 2}", "--resume", expect=2)
+        self.assertIn("other holds the run of another experiment: schedule.0.steps is 4 there and 5 here", done.stderr)
+        self.assertEqual(before, {path: path.read_bytes() for path in (self.scratch / "other").rglob("*") if path.is_file()})
+        self.run_dsc("other", "schedule=[{steps: 5}]")
         rows = (self.scratch / "other/metrics.csv").read_text().splitlines()
         self.assertEqual(len(rows), 7)  # the header, row 0, five steps
+
+    def test_checkpoints_of_no_use_are_refused_and_left_alone(self):
+        for file in self.stop("useless", signal.SIGTERM):
+            file.write_bytes(file.read_bytes()[:-100])
+        done = self.run_dsc("useless", "--resume", expect=2)
+        self.assertIn("it is damaged", done.stderr)
+        self.assertTrue((self.scratch / "useless/result").is_dir())
+        self.stop("short", signal.SIGTERM)
+        (self.scratch / "short/metrics.csv").write_text("step\n")
+        done = self.run_dsc("short", "--resume", expect=2)
+        self.assertIn("metrics.csv is shorter than it was then", done.stderr)
+        self.assertTrue((self.scratch / "short/result").is_dir())
 
     def test_a_full_disk_ends_cleanly(self):
         def limit():

@@ -61,6 +61,40 @@ std::optional<std::array<std::size_t, 3>> find_names(const std::vector<std::stri
     return columns;
 }
 
+/// A name without its case, its unit in brackets and whatever is no letter or digit: "X [m]" is x, "Points:0" points0.
+std::string plain_name(const std::string& name) {
+    std::string plain;
+    for (const char c : lower(name.substr(0, name.find_first_of("[(")))) {
+        if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) plain += c;
+    }
+    return plain;
+}
+
+/// What programs call a coordinate in a header. Degrees are none: a longitude is not a length.
+constexpr std::array<std::array<std::string_view, 11>, 3> usual_names = {
+    {{"x", "xcoord", "xcoordinate", "coordx", "posx", "positionx", "pointx", "points0", "xm", "easting", "east"},
+     {"y", "ycoord", "ycoordinate", "coordy", "posy", "positiony", "pointy", "points1", "ym", "northing", "north"},
+     {"z", "zcoord", "zcoordinate", "coordz", "posz", "positionz", "pointz", "points2", "zm", "elevation", "elev"}}};
+constexpr std::array<std::string_view, 4> usual_heights = {"height", "altitude", "alt", "up"};
+
+/// The three columns by their usual names; of several the one whose name stands first above.
+std::optional<std::array<std::size_t, 3>> find_usual(const std::vector<std::string>& header) {
+    std::vector<std::string> plain;
+    for (const std::string& name : header) plain.push_back(plain_name(name));
+    std::array<std::size_t, 3> columns{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::vector<std::string_view> names(usual_names[k].begin(), usual_names[k].end());
+        if (k == 2) names.insert(names.end(), usual_heights.begin(), usual_heights.end());
+        auto found = plain.end();
+        for (std::size_t i = 0; i < names.size() && found == plain.end(); ++i) {
+            found = std::find(plain.begin(), plain.end(), names[i]);
+        }
+        if (found == plain.end()) return std::nullopt;
+        columns[k] = static_cast<std::size_t>(found - plain.begin());
+    }
+    return columns;
+}
+
 bool is_number(const std::string& column) {
     std::size_t value = 0;
     return parse_count(column, value);
@@ -140,15 +174,17 @@ bool ColumnChoice::knows(const std::vector<std::string>& words) const {
     return chosen() ? resolve(words, missing).has_value() : find_names(words, {"x", "y", "z"}).has_value();
 }
 
-void ColumnChoice::take_names(const std::vector<std::string>& names) {
-    if (!knows(names)) return;
+void ColumnChoice::take_names(const std::vector<std::string>& names, bool comment) {
     if (chosen()) {
         std::string missing;
-        if (wants_names_) take(resolve(names, missing).value());
+        if (wants_names_ && knows(names)) take(resolve(names, missing).value());
         return;
     }
+    auto coordinates = find_names(names, {"x", "y", "z"});
+    if (!coordinates && !comment) coordinates = find_usual(names);
+    if (!coordinates) return;
     named_ = true;
-    coordinates_ = find_names(names, {"x", "y", "z"}).value();
+    coordinates_ = *coordinates;
     const AttributeColumns attributes = attribute_columns(names);
     colours_ = attributes.colours;
     normals_ = attributes.normals;
@@ -156,13 +192,19 @@ void ColumnChoice::take_names(const std::vector<std::string>& names) {
 }
 
 void ColumnChoice::require_names(const std::vector<std::string>& header, std::size_t line) const {
-    if (!wants_names_ || knows(header)) return;
-    std::string missing;
-    resolve(header, missing);
+    if (chosen() ? !wants_names_ || knows(header) : knows(header) || find_usual(header).has_value()) return;
     double value = 0.0;
     const bool numbers = std::any_of(header.begin(), header.end(), [&](const std::string& word) {
         return parse_number(word, value) == Number::ok;
     });
+    if (!chosen()) {
+        throw IoError("io.columns", file_, std::to_string(line),
+                      numbers ? "the first line holds words, and they do not tell which columns are x, y and z"
+                              : "the header " + listed(header) + " does not tell which columns are x, y and z",
+                      "choose three columns by their names or by their numbers from 1");
+    }
+    std::string missing;
+    resolve(header, missing);
     throw IoError("io.columns", file_, std::to_string(line), "no column is called " + in_quotes(missing),
                   numbers ? "the file seems to have no header, choose columns by their numbers from 1"
                           : "choose of " + listed(header) + " or a number from 1");

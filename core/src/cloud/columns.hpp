@@ -41,9 +41,11 @@ public:
 
     /// Whether the words hold all names that are needed: the chosen ones, else x, y and z.
     bool knows(const std::vector<std::string>& words) const;
-    /// Takes the columns of these names, if they hold what is needed.
-    void take_names(const std::vector<std::string>& names);
-    /// Throws IoError "io.columns" if a chosen name is not in the header of that line.
+    /// Takes the columns of these names, if they hold what is needed. Of a comment only x, y and z themselves count, of a
+    /// header the usual names for them, too.
+    void take_names(const std::vector<std::string>& names, bool comment);
+    /// Throws IoError "io.columns" if a chosen name is not in the header of that line, or without a choice none of the usual
+    /// names of a coordinate is.
     void require_names(const std::vector<std::string>& header, std::size_t line) const;
 
     /// For a message about a line that ends before column `last`.

@@ -19,6 +19,8 @@ struct FileCheck {
     std::size_t points = 0;  ///< as the header promises and the file's size allows
     std::vector<std::string> names{};  ///< of the points' properties
     std::optional<Sensor> sensor{};
+    /// Byte offsets of the words "obj_info" that tell the size of a grid: PCL would believe them.
+    std::vector<std::size_t> grid_comments;
 };
 
 /// `names` receives what the columns are called, as far as they have names.
@@ -31,14 +33,17 @@ std::vector<std::array<std::uint8_t, 3>> to_bytes(const std::vector<Vec3>& colou
 /// A coordinate of a text. Throws "io.syntax", "io.non_finite" naming the line.
 double coordinate(const std::string& file, std::size_t line, std::string_view word);
 
+/// Refuses a word that is no number; a decimal comma gets its own remedy.
+[[noreturn]] void not_a_number(const std::string& file, std::size_t line, std::string_view word, std::string_view remedy);
+
 /// Prove that a file holds all that its header promises, so that PCL may be trusted with it: PCL allocates
 /// what a header asks for and its readers do not all notice a missing end.
 FileCheck check_pcd(const std::string& file, std::string_view bytes);
 FileCheck check_ply(const std::string& file, std::string_view bytes);
 
-/// Read a checked file with PCL. Points with NaN or infinity are left out and counted.
-Cloud read_pcd(const std::filesystem::path& path, const FileCheck& check, ReadReport& report);
-Cloud read_ply(const std::filesystem::path& path, const FileCheck& check, ReadReport& report);
+/// Read a checked file with PCL; messages call it `file`. Points with NaN or infinity are left out and counted.
+Cloud read_pcd(const std::filesystem::path& path, const std::string& file, const FileCheck& check, ReadReport& report);
+Cloud read_ply(const std::filesystem::path& path, const std::string& file, const FileCheck& check, ReadReport& report);
 
 /// Refuses a file without points.
 [[noreturn]] void no_points(const std::string& file, std::string_view remedy);

@@ -200,8 +200,7 @@ void check_ascii_rows(const std::string& file, const PcdHeader& header) {
             const std::string_view name = header.fields[field].name;
             if ((name == "x" || name == "y" || name == "z") &&
                 parse_number(word, value) == Number::not_a_number)
-                throw IoError("io.syntax", file, std::to_string(number), in_quotes(word) + " is not a number",
-                              "write its true coordinate");
+                not_a_number(file, number, word, "write its true coordinate");
             if (--left == 0 && ++field < header.fields.size()) left = header.fields[field].count;
         }
         if (column < columns)

@@ -170,9 +170,8 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
 
 /// Runs a PCL reader in silence; what it throws or refuses becomes one error of ours.
 template <class Reader>
-Cloud read_with(Reader& reader, const std::filesystem::path& path, const FileCheck& check,
+Cloud read_with(Reader& reader, const std::filesystem::path& path, const std::string& file, const FileCheck& check,
                 ReadReport& report) {
-    const std::string file = path.string();
     pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
     pcl::PCLPointCloud2 blob;
     int result = -1;
@@ -180,7 +179,7 @@ Cloud read_with(Reader& reader, const std::filesystem::path& path, const FileChe
         Eigen::Vector4f origin;
         Eigen::Quaternionf orientation;
         int version = 0;
-        result = reader.read(file, blob, origin, orientation, version, 0);
+        result = reader.read(path.string(), blob, origin, orientation, version, 0);
     } catch (const std::exception&) {
         result = -1;
     }
@@ -190,14 +189,14 @@ Cloud read_with(Reader& reader, const std::filesystem::path& path, const FileChe
 
 }  // namespace
 
-Cloud read_pcd(const std::filesystem::path& path, const FileCheck& check, ReadReport& report) {
+Cloud read_pcd(const std::filesystem::path& path, const std::string& file, const FileCheck& check, ReadReport& report) {
     pcl::PCDReader reader;
-    return read_with(reader, path, check, report);
+    return read_with(reader, path, file, check, report);
 }
 
-Cloud read_ply(const std::filesystem::path& path, const FileCheck& check, ReadReport& report) {
+Cloud read_ply(const std::filesystem::path& path, const std::string& file, const FileCheck& check, ReadReport& report) {
     pcl::PLYReader reader;
-    return read_with(reader, path, check, report);
+    return read_with(reader, path, file, check, report);
 }
 
 }  // namespace dsc::cloud

@@ -31,6 +31,7 @@ struct PlyHeader {
     std::vector<Element> elements;
     std::string_view body;
     std::size_t lines = 0;
+    std::vector<std::size_t> grid_comments;  ///< places of their "obj_info"
 };
 
 struct Type {
@@ -49,7 +50,7 @@ std::size_t size_of(std::string_view name) {
 
 class PlyHeaderReader {
 public:
-    PlyHeaderReader(const std::string& file, std::string_view bytes) : file_(file), rest_(bytes) {}
+    PlyHeaderReader(const std::string& file, std::string_view bytes) : file_(file), rest_(bytes), begin_(bytes.data()) {}
 
     PlyHeader read() {
         std::string_view line;
@@ -78,7 +79,8 @@ public:
                 read_property(rest);
             } else if (key == "obj_info") {
                 const std::string_view what = next_word(rest);
-                if (what == "num_cols" || what == "num_rows") grid();
+                if (what == "num_cols" || what == "num_rows")
+                    header_.grid_comments.push_back(static_cast<std::size_t>(line.data() - begin_) + line.find(key));
             } else {
                 fail(in_quotes(key) + " is no entry of a PLY header");
             }
@@ -90,8 +92,8 @@ public:
 private:
     [[noreturn]] void fail(const std::string& cause) const { header_error(file_, line_, cause); }
 
-    /// Range images have fewer points than places; PCL fills the rest with NaN and takes the size from the
-    /// comment.
+    /// Range images have fewer points than places; PCL fills the rest with NaN. Only an element makes one: a comment of the
+    /// size of a grid does not.
     [[noreturn]] void grid() const {
         throw IoError("io.format", file_, std::to_string(line_), "PLY files with a range grid are not read",
                       "save the points alone, for instance with MeshLab or CloudCompare");
@@ -149,6 +151,7 @@ private:
 
     const std::string& file_;
     std::string_view rest_;
+    const char* begin_;
     std::size_t line_ = 0;
     PlyHeader header_;
 };
@@ -237,8 +240,7 @@ void check_line(const std::string& file, std::size_t number, const Element& elem
                 "io.truncated", file, std::to_string(number),
                 "the line ends before " + in_quotes(what) + " of element " + in_quotes(element.name),
                 "the file may be cut off, write it again");
-        if (parse_number(word, ignored) == Number::not_a_number)
-            header_error(file, number, in_quotes(word) + " is not a number");
+        if (parse_number(word, ignored) == Number::not_a_number) not_a_number(file, number, word, "save the cloud again");
         return word;
     };
     for (const Property& p : element.properties) {
@@ -287,6 +289,7 @@ FileCheck check_ply(const std::string& file, std::string_view bytes) {
         check_binary(file, header);
     FileCheck check{vertex->count};
     for (const Property& property : vertex->properties) check.names.emplace_back(property.name);
+    check.grid_comments = header.grid_comments;
     return check;
 }
 

@@ -2,7 +2,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <system_error>
+#include <vector>
 
+#include <unistd.h>
+
+#include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
 
 #include "attributes.hpp"
@@ -43,6 +51,47 @@ bool is_table(const std::string& extension) {
            extension == ".csv";
 }
 
+/// A file as PCL reads it rightly: without a byte order mark, and without the comments that PCL takes the number of points from.
+class PlainCopy {
+public:
+    PlainCopy(const std::string& file, std::string_view bytes, const std::vector<std::size_t>& grid_comments) {
+        std::error_code error;
+        const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+        std::string pattern = ((error ? std::filesystem::path(".") : parent) / "dsc-XXXXXX").string();
+        const int descriptor = ::mkstemp(pattern.data());
+        if (descriptor < 0) fail_copy(file);
+        path_ = pattern;
+        std::string plain(bytes);
+        for (const std::size_t at : grid_comments) plain.replace(at, comment.size(), comment);
+        std::FILE* const stream = ::fdopen(descriptor, "wb");
+        bool written = stream != nullptr && std::fwrite(plain.data(), 1, plain.size(), stream) == plain.size();
+        if (stream == nullptr)
+            ::close(descriptor);
+        else
+            written = std::fclose(stream) == 0 && written;
+        if (written) return;
+        std::filesystem::remove(path_, error);
+        fail_copy(file);
+    }
+    ~PlainCopy() {
+        std::error_code ignored;
+        std::filesystem::remove(path_, ignored);
+    }
+    PlainCopy(const PlainCopy&) = delete;
+    PlainCopy& operator=(const PlainCopy&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    static constexpr std::string_view comment = "comment ";  // as long as "obj_info"
+
+    [[noreturn]] static void fail_copy(const std::string& file) {
+        throw IoError("io.temporary", file, "", "a copy without its byte order mark cannot be made in the folder for temporary files",
+                      "set TMPDIR to a folder that can be written");
+    }
+
+    std::filesystem::path path_;
+};
+
 void require_columns(const std::string& file, bool table, const ReadOptions& options) {
     const std::size_t count = options.columns.size();
     if (count == 0) return;
@@ -79,19 +128,24 @@ Cloud read_cloud(const std::filesystem::path& path, ReadReport* report, const Re
     Cloud cloud;
     std::vector<std::string> names;
     if (obj || table) {
-        const std::string text = read_file(path);
+        const std::string bytes = read_file(path);
+        const std::string_view text = without_byte_order_mark(bytes);
         cloud = obj ? read_obj(file, text, names) : read_table(file, text, options, names);
         filled.points = cloud.points.size();
         filled.format = obj ? "OBJ" : extension == ".csv" ? "CSV" : "XYZ";
     } else {
         FileCheck check;
+        std::optional<PlainCopy> copy;
         {
             const std::string bytes = read_file(path);  // freed before PCL reads the file again
-            check = pcd ? check_pcd(file, bytes) : check_ply(file, bytes);
+            const std::string_view plain = without_byte_order_mark(bytes);
+            check = pcd ? check_pcd(file, plain) : check_ply(file, plain);
+            if (plain.size() != bytes.size() || !check.grid_comments.empty()) copy.emplace(file, plain, check.grid_comments);
         }
         filled.points = check.points;
         filled.format = pcd ? "PCD" : "PLY";
-        cloud = pcd ? read_pcd(path, check, filled) : read_ply(path, check, filled);
+        const std::filesystem::path source = copy ? copy->path() : path;
+        cloud = pcd ? read_pcd(source, file, check, filled) : read_ply(source, file, check, filled);
         names = check.names;
     }
     filled.properties = found_properties(names, cloud);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
 
 #include "attributes.hpp"
@@ -24,9 +25,13 @@ double coordinate(const std::string& file, std::size_t line, std::string_view wo
         case Number::not_a_number:
             break;
     }
+    not_a_number(file, line, word, "a point needs three numbers");
+}
+
+void not_a_number(const std::string& file, std::size_t line, std::string_view word, std::string_view remedy) {
     const bool comma = word.find(',') != std::string_view::npos;
     throw IoError("io.syntax", file, std::to_string(line), in_quotes(word) + " is not a number",
-                  comma ? "write decimals with a point, not with a comma" : "a point needs three numbers");
+                  comma ? decimal_comma_remedy : remedy);
 }
 
 std::vector<std::array<std::uint8_t, 3>> to_bytes(const std::vector<Vec3>& colours, double largest_value) {

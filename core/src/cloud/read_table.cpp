@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
 
 #include "attributes.hpp"
@@ -36,6 +37,7 @@ public:
                 comment(line.substr(mark));
                 continue;
             }
+            refuse_decimal_commas(line);
             const char separator = separator_for(line);
             split_columns(separator == '\t' ? whole : line, separator, words_);  // a tab may end an empty column
             if (count_line(line)) continue;
@@ -91,6 +93,45 @@ private:
         return line.substr(0, 2) == "//" ? 2 : 0;
     }
 
+    /// Decimal commas between blanks, tabs or commas, which would be taken for columns; a semicolon and quotes keep a number
+    /// whole, and it is refused as such. Of columns that are divided by commas as well there are twice as many as it seems:
+    /// a fraction that begins with 0 tells them from whole numbers.
+    void refuse_decimal_commas(std::string_view line) const {
+        if (line.find(',') == std::string_view::npos || line.find_first_of(";\"") != std::string_view::npos) return;
+        std::string_view rest = line, decimal;
+        for (int k = 0; k < 3; ++k) {
+            std::string_view word = next_word(rest);
+            if (!word.empty() && word.back() == ',') word.remove_suffix(1);
+            double value = 0.0;
+            if (has_decimal_comma(word)) {
+                if (decimal.empty()) decimal = word;
+            } else if (parse_number(word, value) != Number::ok) {
+                constexpr std::size_t looked_at = 1000;
+                return cloud_.points.size() < looked_at ? refuse_split_decimals(line) : void();
+            }
+        }
+        if (!decimal.empty()) not_a_number(file_, lines_.number(), decimal, "");
+    }
+
+    void refuse_split_decimals(std::string_view line) const {
+        std::vector<std::string> words;
+        split_columns(line, ',', words);
+        if (choice_.named() || words.size() < 6 || words.size() % 2 != 0) return;
+        const auto whole = [](std::string_view word) {
+            return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
+        };
+        for (std::size_t k = 0; k + 1 < words.size(); k += 2) {
+            const std::string_view before = words[k];
+            const std::size_t sign = before.find_first_of("+-") == 0 ? 1 : 0;
+            if (!whole(before.substr(sign)) || !whole(words[k + 1])) return;
+        }
+        for (const std::size_t k : {std::size_t{1}, std::size_t{3}}) {
+            if (words[k].size() > 1 && words[k].front() == '0') {
+                not_a_number(file_, lines_.number(), words[k - 1] + "," + words[k], "");
+            }
+        }
+    }
+
     /// The names of the columns may stand in a comment above the points.
     void comment(std::string_view text) {
         if (!cloud_.points.empty()) return;
@@ -103,16 +144,26 @@ private:
     /// names of columns only where there are as many as columns: prose may speak of x y z, too.
     bool take_names() {
         const std::vector<std::string>& above = header_.empty() ? comment_ : header_;
-        if (!above.empty() && above.size() == words_.size()) choice_.take_names(above);
+        if (!above.empty() && above.size() == words_.size()) choice_.take_names(above, header_.empty());
         if (header_.empty() && is_header()) {
             header_ = words_;
+            drop_units();
             choice_.require_names(header_, lines_.number());
             return true;
         }
-        if (choice_.wants_names())
+        const bool unfit = !header_.empty() && !choice_.chosen() && header_.size() != words_.size();
+        if (choice_.wants_names() || unfit)
             syntax("the header has " + counted(header_.size(), "column") + ", the line " + std::to_string(words_.size()),
-                   "choose columns by their numbers from 1");
+                   words_.size() == 2 * header_.size() ? decimal_comma_remedy : "choose columns by their numbers from 1");
         return false;
+    }
+
+    /// Between blanks the unit of a column is a word of its own, and no name: X [m] Y [m] Z [m].
+    void drop_units() {
+        const auto is_unit = [](const std::string& word) {
+            return word.size() > 1 && ((word.front() == '[' && word.back() == ']') || (word.front() == '(' && word.back() == ')'));
+        };
+        header_.erase(std::remove_if(header_.begin(), header_.end(), is_unit), header_.end());
     }
 
     /// Of chosen columns, the separator of the first line holds for all: a text among them may have others.
@@ -149,7 +200,8 @@ private:
     bool is_header() const {
         if (choice_.wants_names()) return true;  // there must be one
         double value = 0.0;
-        return parse_number(word(choice_.coordinates()[0]), value) == Number::not_a_number;
+        const std::string_view first = word(choice_.coordinates()[0]);
+        return parse_number(first, value) == Number::not_a_number && !has_decimal_comma(first);
     }
 
     void point() {

@@ -1,5 +1,6 @@
 #include "text.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <memory>
 #include <system_error>
 
+#include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
 
 namespace dsc::cloud {
@@ -45,12 +47,11 @@ std::string read_file(const fs::path& path) {
     if (std::ferror(file.get())) unreadable(path, errno);
     if (text.empty())
         throw IoError("io.empty", path.string(), "", "the file is empty", "write the cloud again");
+    if (has_wide_byte_order_mark(text)) throw IoError("io.format", path.string(), "", wide_text_cause, wide_text_remedy);
     return text;
 }
 
-Lines::Lines(std::string_view text) : rest_(text) {
-    if (rest_.substr(0, 3) == "\xEF\xBB\xBF") rest_.remove_prefix(3);
-}
+Lines::Lines(std::string_view text) : rest_(text) {}
 
 bool Lines::next(std::string_view& line) {
     if (rest_.empty()) return false;
@@ -102,6 +103,22 @@ bool parse_count(std::string_view word, std::size_t& value) {
     const char* const end = word.data() + word.size();
     const auto [stop, error] = std::from_chars(word.data(), end, value);
     return error == std::errc() && stop == end;
+}
+
+bool has_decimal_comma(std::string_view word) {
+    if (word.find(',') == std::string_view::npos || word.front() == ',' || word.back() == ',') return false;
+    std::string digits(word);
+    const auto commas = std::count(digits.begin(), digits.end(), ',');
+    if (commas == 1 && digits.find('.') == std::string::npos) {
+        digits[digits.find(',')] = '.';
+    } else {  // separators of thousands
+        for (std::size_t at = word.find(','); at != std::string_view::npos; at = word.find(',', at + 1)) {
+            if (word.find_first_of(",.", at + 1) != at + 4 && at + 4 != word.size()) return false;
+        }
+        digits.erase(std::remove(digits.begin(), digits.end(), ','), digits.end());
+    }
+    double value = 0.0;
+    return parse_number(digits, value) == Number::ok;
 }
 
 std::string in_quotes(std::string_view word) {

@@ -8,7 +8,8 @@
 
 namespace dsc::cloud {
 
-/// The bytes of a regular file. Throws IoError "io.missing", "io.directory", "io.unreadable", "io.empty".
+/// The bytes of a regular file, a byte order mark included. Throws IoError "io.missing", "io.directory", "io.unreadable",
+/// "io.empty", and "io.format" for text in UTF-16.
 std::string read_file(const std::filesystem::path& path);
 
 /// Walks over the lines of a text that ends its lines with LF, CR LF or CR; the ends are not part of a line.
@@ -40,6 +41,9 @@ enum class Number { ok, not_a_number, not_finite };
 /// Reads the whole of `word` as a number; locale-independent, a leading + is allowed, what is too small
 /// becomes 0. "nan", "inf" and what is too large are not_finite.
 Number parse_number(std::string_view word, double& value);
+
+/// Whether the word is a number but for commas inside of it: "1,5", "-2,5e3", "1,234.5".
+bool has_decimal_comma(std::string_view word);
 
 /// Reads the whole of `word` as a decimal count.
 bool parse_count(std::string_view word, std::size_t& value);

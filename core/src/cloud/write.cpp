@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
 #include <cstring>
 #include <string>
-#include <system_error>
-
-#include <unistd.h>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/replace_file.hpp>
 #include <dsc/cloud/read.hpp>
 
 #include "text.hpp"
@@ -148,32 +144,6 @@ std::string ply_bytes(const Cloud& cloud, const Whole& whole) {
     return bytes;
 }
 
-[[noreturn]] void failed(const fs::path& path, int error) {
-    throw IoError("io.write", path.string(), "",
-                  "cannot be written: " + std::generic_category().message(error),
-                  "check the folder, its permissions and the free space");
-}
-
-/// Whoever looks at `path` sees the old file or the whole new one.
-void write_atomically(const fs::path& path, const std::string& bytes) {
-    fs::path part = path;
-    part += ".part" + std::to_string(::getpid());
-    std::FILE* const file = std::fopen(part.c_str(), "wb");
-    if (!file) failed(path, errno);
-    int error = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() ? 0 : errno;
-    if (std::fclose(file) != 0 && error == 0) error = errno;
-    std::error_code renamed;
-    if (error == 0) {
-        fs::rename(part, path, renamed);
-        error = renamed.value();
-    }
-    if (error != 0) {
-        std::error_code ignored;
-        fs::remove(part, ignored);
-        failed(path, error);
-    }
-}
-
 }  // namespace
 
 void write_cloud(const fs::path& path, const Cloud& cloud) {
@@ -183,15 +153,15 @@ void write_cloud(const fs::path& path, const Cloud& cloud) {
     const auto one_each = [&](std::size_t size) { return !cloud.points.empty() && size == cloud.points.size(); };
     const Whole whole{one_each(cloud.colours.size()), one_each(cloud.normals.size())};
     if (extension == ".obj")
-        write_atomically(path, obj_text(cloud, whole));
+        replace_file(path, obj_text(cloud, whole));
     else if (extension == ".xyz" || extension == ".txt" || extension == ".asc" || extension == ".pts")
-        write_atomically(path, xyz_text(cloud, whole));
+        replace_file(path, xyz_text(cloud, whole));
     else if (extension == ".ply")
-        write_atomically(path, ply_bytes(cloud, whole));
+        replace_file(path, ply_bytes(cloud, whole));
     else if (extension == ".csv")
-        write_atomically(path, csv_text(cloud, whole));
+        replace_file(path, csv_text(cloud, whole));
     else if (extension == ".pcd")
-        write_atomically(path, pcd_bytes(cloud, whole));
+        replace_file(path, pcd_bytes(cloud, whole));
     else
         throw IoError("io.format", path.string(), "",
                       extension.empty() ? "the file's name has no extension"

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdlib>
+#include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/config/spelling.hpp>
@@ -104,7 +105,11 @@ private:
     }
 
 public:
-    /// nullptr with the cause where the file cannot be read or is too large.
+    [[noreturn]] static void fail_too_large(const SourcePosition& position, const YamlOptions& options) {
+        fail("config.too_large", position, "the configuration is larger than " + std::to_string(options.max_bytes) + " bytes");
+    }
+
+    /// nullptr with the cause where the file cannot be read. Throws ConfigError "config.too_large".
     static std::shared_ptr<const SourceText> read_text(const fs::path& file, const YamlOptions& options,
                                                        std::string& cause) {
         std::error_code error;
@@ -126,19 +131,13 @@ public:
             return nullptr;
         }
         text.resize(static_cast<std::size_t>(stream.gcount()));
-        if (text.size() > options.max_bytes) {
-            cause = "it is larger than " + std::to_string(options.max_bytes) + " bytes";
-            return nullptr;
-        }
+        if (text.size() > options.max_bytes) fail_too_large({make_source("", file.string()), 0, 0, 0}, options);
         return make_source(text, file.string());
     }
 
     static std::shared_ptr<const SourceText> make_source(std::string_view text, const std::string& name) {
-        constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-        if (text.substr(0, byte_order_mark.size()) == byte_order_mark)
-            text.remove_prefix(byte_order_mark.size());
         return std::make_shared<const SourceText>(
-            SourceText{SourceText::Kind::file, name, std::string(text)});
+            SourceText{SourceText::Kind::file, name, std::string(without_byte_order_mark(text))});
     }
 
 private:
@@ -175,8 +174,7 @@ ConfigNode load_yaml(const fs::path& file, const YamlOptions& options) {
 ConfigNode parse_yaml(std::string_view text, const std::string& name, const YamlOptions& options) {
     auto source = Loader::make_source(text, name);
     if (source->text.size() > options.max_bytes) {
-        fail("config.too_large", {source, 0, 0, 0},
-             "the configuration is larger than " + std::to_string(options.max_bytes) + " bytes");
+        Loader::fail_too_large({source, 0, 0, 0}, options);
     }
     return Loader(options).load(std::move(source), name);
 }

@@ -1,14 +1,12 @@
 #include <dsc/io/atomic_file.hpp>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/replace_file.hpp>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <atomic>
-#include <cctype>
 #include <cerrno>
 #include <system_error>
 #include <vector>
@@ -18,132 +16,14 @@ namespace {
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
-[[noreturn]] void fail_write(const std::filesystem::path& file, const std::string& cause,
-                             const std::string& remedy) {
-    throw IoError("io.write", file.string(), "", cause, remedy);
-}
-
-std::string remedy_for(int error) {
-    switch (error) {
-        case ENOENT:
-        case ENOTDIR:
-            return "create the folder first or name another one";
-        case EACCES:
-        case EPERM:
-        case EROFS:
-            return "name a folder that you may write to";
-        case ENOSPC:
-        case EDQUOT:
-            return "free some space or name another folder";
-        default:
-            return "name another file";
-    }
-}
-
-/// A temporary file's name is .NAME.PROCESS-NUMBER.tmp, beside NAME.
-std::string temporary_name(const std::filesystem::path& file, unsigned number) {
-    return "." + file.filename().string() + "." + std::to_string(::getpid()) + "-" + std::to_string(number) + ".tmp";
-}
-
-bool is_temporary(const std::filesystem::path& file) {
-    const auto is_number = [](std::string_view text) {
-        return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-    };
-    const std::string name = file.stem().string();
-    const std::size_t dot = name.rfind('.'), dash = name.rfind('-');
-    return file.extension() == ".tmp" && name.front() == '.' && dot > 0 && dash != std::string::npos && dash > dot &&
-           is_number(std::string_view(name).substr(dot + 1, dash - dot - 1)) && is_number(std::string_view(name).substr(dash + 1));
-}
-
-/// Closes the descriptor and removes the file unless told that it has its final name.
-class TemporaryFile {
-public:
-    explicit TemporaryFile(const std::filesystem::path& beside) {
-        static std::atomic<unsigned> number{0};
-        // Process and counter make the name unique among ourselves; O_EXCL makes it so among all.
-        for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
-            path_ = beside.parent_path() / temporary_name(beside, number++);
-            descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-            if (descriptor_ < 0 && errno != EEXIST) break;
-        }
-    }
-    ~TemporaryFile() {
-        if (descriptor_ < 0 && !closed_) return;
-        const int saved = errno;
-        if (!closed_) ::close(descriptor_);
-        if (!kept_) ::unlink(path_.c_str());
-        errno = saved;
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-    bool open() const { return descriptor_ >= 0; }
-
-    bool write(std::string_view content) {
-        while (!content.empty()) {
-            const ::ssize_t count = ::write(descriptor_, content.data(), content.size());
-            if (count < 0 && errno == EINTR) continue;
-            if (count < 0) return false;
-            content.remove_prefix(static_cast<std::size_t>(count));
-        }
-        // Some file systems have no fsync; that is no reason to lose the file.
-        return ::fsync(descriptor_) == 0 || errno == EINVAL || errno == ENOSYS || errno == ENOTSUP;
-    }
-
-    bool move_to(const std::filesystem::path& file) {
-        closed_ = true;
-        if (::close(descriptor_) != 0) return false;
-        if (::rename(path_.c_str(), file.c_str()) != 0) return false;
-        kept_ = true;
-        return true;
-    }
-
-private:
-    std::filesystem::path path_;
-    int descriptor_ = -1;
-    bool closed_ = false;
-    bool kept_ = false;
-};
-
-/// Makes the new name durable. Failure is no error: the file is there.
-void sync_folder(const std::filesystem::path& folder) {
-    const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return;
-    ::fsync(descriptor);
-    ::close(descriptor);
-}
-
 }  // namespace
 
-void write_file(const std::filesystem::path& file, std::string_view content) {
-    std::error_code error;
-    std::filesystem::path target = file;
-    if (std::filesystem::is_symlink(file, error)) {
-        const auto resolved = std::filesystem::weakly_canonical(file, error);
-        if (!error) target = resolved;
-    }
-    const auto status = std::filesystem::status(target, error);
-    if (std::filesystem::is_directory(status)) fail_write(file, "is a directory", "name a file");
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-        fail_write(file, "is not a regular file", "name a file that may be replaced");
-    }
-    if (target.filename().empty()) fail_write(file, "names no file", "name a file");
-    TemporaryFile temporary(target);
-    if (!temporary.open()) {
-        const int code = errno;
-        fail_write(file, "cannot be written: " + reason(code), remedy_for(code));
-    }
-    if (!temporary.write(content) || !temporary.move_to(target)) {
-        const int code = errno;
-        fail_write(file, "cannot be written: " + reason(code), remedy_for(code));
-    }
-    sync_folder(target.parent_path());
-}
+void write_file(const std::filesystem::path& file, std::string_view content) { replace_file(file, content); }
 
-bool nothing_but_leftovers(const std::filesystem::path& folder, std::error_code& error) {
+bool nothing_but_leftovers(const std::filesystem::path& folder, std::error_code& error, std::string_view but) {
     std::filesystem::directory_iterator entry(folder, error);
     while (!error && entry != std::filesystem::directory_iterator()) {
-        if (!is_temporary(entry->path())) return false;
+        if (!is_replacement_leftover(entry->path()) && (but.empty() || entry->path().filename() != but)) return false;
         entry.increment(error);
     }
     return !error;
@@ -154,7 +34,7 @@ void remove_leftovers(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> found;
     std::filesystem::directory_iterator entry(folder, error);
     while (!error && entry != std::filesystem::directory_iterator()) {
-        if (is_temporary(entry->path()) && entry->is_regular_file(ignored)) found.push_back(entry->path());
+        if (is_replacement_leftover(entry->path()) && entry->is_regular_file(ignored)) found.push_back(entry->path());
         entry.increment(error);
     }
     for (const auto& file : found) std::filesystem::remove(file, ignored);

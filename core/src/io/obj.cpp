@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <dsc/base/log.hpp>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "io/codecs.hpp"
 #include "io/text.hpp"
@@ -54,6 +57,8 @@ public:
                 face(fields);
             else if (std::find(skipped.begin(), skipped.end(), keyword) == skipped.end()) {
                 fail("io.syntax", lines_.place(), "unknown keyword " + in_quotes(keyword), export_again);
+            } else {
+                note_geometry(keyword);
             }
         }
         check_later_vertices();
@@ -62,6 +67,15 @@ public:
     }
 
 private:
+    /// Lines, points, curves and free-form surfaces are geometry that a mesh of triangles cannot hold: said once each.
+    void note_geometry(std::string_view keyword) {
+        constexpr std::array<std::string_view, 5> geometry = {"l", "p", "curv", "curv2", "surf"};
+        const auto found = std::find(geometry.begin(), geometry.end(), keyword);
+        if (found == geometry.end() || std::exchange(noted_[static_cast<std::size_t>(found - geometry.begin())], true)) return;
+        log(LogLevel::warning, std::string(lines_.place().file) + ":" + std::to_string(lines_.place().line) + ": lines " +
+                                   in_quotes(keyword) + " are not read; of the geometry of an OBJ file vertices and faces are");
+    }
+
     /// Code of a line with too few numbers: cut at the end of the file, wrong elsewhere.
     const char* short_line() const { return lines_.cut() ? "io.truncated" : "io.syntax"; }
     const std::string& short_remedy() const { return lines_.cut() ? copy_again : export_again; }
@@ -140,6 +154,7 @@ private:
     }
 
     Lines lines_;
+    std::array<bool, 5> noted_{};
     surface::TriangleMesh mesh_;
     std::vector<std::uint32_t> polygon_;
     std::vector<Vec3> colours_;     ///< of the vertices so far, as long as each had one

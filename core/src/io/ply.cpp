@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
+
+#include <dsc/base/log.hpp>
 
 #include "io/bytes.hpp"
 #include "io/codecs.hpp"
@@ -21,12 +24,12 @@ class TextBody {
 public:
     TextBody(std::string_view body, std::string_view file, std::size_t first_line)
         : tokens_(body, file, first_line) {}
-    double real(Type) { return tokens_.coordinate(); }
+    double real(Type) { return told(tokens_.coordinate()); }
     /// A number that may be NaN or infinite.
-    double any(Type) { return tokens_.value(); }
-    std::int64_t integer(Type) { return tokens_.integer(); }
+    double any(Type) { return told(tokens_.value()); }
+    std::int64_t integer(Type) { return told(tokens_.integer()); }
     /// Anything that is a number; NaN is allowed where we do not look.
-    void skip(Type) { tokens_.require("a number"); }
+    void skip(Type) { told(tokens_.require("a number")); }
     void skip_list(Type type, std::uint64_t count) {
         for (std::uint64_t i = 0; i < count; ++i) skip(type);
     }
@@ -35,8 +38,27 @@ public:
     static std::size_t least_size(Type) { return 2; }
     bool ended() { return tokens_.next().empty(); }
 
+    /// Around each element. A line is an element: values that are left over on it, or that have to be taken from the next one,
+    /// mean that the header does not fit. Only a list may be broken over lines.
+    void begin_element() { first_of_element_ = 0; }
+    void end_element(std::string_view element) {
+        if (first_of_element_ == 0 || !tokens_.more_on_line()) return;
+        const bool short_line = tokens_.place().line != first_of_element_;
+        fail("io.syntax", {tokens_.place().file, first_of_element_},
+             std::string("the line has ") + (short_line ? "fewer" : "more") + " values than element " + in_quotes(element) +
+                 " has properties",
+             export_again);
+    }
+
 private:
+    template <class Value>
+    Value told(Value value) {
+        if (first_of_element_ == 0) first_of_element_ = tokens_.place().line;
+        return value;
+    }
+
     Tokens tokens_;
+    std::size_t first_of_element_ = 0;  ///< its line; 0 before its first value
 };
 
 /// Values of a binary body. Bounds are checked at every step.
@@ -84,6 +106,8 @@ public:
     }
     Place place() const { return {file_, 0}; }
     static std::size_t least_size(Type type) { return size_of(type); }
+    void begin_element() {}
+    void end_element(std::string_view) {}
     bool ended() {
         // Some programs end the file with a line feed.
         return content_.find_first_not_of(" \r\n\t", at_) == std::string_view::npos;
@@ -124,8 +148,10 @@ public:
                 read_vertices(element);
             else if (element.name == "face")
                 read_faces(element);
+            else if (element.name == "tristrips")
+                read_strips(element);
             else
-                for (std::uint64_t i = 0; i < element.count; ++i) skip_all(element);
+                skip_element(element);
         }
         if (!body_.ended()) {
             fail("io.count", body_.place(), "data after the last element",
@@ -175,8 +201,20 @@ private:
         else
             body_.skip(p.type);
     }
-    void skip_all(const Element& element) {
-        for (const Property& p : element.properties) skip_property(p);
+    /// What is not read, and said where it looks like a part of the surface: a list of whole numbers, or an edge.
+    void skip_element(const Element& element) {
+        const bool lists = std::any_of(element.properties.begin(), element.properties.end(),
+                                       [](const Property& p) { return p.count && is_integer(p.type); });
+        if (element.count > 0 && (lists || element.name == "edge")) {
+            log(LogLevel::warning, std::string(header_place_.file) + ": element " + in_quotes(element.name) + " (" +
+                                       std::to_string(element.count) +
+                                       ") is not read; of the elements of a PLY file 'vertex', 'face' and 'tristrips' are");
+        }
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            body_.begin_element();
+            for (const Property& p : element.properties) skip_property(p);
+            body_.end_element(element.name);
+        }
     }
 
     std::uint64_t list_size(const Property& p) {
@@ -211,6 +249,7 @@ private:
         for (std::uint64_t i = 0; i < element.count; ++i) {
             Vec3 p;
             std::array<std::uint8_t, 3> colour{};
+            body_.begin_element();
             for (std::size_t k = 0; k < axes.size(); ++k) {
                 if (axes[k] < 0)
                     skip_property(element.properties[k]);
@@ -221,6 +260,7 @@ private:
                 else
                     p[axes[k]] = body_.real(element.properties[k].type);
             }
+            body_.end_element(element.name);
             mesh_.points.push_back(p);
             if (coloured) mesh_.colours.push_back(colour);
         }
@@ -256,10 +296,12 @@ private:
         return static_cast<std::uint8_t>(value);
     }
 
-    void read_faces(const Element& element) {
-        const auto is_corners = [](const Property& p) {
-            return p.count && (p.name == "vertex_indices" || p.name == "vertex_index");
-        };
+    static bool is_corners(const Property& p) {
+        return p.count && (p.name == "vertex_indices" || p.name == "vertex_index");
+    }
+
+    /// An element of faces or of strips has one list of corners.
+    void require_corners(const Element& element) {
         int lists = 0;
         for (const Property& p : element.properties) {
             if (!is_corners(p)) continue;
@@ -268,16 +310,61 @@ private:
                 fail("io.syntax", header_place_, "vertex indices are fractions", export_again);
         }
         if (lists != 1) {
-            fail("io.syntax", header_place_, "element 'face' needs one list vertex_indices", export_again);
+            fail("io.syntax", header_place_, "element " + in_quotes(element.name) + " needs one list vertex_indices", export_again);
         }
+    }
+
+    void read_faces(const Element& element) {
+        require_corners(element);
         mesh_.faces.reserve(element.count);
         for (std::uint64_t i = 0; i < element.count; ++i) {
+            body_.begin_element();
             for (const Property& p : element.properties) {
                 if (is_corners(p))
                     read_corners(p, i);
                 else
                     skip_property(p);
             }
+            body_.end_element(element.name);
+        }
+    }
+
+    /// Strips of triangles, which -1 ends: each corner after the second makes a triangle with the two before it, every other
+    /// one the other way round. A corner that comes twice turns the strip and makes none.
+    void read_strips(const Element& element) {
+        require_corners(element);
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            body_.begin_element();
+            for (const Property& p : element.properties) {
+                if (is_corners(p))
+                    read_strip(p);
+                else
+                    skip_property(p);
+            }
+            body_.end_element(element.name);
+        }
+    }
+
+    void read_strip(const Property& p) {
+        polygon_.clear();
+        for (std::uint64_t left = list_size(p); left > 0; --left) {
+            const std::int64_t index = body_.integer(p.type);
+            if (index == -1) {
+                polygon_.clear();
+                continue;
+            }
+            if (index < 0 || static_cast<std::uint64_t>(index) >= points_) {
+                fail("io.index", body_.place(), "strip: vertex index " + std::to_string(index) + " of " + std::to_string(points_),
+                     "PLY counts from 0; export the file again");
+            }
+            polygon_.push_back(static_cast<std::uint32_t>(index));
+            const std::size_t count = polygon_.size();
+            if (count < 3) continue;
+            std::uint32_t a = polygon_[count - 3], b = polygon_[count - 2];
+            const std::uint32_t c = polygon_[count - 1];
+            if (a == b || b == c || a == c) continue;
+            if (count % 2 == 0) std::swap(a, b);
+            mesh_.faces.push_back({a, b, c});
         }
     }
 

@@ -1,5 +1,6 @@
 #include <dsc/io/read.hpp>
 
+#include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/io/formats.hpp>
@@ -16,12 +17,18 @@ namespace {
          "give it one of " + accepted + " or convert the file");
 }
 
-/// The content of a file that holds something.
+/// The content of a file of a known format that holds something, without a byte order mark.
 std::string require_content(const std::filesystem::path& file) {
     std::string content = read_file(file);
     if (content.find_first_not_of(" \t\r\n") == std::string::npos) {
         fail("io.empty", {file.string(), 0}, "the file is empty", "copy or export it again");
     }
+    // Of a binary STL these bytes may be its header.
+    if (find_format(file)->extension == ".stl") return content;
+    if (has_wide_byte_order_mark(content)) {
+        fail("io.format", {file.string(), 0}, std::string(wide_text_cause), std::string(wide_text_remedy));
+    }
+    content.erase(0, content.size() - without_byte_order_mark(content).size());
     return content;
 }
 

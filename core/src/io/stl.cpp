@@ -1,8 +1,11 @@
 // STL, text and binary. A soup of float triangles: equal corners are joined when it is read.
+#include <dsc/base/byte_order_mark.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/measure.hpp>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <charconv>
 #include <optional>
@@ -86,6 +89,13 @@ surface::TriangleMesh decode_binary(std::string_view content, std::string_view f
     return mesh;
 }
 
+/// In any case: some programs write the words in capitals.
+bool is_word(std::string_view found, std::string_view word) {
+    return found.size() == word.size() && std::equal(found.begin(), found.end(), word.begin(), [](unsigned char a, char b) {
+               return std::tolower(a) == b;
+           });
+}
+
 class TextStl {
 public:
     TextStl(std::string_view content, std::string_view file) : lines_(content, file) {}
@@ -95,11 +105,11 @@ public:
         while (content_line(line)) {
             Fields fields(line);
             const std::string_view word = fields.next();
-            if (word == "facet")
+            if (is_word(word, "facet"))
                 facet();
-            else if (word == "endsolid")
+            else if (is_word(word, "endsolid"))
                 open_ = false;
-            else if (word == "solid" && !open_)
+            else if (is_word(word, "solid") && !open_)
                 open_ = true;
             else
                 fail("io.syntax", lines_.place(), in_quotes(word) + " where 'facet' or 'endsolid' should be",
@@ -125,7 +135,7 @@ private:
         }
         Fields fields(line);
         const std::string_view found = fields.next();
-        if (found != word) {
+        if (!is_word(found, word)) {
             fail("io.syntax", lines_.place(),
                  in_quotes(found) + " where '" + std::string(word) + "' should be", export_again);
         }
@@ -157,9 +167,13 @@ private:
     std::vector<Vec3> corners_;
 };
 
-bool starts_with_solid(std::string_view content) {
+/// Whether a file whose size is not that of a binary one is meant as text. A binary one that was cut may begin with the word,
+/// too, but holds zeros, which no text does.
+bool is_text_stl(std::string_view content) {
     const std::size_t begin = content.find_first_not_of(" \t\r\n");
-    return begin != std::string_view::npos && content.substr(begin, 5) == "solid";
+    constexpr std::size_t looked_at = 512;
+    return begin != std::string_view::npos && is_word(content.substr(begin, 5), "solid") &&
+           content.substr(0, looked_at).find('\0') == std::string_view::npos;
 }
 
 /// The centre to subtract: none where floats do without, so that ordinary models stay where they are. A
@@ -189,7 +203,11 @@ surface::TriangleMesh decode_stl(std::string_view content, std::string_view file
     const bool fits =
         content.size() >= data_start && content.size() == data_start + facet_size * facet_count(content);
     if (fits) return decode_binary(content, file);
-    if (starts_with_solid(content)) return TextStl(content, file).read();
+    if (has_wide_byte_order_mark(content)) {
+        fail("io.format", {file, 0}, std::string(wide_text_cause), std::string(wide_text_remedy));
+    }
+    const std::string_view text = without_byte_order_mark(content);
+    if (is_text_stl(text)) return TextStl(text, file).read();
     if (content.size() < data_start) {
         fail("io.truncated", {file, 0},
              "a binary STL of " + counted(content.size(), "byte") + " has no room for its " +

@@ -1,5 +1,6 @@
 #include "io/text.hpp"
 
+#include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
 
 #include <charconv>
@@ -36,7 +37,8 @@ double parse_value(std::string_view token, const Place& place) {
         fail("io.not_finite", place, in_quotes(token) + " is out of the range of a double", export_again);
     }
     if (error != std::errc{} || end != digits.data() + digits.size()) {
-        fail("io.syntax", place, in_quotes(token) + " is not a number", export_again);
+        const bool comma = token.find(',') != std::string_view::npos;
+        fail("io.syntax", place, in_quotes(token) + " is not a number", comma ? std::string(decimal_comma_remedy) : export_again);
     }
     return value;
 }
@@ -122,6 +124,12 @@ std::string_view Tokens::next() {
     rest_.remove_prefix(end);
     if (!token.empty()) place_.line = line_;
     return token;
+}
+
+bool Tokens::more_on_line() const {
+    std::size_t at = 0;
+    while (at < rest_.size() && is_blank(rest_[at])) ++at;
+    return at < rest_.size() && rest_[at] != '\n';
 }
 
 std::string_view Tokens::require(std::string_view what) {

@@ -89,6 +89,8 @@ public:
     double coordinate() { return parse_coordinate(require("a number"), place_); }
     double value() { return parse_value(require("a number"), place_); }
     std::int64_t integer() { return parse_integer(require("an integer"), place_); }
+    /// Whether another token follows on the line of the last one.
+    bool more_on_line() const;
     /// Line of the token that came last.
     const Place& place() const { return place_; }
 

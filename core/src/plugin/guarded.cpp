@@ -2,6 +2,23 @@
 #include <exception>
 
 namespace dsc::plugin {
+namespace {
+
+thread_local const Call* call_of_thread = nullptr;
+
+std::string call_text(const Call& call) {
+    std::string text = call.who.describe();
+    text.append(": ").append(call.hook);
+    if (call.step) text.append(" at step ").append(std::to_string(*call.step));
+    return text;
+}
+
+}  // namespace
+
+Inside::Inside(const Call& call) noexcept : outer_(call_of_thread) { call_of_thread = &call; }
+Inside::~Inside() { call_of_thread = outer_; }
+
+std::string current_call() { return call_of_thread == nullptr ? std::string() : call_text(*call_of_thread); }
 
 StrategyFailure::~StrategyFailure() = default;
 
@@ -14,9 +31,7 @@ std::string Identity::describe() const {
 }
 
 void fail(const Call& call, std::string code, std::string_view cause, std::string_view remedy) {
-    std::string text = call.who.describe();
-    text.append(": ").append(call.hook);
-    if (call.step) text.append(" at step ").append(std::to_string(*call.step));
+    std::string text = call_text(call);
     text.append(" ").append(cause).append("; ").append(remedy);
     throw StrategyFailure(std::move(code), text);
 }

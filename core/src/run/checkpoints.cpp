@@ -79,18 +79,22 @@ void Checkpoints::write(const Checkpoint& checkpoint) const {
     for (std::size_t i = 0; i + keep_ < files.size(); ++i) fs::remove(files[i], error);
 }
 
-std::optional<Checkpoint> Checkpoints::last(const std::string& hash) const {
+std::optional<Checkpoint> Checkpoints::last(const std::string& hash, const std::function<void(const Checkpoint&)>& require,
+                                            std::string* reason) const {
     std::vector<fs::path> files = files_of(folder_);
+    std::vector<std::string> refused;
     for (auto file = files.rbegin(); file != files.rend(); ++file) {
         try {
             Checkpoint checkpoint = unpacked(io::read_file(*file));
             if (checkpoint.hash != hash) unusable("it is of another experiment");
+            require(checkpoint);
+            for (const std::string& text : refused) log(LogLevel::warning, text + "; the one before is taken");
             return checkpoint;
         } catch (const Error& error) {
-            log(LogLevel::warning,
-                file->string() + " is of no use: " + error.what() + "; the one before is taken");
+            refused.push_back(file->string() + " is of no use: " + error.what());
         }
     }
+    if (!refused.empty()) *reason = refused.front();
     return std::nullopt;
 }
 

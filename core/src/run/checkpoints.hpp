@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -27,8 +28,10 @@ public:
     /// Writes it, then removes those that are too old. Throws IoError. [step]
     void write(const Checkpoint& checkpoint) const;
 
-    /// The last one that is whole, of this experiment and of this build; warns of each that is not. [setup]
-    std::optional<Checkpoint> last(const std::string& hash) const;
+    /// The last one that is whole, of this experiment and of this build, and that `require` does not throw for; warns of each
+    /// later one. Where none is left, `reason` tells what is wrong with the last; it stays empty where there is no file. [setup]
+    std::optional<Checkpoint> last(const std::string& hash, const std::function<void(const Checkpoint&)>& require,
+                                   std::string* reason) const;
 
 private:
     std::filesystem::path folder_;

@@ -2,6 +2,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/run/report.hpp>
+#include <optional>
 
 #include "report_files.hpp"
 #include "report_html.hpp"
@@ -61,6 +62,20 @@ std::string report_html(const std::filesystem::path& run_folder, const plugin::C
                                  topology_section(record) + cloud_section(record) + config_section(record) + provenance_section(record);
         return report_page(record.name(), subtitle(record), body);
     });
+}
+
+bool stands_along_z(const std::filesystem::path& run_folder) {
+    try {
+        config::YamlOptions options;  // what stands in it is final
+        options.environment = [](const std::string&) { return std::optional<std::string>(); };
+        const config::ConfigNode resolved = config::load_yaml((run_folder / "config.resolved.yaml").string(), options);
+        const config::ConfigNode* input = resolved.find("input");
+        const config::ConfigNode* cloud = input != nullptr ? input->find("cloud") : nullptr;
+        const config::ConfigNode* sample = cloud != nullptr ? cloud->find("sample") : nullptr;
+        return sample != nullptr && !sample->is_null();
+    } catch (const Error&) {
+        return false;
+    }
 }
 
 std::vector<std::string> plugins_of_runs(std::span<const std::filesystem::path> run_folders) {

@@ -4,6 +4,8 @@
 #include <dsc/run/run_folder.hpp>
 #include <nlohmann/json.hpp>
 
+#include "run_lock.hpp"
+
 namespace dsc::run {
 namespace {
 
@@ -42,28 +44,39 @@ std::optional<RunFolder::Status> RunFolder::status(const fs::path& folder) {
 
 bool RunFolder::is_ours(const fs::path& folder) { return status(folder).has_value(); }
 
-RunFolder::RunFolder(fs::path folder) : RunFolder(std::move(folder), Keep::nothing) {}
+RunFolder::RunFolder(fs::path folder, std::unique_ptr<RunLock> lock) : folder_(std::move(folder)), lock_(std::move(lock)) {}
 
-RunFolder RunFolder::resumed(fs::path folder) { return RunFolder(std::move(folder), Keep::progress); }
+RunFolder::RunFolder(fs::path folder) : RunFolder(claimed(std::move(folder))) { clear(Keep::nothing); }
 
-RunFolder::RunFolder(fs::path folder, Keep keep) : folder_(std::move(folder)) {
+RunFolder::~RunFolder() = default;
+RunFolder::RunFolder(RunFolder&&) noexcept = default;
+
+RunFolder RunFolder::claimed(fs::path folder) {
     std::error_code error;
-    const fs::file_status status = fs::status(folder_, error);
+    const fs::file_status status = fs::status(folder, error);
     if (fs::exists(status) && !fs::is_directory(status)) {
-        throw UsageError("run.folder", folder_.string() + " is a file; name a folder with -o");
+        throw UsageError("run.folder", folder.string() + " is a file; name a folder with -o");
     }
     if (fs::is_directory(status)) {
-        const bool empty = io::nothing_but_leftovers(folder_, error);
-        if (error) cannot(folder_, "cannot be read", error);
-        if (!empty && !is_ours(folder_)) {
+        // A run that was killed before it said that it is running leaves nothing but its lock.
+        const bool empty = io::nothing_but_leftovers(folder, error, RunLock::name);
+        if (error) cannot(folder, "cannot be read", error);
+        if (!empty && !is_ours(folder)) {
             throw UsageError("run.folder",
-                             folder_.string() +
+                             folder.string() +
                                  " is not empty and no run wrote it; nothing in it was changed; name "
                                  "another folder with -o or empty it");
         }
     }
-    fs::create_directories(folder_, error);
-    if (error) cannot(folder_, "cannot be made", error);
+    fs::create_directories(folder, error);
+    if (error) cannot(folder, "cannot be made", error);
+    auto lock = std::make_unique<RunLock>(folder);
+    return {std::move(folder), std::move(lock)};
+}
+
+std::string RunFolder::owner(const fs::path& folder) { return RunLock::owner(folder); }
+
+void RunFolder::clear(Keep keep) const {
     remove_results();
     io::remove_leftovers(folder_);
     for (const char* name : other_names) {

@@ -15,7 +15,9 @@
 
 #include "checkpoints.hpp"
 #include "result_files.hpp"
+#include "resume.hpp"
 #include "run_log.hpp"
+#include "running.hpp"
 #include "state_series.hpp"
 #include "stopwatch.hpp"
 #include "summary.hpp"
@@ -71,13 +73,17 @@ public:
         Strategies strategies = make_strategies(loaded_.experiment, catalogue_);
         const fs::path path = options_.folder.empty() ? folder_of(loaded_, state_.hash) : options_.folder;
         const Checkpoints checkpoints(path / "checkpoint", kept_checkpoints());
-        if (options_.resume) resumed_ = checkpoints.last(state_.hash);
-        const RunFolder folder = resumed_ ? RunFolder::resumed(path) : RunFolder(path);
+        const RunFolder folder = RunFolder::claimed(path);
+        if (options_.resume) resumed_ = checkpoint_to_resume(path, checkpoints, loaded_, state_.hash);
+        folder.clear(resumed_ ? RunFolder::Keep::progress : RunFolder::Keep::nothing);
         if (options_.resume) {
             log(LogLevel::info, resumed_ ? "going on after step " + std::to_string(resumed_->steps)
                                          : "no checkpoint of this experiment in " + path.string() + ": from the start");
         }
         folder.write("status.json", status_json(state_));
+        const Running running([this, &folder](const Error& error) {
+            fail(folder, static_cast<int>(error.exit_code()), error.code(), error.what());
+        });
         try {
             RunOutcome outcome = work(folder, strategies, checkpoints);
             state_.finished = utc_now();
@@ -223,10 +229,10 @@ private:
             for (const std::string& note : filter.notes) log(LogLevel::info, note);
     }
 
-    /// The folder tells of the failure and holds nothing that looks like a result. The first error counts: what goes
-    /// wrong here (a full disk, say) must not hide it.
+    /// The folder tells of the failure, or that the run was stopped before there was a result; it holds nothing that looks
+    /// like one. The first error counts: what goes wrong here (a full disk, say) must not hide it.
     void fail(const RunFolder& folder, int exit_code, const std::string& code, const std::string& message) {
-        state_.state = "failed";
+        state_.state = exit_code == static_cast<int>(ExitCode::stopped) ? "stopped" : "failed";
         state_.finished = utc_now();
         state_.exit_code = exit_code;
         state_.error_code = code;

@@ -1,5 +1,8 @@
 // A velocity that misbehaves on demand, for tests of what the command makes of it.
+#include <cstdio>
+#include <cstdlib>
 #include <dsc/plugin/plugin.hpp>
+#include <iostream>
 #include <limits>
 #include <stdexcept>
 
@@ -7,7 +10,7 @@ namespace {
 
 class Faulty final : public dsc::hooks::VelocityField {
 public:
-    enum class Fault { none, throws, nan, outside };
+    enum class Fault { none, throws, nan, outside, exits, quick_exits, ends, prints };
     struct Params {
         Fault fault = Fault::none;
         int step = 1;
@@ -15,7 +18,8 @@ public:
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema
             .choice("fault", &Params::fault,
-                    {{"none", Fault::none}, {"throws", Fault::throws}, {"nan", Fault::nan}, {"outside", Fault::outside}})
+                    {{"none", Fault::none}, {"throws", Fault::throws}, {"nan", Fault::nan}, {"outside", Fault::outside},
+                     {"exits", Fault::exits}, {"quick_exits", Fault::quick_exits}, {"ends", Fault::ends}, {"prints", Fault::prints}})
             .doc("What goes wrong.");
         schema.integer("step", &Params::step).at_least(0).unit("steps").doc("In which step.");
     }
@@ -26,6 +30,13 @@ public:
     }
     void evaluate(dsc::hooks::Range range, std::span<dsc::Vec3> out) const override {
         if (now_ && params_.fault == Fault::throws) throw std::runtime_error("division by zero");
+        if (now_ && params_.fault == Fault::exits) std::exit(0);
+        if (now_ && params_.fault == Fault::quick_exits) std::quick_exit(0);
+        if (now_ && params_.fault == Fault::ends) std::_Exit(0);
+        if (now_ && params_.fault == Fault::prints) {
+            std::puts("** C **");
+            std::cout << "** C++ **" << std::endl;
+        }
         for (std::size_t i = 0; i < out.size(); ++i) {
             out[i] = -0.01 * surface_->positions[range.begin + i];
             const bool bad = now_ && params_.fault == Fault::nan && range.begin + i == 7;

@@ -146,7 +146,7 @@ TEST_CASE("bad XYZ files") {
     CHECK(read_error(folder, "a.csv", "x;y;z\n4,5;5,5;6,5\n") ==
           "io.syntax 6: a.csv:2: '4,5' is not a number; write decimals with a point, not with a comma");
     CHECK(read_error(folder, "a.xyz", "1.5 2.5 3.5\n1,5 2,5 3,5\n") ==
-          "io.syntax 6: a.xyz:2: '5 2' is not a number; a point needs three numbers");
+          "io.syntax 6: a.xyz:2: '1,5' is not a number; write decimals with a point, not with a comma");
     CHECK(read_error(folder, "a.csv", "1.5;2.5;3.5\n4;5 6;7;8\n") ==
           "io.syntax 6: a.csv:2: '5 6' is not a number; a point needs three numbers");
     CHECK(read_error(folder, "a.xyz", "1 2 3\nx y z\n") ==
@@ -333,8 +333,6 @@ TEST_CASE("PLY layouts that PCL puts into the wrong place are refused") {
     const std::string grid =
         "PLY files with a range grid are not read; save the points alone, for instance with MeshLab or "
         "CloudCompare";
-    CHECK(read_error(folder, "a.ply", ply("ascii", "1", "obj_info num_cols 512\n") + "1 2 3\n") ==
-          "io.format 6: a.ply:7: " + grid);
     CHECK(read_error(folder, "a.ply",
                      ply("ascii", "1", "element range_grid 4\nproperty list uchar int vertex_indices\n") +
                          "1 2 3\n") == "io.format 6: a.ply:7: " + grid);

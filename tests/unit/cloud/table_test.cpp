@@ -73,10 +73,98 @@ TEST_CASE("without a choice the header's names decide, and prose does not") {
     CHECK(table.read("id,x,y,z\n7,1,2,3\n8,-4,5.5,6\n").points == expected);
     CHECK(table.read("Z;Y;X\n3;2;1\n6;5.5;-4\n").points == expected);
     CHECK(table.read("//X,Y,Z,R,G,B\n1,2,3,255,0,9\n-4,5.5,6,1,2,3\n").colours == Colours{{255, 0, 9}, {1, 2, 3}});
-    CHECK(table.read("a,b,c\n1,2,3\n-4,5.5,6\n").points == expected);
     CHECK(table.read("# columns: x y z\n1 2 3\n-4 5.5 6\n", {}, "a.xyz").points == expected);
-    CHECK(table.read("see x y z here\n1 2 3\n-4 5.5 6\n", {}, "a.xyz").points == expected);
     CHECK(table.read("####\n#\n//\n1 2 3\n-4 5.5 6\n", {}, "a.xyz").points == expected);
+}
+
+TEST_CASE("the usual names of coordinates are known, with their units, in any order") {
+    const Table table;
+    for (const char* text : {
+             "Point,X [m],Y [m],Z [m]\n7,1,2,3\n8,-4,5.5,6\n",
+             "id;Northing (m);Easting (m);Elevation\n7;2;1;3\n8;5.5;-4;6\n",
+             "height,EAST,north\n3,1,2\n6,-4,5.5\n",
+             "\"Points:0\",\"Points:1\",\"Points:2\",scalar\n1,2,3,9\n-4,5.5,6,9\n",
+             "X_coord Y_coord Z_coord\n1 2 3\n-4 5.5 6\n",
+             "X [m] Y [m] Z [m]\n1 2 3\n-4 5.5 6\n",
+             "easting,northing,x,y,z\n100,200,1,2,3\n100,200,-4,5.5,6\n",
+             "name,x,y,altitude\na,1,2,3\nb,-4,5.5,6\n",
+         })
+        CHECK_MESSAGE(table.read(text).points == expected, text);
+}
+
+TEST_CASE("a header that does not fit is never guessed past") {
+    const Table table;
+    const std::string ask = " does not tell which columns are x, y and z; choose three columns by their names or by "
+                            "their numbers from 1";
+    CHECK(table.error("a,b,c\n1,2,3\n") == "io.columns 6: a.csv:1: the header 'a', 'b', 'c'" + ask);
+    CHECK(table.error("PointID,Code,Value\n1,2,3\n") == "io.columns 6: a.csv:1: the header 'PointID', 'Code', 'Value'" + ask);
+    CHECK(table.error("longitude,latitude,height\n1,2,3\n").find(ask) != std::string::npos);
+    CHECK(table.error("P1,1,2,3\nP2,4,5,6\n").find("the first line holds words, and they do not tell") != std::string::npos);
+    CHECK(table.error("a scan of 2025\n1 2 3\n").find("the first line holds words") != std::string::npos);
+    CHECK(table.error("x,y,z\n1,2,3,4\n") ==
+          "io.syntax 6: a.csv:2: the header has 3 columns, the line 4; choose columns by their numbers from 1");
+    CHECK(table.error("see x y z here\n1 2 3\n", {}, "a.xyz") ==
+          "io.syntax 6: a.xyz:2: the header has 5 columns, the line 3; choose columns by their numbers from 1");
+    // What the caller chose holds.
+    CHECK(table.read("a,b,c\n1,2,3\n-4,5.5,6\n", {"1", "2", "3"}).points == expected);
+    CHECK(table.read("see x y z here\n1 2 3\n-4 5.5 6\n", {"1", "2", "3"}, "a.xyz").points == expected);
+}
+
+TEST_CASE("decimal commas are refused with one hint, however the columns are divided") {
+    const Table table;
+    const std::string hint = "' is not a number; write decimals with a point, not with a comma";
+    for (const char* text : {
+             "10,499 10,000 14,975\n",
+             "10,499\t10,000\t14,975\n",
+             "10,499;10,000;14,975\n",
+             "10,499, 10,000, 14,975\n",
+             "\"10,499\",\"10,000\",\"14,975\"\n",
+             "x;y;z\n10,499;10,000;14,975\n",
+             "x y z\n10,499 10,000 14,975\n",
+             "x y z r g b\n10,499 10 14,975 1 2 3\n",
+             "10,499,14,000,14,975\n",
+             "10,499 1 -14,975e1\n",
+             "1,010,499.5 1 2,000\n",
+         })
+        CHECK_MESSAGE(table.error(text).find(hint) != std::string::npos, text);
+    CHECK(table.error("x,y,z\n10,499,10,100,14,975\n") ==
+          "io.syntax 6: a.csv:2: the header has 3 columns, the line 6; write decimals with a point, not with a comma");
+    CHECK(table.error("10,499 10,000 14,975\n", {"1", "2", "3"}).find(hint) != std::string::npos);
+    for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+             {"a.obj", "v 1,5 2 3\n"},
+             {"a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1,5 2 3\n"},
+             {"a.pcd", "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1,5 2 3\n"}})
+        CHECK_MESSAGE(table.error(text, {}, name).find("'1,5" + hint) != std::string::npos, name);
+    // Commas with blanks, and columns of whole numbers.
+    CHECK(table.read("1, 2, 3\n-4, 5.5, 6\n").points == expected);
+    CHECK(table.read("1 ,2 ,3\n-4 ,5.5 ,6\n").points == expected);
+    CHECK(table.read("1,2,3,255,10,0\n-4,5.5,6,0,0,0\n").points == expected);
+}
+
+TEST_CASE("a byte order mark is no part of any cloud") {
+    const Table table;
+    const std::string mark = "\xEF\xBB\xBF";
+    const std::string rows = "1 2 3\n-4 5.5 6\n";
+    const std::string ply = "element vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+    for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+             {"a.xyz", rows},
+             {"a.txt", "x y z\n" + rows},
+             {"a.csv", "x,y,z\n1,2,3\n-4,5.5,6\n"},
+             {"a.obj", "v 1 2 3\nv -4 5.5 6\n"},
+             {"a.ply", "ply\nformat ascii 1.0\n" + ply + rows},
+             {"a.ply", "ply\nformat ascii 1.0\nobj_info num_cols 7\nobj_info num_rows 2\n" + ply + rows},
+             {"a.pcd", "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA ascii\n" + rows}}) {
+        CAPTURE(name);
+        CHECK(table.read(text, {}, name).points == expected);
+        CHECK(table.read(mark + text, {}, name).points == expected);
+        CHECK(table.error("\xFF\xFE" + text, {}, name) ==
+              "io.format 6: " + name + ": the text is in UTF-16 or UTF-32; save it as UTF-8 or plain ASCII");
+    }
+    // Only an element makes a grid.
+    CHECK(table.error("ply\nformat ascii 1.0\n" + ply.substr(0, ply.size() - 11) +
+                          "element range_grid 1\nproperty list uchar int vertex_indices\nend_header\n" + rows + "1 0\n",
+                      {}, "a.ply")
+              .find("range grid") != std::string::npos);
 }
 
 TEST_CASE("colours: of named columns, of chosen ones, of six columns") {

@@ -1,3 +1,4 @@
+#include <dsc/base/replace_file.hpp>
 #include <dsc/io/atomic_file.hpp>
 
 #include <doctest/doctest.h>
@@ -51,6 +52,56 @@ TEST_CASE("a symbolic link stays and its target is replaced") {
     write_file(folder / "link", "new");
     CHECK(std::filesystem::is_symlink(folder / "link"));
     CHECK(test::content_of(folder / "real") == "new");
+}
+
+TEST_CASE("a symbolic link to a file that is not there yet stays, and the file comes into being") {
+    const test::Folder folder;
+    std::filesystem::create_directory(folder / "disk");
+    std::filesystem::create_symlink("disk/real", folder / "link");
+    std::filesystem::create_symlink("link", folder / "second");
+    write_file(folder / "second", "new");
+    CHECK(std::filesystem::is_symlink(folder / "second"));
+    CHECK(std::filesystem::is_symlink(folder / "link"));
+    CHECK(test::content_of(folder / "disk/real") == "new");
+    std::filesystem::create_symlink("round", folder / "round");
+    CHECK(test::refusal(folder / "round", write_x).code == "io.write");
+}
+
+TEST_CASE("a file that was there keeps its mode and its owner") {
+    const test::Folder folder;
+    const std::string file = folder.with("a", "old");
+    REQUIRE(::chmod(file.c_str(), 0604) == 0);
+    const bool other_owner = ::chown(file.c_str(), 4711, 4712) == 0;  // only the superuser may
+    write_file(file, "new");
+    struct ::stat facts {};
+    REQUIRE(::stat(file.c_str(), &facts) == 0);
+    CHECK((facts.st_mode & 07777) == 0604);
+    if (other_owner) CHECK(facts.st_uid == 4711);
+    if (other_owner) CHECK(facts.st_gid == 4712);
+    CHECK(test::content_of(file) == "new");
+}
+
+TEST_CASE("hard links stay together") {
+    const test::Folder folder;
+    folder.with("a", "a long old content");
+    std::filesystem::create_hard_link(folder / "a", folder / "b");
+    write_file(folder / "a", "new");
+    CHECK(test::content_of(folder / "b") == "new");
+    CHECK(std::filesystem::hard_link_count(folder / "a") == 2);
+    CHECK(folder.files() == 2);
+}
+
+TEST_CASE("whether a file can be replaced is known before, and nothing changes") {
+    const test::Folder folder;
+    require_replaceable(folder / "new");
+    CHECK(folder.files() == 0);
+    folder.with("old", "content");
+    require_replaceable(folder / "old");
+    CHECK(test::content_of(folder / "old") == "content");
+    constexpr auto require = [](const std::filesystem::path& f) { require_replaceable(f); };
+    CHECK(test::refusal(folder / "none/a.txt", require).message == test::refusal(folder / "none/a.txt", write_x).message);
+    CHECK(test::refusal("/sys/kernel/x.obj", require).code == "io.write");  // not even for the superuser
+    CHECK(test::refusal("/dev/null", require).code == "io.write");
 }
 
 TEST_CASE("what cannot be written is named") {

@@ -91,7 +91,7 @@ TEST_CASE("bad obj") {
         {"a.obj", v3 + "f 1 2 3/a\n", "io.syntax",
          "FILE:4: '3/a' is not a corner; correct the line or export the file again"},
         {"a.obj", "v 0 0,5 0\n", "io.syntax",
-         "FILE:1: '0,5' is not a number; correct the line or export the file again"},
+         "FILE:1: '0,5' is not a number; write decimals with a point, not with a comma"},
         {"a.obj", "v 0 0x1 0\n", "io.syntax",
          "FILE:1: '0x1' is not a number; correct the line or export the file again"},
         {"a.obj", "v 0 +-1 0\n", "io.syntax",
@@ -220,6 +220,12 @@ TEST_CASE("bad ply: the header") {
 
 TEST_CASE("bad ply: text bodies") {
     check_all({
+        {"a.ply", ply_head + "0 0 0\n1 0 0 0.5\n0 1 0 0.5\n3 0 1 2\n", "io.syntax",
+         "FILE:11: the line has more values than element 'vertex' has properties; correct the line or export the file again"},
+        {"a.ply", ply_head + "0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "io.syntax",
+         "FILE:11: the line has fewer values than element 'vertex' has properties; correct the line or export the file again"},
+        {"a.ply", ply_head + "0 0 0\n1 0 0\n0 1,5 0\n3 0 1 2\n", "io.syntax",
+         "FILE:12: '1,5' is not a number; write decimals with a point, not with a comma"},
         {"a.ply", ply_head + "0 0 0\n1 0 0\n0 1\n", "io.truncated",
          "FILE:12: the file ends where a number should be; the file is incomplete: copy or export it again"},
         {"a.ply", ply_head + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "io.truncated",

@@ -1,4 +1,5 @@
 #include <dsc/io/formats.hpp>
+#include <dsc/base/log.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
 
@@ -238,4 +239,72 @@ TEST_CASE("an unknown extension is refused by readers and writers") {
     CHECK(read.message ==
           "FILE: the extension is not that of a surface file; give it one of .obj, .ply, .off, .stl or "
           "convert the file");
+}
+
+TEST_CASE("a byte order mark is no part of any surface in text, and stays in a binary stl") {
+    const std::string mark = "\xEF\xBB\xBF";
+    const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    const std::string stl = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+    const std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                            "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    for (const auto& [name, text] : std::vector<std::pair<const char*, std::string>>{{"m.obj", obj}, {"m.off", off}, {"m.stl", stl}, {"m.ply", ply}}) {
+        CAPTURE(name);
+        CHECK(read_text(name, (mark + text).c_str()).faces == one_face);
+        const test::Folder folder;
+        const auto wide = test::refusal(folder.with(name, "\xFF\xFE" + text), [](const auto& f) { read_surface(f); });
+        CHECK(wide.code == "io.format");
+        CHECK(wide.message == "FILE: the text is in UTF-16 or UTF-32; save it as UTF-8 or plain ASCII");
+    }
+    const test::Folder folder;
+    TriangleMesh m;
+    m.points = corner;
+    m.faces = one_face;
+    write_surface(folder / "m.stl", m);
+    std::string bytes = test::content_of(folder / "m.stl");
+    CHECK(read_surface(folder.with("n.stl", bytes.replace(0, 3, mark))).faces == one_face);
+    write_surface(folder / "m.ply", m);
+    CHECK(read_surface(folder.with("n.ply", mark + test::content_of(folder / "m.ply"))).faces == one_face);
+}
+
+TEST_CASE("stl: the words of the text may be capitals") {
+    const TriangleMesh m = read_text("m.stl",
+                                     "SOLID PART\n FACET NORMAL 0 0 0\n  OUTER LOOP\n VERTEX 0 0 0\n VERTEX 1 0 0\n Vertex 0 1 0\n"
+                                     "  ENDLOOP\n ENDFACET\nEndSolid PART\n");
+    CHECK(m.faces == one_face);
+}
+
+TEST_CASE("ply: strips of triangles turn every other one, -1 and repeated corners begin anew") {
+    const std::string head = "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+                             "element tristrips 2\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n";
+    CHECK(read_text("m.ply", (head + "8 0 1 2 3 -1 4 3 2\n5 0 1 2 2 3\n").c_str()).faces ==
+          Faces{{0, 1, 2}, {2, 1, 3}, {4, 3, 2}, {0, 1, 2}});
+    // A tetrahedron as one strip is closed and has one orientation: its volume is that of the solid.
+    const TriangleMesh tet = read_text("m.ply", (head + "6 0 2 1 3 0 2\n0\n").c_str());
+    REQUIRE(tet.faces.size() == 4);
+    double volume = 0.0;
+    for (const auto& f : tet.faces) volume += tet.points[f[0]].dot(tet.points[f[1]].cross(tet.points[f[2]])) / 6.0;
+    CHECK(volume == doctest::Approx(1.0 / 6.0));
+}
+
+TEST_CASE("ply: a list may be broken over lines, an element may not share one") {
+    const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                             "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    CHECK(read_text("m.ply", (head + "0 0 0\n\n1 0 0\n0 1 0\n3 0\n1 2\n").c_str()).faces == one_face);
+}
+
+TEST_CASE("geometry that is not read is told") {
+    std::vector<std::string> said;
+    set_log_sink([&](LogLevel, std::string_view text) { said.emplace_back(text); });
+    read_text("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\nf 1 2 3\n");
+    REQUIRE(said.size() == 1);
+    CHECK(said[0].find(":4: lines 'l' are not read") != std::string::npos);
+    said.clear();
+    read_text("m.ply",
+              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+              "element face 1\nproperty list uchar int vertex_indices\nelement quads 1\nproperty list uchar int corners\nend_header\n"
+              "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n4 0 1 2 2\n");
+    set_log_sink({});
+    REQUIRE(said.size() == 1);
+    CHECK(said[0].find("element 'quads' (1) is not read") != std::string::npos);
 }

@@ -1,4 +1,6 @@
 // Inputs, run folders, measures and tables: everything of a run that needs no kernel.
+#include <unistd.h>
+
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -128,24 +130,31 @@ TEST_CASE("run folder: takes an empty folder or one of ours, refuses all others 
         CHECK_FALSE(fs::exists(run.staging()));
     }
     CHECK(run::RunFolder::is_ours(ours));
-    const run::RunFolder again(ours);
-    CHECK_FALSE(fs::exists(ours / "result"));
-    CHECK_FALSE(fs::exists(ours / "summary.json"));
-    CHECK(fs::exists(ours / "notes.txt"));
+    {
+        const run::RunFolder again(ours);
+        CHECK_FALSE(fs::exists(ours / "result"));
+        CHECK_FALSE(fs::exists(ours / "summary.json"));
+        CHECK(fs::exists(ours / "notes.txt"));
+    }
 
     // A run that is killed at its very first moment leaves this and no status.json.
     folder.write("killed/.status.json.4711-0.tmp", "{\"for");
     folder.write("killed/checkpoint/.step_3.dscstate.4711-9.tmp", "dsc");
     CHECK_THROWS_AS(run::RunFolder(folder.path() / "killed"), UsageError);  // no run makes a checkpoint before its status
     fs::remove_all(folder.path() / "killed/checkpoint");
-    const run::RunFolder begun(folder.path() / "killed");
-    CHECK(fs::is_empty(begun.path()));
-    begun.write("status.json", "{\"format\": \"dsc-run-1\", \"state\": \"running\"}");
+    folder.write("killed/.lock", "4711 elsewhere\n");  // stale: no process holds it
+    {
+        const run::RunFolder begun(folder.path() / "killed");
+        CHECK_FALSE(fs::exists(begun.file(".status.json.4711-0.tmp")));
+        begun.write("status.json", "{\"format\": \"dsc-run-1\", \"state\": \"running\"}");
+    }
     folder.write("killed/checkpoint/.step_3.dscstate.4711-9.tmp", "dsc");
     folder.write("killed/checkpoint/step_3.dscstate", "dsc");
     folder.write("killed/series/.step_3.vtp.4711-3.tmp", "<?xml");
     folder.write("killed/.metrics.csv.4711-12.tmp", "step");
-    const run::RunFolder resumed = run::RunFolder::resumed(folder.path() / "killed");
+    const run::RunFolder resumed = run::RunFolder::claimed(folder.path() / "killed");
+    CHECK(fs::exists(resumed.file(".metrics.csv.4711-12.tmp")));
+    resumed.clear(run::RunFolder::Keep::progress);
     CHECK_FALSE(fs::exists(resumed.file(".metrics.csv.4711-12.tmp")));
     CHECK(fs::exists(resumed.file("checkpoint/step_3.dscstate")));
     CHECK_FALSE(fs::exists(resumed.file("checkpoint/.step_3.dscstate.4711-9.tmp")));
@@ -164,6 +173,31 @@ TEST_CASE("run folder: takes an empty folder or one of ours, refuses all others 
     CHECK(folder.read("other/thesis.tex") == "text");
     CHECK_THROWS_AS(run::RunFolder(folder.path() / "other" / "thesis.tex"), UsageError);
     CHECK_THROWS_AS(run::RunFolder(folder.path() / "other" / "thesis.tex" / "x"), IoError);
+}
+
+TEST_CASE("run folder: one owner; the second is told who, and changes nothing") {
+    const Folder folder;
+    const fs::path ours = folder.path() / "run";
+    CHECK(run::RunFolder::owner(ours).empty());
+    {
+        const run::RunFolder first(ours);
+        first.write("status.json", "{\"format\": \"dsc-run-1\", \"state\": \"running\"}");
+        first.write("metrics.csv", "step");
+        const std::string process = "process " + std::to_string(::getpid());
+        CHECK(run::RunFolder::owner(ours).rfind(process, 0) == 0);
+        try {
+            const run::RunFolder second(ours);
+            FAIL("a second owner");
+        } catch (const UsageError& error) {
+            CHECK(error.code() == "run.busy");
+            CHECK(std::string(error.what()).find(process) != std::string::npos);
+        }
+        CHECK(folder.read("run/metrics.csv") == "step");
+    }
+    CHECK(run::RunFolder::owner(ours).empty());
+    CHECK_FALSE(fs::exists(ours / ".lock"));
+    const run::RunFolder next(ours);
+    CHECK_FALSE(fs::exists(ours / "metrics.csv"));
 }
 
 TEST_CASE("metrics: empty cells without a cloud, columns of observers") {

@@ -48,9 +48,25 @@ public:
 /// StrategyFailure "strategy.threw".
 [[noreturn]] void rethrow_attributed(const Call& call);
 
+/// While it lives, this thread is inside of that call. [parallel]
+class Inside {
+public:
+    explicit Inside(const Call& call) noexcept;
+    ~Inside();
+    Inside(const Inside&) = delete;
+    Inside& operator=(const Inside&) = delete;
+
+private:
+    const Call* outer_;
+};
+
+/// The call into a strategy that this thread is in, the innermost: "DESCRIPTION: HOOK at step N"; empty outside. [parallel]
+std::string current_call();
+
 /// Runs `body`, a call into a strategy. [parallel]
 template <class Body>
 decltype(auto) guarded(const Call& call, Body&& body) {
+    const Inside inside(call);
     try {
         return body();
     } catch (...) {

@@ -27,4 +27,8 @@ std::string comparison_html(std::span<const std::filesystem::path> run_folders, 
 /// names none. [setup]
 std::vector<std::string> plugins_of_runs(std::span<const std::filesystem::path> run_folders);
 
+/// Whether the object of a run stands along z, as its picture and its report have it: the built-in shapes do, models in files
+/// mostly along y. False for a folder that does not tell. [setup]
+bool stands_along_z(const std::filesystem::path& run_folder);
+
 }  // namespace dsc::run

@@ -3,23 +3,37 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace dsc::run {
 
+class RunLock;
+
 /// Writes in such an order that nothing half-done looks finished: status.json says "running" first and "done" last,
 /// result/ appears whole by a rename. A folder whose run failed holds no result, no summary and no picture.
 class RunFolder {
 public:
-    /// Creates the folder, or takes over a run folder of ours whose results it removes. Files that no run writes stay,
-    /// temporary ones that a killed run has left do not.
-    /// Throws UsageError "run.folder" for a file or any other folder that is not empty, IoError "run.folder" when it
-    /// cannot be made. [setup]
+    /// claimed() and clear(Keep::nothing). [setup]
     explicit RunFolder(std::filesystem::path folder);
-    /// The same for a run that goes on: what it has written so far stays, but for results.
-    static RunFolder resumed(std::filesystem::path folder);
+
+    /// Creates the folder, or takes over a run folder of ours, and owns it from then on; changes nothing in it.
+    /// Throws UsageError "run.folder" for a file or any other folder that is not empty, UsageError "run.busy" where another
+    /// run owns it, IoError "run.folder" when it cannot be made. [setup]
+    static RunFolder claimed(std::filesystem::path folder);
+    ~RunFolder();
+    RunFolder(RunFolder&&) noexcept;
+    RunFolder& operator=(RunFolder&&) = delete;
+
+    /// What stays of a run that was there before: nothing, or for a run that goes on all but results. Files that no run
+    /// writes stay always, temporary ones that a killed run has left never do. [setup]
+    enum class Keep { nothing, progress };
+    void clear(Keep keep) const;
+
+    /// Who owns the folder now, "process 4711 on HOST"; empty where no run does. [setup]
+    static std::string owner(const std::filesystem::path& folder);
 
     /// Whether `folder` is a run folder of ours.
     static bool is_ours(const std::filesystem::path& folder);
@@ -50,9 +64,9 @@ public:
     void remove_results() const;
 
 private:
-    enum class Keep { nothing, progress };
-    RunFolder(std::filesystem::path folder, Keep keep);
+    RunFolder(std::filesystem::path folder, std::unique_ptr<RunLock> lock);
     std::filesystem::path folder_;
+    std::unique_ptr<RunLock> lock_;
 };
 
 }  // namespace dsc::run

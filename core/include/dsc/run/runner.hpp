@@ -1,6 +1,7 @@
 #pragma once
 // A whole run: from a loaded experiment to a run folder.
 
+#include <dsc/base/error.hpp>
 #include <dsc/run/coverage.hpp>
 #include <dsc/run/driver.hpp>
 #include <dsc/run/experiment.hpp>
@@ -21,7 +22,7 @@ struct RunOptions {
     unsigned threads = 1;
     std::optional<double> time_budget;  ///< seconds; the run ends after the step in which it is used up
     const CancelToken* cancel = nullptr;
-    bool resume = false;  ///< go on from the last checkpoint in the folder; without one, from the start
+    bool resume = false;  ///< go on from the last checkpoint in the folder; in a new one, from the start
     std::vector<std::string> command;  ///< as typed, for provenance.json
     std::function<void(const StepMetrics&, std::uint64_t planned)> on_step;
 };
@@ -44,9 +45,13 @@ struct RunOutcome {
 
 /// Runs it. On an error the folder says "failed" and holds no result, and the error goes on. A result that is not
 /// valid as written (inverted tets, self-intersections, a surface that is not the volume's interface) is a
-/// GeometryError "run.invalid_result". [setup]
+/// GeometryError "run.invalid_result". Throws UsageError "run.busy" for a folder in which another run goes on, and
+/// "run.resume" for one that holds something else than the run to resume; neither changes the folder. [setup]
 RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
                           const RunOptions& options);
+
+/// The process is about to end inside of its runs: their folders say "failed", and why. [setup]
+void abandon_runs(const Error& error);
 
 /// Whether the folder holds the finished run of this experiment: then there is nothing to resume. [setup]
 bool is_finished(const std::filesystem::path& folder, const LoadedExperiment& loaded, const plugin::Catalogue& catalogue);

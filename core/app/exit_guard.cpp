@@ -1,0 +1,72 @@
+#include "exit_guard.hpp"
+
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <dsc/base/error.hpp>
+#include <dsc/plugin/guarded.hpp>
+#include <dsc/run/runner.hpp>
+#include <string>
+
+#include "standard_streams.hpp"
+
+namespace dsc::app {
+namespace {
+
+std::atomic<pid_t> guarded_process{0};
+
+[[noreturn]] void end_now(int code) noexcept {
+    while (true) ::syscall(SYS_exit_group, code);
+}
+
+/// Whether this process is to end by main() and has not come to it yet. True once: what is done about it may fail.
+bool unexpected() noexcept {
+    pid_t self = ::getpid();
+    return guarded_process.compare_exchange_strong(self, 0);
+}
+
+[[noreturn]] void refuse_end() noexcept {
+    try {
+        const std::string call = plugin::current_call();
+        const std::string who = call.empty() ? "a plugin or a library" : call;
+        const std::string text = who + " ended the process; a strategy must throw instead; report this to the plugin's authors";
+        tell("error: " + text + "\n");
+        run::abandon_runs(PluginError("strategy.exit", text));
+    } catch (...) {
+        tell("error: a plugin or a library ended the process\n");
+    }
+    end_now(static_cast<int>(ExitCode::plugin));
+}
+
+void on_exit_of_anyone() {
+    if (unexpected()) refuse_end();
+}
+
+}  // namespace
+
+void guard_exit() {
+    guarded_process = ::getpid();
+    std::atexit(on_exit_of_anyone);
+    std::at_quick_exit(on_exit_of_anyone);
+}
+
+int leave(int code) noexcept {
+    guarded_process = 0;
+    return code;
+}
+
+}  // namespace dsc::app
+
+// The program's own names come before those of the C library: a plugin that calls one of these reaches the guard.
+extern "C" {
+__attribute__((visibility("default"))) void _exit(int code) {
+    dsc::app::on_exit_of_anyone();
+    dsc::app::end_now(code);
+}
+__attribute__((visibility("default"))) void _Exit(int code) noexcept {
+    dsc::app::on_exit_of_anyone();
+    dsc::app::end_now(code);
+}
+}

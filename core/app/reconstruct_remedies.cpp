@@ -1,0 +1,42 @@
+#include "reconstruct_remedies.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace dsc::app {
+namespace {
+
+constexpr std::string_view check_cloud =
+    "check with dsc info that the points are the surface of one solid, all around it and dense enough, and remove what is far "
+    "away from it";
+constexpr std::string_view check_file = "save the cloud again with finite coordinates, nearer to the origin";
+
+struct Remedy {
+    std::string_view code;
+    std::string_view text;
+};
+constexpr std::array<Remedy, 12> remedies = {{{"run.vanished", check_cloud},
+                                              {"indicator.no_samples", check_cloud},
+                                              {"lattice.size", check_cloud},
+                                              {"stuff.box", check_cloud},
+                                              {"stuff.values", check_cloud},
+                                              {"mesh.pinched", check_cloud},
+                                              {"cloud.filtered_out", check_cloud},
+                                              {"cloud.option", check_cloud},
+                                              {"cloud.normals", check_file},
+                                              {"filter.normals", check_file},
+                                              {"cloud.scale", check_file},
+                                              {"cloud.outside_box", check_file}}};
+
+}  // namespace
+
+Error with_own_remedy(const Error& error) {
+    const auto found = std::find_if(remedies.begin(), remedies.end(), [&](const Remedy& r) { return r.code == error.code(); });
+    if (found == remedies.end()) return error;
+    const std::string text = error.what();
+    return {error.exit_code(), error.code(), text.substr(0, text.find("; ")) + "; " + std::string(found->text)};
+}
+
+}  // namespace dsc::app

@@ -1,0 +1,12 @@
+#pragma once
+// What `dsc info` says of a run folder.
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+namespace dsc::app {
+
+/// State, files and figures of a run, from its folder. Throws IoError "io.no_run" for a folder that no run wrote. [setup]
+nlohmann::ordered_json run_figures(const std::filesystem::path& folder);
+
+}  // namespace dsc::app

@@ -1,0 +1,98 @@
+#include "usage.hpp"
+
+#include <algorithm>
+#include <dsc/base/error.hpp>
+#include <dsc/config/spelling.hpp>
+#include <optional>
+
+namespace dsc::app {
+namespace {
+
+std::vector<std::string> names_of(const std::vector<const CLI::App*>& commands) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands) names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<const CLI::App*> below(const CLI::App& command) {
+    return command.get_subcommands([](const CLI::App*) { return true; });
+}
+
+/// The only one that begins with the word, else the one that is spelled most like it.
+std::optional<std::string> meant(const std::string& word, const std::vector<std::string>& names) {
+    std::vector<std::string> longer;
+    for (const std::string& name : names) {
+        if (!word.empty() && name.rfind(word, 0) == 0) longer.push_back(name);
+    }
+    return longer.size() == 1 ? longer.front() : config::closest(word, names);
+}
+
+std::string hint(const std::optional<std::string>& name) { return name ? "; did you mean '" + *name + "'?" : ""; }
+
+/// The innermost command that the words name, and the first word after it that is no option.
+struct Reached {
+    const CLI::App* command;
+    std::string name;     ///< "dsc plugin"
+    std::string unknown;  ///< empty where the words end or an option follows
+};
+
+Reached reach(const CLI::App& app, const std::vector<std::string>& words) {
+    Reached at{&app, app.get_name(), ""};
+    for (const std::string& word : words) {
+        const std::vector<const CLI::App*> commands = below(*at.command);
+        const auto found = std::find_if(commands.begin(), commands.end(), [&](const CLI::App* c) { return c->get_name() == word; });
+        if (found == commands.end()) {
+            if (!commands.empty() && word.rfind("-", 0) != 0) at.unknown = word;
+            break;
+        }
+        at.command = *found;
+        at.name += " " + word;
+    }
+    return at;
+}
+
+std::string unknown_command(const Reached& at) {
+    const std::vector<std::string> names = names_of(below(*at.command));
+    const std::optional<std::string> near = meant(at.unknown, names);
+    return (at.name == "dsc" ? "no command '" : at.name + " has no command '") + at.unknown + "'" +
+           (near ? hint(near) : "; there are " + config::join(names, ", "));
+}
+
+/// The first option of the call that the command does not have; empty where there is none.
+std::string unknown_option(const CLI::App& app, const Reached& at) {
+    for (const std::string& word : app.remaining(true)) {
+        if (word.size() < 2 || word.front() != '-' || word == "--") continue;
+        const std::string name = word.substr(0, word.find('='));
+        std::vector<std::string> names;
+        for (const CLI::Option* option : at.command->get_options()) {
+            for (const std::string& known : option->get_lnames()) names.push_back("--" + known);
+        }
+        const std::string wanted = "--" + name.substr(std::min(name.find_first_not_of('-'), name.size()));
+        return at.name + " has no option '" + name + "'" + hint(meant(wanted, names)) + "; see " + at.name + " --help";
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string usage_text(const CLI::App& app, const std::vector<std::string>& words, const CLI::ParseError& error) {
+    const Reached at = reach(app, words);
+    if (!at.unknown.empty()) return unknown_command(at) + "; see " + at.name + " --help";
+    if (std::string option = unknown_option(app, at); !option.empty()) return option;
+    const std::vector<const CLI::App*> commands = below(*at.command);
+    if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+        return at.name + " needs a command: " + config::join(names_of(commands), ", ") + "; see " + at.name + " --help";
+    }
+    std::string text = error.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text + "; see " + at.name + " --help";
+}
+
+std::string help_text(const CLI::App& app, const std::vector<std::string>& words) {
+    const Reached at = reach(app, words);
+    if (!at.unknown.empty()) throw UsageError("usage.command", unknown_command(at));
+    // Not help(): of a parser that has parsed `dsc help` it gives the help of that.
+    return at.command->get_formatter()->make_help(at.command, at.name, CLI::AppFormatMode::Normal);
+}
+
+}  // namespace dsc::app

@@ -1,0 +1,115 @@
+#include "resume.hpp"
+
+#include <algorithm>
+#include <dsc/base/error.hpp>
+#include <dsc/config/overrides.hpp>
+#include <dsc/config/yaml.hpp>
+#include <dsc/io/atomic_file.hpp>
+#include <dsc/run/run_folder.hpp>
+#include <vector>
+
+namespace dsc::run {
+namespace {
+
+namespace fs = std::filesystem;
+using config::ConfigEntry;
+using config::ConfigNode;
+
+constexpr const char* remedy_of_resume =
+    "; nothing in it was changed; run without --resume to start anew there, or name another folder with -o";
+
+/// The places at which two trees differ.
+class Comparison {
+public:
+    void compare(const ConfigNode* there, const ConfigNode* here, const std::string& path) {
+        if (there != nullptr && here != nullptr && *there == *here) return;
+        if (there != nullptr && here != nullptr && there->is_map() && here->is_map()) return maps(*there, *here, path);
+        if (there != nullptr && here != nullptr && there->is_list() && here->is_list()) return lists(*there, *here, path);
+        found_.push_back(path + " is " + text(there) + " there and " + text(here) + " here");
+    }
+
+    std::string told() const {
+        constexpr std::size_t most = 3;
+        std::string all;
+        for (std::size_t i = 0; i < std::min(most, found_.size()); ++i) all += (i > 0 ? ", " : "") + found_[i];
+        if (found_.size() > most) all += ", and " + std::to_string(found_.size() - most) + " more";
+        return all;
+    }
+
+private:
+    static std::string text(const ConfigNode* node) {
+        if (node == nullptr) return "not given";
+        constexpr std::size_t longest = 60;
+        const std::string whole = config::flow_text(*node);
+        return whole.size() <= longest ? whole : whole.substr(0, longest) + "...";
+    }
+
+    static std::string below(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
+
+    void maps(const ConfigNode& there, const ConfigNode& here, const std::string& path) {
+        for (const ConfigEntry& entry : there.entries()) compare(&entry.value, here.find(entry.key), below(path, entry.key));
+        for (const ConfigEntry& entry : here.entries()) {
+            if (there.find(entry.key) == nullptr) compare(nullptr, &entry.value, below(path, entry.key));
+        }
+    }
+
+    void lists(const ConfigNode& there, const ConfigNode& here, const std::string& path) {
+        for (std::size_t i = 0; i < std::max(there.size(), here.size()); ++i) {
+            compare(i < there.size() ? &there.at(i) : nullptr, i < here.size() ? &here.at(i) : nullptr,
+                    below(path, std::to_string(i)));
+        }
+    }
+
+    std::vector<std::string> found_;
+};
+
+std::string difference_to(const fs::path& folder, const LoadedExperiment& loaded) {
+    const fs::path file = folder / "config.resolved.yaml";
+    try {
+        // What stands in them is final: `${` is text. Both went through the same writer, so a number is the same number.
+        config::YamlOptions options;
+        options.environment = [](const std::string&) { return std::optional<std::string>(); };
+        const std::string told = experiment_differences(config::parse_yaml(io::read_file(file), file.string(), options),
+                                                        config::parse_yaml(resolved_text(loaded), "the experiment", options));
+        return told.empty() ? "a file or a plugin that it names has another content now" : told;
+    } catch (const Error&) {
+        return "its " + file.filename().string() + " cannot be read";
+    }
+}
+
+/// The tables must hold at least what they held at the checkpoint.
+void require_tables(const fs::path& folder, const Checkpoint& checkpoint) {
+    const auto require = [&folder](const char* name, std::uint64_t bytes) {
+        std::error_code error;
+        const std::uintmax_t size = fs::file_size(folder / name, error);
+        if (error || size < bytes) throw IoError("checkpoint.unusable", std::string(name) + " is shorter than it was then");
+    };
+    require("metrics.csv", checkpoint.log.metrics_bytes);
+    require("events.jsonl", checkpoint.log.events_bytes);
+}
+
+}  // namespace
+
+std::string experiment_differences(const ConfigNode& there, const ConfigNode& here) {
+    Comparison comparison;
+    comparison.compare(&there, &here, "");
+    return comparison.told();
+}
+
+std::optional<Checkpoint> checkpoint_to_resume(const fs::path& folder, const Checkpoints& checkpoints,
+                                               const LoadedExperiment& loaded, const std::string& hash) {
+    const std::optional<RunFolder::Status> status = RunFolder::status(folder);
+    if (status && !status->hash.empty() && status->hash != hash) {
+        throw UsageError("run.resume", folder.string() + " holds the run of another experiment: " + difference_to(folder, loaded) +
+                                           remedy_of_resume);
+    }
+    std::string reason;
+    std::optional<Checkpoint> found =
+        checkpoints.last(hash, [&folder](const Checkpoint& c) { require_tables(folder, c); }, &reason);
+    if (!found && !reason.empty()) {
+        throw UsageError("run.resume", folder.string() + " has no checkpoint that this run can go on from: " + reason + remedy_of_resume);
+    }
+    return found;
+}
+
+}  // namespace dsc::run
