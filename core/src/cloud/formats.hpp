@@ -20,7 +20,7 @@ struct FileCheck {
     std::vector<std::string> names{};  ///< of the points' properties
     std::optional<Sensor> sensor{};
     /// Byte offsets of the words "obj_info" that tell the size of a grid: PCL would believe them.
-    std::vector<std::size_t> grid_comments;
+    std::vector<std::size_t> grid_comments{};
 };
 
 /// `names` receives what the columns are called, as far as they have names.
