@@ -163,15 +163,25 @@ double behind_share(const ScaledSamples& samples, const Vec3& place) {
 
 double dropped_share(const OrientedPoints& found) { return share_of(found.dropped, found.dropped + found.orientation.samples.size()); }
 
-/// The way of the copy that closes a cloud of one layer (Orientation::backing), away from where the normals point; zero for a cloud
-/// that needs none. `place`: where it may have been recorded from, in scaled units.
-Vec3 backing_behind(const ScaledSamples& samples, const std::vector<Vec3>& given, const Vec3& place, const OrientOptions& options) {
+/// The way of the copy that closes a cloud of one layer (Orientation::backing), along `away`; zero for a cloud that needs none.
+/// `place`: where it may have been recorded from, in scaled units.
+Vec3 backing_along(const Vec3& away, const ScaledSamples& samples, const Vec3& place, const OrientOptions& options) {
     if (options.backing) return *options.backing;
     const std::optional<OneSided> found = find_one_sided(samples, place);
-    if (!found) return Vec3::Zero();
-    double towards = 0.0;
-    for (const Vec3& normal : given) towards += normal.dot(found->away);
-    return (towards > 0.0 ? -samples.diagonal : samples.diagonal) * found->depth * found->away;
+    return found ? Vec3(samples.diagonal * found->depth * away.normalized()) : Vec3(Vec3::Zero());
+}
+
+/// The sum of the view's directions from a place: a copy along it lies behind all that is seen from there.
+Vec3 view_from(const ScaledSamples& samples, const Vec3& place) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& p : samples.positions) sum += (p - place).normalized();
+    return sum;
+}
+
+Vec3 sum_of(const std::vector<Vec3>& vectors) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& v : vectors) sum += v;
+    return sum;
 }
 
 /// orient_samples_from, with a copy of the points and the opposite normals there unless `backing` is zero.
@@ -224,7 +234,7 @@ GivenOrientation orient_by_file_normals(const Cloud& cloud, const OrientOptions&
     if (inverted) turn(given);
     const std::string used = inverted ? "The normals of the file point into the solid; they are used with the opposite sign."
                                       : "The normals of the file are used.";
-    const Vec3 backing = backing_behind(samples, given, -samples.centre / samples.diagonal, options);
+    const Vec3 backing = backing_along(-sum_of(given), samples, -samples.centre / samples.diagonal, options);
     const auto start = [&](std::size_t iterations, bool hold_sides) {
         return orient_with_backing(samples, cloud.points, given, backing, {iterations, hold_sides}, workers, cancel);
     };
@@ -272,7 +282,7 @@ GivenOrientation orient_by_sensor(const Cloud& cloud, const OrientOptions& optio
     const double winding = mean_winding(samples, given, workers);
     out.figures.emplace_back("viewpoint_winding", winding);
     if (!stated && winding <= 0.0) return out;
-    const Vec3 backing = backing_behind(samples, given, place, options);
+    const Vec3 backing = backing_along(view_from(samples, place), samples, place, options);
     const std::size_t iterations = backing.isZero(0.0) ? options.coarse_iterations : options.fine_iterations;
     OrientedPoints found = orient_with_backing(samples, cloud.points, given, backing, {iterations, true}, workers, cancel);
     if (dropped_share(found) > most_dropped)
