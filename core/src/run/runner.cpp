@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/geometry/quality.hpp>
@@ -12,6 +13,7 @@
 #include <dsc/surface/surface_view.hpp>
 #include <iterator>
 #include <span>
+#include <string_view>
 
 #include "checkpoints.hpp"
 #include "result_files.hpp"
@@ -38,9 +40,11 @@ void require_valid(const RunOutcome& outcome) {
             "the interface of the volume; if the coordinates are huge, move the input nearer to the origin");
 }
 
-/// What these warn of is not part of a trimmed surface.
-bool settled_by_trimming(std::string_view code) {
-    return code == "cloud.open" || code == "cloud.one_sided" || code == "coverage.unsupported";
+/// What these warnings tell is not part of a trimmed surface.
+constexpr std::array<std::string_view, 3> about_unsupported_parts = {"cloud.open", "cloud.one_sided", "coverage.unsupported"};
+
+bool settled_by_trimming(const hooks::Warning& warning) {
+    return std::find(about_unsupported_parts.begin(), about_unsupported_parts.end(), warning.code) != about_unsupported_parts.end();
 }
 
 fs::path folder_of(const LoadedExperiment& loaded, const std::string& hash) {
@@ -185,7 +189,7 @@ private:
         hooks::Warnings& warnings = outcome.totals.warnings;
         hooks::Warnings found = warnings_of(*outcome.coverage, target.transform());
         warnings.insert(warnings.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
-        if (loaded_.experiment.output.trim) std::erase_if(warnings, [](const hooks::Warning& w) { return settled_by_trimming(w.code); });
+        if (loaded_.experiment.output.trim) std::erase_if(warnings, settled_by_trimming);
         return surface::evaluate_cloud(distances);
     }
 
