@@ -110,7 +110,7 @@ TEST_CASE("configs/demos/box_tunnel.yaml ends with its tunnel open from end to e
     CHECK(clearance(outcome.volume, Vec3(0, 0, -3), Vec3(0, 0, 3)) > 0.5 * outcome.mean_edge);
 }
 
-// Newell's teapot with its interior parts, sampled; z is up there.
+// Newell's teapot, sampled; z is up there. What lies inside its body is not sampled, but a few points below its lid are hidden.
 TEST_CASE("a sampled teapot at adaptive resolution: handle open, nearer to the truth than without, hidden points set aside") {
     Cli cli;
     cli.environment["DSC_DATA"] = ".";  // the sample takes the place of its cloud
@@ -122,7 +122,7 @@ TEST_CASE("a sampled teapot at adaptive resolution: handle open, nearer to the t
     CHECK(clearance(adaptive.volume, Vec3(-2.24, -3, 1.62), Vec3(-2.24, 3, 1.62)) > 0.5 * adaptive.mean_edge);
     CHECK(adaptive.summary["refinements"]["committed"] > 1000);
     CHECK(adaptive.summary["input"]["filters"][0]["type"] == "hidden");
-    CHECK(adaptive.summary["input"]["filters"][0]["removed"] > 10);
+    CHECK(adaptive.summary["input"]["filters"][0]["removed"] > 0);
     CHECK(adaptive.summary["input"]["filters"][1]["type"] == "clusters");
     CHECK(adaptive.summary["input"]["filters"][1]["removed"] > 100);
     const Outcome coarse = run(cli, protocol, {sample, "schedule=[{steps: 60}]"});

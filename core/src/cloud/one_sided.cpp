@@ -17,6 +17,7 @@ constexpr std::size_t least_samples = 100;
 constexpr double footprint_cell = 2.0;  // widths: few cells of the footprint are empty by chance
 constexpr double layer_cell = 4.0;      // widths
 constexpr double layer_gap = 6.0;       // widths: steeper than any slope within a cell that is sampled evenly
+constexpr double least_area_ratio = 0.6;    // of walls that are seen along themselves less
 constexpr double most_area_ratio = 1.3;     // 1 for one layer; solids have 2, somewhat less where they are sampled sparsely
 constexpr double most_layered_share = 0.1;  // edges of roofs and of objects in front of others
 constexpr double rim_gap = 165.0 / 180.0 * std::numbers::pi;  // angle without neighbours: 180 degrees at a straight border
@@ -158,7 +159,7 @@ std::optional<OneSided> find_one_sided(const ScaledSamples& samples, const Vec3&
     for (const Vec3& direction : candidates(samples, mean, origin)) {
         const double area = footprint(samples, direction);
         const double ratio = seen_area(samples, direction) / area;
-        if (!(ratio < most_area_ratio) || rim < least_rim * 2.0 * std::sqrt(std::numbers::pi * area)) continue;
+        if (!(ratio > least_area_ratio && ratio < most_area_ratio) || rim < least_rim * 2.0 * std::sqrt(std::numbers::pi * area)) continue;
         const double layered = layered_share(samples, direction);
         if (!(layered < most_layered_share) || (best && layered >= best->layered_share)) continue;
         const double depth = std::min(deepest, std::max(least_depth * samples.width, depth_of_extent * std::sqrt(area)));

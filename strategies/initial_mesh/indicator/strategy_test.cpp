@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <dsc/base/random.hpp>
 #include <dsc/base/error.hpp>
 #include <dsc/cloud/orientation.hpp>
 #include <dsc/cloud/shapes.hpp>
@@ -122,7 +123,21 @@ TEST_CASE("the same bits for any number of threads") {
     CHECK(one.mesh.labels == three.mesh.labels);
 }
 
-TEST_CASE("half a ball is closed, and the open side is said") {
+TEST_CASE("a tube is closed, and its open ends are said") {
+    dsc::RandomStream random(dsc::RandomKey{3, 0, 0, 0});
+    dsc::cloud::Cloud tube;
+    for (int i = 0; i < 4000; ++i) {
+        const double angle = random.uniform(0, 6.283185307179586);
+        tube.points.emplace_back(std::cos(angle), std::sin(angle), random.uniform(0, 2));
+    }
+    const Built closed = build(target(tube));
+    CHECK(closed.surface.boundary_edges == 0);
+    REQUIRE_FALSE(closed.warnings.empty());
+    CHECK(closed.warnings.front().code == "cloud.open");
+    CHECK(closed.figures.at("gap_share") > 0.1);
+}
+
+TEST_CASE("half a ball is closed by a copy behind it, and that is said") {
     dsc::cloud::Cloud ball = spheres({{Vec3(0, 0, 0), 1.0}}, 4000), half;
     for (const Vec3& p : ball.points) {
         if (p.z() > 0.2) half.points.push_back(p);
@@ -130,8 +145,9 @@ TEST_CASE("half a ball is closed, and the open side is said") {
     const Built cap = build(target(half));
     CHECK(cap.surface.boundary_edges == 0);
     REQUIRE_FALSE(cap.warnings.empty());
-    CHECK(cap.warnings.front().code == "cloud.open");
-    CHECK(cap.figures.at("gap_share") > 0.1);
+    CHECK(cap.warnings.front().code == "cloud.one_sided");
+    CHECK(cap.surface.components == 1);
+    CHECK(cap.surface.genus == 0);
 }
 
 TEST_CASE("refused vertices and residuals beyond the limits are doubtful") {

@@ -1,5 +1,6 @@
 #include "hole_fill.hpp"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -68,8 +69,24 @@ TEST_CASE("gaps between points are not holes, fixed vertices stay, and a piece f
     CHECK(fill_holes(links, gaps, movable, positions) == 0);
     CHECK(fill_holes(links, gaps, std::vector<std::uint8_t>(positions.size(), 0), positions) == 0);
     CHECK(positions == mesh.points);
+    for (std::size_t v = 0; v < gaps.size(); ++v) gaps[v] = mesh.points[v].z() > 0.7 ? 3.0 : 0.3;
+    const auto in_cap = static_cast<std::size_t>(std::count(gaps.begin(), gaps.end(), 3.0));
+    const auto top = static_cast<std::size_t>(std::max_element(mesh.points.begin(), mesh.points.end(), [](const Vec3& a, const Vec3& b) {
+                                                  return a.z() < b.z();
+                                              }) - mesh.points.begin());
     std::vector<std::uint8_t> one_fixed = movable;
-    one_fixed[7] = 0;
-    CHECK(fill_holes(links, gaps, one_fixed, positions) == positions.size() - 1);
-    CHECK(positions[7] == mesh.points[7]);
+    one_fixed[top] = 0;
+    CHECK(fill_holes(links, gaps, one_fixed, positions) == in_cap - 1);
+    CHECK(positions[top] == mesh.points[top]);
+    CHECK(positions != mesh.points);
+}
+
+TEST_CASE("a side that nobody has seen is no hole") {
+    auto mesh = dsc::sdk::icosphere(2, 1.0);
+    const auto links = links_of(mesh);
+    std::vector<Vec3> positions = mesh.points;
+    std::vector<double> gaps;
+    for (const Vec3& p : mesh.points) gaps.push_back(p.z() > 0.2 ? 3.0 : 0.3);
+    CHECK(fill_holes(links, gaps, std::vector<std::uint8_t>(positions.size(), 1), positions) == 0);
+    CHECK(positions == mesh.points);
 }

@@ -75,6 +75,16 @@ TEST_CASE("one side: clouds that surround a solid are not of this kind, in any p
     }
 }
 
+TEST_CASE("one side: a tube with open ends has two sides, also where it is seen along its wall") {
+    dsc::RandomStream random(dsc::RandomKey{3, 0, 0, 0});
+    std::vector<Vec3> points;
+    for (int i = 0; i < 4000; ++i) {
+        const double angle = random.uniform(0, 6.283185307179586);
+        points.emplace_back(std::cos(angle), std::sin(angle), random.uniform(0, 2));
+    }
+    CHECK_FALSE(found_in(points));
+}
+
 TEST_CASE("one side: too few points tell nothing") { CHECK_FALSE(found_in(terrain(60))); }
 
 TEST_CASE("one side: normals face the recorder, and a copy closes the solid") {
