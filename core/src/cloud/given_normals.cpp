@@ -188,9 +188,9 @@ Vec3 sum_of(const std::vector<Vec3>& vectors) {
 OrientedPoints orient_with_backing(const ScaledSamples& samples, std::span<const Vec3> points, const std::vector<Vec3>& given,
                                    const Vec3& backing, const StartOptions& options, Workers* workers, const CancelToken* cancel) {
     if (backing.isZero(0.0)) return orient_samples_from(samples, points, given, options, workers, cancel);
-    std::vector<Vec3> all(points.begin(), points.end()), normals;
-    normals.reserve(2 * points.size());
-    for (const Vec3& p : points) all.emplace_back(p + backing);
+    const std::vector<Vec3> all = with_copy(points, backing);
+    std::vector<Vec3> normals;
+    normals.reserve(all.size());
     for (std::size_t i = 0; i < points.size(); ++i) normals.push_back(given[samples.of_point[i]]);
     for (std::size_t i = 0; i < points.size(); ++i) normals.emplace_back(-normals[i]);
     const ScaledSamples both = scaled_samples(all, workers);

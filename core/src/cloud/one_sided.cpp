@@ -25,6 +25,7 @@ constexpr double least_rim = 0.25;          // of the border of a disc of the fo
 constexpr double least_depth = 20.0;       // widths
 constexpr double depth_of_extent = 0.2;    // roots of the footprint
 constexpr double most_depth = 0.25;        // of the longest side of the box: the copy stays in the box of the simulation
+constexpr double copy_narrowing = 0.15;     // of the distance from the centre
 constexpr double along_view = 0.7;         // cosine: a camera at the origin looks along the direction, terrain lies across the z axis
 constexpr double farthest_camera = 10.0;   // diagonals from the cloud's centre
 
@@ -166,6 +167,16 @@ std::optional<OneSided> find_one_sided(const ScaledSamples& samples, const Vec3&
         best = OneSided{turned_away(samples, direction, mean, origin), depth, ratio, layered};
     }
     return best;
+}
+
+std::vector<Vec3> with_copy(std::span<const Vec3> points, const Vec3& backing) {
+    std::vector<Vec3> all(points.begin(), points.end());
+    const Vec3 away = backing.normalized(), centre = bounding_box(points).centre();
+    for (const Vec3& p : points) {
+        const Vec3 from_centre = p - centre;
+        all.emplace_back(p + backing - copy_narrowing * (from_centre - from_centre.dot(away) * away));
+    }
+    return all;
 }
 
 }  // namespace dsc::cloud

@@ -2,6 +2,8 @@
 // Clouds that were recorded from one side: depth images, single scans, terrain from the air.
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <dsc/geometry/vec.hpp>
 
@@ -20,5 +22,9 @@ struct OneSided {
 /// Empty for a cloud that surrounds a solid, and for fewer than 100 samples. `origin` is the origin of the input's
 /// coordinates in scaled units: where a depth camera stands. [setup]
 std::optional<OneSided> find_one_sided(const ScaledSamples& samples, const Vec3& origin);
+
+/// The points, then a copy of each that is moved by `backing`, above 0, and drawn towards the box's centre across it: walls that lie
+/// along it would meet their own copy. [setup]
+std::vector<Vec3> with_copy(std::span<const Vec3> points, const Vec3& backing);
 
 }  // namespace dsc::cloud

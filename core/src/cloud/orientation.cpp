@@ -238,8 +238,7 @@ Vec3 backing_of(const ScaledSamples& samples) {
 /// With a copy of the points, which has no entry in what is returned but its samples.
 OrientedPoints orient_backed(std::span<const Vec3> points, const Vec3& backing, const OrientOptions& options, Workers* workers,
                              const CancelToken* cancel) {
-    std::vector<Vec3> all(points.begin(), points.end());
-    for (const Vec3& p : points) all.emplace_back(p + backing);
+    const std::vector<Vec3> all = with_copy(points, backing);
     const ScaledSamples samples = scaled_samples(all, workers);
     Orienter orienter(samples, workers, cancel);
     orienter.face_recorder(backing, points.size());
