@@ -61,7 +61,7 @@ def process_of(point):
             continue
         try:
             words = (folder / "cmdline").read_bytes().split(b"\0")
-            if os.path.samefile(folder / "exe", DSC) and any(w.decode().endswith(f"{point.name}/experiment.yaml") for w in words):
+            if os.path.samefile(folder / "exe", DSC) and any(w.endswith(f"{point.name}/experiment.yaml".encode()) for w in words):
                 return int(folder.name)
         except OSError:
             pass  # it has ended, or is somebody else's
