@@ -9,7 +9,7 @@ namespace dsc::app {
 /// [setup]
 void guard_exit();
 
-/// main() ends: what follows is no accident. Returns `code`. [setup]
+/// Tells that main() ends as intended, so that the end of the process is not reported as a fault. Returns `code`. [setup]
 int leave(int code) noexcept;
 
 }  // namespace dsc::app

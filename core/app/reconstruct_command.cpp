@@ -161,8 +161,8 @@ run::RunOutcome carry_out(const run::LoadedExperiment& loaded, const Plugins& pl
         return run::run_experiment(loaded, plugins.host(), options);
     } catch (const CancelledError& error) {
         throw CancelledError(std::string(error.what()) +
-                             "; there was no surface yet: no output was written and nothing is kept; --keep-run FOLDER keeps "
-                             "the folder of a run, whatever ends it");
+                             "; it was stopped before there was a surface, so no output was written and nothing is kept; with --keep-run FOLDER "
+                             "the folder of the run stays also when the run is stopped");
     } catch (const Error& error) {
         throw with_own_remedy(error);
     }

@@ -36,7 +36,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
 
 ordered_json run_figures(const fs::path& folder) {
     if (!run::RunFolder::is_ours(folder)) {
-        throw IoError("io.no_run", folder.string(), "", "is a folder that no run wrote", "name a file or the folder of a run");
+        throw IoError("io.no_run", folder.string(), "", "is not the folder of a run", "name a file or the folder of a run");
     }
     const ordered_json status = object_in(folder / "status.json");
     ordered_json figures;

@@ -29,7 +29,7 @@ std::optional<std::string> meant(const std::string& word, const std::vector<std:
 
 std::string hint(const std::optional<std::string>& name) { return name ? "; did you mean '" + *name + "'?" : ""; }
 
-/// The innermost command that the words name, and the first word after it that is no option.
+/// The innermost command that the words name, and the first word after it that is not an option.
 struct Reached {
     const CLI::App* command;
     std::string name;     ///< "dsc plugin"

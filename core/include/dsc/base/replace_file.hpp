@@ -11,7 +11,7 @@ namespace dsc {
 /// symbolic links are followed, also to a file that is not there yet. A file with several hard links, and one that cannot be
 /// replaced but can be written (its folder is not ours, it is mounted by itself), is written in place after the temporary
 /// file. Anything but a regular file is refused. Throws IoError "io.write", naming the system's reason; the temporary file is
-/// then removed, or named where the file in place is no longer whole. [step]
+/// then removed; where the file was written in place and only in part, it is kept and the error names it. [step]
 void replace_file(const std::filesystem::path& file, std::string_view content);
 
 /// Throws what replace_file() would throw now, but for a full disk; changes nothing. [setup]
