@@ -179,8 +179,9 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     config::ConfigNode root = run::reconstruction_of(plain_name(arguments.cloud, links).string(), options_of(arguments));
     const bool kept = !arguments.keep_run.empty();
     using Names = std::vector<std::string>;
-    config::ConfigNode output = arguments.trim ? root.at("output") : config::ConfigNode::map();
-    output = output.with("report", kept)
+    const config::ConfigNode* const given = root.find("output");
+    const config::ConfigNode output = (given != nullptr ? *given : config::ConfigNode::map())
+                 .with("report", kept)
                  .with("normals", true)
                  .with("surface", wanted(list, false, kept ? Names{"obj", "ply"} : Names{"obj"}))
                  .with("volume", wanted(list, true, kept ? Names{"vtu", "dsc"} : Names{"dsc"}));

@@ -166,9 +166,7 @@ double dropped_share(const OrientedPoints& found) { return share_of(found.droppe
 /// The way of the copy that closes a cloud of one layer (Orientation::backing), along `away`; zero for a cloud that needs none.
 /// `place`: where it may have been recorded from, in scaled units.
 Vec3 backing_along(const Vec3& away, const ScaledSamples& samples, const Vec3& place, const OrientOptions& options) {
-    if (options.backing) return *options.backing;
-    const std::optional<OneSided> found = find_one_sided(samples, place);
-    return found ? Vec3(samples.diagonal * found->depth * away.normalized()) : Vec3(Vec3::Zero());
+    return options.backing ? *options.backing : backing_of(samples, place, Vec3(away.normalized()));
 }
 
 /// The sum of the view's directions from a place: a copy along it lies behind all that is seen from there.
@@ -195,10 +193,7 @@ OrientedPoints orient_with_backing(const ScaledSamples& samples, std::span<const
     for (std::size_t i = 0; i < points.size(); ++i) normals.emplace_back(-normals[i]);
     const ScaledSamples both = scaled_samples(all, workers);
     OrientedPoints out = orient_samples_from(both, all, normals_of_samples(both, normals), options, workers, cancel);
-    out.normals.resize(points.size());
-    out.areas.resize(points.size());
-    out.confidence.resize(points.size());
-    out.orientation.backing = backing;
+    leave_out_copy(points.size(), backing, out);
     return out;
 }
 

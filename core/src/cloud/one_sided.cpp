@@ -169,6 +169,12 @@ std::optional<OneSided> find_one_sided(const ScaledSamples& samples, const Vec3&
     return best;
 }
 
+Vec3 backing_of(const ScaledSamples& samples, const Vec3& origin, const std::optional<Vec3>& away) {
+    const std::optional<OneSided> found = find_one_sided(samples, origin);
+    if (!found) return Vec3::Zero();
+    return found->depth * samples.diagonal * away.value_or(found->away);
+}
+
 std::vector<Vec3> with_copy(std::span<const Vec3> points, const Vec3& backing) {
     std::vector<Vec3> all(points.begin(), points.end());
     const Vec3 away = backing.normalized(), centre = bounding_box(points).centre();
@@ -177,6 +183,13 @@ std::vector<Vec3> with_copy(std::span<const Vec3> points, const Vec3& backing) {
         all.emplace_back(p + backing - copy_narrowing * (from_centre - from_centre.dot(away) * away));
     }
     return all;
+}
+
+void leave_out_copy(std::size_t count, const Vec3& backing, OrientedPoints& found) {
+    found.normals.resize(count);
+    found.areas.resize(count);
+    found.confidence.resize(count);
+    found.orientation.backing = backing;
 }
 
 }  // namespace dsc::cloud

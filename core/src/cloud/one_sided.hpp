@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <dsc/cloud/orientation.hpp>
 #include <dsc/geometry/vec.hpp>
 
 #include "samples.hpp"
@@ -23,8 +24,14 @@ struct OneSided {
 /// coordinates in scaled units: where a depth camera stands. [setup]
 std::optional<OneSided> find_one_sided(const ScaledSamples& samples, const Vec3& origin);
 
+/// The way of the copy that closes the cloud (Orientation::backing), in the units of the points, along the unit vector `away` where one is
+/// given; zero for a cloud that find_one_sided() does not recognise. [setup]
+Vec3 backing_of(const ScaledSamples& samples, const Vec3& origin, const std::optional<Vec3>& away = {});
+
 /// The points, then a copy of each that is moved by `backing`, above 0, and drawn towards the box's centre across it: walls that lie
 /// along it would meet their own copy. [setup]
 std::vector<Vec3> with_copy(std::span<const Vec3> points, const Vec3& backing);
+/// Of what was found for with_copy(): keeps the entries of the first `count` points and all samples, and notes `backing`. [setup]
+void leave_out_copy(std::size_t count, const Vec3& backing, OrientedPoints& found);
 
 }  // namespace dsc::cloud

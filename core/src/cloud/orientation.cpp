@@ -230,9 +230,14 @@ std::vector<Vec3> point_normals(const ScaledSamples& samples, std::span<const Ve
     return out;
 }
 
-Vec3 backing_of(const ScaledSamples& samples) {
-    const std::optional<OneSided> found = find_one_sided(samples, -samples.centre / samples.diagonal);
-    return found ? Vec3(found->away * (found->depth * samples.diagonal)) : Vec3(Vec3::Zero());
+/// The fine stage, and what it finds for the points.
+OrientedPoints finished(const ScaledSamples& samples, std::span<const Vec3> points, Orienter& orienter, std::size_t iterations) {
+    orienter.fine(iterations);
+    orienter.drop_outliers();
+    orienter.refine_directions();
+    OrientedPoints out = spread(samples, point_normals(samples, points, orienter), orienter);
+    out.orientation = orientation_of(samples, points, orienter);
+    return out;
 }
 
 /// With a copy of the points, which has no entry in what is returned but its samples.
@@ -242,15 +247,8 @@ OrientedPoints orient_backed(std::span<const Vec3> points, const Vec3& backing, 
     const ScaledSamples samples = scaled_samples(all, workers);
     Orienter orienter(samples, workers, cancel);
     orienter.face_recorder(backing, points.size());
-    orienter.fine(options.fine_iterations);
-    orienter.drop_outliers();
-    orienter.refine_directions();
-    OrientedPoints out = spread(samples, point_normals(samples, all, orienter), orienter);
-    out.normals.resize(points.size());
-    out.areas.resize(points.size());
-    out.confidence.resize(points.size());
-    out.orientation = orientation_of(samples, all, orienter);
-    out.orientation.backing = backing;
+    OrientedPoints out = finished(samples, all, orienter, options.fine_iterations);
+    leave_out_copy(points.size(), backing, out);
     return out;
 }
 
@@ -260,16 +258,11 @@ OrientedPoints orient_points(std::span<const Vec3> points, const OrientOptions& 
                              const CancelToken* cancel, std::string_view name) {
     require_volume(points, name);
     const ScaledSamples samples = scaled_samples(points, workers);
-    const Vec3 backing = options.backing ? *options.backing : backing_of(samples);
+    const Vec3 backing = options.backing ? *options.backing : backing_of(samples, -samples.centre / samples.diagonal);
     if (backing != Vec3::Zero()) return orient_backed(points, backing, options, workers, cancel);
     Orienter orienter(samples, workers, cancel);
     orienter.coarse(options);
-    orienter.fine(options.fine_iterations);
-    orienter.drop_outliers();
-    orienter.refine_directions();
-    OrientedPoints out = spread(samples, point_normals(samples, points, orienter), orienter);
-    out.orientation = orientation_of(samples, points, orienter);
-    return out;
+    return finished(samples, points, orienter, options.fine_iterations);
 }
 
 OrientedPoints orient_samples_from(const ScaledSamples& samples, std::span<const Vec3> points, std::span<const Vec3> given,
@@ -277,11 +270,7 @@ OrientedPoints orient_samples_from(const ScaledSamples& samples, std::span<const
     Orienter orienter(samples, workers, cancel);
     orienter.start_from(given);
     if (options.hold_sides) orienter.hold_sides();
-    orienter.fine(options.iterations);
-    orienter.drop_outliers();
-    orienter.refine_directions();
-    OrientedPoints out = spread(samples, point_normals(samples, points, orienter), orienter);
-    out.orientation = orientation_of(samples, points, orienter);
+    OrientedPoints out = finished(samples, points, orienter, options.iterations);
     out.orientation.all_points = true;  // a coarse stage would forget where this began
     return out;
 }

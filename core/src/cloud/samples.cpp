@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include <dsc/cloud/orientation.hpp>
+#include <dsc/geometry/order.hpp>
 
 #include "cells.hpp"
 #include "local_shape.hpp"
@@ -20,16 +21,12 @@ constexpr int cell_rounds = 4;
 constexpr double noisy_cells = 0.4;    // noise of the means, in widths, above which cells are made larger
 constexpr double noise_per_cell = 3.0;  // that larger edge, in noise scales
 
-bool earlier_in_space(const Vec3& a, const Vec3& b) {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-}
-
 /// Samples without repeated points, in lexicographic order.
 void make_unique(std::span<const Vec3> points, ScaledSamples& out) {
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
     const auto less = [&](std::uint32_t i, std::uint32_t j) {
-        return earlier_in_space(points[i], points[j]) || (points[i] == points[j] && i < j);
+        return geometry::lexicographically_before(points[i], points[j]) || (points[i] == points[j] && i < j);
     };
     if (!std::is_sorted(order.begin(), order.end(), less)) std::sort(order.begin(), order.end(), less);
     out.of_point.resize(points.size());

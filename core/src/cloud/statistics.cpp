@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include <dsc/cloud/search.hpp>
+#include <dsc/geometry/order.hpp>
 
 #include "neighbours.hpp"
 
@@ -112,8 +113,7 @@ std::size_t count_duplicates(std::span<const Vec3> points) {
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-        const Vec3 &a = points[i], &b = points[j];
-        return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+        return geometry::lexicographically_before(points[i], points[j]);
     });
     std::size_t count = 0;
     for (std::size_t n = 1; n < order.size(); ++n) count += points[order[n]] == points[order[n - 1]] ? 1U : 0U;

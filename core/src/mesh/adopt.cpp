@@ -10,7 +10,7 @@
 #include <dsc/mesh/face_groups.hpp>
 #include <dsc/mesh/unpinch.hpp>
 
-#include "mesh/union_find.hpp"
+#include <dsc/base/union_find.hpp>
 
 namespace dsc::mesh {
 namespace {

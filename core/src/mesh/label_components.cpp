@@ -3,7 +3,7 @@
 #include <dsc/mesh/label_components.hpp>
 #include <limits>
 
-#include "mesh/union_find.hpp"
+#include <dsc/base/union_find.hpp>
 
 namespace dsc::mesh {
 namespace {

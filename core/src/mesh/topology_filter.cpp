@@ -5,7 +5,7 @@
 #include <queue>
 
 #include "mesh/label_interface.hpp"
-#include "mesh/union_find.hpp"
+#include <dsc/base/union_find.hpp>
 
 namespace dsc::mesh {
 namespace {

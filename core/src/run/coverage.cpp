@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <dsc/base/union_find.hpp>
 #include <dsc/run/coverage.hpp>
 #include <dsc/surface/distance.hpp>
 #include <map>
-#include <numeric>
 
 namespace dsc::run {
 namespace {
@@ -23,13 +23,12 @@ public:
             const Cell at = {index(points[i].x() / cell), index(points[i].y() / cell), index(points[i].z() / cell)};
             cells_[i] = static_cast<std::uint32_t>(numbers_.try_emplace(at, numbers_.size()).first->second);
         }
-        parents_.resize(numbers_.size());
-        std::iota(parents_.begin(), parents_.end(), 0U);
+        sets_ = UnionFind(numbers_.size());
         for (const auto& [at, number] : numbers_) join_neighbours(at, number);
     }
 
     /// The least number of a cell of the piece that a point belongs to.
-    std::uint32_t of(std::size_t point) { return root(cells_[point]); }
+    std::uint32_t of(std::size_t point) { return sets_.find(cells_[point]); }
 
 private:
     using Cell = std::array<std::int64_t, 3>;
@@ -41,22 +40,13 @@ private:
             for (std::int64_t y = -1; y <= 1; ++y)
                 for (std::int64_t z = -1; z <= 1; ++z) {
                     const auto near = numbers_.find({at[0] + x, at[1] + y, at[2] + z});
-                    if (near != numbers_.end()) join(static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(near->second));
+                    if (near != numbers_.end()) sets_.join(static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(near->second));
                 }
     }
 
-    std::uint32_t root(std::uint32_t cell) {
-        while (parents_[cell] != cell) cell = parents_[cell] = parents_[parents_[cell]];
-        return cell;
-    }
-
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = root(a), b = root(b);
-        parents_[std::max(a, b)] = std::min(a, b);
-    }
-
     std::map<Cell, std::size_t> numbers_;
-    std::vector<std::uint32_t> cells_, parents_;
+    std::vector<std::uint32_t> cells_;
+    UnionFind sets_{0};
 };
 
 struct FarPoint {

@@ -3,6 +3,7 @@
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/read.hpp>
 #include <dsc/cloud/shapes.hpp>
+#include <dsc/geometry/order.hpp>
 #include <dsc/hooks/cloud_filter.hpp>
 #include <dsc/run/input.hpp>
 #include <iterator>
@@ -43,10 +44,9 @@ Filters make_filters(const CloudInput& input, const plugin::Catalogue& catalogue
     return filters;
 }
 
-bool earlier(const Vec3& a, const Vec3& b) { return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3); }
-
 /// Places of `before` that have no point in `after`, each once.
 std::vector<Vec3> places_lost(std::vector<Vec3> before, std::vector<Vec3> after) {
+    const auto earlier = geometry::lexicographically_before;
     std::sort(before.begin(), before.end(), earlier);
     before.erase(std::unique(before.begin(), before.end()), before.end());
     std::sort(after.begin(), after.end(), earlier);
@@ -62,7 +62,7 @@ LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Cat
     const Filters filters = make_filters(input.cloud, catalogue);
     InputReport report;
     cloud::Cloud cloud = read_points(input.cloud, seed, report);
-    std::vector<Vec3> removed;
+    const std::vector<Vec3> given = filters.empty() ? std::vector<Vec3>() : cloud.points;
     hooks::FilterContext context;
     context.seed = seed;
     context.cancel = cancel;
@@ -72,10 +72,6 @@ LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Cat
         const Timed wall_timed(report.filter_wall_seconds);
         for (const auto& filter : filters) {
             cloud::Filtered filtered = filter->apply(cloud, context);
-            if (filtered.report.removed > 0) {
-                const std::vector<Vec3> lost = places_lost(cloud.points, filtered.cloud.points);
-                removed.insert(removed.end(), lost.begin(), lost.end());
-            }
             report.filters.push_back(std::move(filtered.report));
             cloud = std::move(filtered.cloud);
         }
@@ -84,6 +80,8 @@ LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Cat
     report.diagonal = bounding_box(cloud.points).diagonal();
     const cloud::Normalized normalized =
         input.normalize ? cloud::normalize(cloud, input.normalize->scale) : cloud::keep_coordinates(cloud);
+    std::vector<Vec3> removed;
+    if (given.size() > cloud.points.size()) removed = places_lost(given, cloud.points);
     for (Vec3& p : removed) p = normalized.transform.apply(p);
     return {std::move(cloud), cloud::TargetCloud(normalized), std::move(report), std::move(removed)};
 }

@@ -176,9 +176,8 @@ private:
         outcome.totals.seconds.io += io_watch.seconds();
         folder.publish_results();
         folder.write("summary.json",
-                     summary_json({loaded_, state_.hash, outcome.totals, input ? &*input : nullptr, distances,
-                                   outcome, to_normalised,
-                                   run_seconds(), process_usage()}));
+                     summary_json({loaded_, state_.hash, input ? &*input : nullptr, distances, outcome, to_normalised, run_seconds(),
+                                   process_usage()}));
         return outcome;
     }
 

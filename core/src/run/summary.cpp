@@ -116,16 +116,16 @@ ordered_json warnings(const RunTotals& totals) {
 /// CPU seconds before the first step.
 ordered_json start_seconds(const SummaryParts& parts) {
     ordered_json all = {{"filters", parts.input == nullptr ? 0.0 : parts.input->report.filter_seconds}};
-    for (const auto& [part, seconds] : parts.totals.initial_mesh_seconds) all[part] = seconds;
-    all["adopt"] = parts.totals.seconds.adopt;
+    for (const auto& [part, seconds] : parts.outcome.totals.initial_mesh_seconds) all[part] = seconds;
+    all["adopt"] = parts.outcome.totals.seconds.adopt;
     return all;
 }
 
 /// The same on the clock.
 ordered_json start_wall_seconds(const SummaryParts& parts) {
     return {{"filters", parts.input == nullptr ? 0.0 : parts.input->report.filter_wall_seconds},
-            {"initial_mesh", parts.totals.seconds.initial_mesh_wall},
-            {"adopt", parts.totals.seconds.adopt_wall}};
+            {"initial_mesh", parts.outcome.totals.seconds.initial_mesh_wall},
+            {"adopt", parts.outcome.totals.seconds.adopt_wall}};
 }
 
 /// Of the filtered points, in normalised units.
@@ -171,7 +171,7 @@ ordered_json observers(const RunTotals& totals) {
 }  // namespace
 
 std::string summary_json(const SummaryParts& parts) {
-    const RunTotals& totals = parts.totals;
+    const RunTotals& totals = parts.outcome.totals;
     const surface::SurfaceReport& s = parts.outcome.surface.report;
     const double scale = parts.to_normalised.scale;
     const ordered_json root = {

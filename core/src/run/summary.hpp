@@ -16,7 +16,6 @@ namespace dsc::run {
 struct SummaryParts {
     const LoadedExperiment& loaded;
     const std::string& hash;
-    const RunTotals& totals;
     const LoadedInput* input;                                  ///< null without a cloud
     const std::optional<surface::CloudEvaluation>& distances;  ///< normalised units
     const RunOutcome& outcome;

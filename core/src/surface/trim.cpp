@@ -4,6 +4,7 @@
 #include <array>
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/quality.hpp>
+#include <dsc/surface/measure.hpp>
 #include <numeric>
 #include <utility>
 
@@ -189,12 +190,6 @@ TriangleMesh picked(const TriangleMesh& mesh, const std::vector<std::uint8_t>& k
     return out;
 }
 
-double area_of(const TriangleMesh& mesh) {
-    double sum = 0.0;
-    for (const auto& face : mesh.faces) sum += geometry::triangle_area(mesh.points[face[0]], mesh.points[face[1]], mesh.points[face[2]]);
-    return sum;
-}
-
 }  // namespace
 
 TriangleMesh trim(const TriangleMesh& mesh, std::span<const double> gaps, std::span<const double> support, const TrimOptions& options,
@@ -219,8 +214,8 @@ TriangleMesh trim(const TriangleMesh& mesh, std::span<const double> gaps, std::s
     islands += trimmer.remove_islands();
     TriangleMesh out = picked(mesh, trimmer.kept(), points_of);
     if (report != nullptr) {
-        const double all = area_of(mesh);
-        *report = {mesh.faces.size() - out.faces.size(), all > 0.0 ? 1.0 - area_of(out) / all : 0.0, islands};
+        const double all = area(mesh);
+        *report = {mesh.faces.size() - out.faces.size(), all > 0.0 ? 1.0 - area(out) / all : 0.0, islands};
     }
     return out;
 }

@@ -6,11 +6,12 @@
 #include <utility>
 #include <vector>
 
-namespace dsc::mesh {
+namespace dsc {
 
 /// The root of a set is its smallest index, so it does not depend on the order of the unions.
 class UnionFind {
 public:
+    /// Each index is a set of its own. [parallel]
     explicit UnionFind(std::size_t count) : parent_(count) {
         for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<std::uint32_t>(i);
     }
@@ -36,4 +37,4 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace dsc::mesh
+}  // namespace dsc
