@@ -21,7 +21,8 @@ std::atomic<pid_t> guarded_process{0};
     while (true) ::syscall(SYS_exit_group, code);
 }
 
-/// Whether this process is to end by main() and has not come to it yet. True once: what is done about it may fail.
+/// Whether the process ends although main() has not ended. Returns true at the first call only, so that a failure of the answer
+/// does not cause another one.
 bool unexpected() noexcept {
     pid_t self = ::getpid();
     return guarded_process.compare_exchange_strong(self, 0);

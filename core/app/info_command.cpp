@@ -129,7 +129,7 @@ void add_orientation(const cloud::Cloud& cloud, Workers& workers, ordered_json& 
         const cloud::GivenOrientation by_sensor = cloud::orient_by_sensor(cloud, {}, &workers);
         if (!by_sensor.note.empty()) figures["viewpoint_use"] = by_sensor.note;
     } catch (const GeometryError&) {
-        return;  // a flat cloud has no inside, and is still a cloud to look at
+        return;  // a flat cloud has no inside, but its figures can be shown
     }
 }
 

@@ -25,7 +25,7 @@ void report_coverage(const run::RunOutcome& outcome) {
                                     100.0 * c.far_share(), c.width > 0.0 ? c.largest_distance / c.width : 0.0, 100.0 * c.unsupported_share, c.resolution()));
 }
 
-/// A surface with a border, which the volume's has not.
+/// Reports a surface with a border. The surface of the volume does not have one.
 void report_trimmed(const run::RunOutcome& outcome) {
     const surface::SurfaceReport& s = outcome.surface.report;
     const bool sheet = s.nonmanifold_edges == 0 && s.nonmanifold_vertices == 0 && s.misoriented_edges == 0 && outcome.surface.intersections.count == 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The three standard streams, whatever they are: closed, full, a pipe without a reader, or somebody else's file.
+// The three standard streams of any kind: closed, full, a pipe without a reader, or a file of another program.
 
 #include <iosfwd>
 #include <string_view>
@@ -8,7 +8,7 @@ namespace dsc::app {
 
 /// To be called before anything is opened. A closed descriptor of 0 to 2 becomes /dev/null, so that no file of ours ever gets
 /// its number and what is written to it is dropped. The data of the command, data_out(), goes to the stdout that the caller
-/// gave; whatever else in this process writes to descriptor 1, such as a plugin or a library of it, lands on stderr. A pipe
+/// gave; all else in this process that writes to descriptor 1, such as a plugin or its library, writes to stderr. A pipe
 /// whose reader has gone ends no job. [setup]
 void take_standard_streams();
 

@@ -59,7 +59,7 @@ int write_flushed(int descriptor, std::string_view content) {
         if (count < 0) return errno;
         content.remove_prefix(static_cast<std::size_t>(count));
     }
-    // Some file systems have no fsync; that is no reason to lose the file.
+    // Some file systems do not have fsync. The file is written there as well.
     return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOSYS || errno == ENOTSUP ? 0 : errno;
 }
 
@@ -118,7 +118,7 @@ private:
     bool kept_ = false;
 };
 
-/// Makes the new name durable. Failure is no error: the file is there.
+/// Makes the new name durable. A failure is not an error, as the file exists.
 void sync_folder(const fs::path& folder) {
     const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return;

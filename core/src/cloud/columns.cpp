@@ -61,7 +61,7 @@ std::optional<std::array<std::size_t, 3>> find_names(const std::vector<std::stri
     return columns;
 }
 
-/// A name without its case, its unit in brackets and whatever is no letter or digit: "X [m]" is x, "Points:0" points0.
+/// A name without its case, its unit in brackets and all characters but letters and digits: "X [m]" is x, "Points:0" points0.
 std::string plain_name(const std::string& name) {
     std::string plain;
     for (const char c : lower(name.substr(0, name.find_first_of("[(")))) {

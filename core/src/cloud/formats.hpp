@@ -33,7 +33,7 @@ std::vector<std::array<std::uint8_t, 3>> to_bytes(const std::vector<Vec3>& colou
 /// A coordinate of a text. Throws "io.syntax", "io.non_finite" naming the line.
 double coordinate(const std::string& file, std::size_t line, std::string_view word);
 
-/// Refuses a word that is no number; a decimal comma gets its own remedy.
+/// Refuses a word that is not a number; a decimal comma gets its own remedy.
 [[noreturn]] void not_a_number(const std::string& file, std::size_t line, std::string_view word, std::string_view remedy);
 
 /// Prove that a file holds all that its header promises, so that PCL may be trusted with it: PCL allocates

@@ -240,7 +240,7 @@ OrientedPoints finished(const ScaledSamples& samples, std::span<const Vec3> poin
     return out;
 }
 
-/// With a copy of the points, which has no entry in what is returned but its samples.
+/// Orients the points together with a copy of them. The result has the samples of both and the other entries of the points alone.
 OrientedPoints orient_backed(std::span<const Vec3> points, const Vec3& backing, const OrientOptions& options, Workers* workers,
                              const CancelToken* cancel) {
     const std::vector<Vec3> all = with_copy(points, backing);

@@ -126,7 +126,7 @@ private:
         }
     }
 
-    /// The first three numbers are the sensor's place; what is no number is none.
+    /// The first three numbers are the sensor's place; a word that is not a number counts as a missing place.
     void viewpoint(const std::vector<std::string_view>& values) {
         Vec3 place;
         for (int k = 0; k < 3; ++k)

@@ -25,8 +25,8 @@ std::vector<io::DataArray> arrays(const hooks::Attributes& attributes, const std
     return all;
 }
 
-/// The labels above 0 where there is more than one: each has a surface of its own, and the interface is no manifold where
-/// they meet.
+/// The labels above 0 where there is more than one: each has a surface of its own, and the interface is not a
+/// manifold where they meet.
 std::vector<mesh::Label> several_phases(const mesh::TetMesh& mesh) {
     std::vector<mesh::Label> labels(mesh.labels);
     std::sort(labels.begin(), labels.end());

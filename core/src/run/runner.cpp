@@ -181,7 +181,7 @@ private:
         return outcome;
     }
 
-    /// How far surface and points are apart, and what of it a user must know.
+    /// Measures how far surface and points are apart, and adds the warnings that follow.
     surface::CloudEvaluation measure_cloud_distances(const surface::TriangleMesh& surface, const cloud::TargetCloud& target, RunOutcome& outcome) {
         const surface::CloudDistances distances = surface::cloud_distances(surface, target.points(), &workers_);
         outcome.coverage = measure_coverage(surface, target.points(), distances, target.statistics(&workers_), input_->removed, &workers_);

@@ -45,7 +45,7 @@ public:
 private:
     enum class State : std::uint8_t { outside, inside, seen };
 
-    // The hole that a vertex belongs to; unless nothing surrounds it, or it is rather the side that nobody has seen.
+    // Takes the hole that a vertex belongs to, unless nothing surrounds it or it is larger than a hole: then nobody scanned that side.
     void take_piece(std::uint32_t start) {
         std::vector<std::uint32_t> piece = {start};
         states_[start] = State::seen;

@@ -19,6 +19,13 @@ using Faces = std::vector<std::array<std::uint32_t, 3>>;
 const Faces one_face = {{0, 1, 2}};
 const std::vector<Vec3> corner = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
+TriangleMesh one_triangle() {
+    TriangleMesh mesh;
+    mesh.points = corner;
+    mesh.faces = one_face;
+    return mesh;
+}
+
 TriangleMesh read_text(const std::string& name, const std::string& content) {
     const test::Folder folder;
     return read_surface(folder.with(name, content));
@@ -195,9 +202,7 @@ TEST_CASE("stl: text, several solids, names, odd spacing") {
 
 TEST_CASE("stl: a binary file that begins with 'solid' is known by its size") {
     const test::Folder folder;
-    TriangleMesh m;
-    m.points = corner;
-    m.faces = one_face;
+    const TriangleMesh m = one_triangle();
     write_surface(folder / "m.stl", m);
     std::string bytes = test::content_of(folder / "m.stl");
     bytes.replace(0, 11, "solid thing");
@@ -227,9 +232,7 @@ TEST_CASE("a mesh that is not sound is not written") {
 
 TEST_CASE("an unknown extension is refused by readers and writers") {
     const test::Folder folder;
-    TriangleMesh m;
-    m.points = corner;
-    m.faces = one_face;
+    const TriangleMesh m = one_triangle();
     const auto written = test::refusal(folder / "m.step", [&](const auto& file) { write_surface(file, m); });
     CHECK(written.code == "io.format");
     CHECK(written.message ==
@@ -257,9 +260,7 @@ TEST_CASE("a byte order mark is no part of any surface in text, and stays in a b
         CHECK(wide.message == "FILE: the text is in UTF-16 or UTF-32; save it as UTF-8 or plain ASCII");
     }
     const test::Folder folder;
-    TriangleMesh m;
-    m.points = corner;
-    m.faces = one_face;
+    const TriangleMesh m = one_triangle();
     write_surface(folder / "m.stl", m);
     std::string bytes = test::content_of(folder / "m.stl");
     CHECK(read_surface(folder.with("n.stl", bytes.replace(0, 3, mark))).faces == one_face);

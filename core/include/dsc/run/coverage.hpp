@@ -44,7 +44,7 @@ struct Coverage {
 Coverage measure_coverage(const surface::TriangleMesh& surface, std::span<const Vec3> points, const surface::CloudDistances& distances,
                           const cloud::Statistics& statistics, std::span<const Vec3> removed, Workers* workers);
 
-/// What a user must know, with places in the units of the input: `to_normalised`
+/// The warnings about a coverage, with places in the units of the input: `to_normalised`
 /// leads from there to those of the coverage. Codes
 /// "coverage.points" where more than 1 % of the points are far, "coverage.missing" for groups of at least 0.1 % of the points,
 /// "coverage.unsupported" where more than 5 % of the area has no points. [setup]
