@@ -198,6 +198,7 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     if (!kept) temporary.emplace();
     run::RunOptions options;
     options.folder = kept ? fs::path(arguments.keep_run) : temporary->path() / "run";
+    options.picture = kept;
     options.threads =
         arguments.threads != 0 ? arguments.threads : std::max(1U, std::thread::hardware_concurrency());
     options.cancel = &cancel_on_signals();

@@ -169,7 +169,7 @@ private:
                     outcome.coverage ? std::span<const double>(outcome.coverage->gaps) : std::span<const double>(), outcome);
         files.measure_files(outcome);
         require_valid(outcome);
-        if (!outcome.surfaces.empty()) {
+        if (options_.picture && !outcome.surfaces.empty()) {
             draw(folder, files.surface(), experiment.input && experiment.input->cloud.sample, workers_);
             outcome.picture = folder.file("preview.png");
         }

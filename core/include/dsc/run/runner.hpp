@@ -22,6 +22,7 @@ struct RunOptions {
     unsigned threads = 1;
     std::optional<double> time_budget;  ///< seconds; the run ends after the step in which it is used up
     const CancelToken* cancel = nullptr;
+    bool picture = true;  ///< draw preview.png; for a folder that nobody keeps it is not worth the time
     bool resume = false;  ///< go on from the last checkpoint in the folder; in a new one, from the start
     std::vector<std::string> command;  ///< as typed, for provenance.json
     std::function<void(const StepMetrics&, std::uint64_t planned)> on_step;
@@ -32,7 +33,7 @@ struct RunOutcome {
     std::filesystem::path folder;
     std::vector<std::filesystem::path> surfaces;  ///< in result/
     std::vector<std::filesystem::path> volumes;
-    std::filesystem::path picture;
+    std::filesystem::path picture;  ///< empty where none was asked for
     std::filesystem::path report;  ///< empty where the experiment asks for none
     RunTotals totals;
     SurfaceMeasure surface;
