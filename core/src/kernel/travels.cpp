@@ -54,7 +54,7 @@ void Travels::on_collapse(VertexId kept, VertexId removed, double s) {
 
 // What a pass does at active_[i].
 struct Travels::Pass {
-    enum Fate : std::uint8_t { asleep, arrived, moved, blocked };
+    enum Fate : std::uint8_t { asleep, arrived, moved, stopped };
 
     Travels& travels;
     const Limits& limits;
@@ -80,7 +80,7 @@ struct Travels::Pass {
 
     bool attempt(std::size_t i, StarScratch& scratch) const {
         const Motion motion = plan_move(travels.complex_, limits, travels.active_[i], way(i).destination, options.free_path, scratch);
-        decide(i, motion == Motion::arrived ? arrived : motion == Motion::moved ? moved : blocked);
+        decide(i, motion == Motion::arrived ? arrived : motion == Motion::moved ? moved : stopped);
         return motion != Motion::blocked;
     }
 
@@ -89,7 +89,7 @@ struct Travels::Pass {
         if (fate == asleep) return;
         ++travels.tried_;
         Travel& goes = way(i);
-        goes.blocked_at = fate == blocked ? date : 0;
+        goes.blocked_at = fate == stopped ? date : 0;
         if (fate == arrived) goes.vertex = mesh::none;
     }
 };

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <dsc/base/union_find.hpp>
+#include <dsc/cloud/search.hpp>
 #include <dsc/run/coverage.hpp>
 #include <dsc/surface/distance.hpp>
 #include <map>
@@ -54,10 +55,32 @@ struct FarPoint {
     double distance;
 };
 
-std::vector<PointGroup> groups_of(const std::vector<FarPoint>& far, double width) {
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// From each point to the nearest other one; zeros for a point that is alone.
+std::vector<double> distances_to_nearest(const std::vector<Vec3>& places, Workers* workers) {
+    std::vector<double> out(places.size(), 0.0);
+    if (places.size() < 2) return out;
+    const cloud::NearestSearch search(places);
+    for_blocks(workers, places.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        std::vector<cloud::Neighbour> two;
+        for (std::size_t i = begin; i < end; ++i) {
+            search.k_nearest(places[i], 2, two);
+            out[i] = two[1].distance;
+        }
+    });
+    return out;
+}
+
+std::vector<PointGroup> groups_of(const std::vector<FarPoint>& far, double width, Workers* workers) {
     if (far.empty() || !(width > 0.0)) return {};
     std::vector<Vec3> places;
     for (const FarPoint& p : far) places.push_back(p.place);
+    const std::vector<double> nearest = distances_to_nearest(places, workers);
     Pieces pieces(places, group_cell * width);
     std::map<std::uint32_t, std::vector<std::size_t>> members;
     for (std::size_t i = 0; i < far.size(); ++i) members[pieces.of(i)].push_back(i);
@@ -65,13 +88,16 @@ std::vector<PointGroup> groups_of(const std::vector<FarPoint>& far, double width
     for (const auto& [piece, points] : members) {
         PointGroup& group = groups.emplace_back();
         Box3 box;
+        std::vector<double> apart;
         for (const std::size_t i : points) {
+            apart.push_back(nearest[i]);
             box.extend(far[i].place);
             group.centre += far[i].place / static_cast<double>(points.size());
             group.farthest = std::max(group.farthest, far[i].distance);
         }
         group.points = points.size();
         group.diameter = box.diagonal();
+        group.spacing = median(std::move(apart));
     }
     std::stable_sort(groups.begin(), groups.end(), [](const PointGroup& a, const PointGroup& b) { return a.points > b.points; });
     return groups;
@@ -127,7 +153,7 @@ Coverage measure_coverage(const surface::TriangleMesh& surface, std::span<const 
             if (away[i] > far_noise * statistics.noise + far_width * statistics.width) far.push_back({removed[i], away[i]});
         }
     }
-    out.groups = groups_of(far, statistics.width);
+    out.groups = groups_of(far, statistics.width, workers);
     return out;
 }
 

@@ -10,6 +10,7 @@ constexpr double most_far = 0.01;             // of the points
 constexpr double most_unsupported = 0.05;     // of the area
 constexpr double least_group = 0.001;         // of the points
 constexpr std::size_t least_group_points = 12;
+constexpr double widest_group = 2.0;  // median spacings
 constexpr std::size_t named_groups = 3;
 
 std::string place(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z()); }
@@ -50,7 +51,7 @@ hooks::Warnings warnings_of(const Coverage& coverage, const cloud::Transform& to
     const double least = std::max(static_cast<double>(least_group_points), least_group * static_cast<double>(coverage.points));
     std::vector<PointGroup> missing;
     for (const PointGroup& group : coverage.groups) {
-        if (static_cast<double>(group.points) >= least) missing.push_back(group);
+        if (static_cast<double>(group.points) >= least && group.spacing <= widest_group * coverage.width) missing.push_back(group);
     }
     if (!missing.empty()) out.push_back({"coverage.missing", missing_text(missing, scale, to_normalised)});
     if (coverage.unsupported_share > most_unsupported) out.push_back({"coverage.unsupported", unsupported_text(coverage)});

@@ -71,6 +71,14 @@ TEST_CASE("points that a filter removed count as a body where they lie together,
     std::vector<Vec3> strewn;
     for (int i = 0; i < 300; ++i) strewn.emplace_back(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3));
     CHECK(warnings_of(coverage_of(on_ball(4000), strewn), {}).empty());
+    // So many that most of them have a neighbour near by: still no body.
+    for (int i = 0; i < 400; ++i) strewn.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const Coverage crowded = coverage_of(on_ball(4000), strewn);
+    REQUIRE(!crowded.groups.empty());
+    CHECK(crowded.groups[0].points > 50);
+    CHECK(warnings_of(crowded, {}).empty());
+    // A body with a fifteenth of the points per area is one.
+    CHECK(codes(warnings_of(coverage_of(on_ball(4000), on_ball(60, 0.5, Vec3(2, 0, 0))), {})) == std::vector<std::string>{"coverage.missing"});
 }
 
 TEST_CASE("a surface without points is a guess") {

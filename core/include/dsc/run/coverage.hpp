@@ -19,6 +19,7 @@ struct PointGroup {
     Vec3 centre = Vec3::Zero();  ///< mean of the points
     double diameter = 0.0;       ///< diagonal of their box
     double farthest = 0.0;       ///< largest distance of one of them from the surface
+    double spacing = 0.0;        ///< median distance from one of them to the nearest far point; 0 where there is no other one
 };
 
 /// Lengths and places are in the units of surface and points. A spacing is the local Statistics::point_width.
@@ -46,7 +47,8 @@ Coverage measure_coverage(const surface::TriangleMesh& surface, std::span<const 
 
 /// The warnings about a coverage, with places in the units of the input: `to_normalised`
 /// leads from there to those of the coverage. Codes
-/// "coverage.points" where more than 1 % of the points are far, "coverage.missing" for groups of at least 0.1 % of the points,
+/// "coverage.points" where more than 1 % of the points are far, "coverage.missing" for groups of at least 0.1 % of the points whose own spacing is at most 2 median spacings: points that are
+/// strewn more widely bound no body,
 /// "coverage.unsupported" where more than 5 % of the area has no points. [setup]
 hooks::Warnings warnings_of(const Coverage& coverage, const cloud::Transform& to_normalised);
 
