@@ -40,6 +40,10 @@ elseif(DSC_SANITIZE STREQUAL "thread")
 elseif(NOT DSC_SANITIZE STREQUAL "")
   message(FATAL_ERROR "DSC_SANITIZE=${DSC_SANITIZE}: accepted are address and thread")
 endif()
+# libFuzzer counts what an input reaches, so all of the core tells it.
+if(DSC_FUZZ)
+  target_compile_options(dsc_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # dsc_module(NAME SOURCES ... [USES modules...] [LINK third-party targets...])
 # One module of the core. Its objects go into the shared core; the static library dsc_NAME is for tests, which link only

@@ -19,6 +19,7 @@ struct FileCheck {
     std::size_t points = 0;  ///< as the header promises and the file's size allows
     std::vector<std::string> names{};  ///< of the points' properties
     std::optional<Sensor> sensor{};
+    std::size_t body = 0;  ///< of a PCD: the byte behind its header
     /// Byte offsets of the words "obj_info" that tell the size of a grid: PCL would believe them.
     std::vector<std::size_t> grid_comments{};
 };
@@ -41,8 +42,9 @@ double coordinate(const std::string& file, std::size_t line, std::string_view wo
 FileCheck check_pcd(const std::string& file, std::string_view bytes);
 FileCheck check_ply(const std::string& file, std::string_view bytes);
 
-/// Read a checked file with PCL; messages call it `file`. Points with NaN or infinity are left out and counted.
-Cloud read_pcd(const std::filesystem::path& path, const std::string& file, const FileCheck& check, ReadReport& report);
+/// Read a checked file with PCL; messages call it `file`. Points with NaN or infinity are left out and counted. A PCD is read from
+/// its bytes, header and body apart: PCL's reader of whole files looks for further lines of the header in the body.
+Cloud read_pcd(const std::string& bytes, const std::string& file, const FileCheck& check, ReadReport& report);
 Cloud read_ply(const std::filesystem::path& path, const std::string& file, const FileCheck& check, ReadReport& report);
 
 /// Refuses a file without points.

@@ -256,6 +256,7 @@ FileCheck check_pcd(const std::string& file, std::string_view bytes) {
     for (const Field& field : header.fields)
         if (field.name != "_") check.names.emplace_back(field.name);
     check.sensor = header.sensor;
+    check.body = bytes.size() - header.body.size();
     return check;
 }
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <exception>
 #include <optional>
+#include <sstream>
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/console/print.h>
@@ -168,18 +169,14 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
     return cloud;
 }
 
-/// Runs a PCL reader in silence; what it throws or refuses becomes one error of ours.
-template <class Reader>
-Cloud read_with(Reader& reader, const std::filesystem::path& path, const std::string& file, const FileCheck& check,
-                ReadReport& report) {
+/// Runs a PCL reader in silence; what it throws or refuses becomes one error of ours. `read` fills the cloud and returns what PCL does.
+template <class Read>
+Cloud read_with(const std::string& file, const FileCheck& check, ReadReport& report, Read&& read) {
     pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
     pcl::PCLPointCloud2 blob;
     int result = -1;
     try {
-        Eigen::Vector4f origin;
-        Eigen::Quaternionf orientation;
-        int version = 0;
-        result = reader.read(path.string(), blob, origin, orientation, version, 0);
+        result = read(blob);
     } catch (const std::exception&) {
         result = -1;
     }
@@ -189,14 +186,30 @@ Cloud read_with(Reader& reader, const std::filesystem::path& path, const std::st
 
 }  // namespace
 
-Cloud read_pcd(const std::filesystem::path& path, const std::string& file, const FileCheck& check, ReadReport& report) {
-    pcl::PCDReader reader;
-    return read_with(reader, path, file, check, report);
+Cloud read_pcd(const std::string& bytes, const std::string& file, const FileCheck& check, ReadReport& report) {
+    return read_with(file, check, report, [&](pcl::PCLPointCloud2& blob) {
+        pcl::PCDReader reader;
+        Eigen::Vector4f origin;
+        Eigen::Quaternionf orientation;
+        int version = 0, encoding = 0;
+        unsigned place = 0;
+        std::istringstream header(bytes.substr(0, check.body));
+        const int result = reader.readHeader(header, blob, origin, orientation, version, encoding, place);
+        if (result < 0) return result;
+        const char* const body = bytes.data() + check.body;
+        if (encoding != 0) return reader.readBodyBinary(reinterpret_cast<const unsigned char*>(body), blob, version, encoding == 2, 0);
+        std::istringstream text(std::string(body, bytes.size() - check.body));
+        return reader.readBodyASCII(text, blob, version);
+    });
 }
 
 Cloud read_ply(const std::filesystem::path& path, const std::string& file, const FileCheck& check, ReadReport& report) {
-    pcl::PLYReader reader;
-    return read_with(reader, path, file, check, report);
+    return read_with(file, check, report, [&](pcl::PCLPointCloud2& blob) {
+        Eigen::Vector4f origin;
+        Eigen::Quaternionf orientation;
+        int version = 0;
+        return pcl::PLYReader().read(path.string(), blob, origin, orientation, version, 0);
+    });
 }
 
 }  // namespace dsc::cloud

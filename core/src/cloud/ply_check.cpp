@@ -204,6 +204,7 @@ std::uint64_t unsigned_at(std::string_view bytes, std::size_t size, Format forma
 void check_binary(const std::string& file, const PlyHeader& header) {
     std::string_view rest = header.body;
     for (const Element& element : header.elements) {
+        if (element.count == 0) continue;  // it may have no properties
         std::size_t fixed = 0;
         bool lists = false;
         for (const Property& p : element.properties) {

@@ -103,6 +103,31 @@ void require_columns(const std::string& file, bool table, const ReadOptions& opt
                       "choose 3 (x, y, z) or 6 (x, y, z, red, green, blue)");
 }
 
+Cloud read_pcd_file(const std::filesystem::path& path, ReadReport& report, std::vector<std::string>& names) {
+    std::string bytes = read_file(path);
+    bytes.erase(0, bytes.size() - without_byte_order_mark(bytes).size());
+    const FileCheck check = check_pcd(path.string(), bytes);
+    report.points = check.points;
+    report.format = "PCD";
+    names = check.names;
+    return read_pcd(bytes, path.string(), check, report);
+}
+
+Cloud read_ply_file(const std::filesystem::path& path, ReadReport& report, std::vector<std::string>& names) {
+    FileCheck check;
+    std::optional<PlainCopy> copy;
+    {
+        const std::string bytes = read_file(path);  // freed before PCL reads the file again
+        const std::string_view plain = without_byte_order_mark(bytes);
+        check = check_ply(path.string(), plain);
+        if (plain.size() != bytes.size() || !check.grid_comments.empty()) copy.emplace(path.string(), plain, check.grid_comments);
+    }
+    report.points = check.points;
+    report.format = "PLY";
+    names = check.names;
+    return read_ply(copy ? copy->path() : path, path.string(), check, report);
+}
+
 }  // namespace
 
 std::string_view cloud_extensions() { return readable; }
@@ -125,28 +150,18 @@ Cloud read_cloud(const std::filesystem::path& path, ReadReport* report, const Re
     ReadReport local;
     ReadReport& filled = report ? *report : local;
     filled = {};
-    Cloud cloud;
     std::vector<std::string> names;
-    if (obj || table) {
+    Cloud cloud;
+    if (pcd) {
+        cloud = read_pcd_file(path, filled, names);
+    } else if (ply) {
+        cloud = read_ply_file(path, filled, names);
+    } else {
         const std::string bytes = read_file(path);
         const std::string_view text = without_byte_order_mark(bytes);
+        filled.format = obj ? "OBJ" : extension == ".csv" ? "CSV" : "XYZ";
         cloud = obj ? read_obj(file, text, names) : read_table(file, text, options, names);
         filled.points = cloud.points.size();
-        filled.format = obj ? "OBJ" : extension == ".csv" ? "CSV" : "XYZ";
-    } else {
-        FileCheck check;
-        std::optional<PlainCopy> copy;
-        {
-            const std::string bytes = read_file(path);  // freed before PCL reads the file again
-            const std::string_view plain = without_byte_order_mark(bytes);
-            check = pcd ? check_pcd(file, plain) : check_ply(file, plain);
-            if (plain.size() != bytes.size() || !check.grid_comments.empty()) copy.emplace(file, plain, check.grid_comments);
-        }
-        filled.points = check.points;
-        filled.format = pcd ? "PCD" : "PLY";
-        const std::filesystem::path source = copy ? copy->path() : path;
-        cloud = pcd ? read_pcd(source, file, check, filled) : read_ply(source, file, check, filled);
-        names = check.names;
     }
     filled.properties = found_properties(names, cloud);
     cloud.source = file;
