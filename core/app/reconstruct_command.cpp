@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
+#include <dsc/base/read_file.hpp>
 #include <dsc/cloud/normalize.hpp>
-#include <dsc/cloud/read.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/io/formats.hpp>
+#include <dsc/run/input_files.hpp>
 #include <dsc/run/reconstruct.hpp>
 #include <dsc/run/runner.hpp>
 #include <memory>
@@ -100,10 +101,12 @@ fs::path source_of(const Target& target, const run::RunOutcome& outcome) {
 }
 
 /// Refuses a cloud that no surface can come from before anything else happens, by the name that the caller gave it: the
-/// experiment has its absolute one, and its filters would see the cloud first.
-void require_good_cloud(const ReconstructArguments& arguments) {
-    const cloud::Cloud cloud = cloud::read_cloud(arguments.cloud, nullptr, {arguments.columns});
+/// experiment has its absolute one, and its filters would see the cloud first. The run goes on with what was read here.
+std::shared_ptr<run::InputFiles> read_good_cloud(const ReconstructArguments& arguments) {
+    const auto files = std::make_shared<run::InputFiles>();
+    const cloud::Cloud& cloud = files->cloud(arguments.cloud, arguments.columns).cloud;
     cloud::require_volume(cloud.points, cloud.source.empty() ? arguments.cloud : cloud.source);
+    return files;
 }
 
 /// The noise of --smooth, in spacings; empty where it shall be measured.
@@ -134,7 +137,7 @@ void deliver(const std::vector<Target>& list, const run::RunOutcome& outcome, st
     std::string faults;
     for (const Target& target : list) {
         try {
-            io::write_file(target.file, io::read_file(source_of(target, outcome)));
+            io::write_file(target.file, read_file(source_of(target, outcome)));
             data_out() << target.file.string() << "\n";
         } catch (const IoError& error) {
             faults += std::string(error.what()) + "; ";
@@ -174,7 +177,7 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
         throw IoError("io.missing", arguments.cloud, "", "does not exist", "check the name of the cloud");
     }
     const std::vector<Target> list = targets(arguments);
-    require_good_cloud(arguments);
+    const std::shared_ptr<run::InputFiles> files = read_good_cloud(arguments);
     std::optional<TemporaryFolder> links;
     config::ConfigNode root = run::reconstruction_of(plain_name(arguments.cloud, links).string(), options_of(arguments));
     const bool kept = !arguments.keep_run.empty();
@@ -187,7 +190,8 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
                  .with("volume", wanted(list, true, kept ? Names{"vtu", "dsc"} : Names{"dsc"}));
     root = root.with("output", output);
     Plugins plugins(arguments.plugins);
-    const run::LoadedExperiment loaded = run::resolve_experiment(root, plugins.loader());
+    run::LoadedExperiment loaded = run::resolve_experiment(root, plugins.loader());
+    loaded.files = files;
     guard_exit();
     if (arguments.print_config) {
         data_out() << run::resolved_text(loaded);

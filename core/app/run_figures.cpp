@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <dsc/base/error.hpp>
+#include <dsc/base/read_file.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/run/run_folder.hpp>
 #include <string>
@@ -17,7 +18,7 @@ using nlohmann::ordered_json;
 ordered_json object_in(const fs::path& file) {
     std::error_code error;
     if (!fs::exists(file, error)) return nullptr;
-    ordered_json object = ordered_json::parse(io::read_file(file), nullptr, false);
+    ordered_json object = ordered_json::parse(read_file(file), nullptr, false);
     return object.is_object() ? object : ordered_json(nullptr);
 }
 

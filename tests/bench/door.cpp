@@ -26,7 +26,7 @@ std::unique_ptr<hooks::VelocityField> field(const Plugins& plugins, bool linked)
 std::string outcome(bool linked) {
     const Plugins plugins;
     const run::LoadedExperiment loaded = thesis(plugins, "teapot", false);
-    const run::LoadedInput input = run::load_input(*loaded.experiment.input, loaded.experiment.seed, plugins.host());
+    const run::LoadedInput input = run::load_input(*loaded.experiment.input, loaded.experiment.seed, plugins.host(), *loaded.files);
     Body body(initial_complex(plugins, strategy("grid", std::vector<std::string>{"cells=20"})),
               plugins.host().create<hooks::Improvement>(strategy("dsc", {}), "improvement"), &input.target);
     const auto velocity = field(plugins, linked);

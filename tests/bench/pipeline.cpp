@@ -141,7 +141,7 @@ double Body::refine(hooks::RefinementPolicy& policy, hooks::VelocityField* veloc
 
 Protocol::Protocol(const Plugins& plugins, const run::LoadedExperiment& loaded)
     : experiment_(loaded.experiment),
-      cloud_(run::load_input(experiment_.input.value(), experiment_.seed, plugins.host()).target),
+      cloud_(run::load_input(experiment_.input.value(), experiment_.seed, plugins.host(), *loaded.files).target),
       strategies_(run::make_strategies(experiment_, plugins.host())),
       steps_(run::planned_steps(experiment_)) {
     body_ = std::make_unique<Body>(initial_complex(plugins, experiment_.initial_mesh, &*cloud_),

@@ -78,7 +78,7 @@ public:
         loaded_ = run::resolve_experiment(
             root, [this](const std::vector<std::string>&) -> const config::StrategyLookup& { return host_; });
         if (loaded_.experiment.input)
-            input_ = run::load_input(*loaded_.experiment.input, loaded_.experiment.seed, host_);
+            input_ = run::load_input(*loaded_.experiment.input, loaded_.experiment.seed, host_, *loaded_.files);
     }
 
     Outcome run(std::string_view resume, std::uint64_t every, unsigned threads = 1) {

@@ -42,10 +42,10 @@ double coordinate(const std::string& file, std::size_t line, std::string_view wo
 FileCheck check_pcd(const std::string& file, std::string_view bytes);
 FileCheck check_ply(const std::string& file, std::string_view bytes);
 
-/// Read a checked file with PCL; messages call it `file`. Points with NaN or infinity are left out and counted. A PCD is read from
-/// its bytes, header and body apart: PCL's reader of whole files looks for further lines of the header in the body.
-Cloud read_pcd(const std::string& bytes, const std::string& file, const FileCheck& check, ReadReport& report);
-Cloud read_ply(const std::filesystem::path& path, const std::string& file, const FileCheck& check, ReadReport& report);
+/// Read with PCL what the checks accept. Points with NaN or infinity are left out and counted. A PCD is read header and body apart: PCL's
+/// reader of whole files looks for further lines of the header in the body.
+Cloud read_pcd(const std::string& file, const std::string& bytes, ReadReport& report, std::vector<std::string>& names);
+Cloud read_ply(const std::string& file, std::string bytes, ReadReport& report, std::vector<std::string>& names);
 
 /// Refuses a file without points.
 [[noreturn]] void no_points(const std::string& file, std::string_view remedy);

@@ -1,10 +1,15 @@
 // PCD and PLY files through PCL's PCLPointCloud2, which keeps fields of type double as they are.
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <exception>
 #include <optional>
 #include <sstream>
+#include <system_error>
+
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/console/print.h>
@@ -134,6 +139,8 @@ private:
 
 Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const FileCheck& check,
               ReadReport& report) {
+    const std::size_t step = blob.point_step;
+    if (step == 0 || blob.data.size() != check.points * step) refused(file, report.format);
     std::array<const std::uint8_t*, 3> data{};
     std::array<Getter, 3> get{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -146,8 +153,6 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
                           "save the coordinates as float or double");
         data[k] = blob.data.data() + field->offset;
     }
-    const std::size_t step = blob.point_step;
-    if (blob.data.size() != check.points * step) refused(file, report.format);
 
     Attributes attributes(blob);
     Cloud cloud;
@@ -184,9 +189,44 @@ Cloud read_with(const std::string& file, const FileCheck& check, ReadReport& rep
     return extract(file, blob, check, report);
 }
 
+/// Bytes under a path that PCL can open; they stay in memory.
+class MemoryFile {
+public:
+    MemoryFile(const std::string& file, std::string_view bytes) : descriptor_(::memfd_create("dsc", MFD_CLOEXEC)) {
+        while (descriptor_ >= 0 && !bytes.empty()) {
+            const ::ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+            if (written < 0 && errno == EINTR) continue;
+            if (written <= 0) break;
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+        }
+        if (descriptor_ >= 0 && bytes.empty()) return;
+        const std::string cause = std::generic_category().message(errno);
+        if (descriptor_ >= 0) ::close(descriptor_);
+        throw IoError("io.memory", file, "", "no memory for its content: " + cause, "free some memory");
+    }
+    ~MemoryFile() { ::close(descriptor_); }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+
+    std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+private:
+    int descriptor_;
+};
+
+/// PCL would take the number of points from some comments: they get another keyword of the same length.
+void hide_grid_comments(std::string& bytes, const FileCheck& check) {
+    constexpr std::string_view comment = "comment ";  // as long as "obj_info"
+    for (const std::size_t at : check.grid_comments) bytes.replace(at, comment.size(), comment);
+}
+
 }  // namespace
 
-Cloud read_pcd(const std::string& bytes, const std::string& file, const FileCheck& check, ReadReport& report) {
+Cloud read_pcd(const std::string& file, const std::string& bytes, ReadReport& report, std::vector<std::string>& names) {
+    const FileCheck check = check_pcd(file, bytes);
+    report.points = check.points;
+    report.format = "PCD";
+    names = check.names;
     return read_with(file, check, report, [&](pcl::PCLPointCloud2& blob) {
         pcl::PCDReader reader;
         Eigen::Vector4f origin;
@@ -203,12 +243,19 @@ Cloud read_pcd(const std::string& bytes, const std::string& file, const FileChec
     });
 }
 
-Cloud read_ply(const std::filesystem::path& path, const std::string& file, const FileCheck& check, ReadReport& report) {
+Cloud read_ply(const std::string& file, std::string bytes, ReadReport& report, std::vector<std::string>& names) {
+    const FileCheck check = check_ply(file, bytes);
+    report.points = check.points;
+    report.format = "PLY";
+    names = check.names;
+    hide_grid_comments(bytes, check);
+    const MemoryFile copy(file, bytes);
+    bytes = {};  // PCL needs the memory
     return read_with(file, check, report, [&](pcl::PCLPointCloud2& blob) {
         Eigen::Vector4f origin;
         Eigen::Quaternionf orientation;
         int version = 0;
-        return pcl::PLYReader().read(path.string(), blob, origin, orientation, version, 0);
+        return pcl::PLYReader().read(copy.path(), blob, origin, orientation, version, 0);
     });
 }
 

@@ -2,16 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
-#include <cstdlib>
-#include <optional>
-#include <system_error>
 #include <vector>
-
-#include <unistd.h>
 
 #include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
+#include <dsc/base/read_file.hpp>
 
 #include "attributes.hpp"
 #include "formats.hpp"
@@ -51,47 +46,6 @@ bool is_table(const std::string& extension) {
            extension == ".csv";
 }
 
-/// A file as PCL reads it rightly: without a byte order mark, and without the comments that PCL takes the number of points from.
-class PlainCopy {
-public:
-    PlainCopy(const std::string& file, std::string_view bytes, const std::vector<std::size_t>& grid_comments) {
-        std::error_code error;
-        const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
-        std::string pattern = ((error ? std::filesystem::path(".") : parent) / "dsc-XXXXXX").string();
-        const int descriptor = ::mkstemp(pattern.data());
-        if (descriptor < 0) fail_copy(file);
-        path_ = pattern;
-        std::string plain(bytes);
-        for (const std::size_t at : grid_comments) plain.replace(at, comment.size(), comment);
-        std::FILE* const stream = ::fdopen(descriptor, "wb");
-        bool written = stream != nullptr && std::fwrite(plain.data(), 1, plain.size(), stream) == plain.size();
-        if (stream == nullptr)
-            ::close(descriptor);
-        else
-            written = std::fclose(stream) == 0 && written;
-        if (written) return;
-        std::filesystem::remove(path_, error);
-        fail_copy(file);
-    }
-    ~PlainCopy() {
-        std::error_code ignored;
-        std::filesystem::remove(path_, ignored);
-    }
-    PlainCopy(const PlainCopy&) = delete;
-    PlainCopy& operator=(const PlainCopy&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    static constexpr std::string_view comment = "comment ";  // as long as "obj_info"
-
-    [[noreturn]] static void fail_copy(const std::string& file) {
-        throw IoError("io.temporary", file, "", "a copy without its byte order mark cannot be made in the folder for temporary files",
-                      "set TMPDIR to a folder that can be written");
-    }
-
-    std::filesystem::path path_;
-};
-
 void require_columns(const std::string& file, bool table, const ReadOptions& options) {
     const std::size_t count = options.columns.size();
     if (count == 0) return;
@@ -103,29 +57,17 @@ void require_columns(const std::string& file, bool table, const ReadOptions& opt
                       "choose 3 (x, y, z) or 6 (x, y, z, red, green, blue)");
 }
 
-Cloud read_pcd_file(const std::filesystem::path& path, ReadReport& report, std::vector<std::string>& names) {
-    std::string bytes = read_file(path);
-    bytes.erase(0, bytes.size() - without_byte_order_mark(bytes).size());
-    const FileCheck check = check_pcd(path.string(), bytes);
-    report.points = check.points;
-    report.format = "PCD";
-    names = check.names;
-    return read_pcd(bytes, path.string(), check, report);
+/// The extension, in lower case.
+std::string require_cloud_file(const std::filesystem::path& path, const ReadOptions& options) {
+    std::string extension = lower_extension(path);
+    if (extension != ".pcd" && extension != ".ply" && extension != ".obj" && !is_table(extension)) refuse(path, extension);
+    require_columns(path.string(), is_table(extension), options);
+    return extension;
 }
 
-Cloud read_ply_file(const std::filesystem::path& path, ReadReport& report, std::vector<std::string>& names) {
-    FileCheck check;
-    std::optional<PlainCopy> copy;
-    {
-        const std::string bytes = read_file(path);  // freed before PCL reads the file again
-        const std::string_view plain = without_byte_order_mark(bytes);
-        check = check_ply(path.string(), plain);
-        if (plain.size() != bytes.size() || !check.grid_comments.empty()) copy.emplace(path.string(), plain, check.grid_comments);
-    }
-    report.points = check.points;
-    report.format = "PLY";
-    names = check.names;
-    return read_ply(copy ? copy->path() : path, path.string(), check, report);
+void require_text(const std::string& file, std::string_view bytes) {
+    if (bytes.empty()) throw IoError("io.empty", file, "", "the file is empty", "write the cloud again");
+    if (has_wide_byte_order_mark(bytes)) throw IoError("io.format", file, "", wide_text_cause, wide_text_remedy);
 }
 
 }  // namespace
@@ -137,35 +79,34 @@ bool is_cloud_file(const std::filesystem::path& path) {
     return extension == ".obj" || extension == ".ply" || extension == ".pcd" || is_table(extension);
 }
 
-Cloud read_cloud(const std::filesystem::path& path, ReadReport* report, const ReadOptions& options) {
-    const std::string extension = lower_extension(path);
-    const bool pcd = extension == ".pcd";
-    const bool ply = extension == ".ply";
-    const bool obj = extension == ".obj";
-    const bool table = is_table(extension);
-    if (!pcd && !ply && !obj && !table) refuse(path, extension);
-
+Cloud parse_cloud(const std::filesystem::path& path, std::string bytes, ReadReport* report, const ReadOptions& options) {
+    const std::string extension = require_cloud_file(path, options);
     const std::string file = path.string();
-    require_columns(file, table, options);
+    require_text(file, bytes);
+    bytes.erase(0, bytes.size() - without_byte_order_mark(bytes).size());
     ReadReport local;
     ReadReport& filled = report ? *report : local;
     filled = {};
     std::vector<std::string> names;
     Cloud cloud;
-    if (pcd) {
-        cloud = read_pcd_file(path, filled, names);
-    } else if (ply) {
-        cloud = read_ply_file(path, filled, names);
+    if (extension == ".pcd") {
+        cloud = read_pcd(file, bytes, filled, names);
+    } else if (extension == ".ply") {
+        cloud = read_ply(file, std::move(bytes), filled, names);
     } else {
-        const std::string bytes = read_file(path);
-        const std::string_view text = without_byte_order_mark(bytes);
+        const bool obj = extension == ".obj";
         filled.format = obj ? "OBJ" : extension == ".csv" ? "CSV" : "XYZ";
-        cloud = obj ? read_obj(file, text, names) : read_table(file, text, options, names);
+        cloud = obj ? read_obj(file, bytes, names) : read_table(file, bytes, options, names);
         filled.points = cloud.points.size();
     }
     filled.properties = found_properties(names, cloud);
     cloud.source = file;
     return cloud;
+}
+
+Cloud read_cloud(const std::filesystem::path& path, ReadReport* report, const ReadOptions& options) {
+    require_cloud_file(path, options);
+    return parse_cloud(path, read_file(path), report, options);
 }
 
 }  // namespace dsc::cloud

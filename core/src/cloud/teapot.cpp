@@ -7,6 +7,7 @@
 #include <string>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/read_file.hpp>
 #include <dsc/cloud/data_file.hpp>
 
 #include "surfaces.hpp"

@@ -1,55 +1,11 @@
 #include "text.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <memory>
 #include <system_error>
 
-#include <dsc/base/byte_order_mark.hpp>
-#include <dsc/base/error.hpp>
-
 namespace dsc::cloud {
-namespace fs = std::filesystem;
-
-namespace {
-[[noreturn]] void unreadable(const fs::path& path, int error) {
-    throw IoError("io.unreadable", path.string(), "",
-                  "cannot be read: " + std::generic_category().message(error),
-                  "check its permissions and the disk");
-}
-}  // namespace
-
-std::string read_file(const fs::path& path) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (status.type() == fs::file_type::not_found)
-        throw IoError("io.missing", path.string(), "", "no such file", "check the path");
-    if (error) unreadable(path, error.value());
-    if (status.type() == fs::file_type::directory)
-        throw IoError("io.directory", path.string(), "", "is a folder", "name a file in it");
-    if (status.type() != fs::file_type::regular)
-        throw IoError("io.unreadable", path.string(), "", "is not a regular file",
-                      "copy the data into a file first");
-
-    struct Close {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
-    if (!file) unreadable(path, errno);
-    std::string text;
-    const std::uintmax_t size = fs::file_size(path, error);
-    if (!error) text.reserve(size);
-    char block[1 << 16];
-    while (const std::size_t got = std::fread(block, 1, sizeof block, file.get())) text.append(block, got);
-    if (std::ferror(file.get())) unreadable(path, errno);
-    if (text.empty())
-        throw IoError("io.empty", path.string(), "", "the file is empty", "write the cloud again");
-    if (has_wide_byte_order_mark(text)) throw IoError("io.format", path.string(), "", wide_text_cause, wide_text_remedy);
-    return text;
-}
 
 Lines::Lines(std::string_view text) : rest_(text) {}
 

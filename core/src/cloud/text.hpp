@@ -1,16 +1,11 @@
 #pragma once
-// Reading text: whole files, lines, columns, numbers; and putting pieces of a file into messages.
+// Reading text: lines, columns, numbers; and putting pieces of a file into messages.
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace dsc::cloud {
-
-/// The bytes of a regular file, a byte order mark included. Throws IoError "io.missing", "io.directory", "io.unreadable",
-/// "io.empty", and "io.format" for text in UTF-16.
-std::string read_file(const std::filesystem::path& path);
 
 /// Walks over the lines of a text that ends its lines with LF, CR LF or CR; the ends are not part of a line.
 class Lines {

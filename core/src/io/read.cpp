@@ -2,6 +2,7 @@
 
 #include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
+#include <dsc/base/read_file.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/io/formats.hpp>
 

@@ -1,5 +1,6 @@
 // VTK polygons, triangles only, through VTK's own XML reader and writer; and the .pvd index, a few lines.
 #include <dsc/base/error.hpp>
+#include <dsc/base/read_file.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/io/series.hpp>
 #include <dsc/surface/measure.hpp>

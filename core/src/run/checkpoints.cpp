@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <dsc/base/error.hpp>
+#include <dsc/base/read_file.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/base/state.hpp>
 #include <dsc/io/atomic_file.hpp>
@@ -85,7 +86,7 @@ std::optional<Checkpoint> Checkpoints::last(const std::string& hash, const std::
     std::vector<std::string> refused;
     for (auto file = files.rbegin(); file != files.rend(); ++file) {
         try {
-            Checkpoint checkpoint = unpacked(io::read_file(*file));
+            Checkpoint checkpoint = unpacked(read_file(*file));
             if (checkpoint.hash != hash) unusable("it is of another experiment");
             require(checkpoint);
             for (const std::string& text : refused) log(LogLevel::warning, text + "; the one before is taken");

@@ -86,7 +86,7 @@ ConfigNode map_files(const ConfigNode& node, const Schema& schema, const Strateg
 }
 
 /// Content of a plugin path: the hash of a library, or those of all libraries of a folder in the order of their names.
-ConfigNode plugin_content(const std::string& path) {
+ConfigNode plugin_content(const std::string& path, InputFiles& known) {
     std::vector<fs::path> files;
     if (fs::is_directory(path)) {
         for (const auto& entry : fs::directory_iterator(path)) {
@@ -97,7 +97,7 @@ ConfigNode plugin_content(const std::string& path) {
         files.emplace_back(path);
     }
     std::vector<ConfigNode> hashes;
-    for (const fs::path& file : files) hashes.emplace_back("sha256:" + sha256_of_file(file));
+    for (const fs::path& file : files) hashes.emplace_back("sha256:" + known.sha256(file));
     return ConfigNode::list(std::move(hashes));
 }
 
@@ -158,11 +158,11 @@ std::string resolved_text(const LoadedExperiment& loaded) { return config::to_ya
 
 std::string config_hash(const LoadedExperiment& loaded, const StrategyLookup& lookup) {
     require_files(loaded.resolved, lookup);
-    ConfigNode canonical = map_files(loaded.resolved, *experiment_schema(), lookup, [](const ConfigNode& file) {
-        return ConfigNode("sha256:" + sha256_of_file(file.as_string()));
+    ConfigNode canonical = map_files(loaded.resolved, *experiment_schema(), lookup, [&loaded](const ConfigNode& file) {
+        return ConfigNode("sha256:" + loaded.files->sha256(file.as_string()));
     });
     std::vector<ConfigNode> plugins;
-    for (const std::string& path : loaded.experiment.plugins) plugins.push_back(plugin_content(path));
+    for (const std::string& path : loaded.experiment.plugins) plugins.push_back(plugin_content(path, *loaded.files));
     canonical = canonical.with("plugins", ConfigNode::list(std::move(plugins)));
     return sha256(config::to_yaml(canonical));
 }

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
-#include <dsc/cloud/read.hpp>
 #include <dsc/cloud/shapes.hpp>
 #include <dsc/geometry/order.hpp>
 #include <dsc/hooks/cloud_filter.hpp>
@@ -13,7 +12,7 @@
 namespace dsc::run {
 namespace {
 
-cloud::Cloud read_points(const CloudInput& input, std::uint64_t seed, InputReport& report) {
+cloud::Cloud read_points(const CloudInput& input, std::uint64_t seed, InputFiles& files, InputReport& report) {
     if (input.sample) {
         report.source = input.sample->shape;
         report.format = "sample";
@@ -25,12 +24,11 @@ cloud::Cloud read_points(const CloudInput& input, std::uint64_t seed, InputRepor
         return cloud;
     }
     report.source = input.file.value();
-    cloud::ReadReport read;
-    cloud::Cloud cloud = cloud::read_cloud(*input.file, &read, {input.columns});
-    report.format = read.format;
-    report.points = read.points;
-    report.dropped = read.dropped_non_finite;
-    return cloud;
+    ReadCloud read = files.take_cloud(*input.file, input.columns);
+    report.format = read.report.format;
+    report.points = read.report.points;
+    report.dropped = read.report.dropped_non_finite;
+    return std::move(read.cloud);
 }
 
 using Filters = std::vector<std::unique_ptr<hooks::CloudFilter>>;
@@ -57,11 +55,11 @@ std::vector<Vec3> places_lost(std::vector<Vec3> before, std::vector<Vec3> after)
 
 }  // namespace
 
-LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Catalogue& catalogue, Workers* workers,
+LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Catalogue& catalogue, InputFiles& files, Workers* workers,
                        const CancelToken* cancel) {
     const Filters filters = make_filters(input.cloud, catalogue);
     InputReport report;
-    cloud::Cloud cloud = read_points(input.cloud, seed, report);
+    cloud::Cloud cloud = read_points(input.cloud, seed, files, report);
     const std::vector<Vec3> given = filters.empty() ? std::vector<Vec3>() : cloud.points;
     hooks::FilterContext context;
     context.seed = seed;

@@ -148,14 +148,14 @@ std::string provenance_json(const LoadedExperiment& loaded, const plugin::Catalo
                            {"version", plugin.version},
                            {"license", plugin.license},
                            {"file", shown(plugin.file, homes)},
-                           {"sha256", sha256_of_file(plugin.file)},
+                           {"sha256", loaded.files->sha256(plugin.file)},
                            {"fingerprint", plugin.fingerprint}});
     }
     ordered_json inputs = ordered_json::array();
     for (const std::string& file : input_files(loaded, catalogue)) {
         inputs.push_back({{"file", shown(file, homes)},
                           {"bytes", std::filesystem::file_size(file)},
-                          {"sha256", sha256_of_file(file)}});
+                          {"sha256", loaded.files->sha256(file)}});
     }
     ordered_json typed = ordered_json::array();
     for (const std::string& word : command) typed.push_back(without_homes(word, homes));

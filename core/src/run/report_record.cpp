@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <dsc/base/error.hpp>
+#include <dsc/base/read_file.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/run/run_folder.hpp>
@@ -18,7 +19,7 @@ using nlohmann::ordered_json;
 }
 
 ordered_json read_record_json(const fs::path& file) {
-    ordered_json json = ordered_json::parse(io::read_file(file), nullptr, false);
+    ordered_json json = ordered_json::parse(read_file(file), nullptr, false);
     if (!json.is_object())
         throw IoError("report.damaged", file.string(), "", "is no JSON object", "run the experiment again");
     return json;
@@ -120,8 +121,8 @@ RunRecord read_record(const fs::path& folder) {
     record.summary = read_record_json(folder / "summary.json");
     record.provenance = read_record_json(folder / "provenance.json");
     const fs::path metrics = folder / "metrics.csv";
-    record.metrics = parse_metrics(io::read_file(metrics), metrics.string());
-    record.config = io::read_file(folder / "config.resolved.yaml");
+    record.metrics = parse_metrics(read_file(metrics), metrics.string());
+    record.config = read_file(folder / "config.resolved.yaml");
     // What stands in it is final: `${` is text, and there is nothing to look up.
     config::YamlOptions options;
     options.environment = [](const std::string&) { return std::optional<std::string>(); };

@@ -210,9 +210,11 @@ private:
         const std::optional<Input> input = input_of(record_.resolved, input_.catalogue);
         if (!input) return;
         if (input->cloud.sample) json_["up"] = "z";  // the built-in shapes stand along z
-        require_same_file(*input);
         std::optional<LoadedInput> again;
-        if (input_.loaded == nullptr) again = load(*input);
+        if (input_.loaded == nullptr) {
+            require_same_file(*input);
+            again = load(*input);
+        }
         const LoadedInput& loaded = again ? *again : *input_.loaded;
         std::vector<Vec3> points = loaded.cloud.points;
         if (points.size() > limits_.points) {
@@ -233,21 +235,21 @@ private:
         scene_.empty = false;
     }
 
-    LoadedInput load(const Input& input) const {
+    LoadedInput load(const Input& input) {
         const config::ConfigNode* seed = record_.resolved.find("seed");
-        return load_input(input, seed != nullptr ? static_cast<std::uint64_t>(seed->as_integer()) : 1, input_.catalogue, workers_);
+        return load_input(input, seed != nullptr ? static_cast<std::uint64_t>(seed->as_integer()) : 1, input_.catalogue, files_, workers_);
     }
 
     /// A report of yesterday's run must not show today's file. The provenance has paths as they were typed, so files of the
     /// same name are compared.
-    void require_same_file(const Input& input) const {
+    void require_same_file(const Input& input) {
         const ordered_json* inputs = find(record_.provenance, "inputs");
         if (!input.cloud.file || inputs == nullptr || !inputs->is_array()) return;
         const std::filesystem::path name = std::filesystem::path(*input.cloud.file).filename();
         bool known = false;
         for (const ordered_json& read : *inputs) {
             if (!read.is_object() || std::filesystem::path(read.value("file", "")).filename() != name) continue;
-            if (read.value("sha256", "") == sha256_of_file(*input.cloud.file)) return;
+            if (read.value("sha256", "") == files_.sha256(*input.cloud.file)) return;
             known = true;
         }
         if (!known) return;
@@ -312,6 +314,7 @@ private:
     const SceneLimits& limits_;
     const SceneInput input_;
     Workers* workers_;
+    InputFiles files_;
     Scene scene_;
     ordered_json json_;
     surface::TriangleMesh surface_;

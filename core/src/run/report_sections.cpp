@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <dsc/base/read_file.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <map>
 
@@ -218,7 +219,7 @@ std::string viewer(const RunRecord& record, const Scene& scene, const std::strin
     std::error_code error;
     if (std::filesystem::exists(record.folder / "preview.png", error)) {
         picture = "<img class=\"stand-in\" alt=\"the surface\" src=\"data:image/png;base64," +
-                  html::base64(io::read_file(record.folder / "preview.png")) + "\">";
+                  html::base64(read_file(record.folder / "preview.png")) + "\">";
     }
     std::string notes;
     for (const std::string& note : scene.notes) notes += tag("li", text(note));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <dsc/base/error.hpp>
+#include <dsc/base/read_file.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/io/atomic_file.hpp>
@@ -69,7 +70,7 @@ std::string difference_to(const fs::path& folder, const LoadedExperiment& loaded
         // What stands in them is final: `${` is text. Both went through the same writer, so a number is the same number.
         config::YamlOptions options;
         options.environment = [](const std::string&) { return std::optional<std::string>(); };
-        const std::string told = experiment_differences(config::parse_yaml(io::read_file(file), file.string(), options),
+        const std::string told = experiment_differences(config::parse_yaml(read_file(file), file.string(), options),
                                                         config::parse_yaml(resolved_text(loaded), "the experiment", options));
         return told.empty() ? "a file or a plugin that it names has another content now" : told;
     } catch (const Error&) {

@@ -122,7 +122,7 @@ private:
         folder.write("provenance.json", provenance(""));
         std::optional<LoadedInput>& input = input_;
         if (experiment.input) {
-            input = load_input(*experiment.input, experiment.seed, catalogue_, &workers_, options_.cancel);
+            input = load_input(*experiment.input, experiment.seed, catalogue_, *loaded_.files, &workers_, options_.cancel);
             report_input(input->report);
         }
         const cloud::TargetCloud* target = input ? &input->target : nullptr;

@@ -1,5 +1,6 @@
 // From a sweep to folders: the points' first, the table that names them last.
 #include <dsc/base/error.hpp>
+#include <dsc/base/read_file.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/run/run_folder.hpp>
 #include <dsc/run/sweep.hpp>
@@ -42,7 +43,7 @@ enum class Place { fresh, same, other };
 Place look(const fs::path& file, const std::string& text) {
     std::error_code error;
     if (!fs::exists(file, error)) return Place::fresh;
-    return io::read_file(file) == text ? Place::same : Place::other;
+    return read_file(file) == text ? Place::same : Place::other;
 }
 
 /// Points that were started must stay the experiments that they are.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <dsc/base/error.hpp>
+#include <dsc/base/read_file.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/io/atomic_file.hpp>
@@ -67,7 +68,7 @@ std::string table_text(const std::vector<SweepJob>& jobs) {
 
 std::vector<SweepJob> read_table(const fs::path& folder) {
     const fs::path file = table_file(folder);
-    const std::string text = io::read_file(file);
+    const std::string text = read_file(file);
     std::vector<SweepJob> jobs;
     std::size_t number = 0;
     for (std::size_t begin = 0; begin < text.size();) {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <dsc/base/read_file.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/io/write.hpp>
@@ -100,14 +101,14 @@ TEST_CASE("bit for bit: what is written, read and adopted is written the same ag
     dsc::mesh::AdoptReport report;
     dsc::io::write_volume(two.name(), dsc::mesh::adopt(back, "again", &report).to_mesh());
     CHECK(report.reoriented_tets == 0);
-    CHECK(dsc::io::read_file(one.name()) == dsc::io::read_file(two.name()));
+    CHECK(dsc::read_file(one.name()) == dsc::read_file(two.name()));
 }
 
 TEST_CASE("tets of either orientation, in any order, the last line once: three labels and their volumes") {
     const File file("shuffled.dsc");
     const TetMesh start = slabs();
     dsc::io::write_volume(file.name(), start);
-    dsc::io::write_file(file.name(), shuffled(dsc::io::read_file(file.name())));
+    dsc::io::write_file(file.name(), shuffled(dsc::read_file(file.name())));
     dsc::mesh::AdoptReport report;
     const dsc::mesh::Complex complex = dsc::mesh::adopt(load(file.name()), "file", &report);
     CHECK(complex.tet_count() == start.tets.size());
@@ -164,6 +165,6 @@ TEST_CASE("hostile files end in one message with place, cause and remedy") {
     // The original's readers saw the last line twice, and their results have it twice.
     const File good("good.dsc");
     dsc::io::write_volume(good.name(), slabs());
-    const std::string text = dsc::io::read_file(good.name());
+    const std::string text = dsc::read_file(good.name());
     refused(text + text.substr(text.rfind('t')), "mesh.crowded_face", "some writers repeat the last line");
 }

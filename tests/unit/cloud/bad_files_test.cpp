@@ -61,7 +61,7 @@ TEST_CASE("what is no readable file is refused") {
     for (const std::string extension : {"xyz", "obj", "ply", "pcd"}) {
         const std::string missing = "missing." + extension, empty = "empty." + extension,
                           sub = "folder." + extension;
-        CHECK(read_error(folder, missing) == "io.missing 6: " + missing + ": no such file; check the path");
+        CHECK(read_error(folder, missing) == "io.missing 6: " + missing + ": does not exist; check the path");
         CHECK(read_error(folder, empty, "") ==
               "io.empty 6: " + empty + ": the file is empty; write the cloud again");
         std::filesystem::create_directory(folder.path(sub));
@@ -69,7 +69,7 @@ TEST_CASE("what is no readable file is refused") {
     }
     folder.write("file", "x");
     CHECK(read_error(folder, "file/inside.xyz") ==
-          "io.missing 6: file/inside.xyz: no such file; check the path");
+          "io.missing 6: file/inside.xyz: does not exist; check the path");
     // Even root cannot read the start of this one.
     std::filesystem::create_symlink("/proc/self/mem", folder.path("memory.xyz"));
     CHECK(read_error(folder, "memory.xyz") ==
@@ -77,7 +77,7 @@ TEST_CASE("what is no readable file is refused") {
           "disk");
     std::filesystem::create_symlink("/dev/zero", folder.path("zero.ply"));
     CHECK(read_error(folder, "zero.ply") ==
-          "io.unreadable 6: zero.ply: is not a regular file; copy the data into a file first");
+          "io.unreadable 6: zero.ply: is not a regular file; copy its content into a file first");
     if (::geteuid() == 0) {
         MESSAGE("skipped: permissions do not hold for root");
     } else {

@@ -1,3 +1,4 @@
+#include <dsc/base/read_file.hpp>
 #include <dsc/base/replace_file.hpp>
 #include <dsc/io/atomic_file.hpp>
 

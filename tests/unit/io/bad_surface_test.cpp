@@ -48,7 +48,7 @@ TEST_CASE("files that cannot be read at all") {
     std::filesystem::create_directory(folder / "dir.obj");
     found = test::refusal(folder / "dir.obj", read);
     CHECK(found.code == "io.directory");
-    CHECK(found.message == "FILE: is a directory; name a file");
+    CHECK(found.message == "FILE: is a folder; name a file in it");
     for (const char* content : {"", " \n\t\r\n"}) {
         found = test::refusal(folder.with("empty.ply", content), read);
         CHECK(found.code == "io.empty");
@@ -61,7 +61,7 @@ TEST_CASE("files that cannot be read at all") {
     } else {
         found = test::refusal(closed, read);
         CHECK(found.code == "io.unreadable");
-        CHECK(found.message == "FILE: cannot be read: Permission denied; check its permissions");
+        CHECK(found.message == "FILE: cannot be read: Permission denied; check its permissions and the disk");
     }
 }
 

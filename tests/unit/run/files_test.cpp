@@ -31,7 +31,10 @@ const test::Strategies& catalogue() {
     return strategies;
 }
 
-run::LoadedInput load(const run::Input& input, std::uint64_t seed) { return run::load_input(input, seed, catalogue()); }
+run::LoadedInput load(const run::Input& input, std::uint64_t seed) {
+    run::InputFiles files;
+    return run::load_input(input, seed, catalogue(), files);
+}
 
 mesh::TetMesh box_mesh(int cells) {
     const dsc::test::Strategies strategies;

@@ -32,7 +32,7 @@ struct ReadOptions {
     std::vector<std::string> columns{};
 };
 
-/// Reads a cloud; the extension, in any case, decides the format:
+/// Reads the bytes of a cloud's file. Messages name the file, and its extension, in any case, decides the format:
 /// - .pcd (ascii, binary, binary_compressed) and .ply (ascii, binary of both byte orders) with x y z, normals, colours or
 ///   intensities of any numeric type; points with NaN or infinity are left out and counted;
 /// - .obj: `v x y z` or `v x y z r g b`, and `vn` as the corners of `f` say or one per point; other statements are skipped;
@@ -43,9 +43,11 @@ struct ReadOptions {
 ///   (one above 1), normals where they are unit vectors in every line. Comments (# or //), empty lines and the count
 ///   lines of .pts are skipped.
 /// A normal is scaled to a unit vector, one without a direction is zero; whether they agree with the points is not judged here.
-/// Throws IoError for a file that is missing, not readable, empty, without points, truncated or malformed,
-/// for NaN and infinity in text, for what is not read here (.las, .laz, .e57, range grids in PLY, ...), and
+/// Throws IoError for bytes that are empty, without points, truncated or malformed, for NaN and infinity in text, for what is not read here (.las, .laz, .e57, range grids in PLY, ...), and
 /// "io.columns" for chosen columns that are not 3 or 6, not there, or of a format without columns. [setup]
+Cloud parse_cloud(const std::filesystem::path& file, std::string bytes, ReadReport* report = nullptr, const ReadOptions& options = {});
+
+/// The same for a file. Throws also what read_file() throws. [setup]
 Cloud read_cloud(const std::filesystem::path& path, ReadReport* report = nullptr,
                  const ReadOptions& options = {});
 

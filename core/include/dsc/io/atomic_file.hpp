@@ -18,7 +18,4 @@ bool nothing_but_leftovers(const std::filesystem::path& folder, std::error_code&
 /// Removes such files from the folder, if it is one; nobody may be writing in it. [step]
 void remove_leftovers(const std::filesystem::path& folder);
 
-/// The whole file. Throws IoError "io.missing", "io.directory", "io.unreadable". [step]
-std::string read_file(const std::filesystem::path& file);
-
 }  // namespace dsc::io

@@ -7,6 +7,7 @@
 #include <dsc/config/params.hpp>
 #include <dsc/config/schema.hpp>
 #include <dsc/config/yaml.hpp>
+#include <dsc/run/input_files.hpp>
 #include <functional>
 #include <optional>
 #include <span>
@@ -110,6 +111,7 @@ struct LoadedExperiment {
     Experiment experiment;
     config::ConfigNode resolved;  ///< all defaults written out, file names absolute
     std::string warnings;         ///< text of the diagnostics that are no errors, empty for none
+    std::shared_ptr<InputFiles> files = std::make_shared<InputFiles>();  ///< what the experiment reads, each file once
 };
 
 /// Looks up strategies once the plugins that the experiment names are loaded: gets the absolute paths of `plugins:`

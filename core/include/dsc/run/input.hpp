@@ -35,10 +35,10 @@ struct LoadedInput {
     std::vector<Vec3> removed{};  ///< points of the file that no filter left where they were, in normalised units
 };
 
-/// Reads or samples, filters and normalises. `seed` is that of the experiment; `catalogue` makes the filters, which see
+/// Reads (through `files`) or samples, filters and normalises. `seed` is that of the experiment; `catalogue` makes the filters, which see
 /// `workers` (null: one thread) and `cancel` (may be null). The result depends on neither. Throws IoError, GeometryError as the
 /// parts of the cloud module, and as Catalogue::create and the filters: PluginError, StrategyError, CancelledError. [setup]
-LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Catalogue& catalogue, Workers* workers = nullptr,
-                       const CancelToken* cancel = nullptr);
+LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Catalogue& catalogue, InputFiles& files,
+                       Workers* workers = nullptr, const CancelToken* cancel = nullptr);
 
 }  // namespace dsc::run
