@@ -85,7 +85,7 @@ TEST_CASE("a velocity that needs a cloud without one") {
         run(cli, with("input: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {scale: 0.9}}\n", ""));
     CHECK(result.code == 3);
     CHECK(result.err ==
-          "error: velocity 'point_cloud': the experiment has no cloud to go to; add input: {cloud: {file: "
+          "error: velocity 'point_cloud': the experiment has no cloud; add input: {cloud: {file: "
           "...}}\n");
     CHECK_FALSE(dsc::test::looks_finished(cli.folder() / "out"));
 }

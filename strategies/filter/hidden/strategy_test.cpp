@@ -18,7 +18,7 @@ Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map
     return dsc::sdk::filtered(DSC_TEST_PLUGIN, "hidden", cloud, params);
 }
 
-/// Points evenly over a sphere, along a spiral; their confidence tells the sphere.
+/// Points evenly spread over a sphere, along a spiral; their confidence is the number of the sphere.
 void add_sphere(Cloud& cloud, int count, double radius, double confidence) {
     const double turn = std::acos(-1.0) * (3.0 - std::sqrt(5.0));
     for (int i = 0; i < count; ++i) {
