@@ -34,7 +34,8 @@ void require_free_name(const std::string& name) {
     std::error_code error;
     const fs::path built_in = host::installed_folder() / ("libdsc_" + name + ".so");
     if (fs::exists(built_in, error)) {
-        throw UsageError("usage.plugin_taken", "'" + name + "' is the name of a plugin that comes with dsc (" + built_in.string() +
+        throw UsageError("usage.plugin_taken", "'" + name + "' is the name of a plugin that comes with dsc "
+                                                            "(" + built_in.string() +
                                                    "); choose another name");
     }
     if (fs::symlink_status(name, error).type() != fs::file_type::not_found) {
@@ -72,11 +73,13 @@ int execute(const NewArguments& arguments) {
 
 void add_plugin_new(CLI::App& plugin, Context& context) {
     CLI::App* command =
-        plugin.add_subcommand("new", "Create the new folder NAME with a project for your own strategy: code, test, experiment, page");
+        plugin.add_subcommand("new", "Create the new folder NAME with a project for your own strategy: code, test, "
+                                     "experiment, page");
     const auto arguments = std::make_shared<NewArguments>();
     command->add_option("NAME", arguments->name, "Name of lower case letters, digits and _; the library becomes libdsc_NAME.so")
         ->required();
-    command->add_option("--kind", arguments->kind, "Kind: velocity, curvature, refinement, initial_mesh, improvement, observer or filter")
+    command->add_option("--kind", arguments->kind, "Kind: velocity, curvature, refinement, initial_mesh, improvement, "
+                                                   "observer or filter")
         ->required();
     command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

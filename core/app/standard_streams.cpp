@@ -20,7 +20,8 @@ namespace {
 
 constexpr int lowest_private = 10;  // shells leave the descriptors below to scripts
 
-/// Writes all of the text, in spite of interruptions and also to non-blocking descriptors. Returns 0, or the errno of the failure.
+/// Writes all of the text, in spite of interruptions and also to non-blocking descriptors. Returns 0, or the errno of the
+/// failure.
 int write_whole(int to, std::string_view text, int patience_ms) noexcept {
     while (!text.empty()) {
         const ::ssize_t count = ::write(to, text.data(), text.size());

@@ -31,10 +31,12 @@ std::string points_text(std::size_t count) { return std::to_string(count) + (cou
 
 int expand(const ExpandArguments& arguments) {
     if (arguments.folder.empty() && !arguments.check)
-        throw UsageError("usage.output", "-o DIR, the folder for the points, is missing; add it, or use --check to write nothing");
+        throw UsageError("usage.output", "-o DIR, the folder for the points, is missing; add it, or use --check to write "
+                                         "nothing");
     const run::Sweep sweep = run::load_sweep(arguments.file);
     if (sweep.repeated > 0)
-        log(LogLevel::warning, arguments.file + ": " + points_text(sweep.repeated) + " left out because they equal earlier points");
+        log(LogLevel::warning, arguments.file + ": " + points_text(sweep.repeated) + " left out because they equal earlier "
+                                                                                     "points");
     Plugins plugins(arguments.plugins);
     const std::vector<std::string> experiments = run::sweep_experiments(sweep, plugins.loader(), plugins.host());
     if (arguments.check) {
@@ -92,7 +94,8 @@ void add_collect(CLI::App& sweep, Context& context) {
 }  // namespace
 
 void add_sweep(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("sweep", "Expand a parameter sweep into run folders; collect their results into a table");
+    CLI::App* command = app.add_subcommand("sweep", "Expand a parameter sweep into run folders; collect their results into a "
+                                                    "table");
     command->require_subcommand(1);
     add_expand(*command, context);
     add_collect(*command, context);

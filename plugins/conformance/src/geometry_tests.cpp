@@ -43,7 +43,8 @@ void rigid(const Subject& subject) {
             for (std::size_t i = part.begin; i + 2 < part.end; i += 3) {
                 const Vec3 turned = motion.rotation * Vec3(plain[i], plain[i + 1], plain[i + 2]);
                 const Vec3 found(there[i], there[i + 1], there[i + 2]);
-                require((turned - found).norm() <= relative * longest, "the vector of " + trace.place(i) + " does not rotate" + remedy);
+                require((turned - found).norm() <= relative * longest,
+                        "the vector of " + trace.place(i) + " does not rotate" + remedy);
             }
             continue;
         }
