@@ -52,7 +52,7 @@ dsc::Error with_choice_of_columns(const CLI::App& app, const dsc::Error& error) 
     return {error.exit_code(), error.code(), text + (option ? ": --columns X,Y,Z" : ": input.cloud.columns")};
 }
 
-/// The exit code of a job, unless the job has its own exit code.
+/// Writes the remaining data. If this fails, the exit code of a job that has failed is kept.
 void finish_data(int code) {
     try {
         dsc::app::flush_data();

@@ -34,8 +34,8 @@ void require_free_name(const std::string& name) {
     std::error_code error;
     const fs::path built_in = host::installed_folder() / ("libdsc_" + name + ".so");
     if (fs::exists(built_in, error)) {
-        throw UsageError("usage.plugin_taken", "'" + name + "' is the name of a plugin that comes with dsc "
-                                                            "(" + built_in.string() +
+        throw UsageError("usage.plugin_taken", "'" + name + "' is the name of a plugin that comes with dsc (" +
+                                                   built_in.string() +
                                                    "); choose another name");
     }
     if (fs::symlink_status(name, error).type() != fs::file_type::not_found) {

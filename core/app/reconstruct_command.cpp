@@ -69,8 +69,8 @@ std::vector<Target> targets(const ReconstructArguments& arguments) {
         }
         require_output(name, arguments.cloud);
         for (const Target& other : list) {
-            if (same_file(other.file, name)) throw UsageError("usage.output", name + " is given twice with -o; give each file "
-                                                                                     "once");
+            if (same_file(other.file, name))
+                throw UsageError("usage.output", name + " is given twice with -o; give each file once");
         }
         list.push_back({name, std::string(format->extension.substr(1)), format->volume});
     }

@@ -35,8 +35,8 @@ int expand(const ExpandArguments& arguments) {
                                          "nothing");
     const run::Sweep sweep = run::load_sweep(arguments.file);
     if (sweep.repeated > 0)
-        log(LogLevel::warning, arguments.file + ": " + points_text(sweep.repeated) + " left out because they equal earlier "
-                                                                                     "points");
+        log(LogLevel::warning, arguments.file + ": " + points_text(sweep.repeated) +
+                                   " left out because they equal earlier points");
     Plugins plugins(arguments.plugins);
     const std::vector<std::string> experiments = run::sweep_experiments(sweep, plugins.loader(), plugins.host());
     if (arguments.check) {

@@ -10,9 +10,7 @@ void Clusters::declare(config::ParamSchema<Params>& schema) {
         .unit("point distances")
         .doc(
             "Distance to an earlier point up to which a point is removed; 1 is the distance that the 24 nearest points would "
-            "have "
-            "if they were "
-            "spread evenly.");
+            "have if they were spread evenly.");
 }
 
 Clusters::Clusters(const Params& params, const plugin::Setup&) : params_(params) {}

@@ -45,21 +45,18 @@ void Orient::declare(config::ParamSchema<Params>& schema) {
         .choice("from", &Params::from,
                 {{"auto", NormalSource::automatic}, {"file", NormalSource::file}, {"estimate", NormalSource::estimate}})
         .doc("Source of the normals: 'file', 'estimate' (from the points alone), or 'auto', which uses the file if its "
-             "normals or its "
-             "viewpoint are consistent.");
+             "normals or its viewpoint are consistent.");
     schema.boolean("all_points", &Params::all_points)
         .doc("Use every point (or every cell of a large cloud) from the beginning of the estimate; slower, but better for "
-             "parts thinner "
-             "than a few points.");
+             "parts thinner than a few points.");
     schema.integer("iterations", &Params::iterations)
         .range(1, 1000)
         .unit("1")
         .doc("Number of iterations of the coarse stage of the estimate.");
     schema.choice("one_sided", &Params::one_sided, {{"auto", OneSided::automatic}, {"never", OneSided::never}})
         .doc("Whether a cloud that was recorded from one side, such as a depth image or terrain, is closed. 'auto' recognises "
-             "it by its "
-             "single layer of points and closes it with a copy of the layer farther away; the surface of the copy can be "
-             "removed later.");
+             "it by its single layer of points and closes it with a copy of the layer farther away; the surface of the copy "
+             "can be removed later.");
 }
 
 Orient::Orient(const Params& params, const plugin::Setup&) : params_(params) {}

@@ -7,8 +7,7 @@ void Outliers::declare(config::ParamSchema<Params>& schema) {
         .range(1.01, 1000)
         .unit("1")
         .doc("Factor above which a point is isolated: its distance to its 8th neighbour over that of its neighbours, and over "
-             "that of most "
-             "points.");
+             "that of most points.");
     schema.real("far", &Params::far)
         .range(1.01, 1e6)
         .unit("1")

@@ -28,7 +28,7 @@ struct ShapeLimits {
 /// Accepted qualities of the new tets.
 struct ShapeBounds {
     float degenerate = 0.0F;  ///< for repairs that may change the shape within the kernel's bounds
-    float low = 0.0F;         ///< for repairs that must not change the shape
+    float low = 0.0F;         ///< for repairs that must cost neither shape nor quality
 };
 
 /// Writes the requests of a round. It keeps only scratch memory: the result depends on the round alone.

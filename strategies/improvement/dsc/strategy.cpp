@@ -20,9 +20,7 @@ void DscImprovement::Topology::declare(config::ParamSchema<Topology>& schema) {
         .range(0, 10)
         .unit("1")
         .doc("Distance from necks and rims of sheets within which a cloud point forbids a change, in distances from the point "
-             "to its "
-             "sixth neighbour: where "
-             "the cloud is sparse, few points lie on a thin part of the object.");
+             "to its sixth neighbour: where the cloud is sparse, few points lie on a thin part of the object.");
     schema.real("min_component", &Topology::min_component)
         .range(0, 1000)
         .unit("1")
@@ -63,9 +61,7 @@ void DscImprovement::declare(config::ParamSchema<Params>& schema) {
         .range(0, 1)
         .unit("target lengths (L)")
         .doc("Length below which edges, also inside a phase, are collapsed, even if this changes the shape of the interface "
-             "within the "
-             "kernel's "
-             "bounds; 0 switches this off.");
+             "within the kernel's bounds; 0 switches this off.");
     schema.real("min_edge_quality", &Params::min_edge_quality)
         .range(0, 1)
         .unit("target lengths (L)")
@@ -74,9 +70,7 @@ void DscImprovement::declare(config::ParamSchema<Params>& schema) {
         .range(0, 0.5)
         .unit("1")
         .doc("Quality, 1 - max |cos| over the corners, below which faces are removed, even if this changes the shape of the "
-             "interface "
-             "within the "
-             "kernel's bounds; 0 switches this off.");
+             "interface within the kernel's bounds; 0 switches this off.");
     schema.real("min_face_quality", &Params::min_face_quality)
         .range(0, 0.5)
         .unit("1")
@@ -85,15 +79,12 @@ void DscImprovement::declare(config::ParamSchema<Params>& schema) {
         .range(0, 1)
         .unit("1")
         .doc("Area below which the shortest edge of an interface face is collapsed, in regular triangles with edges of the "
-             "target length; "
-             "0 switches this off.");
+             "target length; 0 switches this off.");
     schema.real("max_face_area", &Params::max_face_area)
         .range(0, 1000)
         .unit("1")
         .doc("Area above which interface faces, also flat ones, are split at their longest edge, in regular triangles with "
-             "edges of the "
-             "target length; 0 "
-             "switches this off.");
+             "edges of the target length; 0 switches this off.");
     schema.real("max_tet_volume", &Params::max_tet_volume)
         .range(0, 1e9)
         .unit("1")

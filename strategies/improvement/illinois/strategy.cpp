@@ -7,9 +7,7 @@ void IllinoisImprovement::declare(config::ParamSchema<Params>& schema) {
         .range(0, 1)
         .unit("1")
         .doc("Altitude below which a tet is flat: the distance of a vertex from the plane of the others, in the smaller of "
-             "the longest "
-             "edge of the tet and "
-             "the target length.");
+             "the longest edge of the tet and the target length.");
     schema.real("wedge", &Params::wedge).range(0, 1).unit("1").doc("Edge length below which a flat tet is a wedge, in the "
                                                                    "same unit.");
     schema.real("tee", &Params::tee).range(0, 1).unit("1").doc("Distance of a vertex from an edge below which a flat tet is a "
@@ -47,8 +45,7 @@ void IllinoisImprovement::declare(config::ParamSchema<Params>& schema) {
         .doc("Cosine between the normals of neighbouring interface faces above which they count as flat.");
     schema.boolean("fallbacks", &Params::fallbacks)
         .doc("Whether flips, smoothing and collapse are tried on a tet that the repair of its class did not remove; without "
-             "them the "
-             "motion gets stuck, as in the thesis.");
+             "them the motion gets stuck, as in the thesis.");
 }
 
 IllinoisImprovement::IllinoisImprovement(const Params& params, const plugin::Setup&)

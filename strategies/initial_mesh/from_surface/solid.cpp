@@ -82,8 +82,7 @@ surface::TriangleMesh require_solid(const surface::TriangleMesh& given, const st
                    " of faces intersect, the first at " + place(mesh.points[first[0]]) + ", and " +
                    std::to_string(intersections) + " are allowed",
                "remove them and export the surface again, or increase `intersections`: the solid then contains all points "
-               "that the "
-               "surface winds around");
+               "that the surface winds around");
     }
     return mesh;
 }

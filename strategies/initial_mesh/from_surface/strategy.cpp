@@ -81,8 +81,7 @@ void FromSurface::declare(config::ParamSchema<Params>& schema) {
         .unit("degrees")
         .doc(
             "Angle between the faces of an edge above which vertices of the interface are moved onto the edge and its "
-            "corners; 180: "
-            "none are.");
+            "corners; 180: none are.");
     schema.integer("intersections", &Params::intersections)
         .range(0, 1000000)
         .unit("1")

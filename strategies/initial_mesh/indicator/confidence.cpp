@@ -68,9 +68,8 @@ hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orie
     const double area_ratio = start.cloud_area > 0.0 ? start.area / start.cloud_area : 0.0;
     if (orientation.one_sided()) {
         out.push_back({"cloud.one_sided", "The points lie in one layer, like a scan from one side, so they do not bound a "
-                                          "volume. The volume is closed by a copy of "
-                                          "the surface farther back and by walls between the two, where nothing was measured. "
-                                          "--trim (in an experiment output: "
+                                          "volume. The volume is closed by a copy of the surface farther back and by walls "
+                                          "between the two, where nothing was measured. --trim (in an experiment output: "
                                           "{trim: {}}) writes only the measured side."});
     } else if (orientation.residual > open_residual || area_ratio > open_area) {
         out.push_back({"cloud.open", "The cloud seems to be open, such as a scan of one side: the closed surface has " + rounded(area_ratio, 2) +
@@ -90,8 +89,7 @@ hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orie
         out.push_back({"topology.doubtful", "The topology is doubtful: the winding field has a residual of " +
                                                 rounded(orientation.residual, 3) +
                                                 " at the points, so the normals of some points may point to the wrong side. "
-                                                "Use a denser or "
-                                                "less noisy cloud."});
+                                                "Use a denser or less noisy cloud."});
     }
     return out;
 }

@@ -46,9 +46,8 @@ const cloud::TargetCloud& cloud_of(const hooks::InitialMeshContext& context) {
 void Indicator::declare(config::ParamSchema<Params>& schema) {
     schema.choice("detail", &Params::detail, {{"low", cloud::Detail::low}, {"medium", cloud::Detail::medium}, {"high", cloud::Detail::high}})
         .doc("Level of detail: half, all or twice the budget of vertices that follows from the number of points. The budget "
-             "is 2 per point up to 3,000 points, "
-             "1 per point at 20,000 points, with linear interpolation between; above that it grows with the root of the "
-             "number of points.");
+             "is 2 per point up to 3,000 points, 1 per point at 20,000 points, with linear interpolation between; above that "
+             "it grows with the root of the number of points.");
     schema.integer("vertices", &Params::vertices)
         .range(100, 10000000)
         .unit("vertices")
@@ -83,8 +82,7 @@ void Indicator::declare(config::ParamSchema<Params>& schema) {
                                                                                      "interface at the end.");
     schema.choice("retry", &Params::retry, {{"auto", Retry::automatic}, {"never", Retry::never}})
         .doc("Further attempts if the labels are doubtful: 'auto' orients the cloud up to two more times, with all points in "
-             "the first stage and more "
-             "iterations. This takes longer. It keeps the labels that the filters changed least.");
+             "the first stage and more iterations. This takes longer. It keeps the labels that the filters changed least.");
 }
 
 Indicator::Indicator(const Params& params, const plugin::Setup&) : params_(params) {}

@@ -27,9 +27,8 @@ void Analytic::declare(config::ParamSchema<Params>& schema) {
                  {"growing_sphere", Solution::growing_sphere},
                  {"shrinking_sphere", Solution::shrinking_sphere}})
         .doc(
-            "Surface where the interface should be: 'start', its place at the start, for a motion that returns there; 'sphere', "
-            "a "
-            "sphere that does not change; 'growing_sphere', a sphere whose radius grows with every step; "
+            "Surface where the interface should be: 'start', its place at the start, for a motion that returns there; "
+            "'sphere', a sphere that does not change; 'growing_sphere', a sphere whose radius grows with every step; "
             "'shrinking_sphere', a sphere whose radius is sqrt(radius^2 - 4 t).");
     schema.vec3("centre", &Params::centre).unit("length").doc("Centre of the sphere.");
     schema.real("radius", &Params::radius)

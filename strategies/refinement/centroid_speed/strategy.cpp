@@ -22,8 +22,8 @@ void CentroidSpeed::declare(config::ParamSchema<Params>& schema) {
         .at_least(0)
         .unit("point spacings")
         .doc("Length of the longest edge below which faces are not split, in spacings of the cloud (distance from the point "
-             "nearest to the "
-             "centroid to its sixth neighbour), because the points contain no information about smaller details. 0: no bound.");
+             "nearest to the centroid to its sixth neighbour), because the points contain no information about smaller "
+             "details. 0: no bound.");
 }
 
 CentroidSpeed::CentroidSpeed(const Params& params, const plugin::Setup&) : params_(params) {}

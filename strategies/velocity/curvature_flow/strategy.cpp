@@ -10,9 +10,8 @@ void CurvatureFlow::declare(config::ParamSchema<Params>& schema) {
         .greater(0)
         .unit("length^2")
         .doc(
-            "Time per step. The step is explicit: above about an eighth of the squared shortest edge, "
-            "neighbouring "
-            "vertices overtake each other.");
+            "Time per step. The step is explicit: above about an eighth of the squared shortest edge, neighbouring vertices "
+            "overtake each other.");
     schema.strategy("curvature", &Params::curvature, "curvature")
         .doc("Estimator of the mean curvature normal, 1/r on a sphere of radius r.");
 }

@@ -12,10 +12,8 @@ void Flow::declare(config::ParamSchema<Params>& schema) {
                  {"enright", FieldKind::enright}})
         .doc(
             "Velocity field: 'translate' along axis; 'rotate' about axis; 'shear' along axis, with a speed that grows along "
-            "across; 'part', "
-            "two "
-            "sides move apart or together along axis; 'enright', a deformation of the unit cube that returns to the "
-            "start.");
+            "across; 'part', two sides move apart or together along axis; 'enright', a deformation of the unit cube that "
+            "returns to the start.");
     schema.vec3("centre", static_cast<Vec3 Params::*>(&Params::centre))
         .unit("length")
         .doc("Point where the speed of 'rotate', 'shear' and 'part' is 0.");

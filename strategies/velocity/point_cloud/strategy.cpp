@@ -50,8 +50,7 @@ void PointCloud::declare(config::ParamSchema<Params>& schema) {
         .at_least(0)
         .unit("length/curvature")
         .doc(
-            "Distance that a vertex moves inwards per step for a curvature of 1: length^2 for a mean curvature, "
-            "length for an "
+            "Distance that a vertex moves inwards per step for a curvature of 1: length^2 for a mean curvature, length for an "
             "angle. 0 switches the curvature off.");
     schema.strategy("curvature", &Params::curvature, "curvature")
         .optional()
@@ -59,8 +58,7 @@ void PointCloud::declare(config::ParamSchema<Params>& schema) {
     schema.choice("curvature_at", &Params::curvature_at,
                   {{"everywhere", CurvatureAt::everywhere}, {"unsupported", CurvatureAt::unsupported}})
         .doc("Places where the curvature acts: everywhere, as in the thesis, or only where the surface is unsupported and the "
-             "data "
-             "term stalls, so that webs and leftover pieces shrink and supported horns, ears and tips keep their shape.");
+             "data term stalls, so that webs and leftover pieces shrink and supported horns, ears and tips keep their shape.");
     schema.object("target", &Params::target, Target::declare).doc("Point of the cloud to which a vertex moves.");
     schema.object("unsupported", &Params::unsupported, Unsupported::declare)
         .doc("Handling of surface regions without cloud support.");
