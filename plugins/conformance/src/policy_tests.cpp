@@ -146,8 +146,8 @@ void filter_attributes(const Subject& subject) {
     require_size(result.cloud.areas.size(), points, "areas");
     require_size(result.cloud.confidence.size(), points, "confidences");
     require(result.cloud.colours.size() == points,
-            "the cloud has a colour for each of its points, but the filter returns "
-            "" + std::to_string(result.cloud.colours.size()) +
+            "the cloud has a colour for each of its points, but the filter returns " +
+                std::to_string(result.cloud.colours.size()) +
                 " colours for " + std::to_string(points) + " points");
     std::map<std::string, cloud::Colour> colours;
     for (std::size_t i = 0; i < given.points.size(); ++i) colours[bits_of(given.points[i])] = given.colours[i];

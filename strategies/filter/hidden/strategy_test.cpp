@@ -38,7 +38,7 @@ Cloud nested() {
 
 }  // namespace
 
-TEST_CASE("a sphere within a sphere goes, the outer one stays") {
+TEST_CASE("a sphere within a sphere is removed, the outer one stays") {
     const Filtered result = filtered(nested());
     CHECK(result.report.kept == 600);
     CHECK(result.report.removed == 100);

@@ -9,7 +9,7 @@
 namespace dsc::strategies {
 
 /// The mesh of the file, with any number of labels. It must fill an axis-parallel box; the kernel re-orients its
-/// tets, splits pinched vertices and refuses a mesh that is not a complex.
+/// tets, makes pinched vertices regular and refuses a mesh that is not a complex.
 class DscFile final : public hooks::InitialMesh {
 public:
     struct Params {

@@ -59,7 +59,7 @@ struct Adopted {
 };
 
 // Requires positive tets that are conforming and fill the box; every vertex of the interface is regular, none is on the box.
-// The stairs of a slanting wall may pinch, in any lattice: adopt() splits them; `smooth` states that there are none.
+// The stairs of a slanting wall may pinch, in any lattice: adopt() makes these vertices regular; `smooth`: there are none.
 Adopted check_sound(const TetMesh& m, bool smooth = true) {
     Adopted out;
     out.complex = dsc::mesh::adopt(m, "lattice", &out.report);

@@ -16,7 +16,7 @@ constexpr unsigned last_flips = 2;         // passes with only flips at the end
 constexpr double sweep_angle = 1.0;        // radians: edges above this angle are not flipped in sweeps once creases are kept,
 constexpr double flip_angle = 0.5;         // nor edges above this angle in passes with only flips
 constexpr double too_many_factor = 1.02;
-constexpr double far_ratio = 1.25;         // of mean edge and target length, or its inverse: above it the surface was not remeshed yet
+constexpr double far_ratio = 1.25;         // of mean edge and target length, or its inverse: above it, not yet remeshed
 
 // Whether the surface still has to get its edge length although the run has begun.
 bool far_off(const hooks::StepContext& step) {
