@@ -11,7 +11,7 @@ namespace dsc::app {
 /// What all commands share.
 struct Context {
     std::vector<std::string> command_line;  ///< as typed
-    std::function<int()> action;            ///< of the command that was given
+    std::function<int()> action;            ///< action of the command that was given
 };
 
 void add_run(CLI::App& app, Context& context);
@@ -25,7 +25,7 @@ void add_report(CLI::App& app, Context& context);
 void add_schema(CLI::App& app, Context& context);
 void add_plugin(CLI::App& app, Context& context);
 void add_sweep(CLI::App& app, Context& context);
-/// Below `dsc plugin`.
+/// Subcommands of `dsc plugin`.
 void add_plugin_new(CLI::App& plugin, Context& context);
 void add_plugin_check(CLI::App& plugin, Context& context);
 void add_plugin_doctor(CLI::App& plugin, Context& context);

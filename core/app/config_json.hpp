@@ -6,10 +6,10 @@
 
 namespace dsc::app {
 
-/// The same tree; keys keep their order.
+/// The same tree as JSON; keys keep their order.
 nlohmann::ordered_json to_json(const config::ConfigNode& node);
 
-/// A number without a needless ".0".
+/// A number without an unnecessary ".0".
 nlohmann::ordered_json number_json(double value);
 
 }  // namespace dsc::app

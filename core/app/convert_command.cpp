@@ -23,7 +23,7 @@ struct ConvertArguments {
     std::vector<std::string> columns;
 };
 
-/// The points of a surface or a volume as a cloud.
+/// Returns the points of a surface or a volume as a cloud.
 cloud::Cloud points_of(Content&& content) {
     if (content.cloud) return std::move(*content.cloud);
     cloud::Cloud cloud;
@@ -41,7 +41,7 @@ int execute(const ConvertArguments& arguments) {
     const io::Format* format = io::find_format(arguments.output);
     const bool is_cloud = cloud::is_cloud_file(arguments.output);
     if (format == nullptr && !is_cloud) {
-        throw UsageError("usage.format", arguments.output + " has no extension that is written; use " +
+        throw UsageError("usage.format", arguments.output + " does not have the extension of a format that dsc writes; use " +
                                              io::surface_extensions() + " for a surface, " +
                                              io::volume_extensions() +
                                              " for a volume, " + std::string(cloud::cloud_extensions()) +
@@ -53,12 +53,12 @@ int execute(const ConvertArguments& arguments) {
     } else if (format->volume) {
         if (!content.volume) {
             throw UsageError("convert.no_volume", arguments.input +
-                                                      " holds no tets, so no volume can be written; make one "
+                                                      " contains no tets, so no volume can be written; make one "
                                                       "with dsc reconstruct");
         }
         if (const std::size_t turned = mesh::orient(*content.volume); turned > 0) {
             log(LogLevel::info, std::to_string(turned) + " tets of " + arguments.input +
-                                    " have their vertices in negative order; written in positive order");
+                                    " had negative orientation; they are written with positive orientation");
         }
         io::write_volume(arguments.output, *content.volume);
     } else if (content.cloud) {
@@ -75,10 +75,10 @@ int execute(const ConvertArguments& arguments) {
 
 void add_convert(CLI::App& app, Context& context) {
     CLI::App* command =
-        app.add_subcommand("convert", "Another format; of a volume also its surface or its points");
+        app.add_subcommand("convert", "Convert a file to another format, or a volume to its surface or its points");
     const auto arguments = std::make_shared<ConvertArguments>();
     command->add_option("IN", arguments->input, "Surface, volume or cloud")->required();
-    command->add_option("OUT", arguments->output, "The extension decides")->required();
+    command->add_option("OUT", arguments->output, "Output; its extension selects the format")->required();
     add_columns(*command, arguments->columns);
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });

@@ -19,7 +19,7 @@ ordered_json bound(const std::optional<config::Bound>& bound) {
     return {{"value", bound->value}, {"open", bound->open}};
 }
 
-/// The parameters of a map, its conditions and its old names, added to `json`; the parameters under `key`.
+/// Adds the parameters of a map (under `key`), its conditions and its old names to `json`.
 void add_schema(const config::Schema& schema, const char* key, ordered_json& json);
 
 ordered_json fields_json(const config::Schema& schema) {
@@ -76,7 +76,7 @@ std::string origin(const Described& d) {
     return "plugin " + d.plugin + " " + d.version + ", " + d.file;
 }
 
-/// `value` as it stands behind "key:", on lines of its own where it is a map or a list of maps.
+/// `value` as YAML after "key:"; a map or a list of maps gets its own lines.
 std::string yaml_value(const config::ConfigNode& value) {
     if (value.is_null()) return " null\n";
     const std::string text = config::to_yaml(config::ConfigNode::map({{"x", value}}));
@@ -93,7 +93,7 @@ std::string indented(const std::string& lines, const std::string& indent) {
     return out;
 }
 
-/// Whether the block has a value for any field; one with comments only would read as null.
+/// Whether the block contains a value for any field; YAML reads a block of comments as null.
 bool has_values(const config::Schema& schema) {
     const auto& fields = schema.fields();
     return std::any_of(fields.begin(), fields.end(), [](const Field& field) {
@@ -102,7 +102,7 @@ bool has_values(const config::Schema& schema) {
     });
 }
 
-/// The fields with their defaults, a comment before each; the conditions of a map come last.
+/// The fields with their defaults, with a comment before each; the conditions of a map come last.
 void yaml_block(const config::Schema& schema, const std::string& indent, std::string& text) {
     for (const Field& field : schema.fields()) {
         text += wrapped(doc_text(field), indent + "# ");

@@ -1,5 +1,5 @@
 #pragma once
-// A strategy and its parameters for people, programs and experiments.
+// Describes a strategy and its parameters for people, programs and experiments.
 
 #include <dsc/config/schema.hpp>
 #include <nlohmann/json.hpp>
@@ -18,18 +18,18 @@ struct Described {
     const config::Schema* schema = nullptr;
 };
 
-/// A table with a row a strategy.
+/// A table with one row per strategy.
 std::string list_text(const std::vector<Described>& all);
 nlohmann::ordered_json summary_json(const Described& described);
-/// With all that is declared: parameters, conditions, old names.
+/// All that is declared: parameters, conditions, old names.
 nlohmann::ordered_json full_json(const Described& described);
 std::string description_text(const Described& described);
 /// The parameters with their defaults as a commented block for an experiment.
 std::string yaml_text(const Described& described);
-/// A reference page in Markdown. It names no file and no version, so that it changes with the declaration only.
+/// A reference page in Markdown. It names no file and no version, so that it changes only with the declaration.
 std::string markdown_text(const Described& described);
 
-/// What a field is for and, in brackets, what it accepts.
+/// The purpose of a field and, in brackets, the values that it accepts.
 std::string doc_text(const config::Field& field);
 
 /// The text in lines of about 100 characters, each after `indent`.

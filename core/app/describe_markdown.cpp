@@ -1,4 +1,4 @@
-// The reference page of a strategy.
+// Writes the reference page of a strategy.
 #include <dsc/config/field_text.hpp>
 
 #include "describe.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 using config::Field;
 
-/// A cell of a table: bars and line ends would end it.
+/// Text for a cell of a table: bars and line ends are replaced, since they would end the cell.
 std::string cell(const std::string& text) {
     std::string out;
     for (const char c : text) {
@@ -20,7 +20,7 @@ std::string cell(const std::string& text) {
 
 std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
 
-/// A summary as a sentence.
+/// Makes a sentence of a summary.
 std::string sentence(std::string text) {
     if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
     return text + ".";
@@ -37,7 +37,7 @@ std::string default_cell(const Field& field) {
     return field.required || text == "unset" ? text : code(cell(text));
 }
 
-/// What a schema declares besides its fields, through the nested ones.
+/// What a schema and its nested schemas declare besides fields.
 struct Besides {
     std::string conditions;
     std::string old_names;

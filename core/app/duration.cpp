@@ -17,7 +17,7 @@ double parse_duration(const std::string& text) {
                                                        : 0.0;
     if (error != std::errc() || seconds == 0.0 || !std::isfinite(value) || value <= 0.0) {
         throw UsageError("usage.duration",
-                         "--time-budget " + text + " is not a time; write 90, 90s, 10m or 1.5h");
+                         "--time-budget " + text + " is not a length of time; write 90, 90s, 10m or 1.5h");
     }
     return value * seconds;
 }

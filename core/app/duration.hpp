@@ -1,5 +1,5 @@
 #pragma once
-// Lengths of time on the command line.
+// Reads lengths of time on the command line.
 
 #include <string>
 

@@ -48,20 +48,20 @@ ordered_json against_truth(const surface::TriangleMesh& result, const EvaluateAr
 
 ordered_json truth_formulas() {
     return {
-        {"diagonal", "diagonal of the box of the truth"},
+        {"diagonal", "diagonal of the bounding box of the truth"},
         {"accuracy_percent", "100 * mean over samples r of the result of dist(r, truth) / diagonal"},
         {"completeness_percent", "100 * mean over samples t of the truth of dist(t, result) / diagonal"},
         {"chamfer_percent", "(accuracy_percent + completeness_percent) / 2"},
         {"hausdorff_percent", "100 * largest of all these distances / diagonal"},
-        {"hausdorff99_percent", "100 * larger of the two directions' 99 % quantiles / diagonal"},
+        {"hausdorff99_percent", "100 * larger of the 99 % quantiles of the two directions / diagonal"},
         {"f_score_x_percent",
-         "2 P R / (P + R); P, R = share of the result's, the truth's samples closer than x % of diagonal"},
+         "2 P R / (P + R); P = share of the result's samples, R = share of the truth's samples, closer than x % of the diagonal"},
         {"normal_consistency",
-         "mean over both directions of |n . n'| of a sample's face and the nearest face"},
+         "mean over both directions of |n . n'|, for the face of a sample and the nearest face"},
         {"dist", "distance to the nearest point of the triangles; samples are uniform by area"}};
 }
 
-/// Scale from input to normalised units of a run folder; empty for anything else.
+/// Scale from input units to normalised units, for a run folder; empty for anything else.
 std::optional<double> scale_of(const std::filesystem::path& folder) {
     std::ifstream file(folder / "summary.json");
     const ordered_json summary = ordered_json::parse(file, nullptr, false);
@@ -111,16 +111,17 @@ ordered_json cloud_formulas() {
              "over the result's vertices v: distance to the nearest cloud point (table 6.2 of the thesis)"},
             {"cloud_to_surface",
              "over the cloud's points p: distance to the nearest point of the result's triangles"},
-            {"coverage.far_points", "points farther from the surface than 3 noise scales and 1 spacing; a spacing is the root of the area per point"},
+            {"coverage.far_points",
+             "points farther from the surface than 3 noise scales plus 1 spacing; a spacing is the root of the area per point"},
             {"coverage.unsupported_percent", "100 * area of the surface without a point within 3 spacings / its area"},
-            {"_percent", "100 * distance / diagonal of the cloud's box"},
+            {"_percent", "100 * distance / diagonal of the cloud's bounding box"},
             {"_normalised",
-             "distance * scale of the run's normalisation, the units of table 6.2; for run folders only"}};
+             "distance * scale of the run's normalisation (the units of table 6.2); for run folders only"}};
 }
 
 int execute(const EvaluateArguments& arguments) {
     if (arguments.truth.empty() && arguments.cloud.empty()) {
-        throw UsageError("usage.evaluate", "nothing to compare with; give --truth MESH or --cloud CLOUD");
+        throw UsageError("usage.evaluate", "nothing to compare the result with; add --truth MESH or --cloud CLOUD");
     }
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));
     const surface::TriangleMesh result = read_any_surface(arguments.result);
@@ -143,16 +144,16 @@ int execute(const EvaluateArguments& arguments) {
 
 void add_evaluate(CLI::App& app, Context& context) {
     CLI::App* command =
-        app.add_subcommand("evaluate", "How near a result is to the true surface or to its cloud");
+        app.add_subcommand("evaluate", "Measure how near a result is to the true surface or to its cloud");
     const auto arguments = std::make_shared<EvaluateArguments>();
     command->add_option("RESULT", arguments->result, "Surface, volume or run folder")->required();
     command->add_option("--truth", arguments->truth, "True surface");
     command->add_option("--cloud", arguments->cloud, "Point cloud");
     add_columns(*command, arguments->columns);
-    command->add_option("--samples", arguments->samples, "Samples on each surface")
+    command->add_option("--samples", arguments->samples, "Number of samples on each surface")
         ->check(CLI::Range(1000, 100000000))
         ->capture_default_str();
-    command->add_flag("--json", arguments->json, "JSON instead of text");
+    command->add_flag("--json", arguments->json, "Print JSON instead of text");
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

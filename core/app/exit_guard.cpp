@@ -21,8 +21,8 @@ std::atomic<pid_t> guarded_process{0};
     while (true) ::syscall(SYS_exit_group, code);
 }
 
-/// Whether the process ends although main() has not ended. Returns true at the first call only, so that a failure of the answer
-/// does not cause another one.
+/// Whether the process ends although main() has not ended. Returns true at the first call only, so that a failure while the error
+/// is handled does not cause a second error.
 bool unexpected() noexcept {
     pid_t self = ::getpid();
     return guarded_process.compare_exchange_strong(self, 0);
@@ -60,7 +60,7 @@ int leave(int code) noexcept {
 
 }  // namespace dsc::app
 
-// The program's own names come before those of the C library: a plugin that calls one of these reaches the guard.
+// The program's functions take precedence over those of the C library: a plugin that calls one of these reaches the guard.
 extern "C" {
 __attribute__((visibility("default"))) void _exit(int code) {
     dsc::app::on_exit_of_anyone();

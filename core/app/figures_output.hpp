@@ -1,12 +1,12 @@
 #pragma once
-// Figures on stdout: JSON for programs, aligned lines for people.
+// Prints figures on stdout: JSON for programs, aligned lines for people.
 
 #include <dsc/geometry/vec.hpp>
 #include <nlohmann/json.hpp>
 
 namespace dsc::app {
 
-/// `figures` is an object. As text: a line a figure, nested names joined by dots.
+/// `figures` is an object. As text: one line per figure, nested names joined by dots.
 void print_figures(const nlohmann::ordered_json& figures, bool as_json);
 
 /// {"low": [x, y, z], "high": [x, y, z], "diagonal": d}

@@ -51,8 +51,8 @@ Content read_any(const fs::path& file, const std::vector<std::string>& columns) 
 void add_columns(CLI::App& command, std::vector<std::string>& columns) {
     command
         .add_option("--columns", columns,
-                    "Columns of a text cloud: X,Y,Z or X,Y,Z,RED,GREEN,BLUE, by their names in the header or by "
-                    "numbers from 1")
+                    "Columns of a text cloud: X,Y,Z or X,Y,Z,RED,GREEN,BLUE, given by their names in the header or by "
+                    "their numbers from 1")
         ->delimiter(',')
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -63,14 +63,14 @@ surface::TriangleMesh read_any_surface(const fs::path& path) {
         for (const char* name : {"surface.obj", "surface.ply", "surface.off", "surface.stl"}) {
             if (fs::exists(path / "result" / name)) return io::read_surface(path / "result" / name);
         }
-        throw IoError("io.no_result", path.string(), "", "is a folder without result/surface.*",
+        throw IoError("io.no_result", path.string(), "", "is a folder that does not contain result/surface.*",
                       "name a file or the folder of a finished run");
     }
     Content content = read_any(path);
     if (content.volume) return surface::extract_interface(*content.volume);
     if (content.cloud) {
         throw UsageError("file.no_surface",
-                         path.string() + " holds points without faces; a surface or a volume is needed here");
+                         path.string() + " contains points without faces; give a surface or a volume");
     }
     return std::move(*content.surface);
 }
@@ -92,15 +92,15 @@ bool same_file(const fs::path& a, const fs::path& b) {
 
 void require_output(const fs::path& out, const fs::path& input) {
     if (same_file(out, input)) {
-        throw UsageError("file.same", out.string() + " is the input; name another file with -o");
+        throw UsageError("file.same", out.string() + " is the input; give another file with -o");
     }
     const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
     if (!fs::is_directory(folder)) {
         throw IoError("io.folder", out.string(), "", "its folder " + folder.string() + " does not exist",
-                      "make the folder first");
+                      "create the folder first");
     }
     if (fs::is_directory(out)) {
-        throw UsageError("file.folder", out.string() + " is a folder; name a file with -o");
+        throw UsageError("file.folder", out.string() + " is a folder; give a file with -o");
     }
     require_replaceable(out);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Files as the commands see them: what a name on the command line holds.
+// Reads the files that are named on the command line.
 
 #include <dsc/cloud/read.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
@@ -15,27 +15,27 @@ class App;
 
 namespace dsc::app {
 
-/// What a file turned out to hold; exactly one is set.
+/// The content of a file; exactly one member is set.
 struct Content {
     std::optional<surface::TriangleMesh> surface;
     std::optional<mesh::TetMesh> volume;
     std::optional<cloud::Cloud> cloud;
-    std::size_t dropped = 0;  ///< points of a cloud that were not finite
-    std::vector<cloud::FoundProperty> properties{};  ///< of a cloud
+    std::size_t dropped = 0;  ///< number of points of a cloud that were not finite
+    std::vector<cloud::FoundProperty> properties{};  ///< properties of a cloud
 };
 
-/// Reads a surface, a volume or a cloud. A surface format without faces is read as a cloud. `columns` are those of a text
+/// Reads a surface, a volume or a cloud. A surface file without faces is read as a cloud. `columns` are those of a text
 /// cloud (cloud::ReadOptions). Throws IoError.
 Content read_any(const std::filesystem::path& file, const std::vector<std::string>& columns = {});
 
-/// The option --columns of a command that reads a cloud.
+/// Adds the option --columns to a command that reads a cloud.
 void add_columns(CLI::App& command, std::vector<std::string>& columns);
 
-/// The surface in `path`: a surface file, the label interface of a volume, or the result of a run folder.
+/// Reads the surface in `path`: a surface file, the label interface of a volume, or the result of a run folder.
 /// Throws IoError "io.no_result" for a folder without one, UsageError "file.no_surface" for a cloud.
 surface::TriangleMesh read_any_surface(const std::filesystem::path& path);
 
-/// Extension in lower case, with its dot.
+/// The extension in lower case, with its dot.
 std::string extension_of(const std::filesystem::path& file);
 
 /// Whether the text is UTF-8, as JSON and experiments need it.
@@ -44,8 +44,8 @@ bool is_utf8(const std::string& text);
 /// Whether both names lead to the same file.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// For every output, before the work for it begins. Throws UsageError "file.same" when `out` is the input, IoError "io.folder"
-/// when its folder does not exist, "io.write" when it cannot be written.
+/// To be called for every output before the work begins. Throws UsageError "file.same" when `out` is the input, IoError
+/// "io.folder" when its folder does not exist, "io.write" when it cannot be written.
 void require_output(const std::filesystem::path& out, const std::filesystem::path& input);
 
 }  // namespace dsc::app

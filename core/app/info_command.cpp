@@ -55,7 +55,7 @@ ordered_json surface_figures(const run::SurfaceMeasure& measure) {
             {"solid", measure.solid()}};
 }
 
-/// The written surface beside a volume, if there is one, against the volume's interface.
+/// Compares the surface that was written beside a volume, if there is one, with the volume's interface.
 ordered_json conformity(const std::filesystem::path& volume, const surface::TriangleMesh& interface) {
     ordered_json all = ordered_json::object();
     for (const char* name : {"surface.obj", "surface.ply", "surface.off"}) {
@@ -95,7 +95,7 @@ ordered_json volume_figures(const std::filesystem::path& file, const run::Volume
     return figures;
 }
 
-/// How wide apart the points are, how noisy they are, how many stand apart; lengths in the units of the file.
+/// Spacing, noise and outliers of the points; lengths in the units of the file.
 ordered_json statistics_figures(const cloud::Statistics& s) {
     const double farthest = *std::max_element(s.outlier_score.begin(), s.outlier_score.end());
     return {{"point_width", s.width},
@@ -109,14 +109,14 @@ ordered_json statistics_figures(const cloud::Statistics& s) {
             {"largest_outlier_score", farthest}};
 }
 
-/// Every property of the points' file with what it is used for.
+/// Every property of the file of points, and its use.
 ordered_json properties(const std::vector<cloud::FoundProperty>& found) {
     ordered_json all = ordered_json::object();
     for (const cloud::FoundProperty& property : found) all[property.name] = property.use.empty() ? "not used" : property.use;
     return all;
 }
 
-/// Adds what would become of normals and of the scanner's place in a reconstruction, and why.
+/// Adds whether a reconstruction would use the normals and the viewpoint, and why.
 void add_orientation(const cloud::Cloud& cloud, Workers& workers, ordered_json& figures) {
     if (cloud.sensor) {
         const Vec3& at = cloud.sensor->position;
@@ -133,7 +133,7 @@ void add_orientation(const cloud::Cloud& cloud, Workers& workers, ordered_json& 
     }
 }
 
-/// Of a surface that a cloud could be read from: its points' properties; else nothing.
+/// Properties of the points of a surface file that can also be read as a cloud; empty for other files.
 ordered_json surface_properties(const std::string& file) {
     const std::string extension = extension_of(file);
     if (extension != ".ply" && extension != ".obj") return nullptr;
@@ -197,7 +197,7 @@ int execute(const InfoArguments& arguments) {
         throw GeometryError("info.not_solid",
                             arguments.file +
                                 " is not a valid solid: closed, manifold, oriented outwards, without "
-                                "self-intersections; the figures on stdout tell what it lacks");
+                                "self-intersections; the figures on stdout show what is wrong");
     }
     return 0;
 }
@@ -205,12 +205,12 @@ int execute(const InfoArguments& arguments) {
 }  // namespace
 
 void add_info(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("info", "What a surface, a volume, a cloud or the folder of a run holds");
+    CLI::App* command = app.add_subcommand("info", "Show figures of a surface, a volume, a cloud or a run folder");
     const auto arguments = std::make_shared<InfoArguments>();
     command->add_option("FILE", arguments->file, "Surface, volume, cloud or run folder")->required();
     add_columns(*command, arguments->columns);
-    command->add_flag("--json", arguments->json, "JSON instead of text");
-    command->add_flag("--require-solid", arguments->require_solid, "Exit 5 unless it is a valid solid");
+    command->add_flag("--json", arguments->json, "Print JSON instead of text");
+    command->add_flag("--require-solid", arguments->require_solid, "Exit with code 5 if the file does not bound a valid solid");
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

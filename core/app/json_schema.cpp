@@ -1,4 +1,4 @@
-// JSON Schema of the whole experiment.
+// Writes the JSON Schema of the whole experiment.
 #include "json_schema.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ std::string joined(const std::string& text, const std::string& more) {
     return more.empty() ? text : text + ". " + more;
 }
 
-/// All strategies by kind; also those kinds that an experiment names but that have none.
+/// All strategies by kind; also those kinds that an experiment names but that have no strategy.
 std::map<std::string, std::vector<Described>> by_kind(const std::vector<Described>& strategies) {
     std::map<std::string, std::vector<Described>> kinds;
     for (const plugin::Kind kind : plugin::all_kinds) kinds[std::string(plugin::kind_name(kind))];
@@ -30,7 +30,7 @@ ordered_json if_type(const std::string& id, ordered_json then) {
             {"then", std::move(then)}};
 }
 
-/// Which strategies the kind has, and for each of them its parameters.
+/// The strategies of a kind, with the parameters of each.
 ordered_json kind_schema(const std::string& kind, const std::vector<Described>& members) {
     ordered_json ids = ordered_json::array(), summaries = ordered_json::array(),
                  cases = ordered_json::array();
@@ -42,7 +42,7 @@ ordered_json kind_schema(const std::string& kind, const std::vector<Described>& 
     ordered_json schema = {
         {"properties",
          {{"type",
-           {{"description", "Which " + kind + " strategy; its parameters stand beside it."},
+           {{"description", "Which " + kind + " strategy; its parameters are keys of the same map."},
             {"type", "string"},
             {"if", reference(variable_definition())},
             {"else", {{"enum", ids}, {"enumDescriptions", summaries}}}}}}}};
@@ -50,7 +50,7 @@ ordered_json kind_schema(const std::string& kind, const std::vector<Described>& 
     return schema;
 }
 
-/// A strategy must name its type, and give what that one requires.
+/// A strategy must name its type and contain the keys that this type requires.
 ordered_json kind_required(const std::vector<Described>& members) {
     ordered_json schema = {{"required", {"type"}}};
     for (const Described& d : members) {
@@ -62,7 +62,7 @@ ordered_json kind_required(const std::vector<Described>& members) {
 
 ordered_json definitions(const std::vector<Described>& strategies) {
     ordered_json all = {{variable_definition(),
-                         {{"description", "Text with an environment variable, ${NAME}."},
+                         {{"description", "Text that contains an environment variable, ${NAME}."},
                           {"type", "string"},
                           {"pattern", R"((^|[^$])\$\{[A-Za-z_][A-Za-z0-9_]*\})"}}}};
     for (const auto& [kind, members] : by_kind(strategies)) {
@@ -72,7 +72,7 @@ ordered_json definitions(const std::vector<Described>& strategies) {
             ordered_json& schema = all[id_definition(d)];
             schema = {{"description", joined(d.summary, conditions_text(*d.schema))}};
             schema.update(map_schema(*d.schema, d.id));
-            schema.erase("type");  // where null is allowed, an if on the keys of a map holds for it
+            schema.erase("type");  // where null is allowed, an `if` on the keys of a map is also true for null
         }
     }
     return all;
@@ -93,8 +93,8 @@ ordered_json json_schema(const std::vector<Described>& strategies) {
                            {"description", conditions_text(experiment)}};
     schema.update(map_schema(experiment));
     schema["properties"]["include"] = {{"description",
-                                        "A file or a list of files that this one completes: maps are merged, "
-                                        "lists are replaced, this file comes last."},
+                                        "A file or a list of files that this file completes: maps are merged, "
+                                        "lists are replaced, and this file comes last."},
                                        {"type", {"string", "array"}},
                                        {"items", {{"type", "string"}}}};
     schema["if"] = {{"required", {"include"}}};

@@ -10,15 +10,15 @@
 
 namespace dsc::app {
 
-/// Draft-07, which editors support. It accepts what the program's own checker accepts, but for conditions between
-/// parameters, which it can only tell, and refuses what that refuses, but for files that are not there.
+/// Draft-07, which editors support. It accepts what the program's own checker accepts, except that it only describes the
+/// conditions between parameters and does not check that files exist.
 ///
-/// A strategy is judged by if/then on its `type`: an editor then says what is wrong with the one that was meant, not that
-/// none of twenty fits. What must be given is kept apart from what may be given, because a file with `include` need not
+/// A strategy is checked by if/then on its `type`: an editor then shows what is wrong with the strategy that was meant, not that
+/// none of twenty fits. Required keys are separate from allowed keys, because a file with `include` need not
 /// be complete.
 nlohmann::ordered_json json_schema(const std::vector<Described>& strategies);
 
-/// Names in `definitions`: text with an environment variable; a strategy of a kind, and what such a one must have.
+/// Names in `definitions`: text with an environment variable; a strategy of a kind, and its required keys.
 std::string variable_definition();
 std::string kind_definition(const std::string& kind);
 std::string required_definition(const std::string& kind);
@@ -26,17 +26,17 @@ std::string required_definition(const std::string& kind);
 /// `{"$ref": "#/definitions/NAME"}`.
 nlohmann::ordered_json reference(const std::string& definition);
 
-/// The schema of one field's value. Items of a list are complete, as `include` replaces lists.
+/// The schema of the value of one field. Items of a list are complete, because `include` replaces lists.
 nlohmann::ordered_json value_schema(const config::Field& field);
 
-/// A map with these fields and no others; `id` is that of a strategy, whose map has a `type` besides. What must be given
-/// is no part of it.
+/// A map with these fields and no others; `id` is that of a strategy, whose map also has a `type`. Required keys
+/// are not part of it.
 nlohmann::ordered_json map_schema(const config::Schema& schema, const std::string& id = "");
 
-/// What a map must have, in itself and below; empty where nothing is required.
+/// The required keys of a map, including nested ones; empty if nothing is required.
 nlohmann::ordered_json required_schema(const config::Schema& schema);
 
-/// "Checked besides: ..." for the conditions of a map; empty without any.
+/// "Also checked: ..." for the conditions of a map; empty if there are none.
 std::string conditions_text(const config::Schema& schema);
 
 }  // namespace dsc::app

@@ -1,4 +1,4 @@
-// JSON Schema of fields and maps.
+// Writes the JSON Schema of fields and maps.
 #include <algorithm>
 #include <limits>
 
@@ -12,7 +12,7 @@ using config::Field;
 using config::FieldType;
 using nlohmann::ordered_json;
 
-/// The tighter of what is declared and what the bound member can hold.
+/// The tighter of the declared bound and the range of the C++ member.
 void add_bounds(const Field& field, ordered_json& schema) {
     const bool integer = schema["type"] == "integer";
     const bool low_declared =
@@ -37,7 +37,7 @@ ordered_json number_schema(const Field& field, const char* type) {
     return schema;
 }
 
-/// Text that may also come from a variable, whose value only the program knows. `values` goes last, so that an editor
+/// Text that may also come from a variable, whose value only the program knows. `values` comes last, so that an editor
 /// completes them.
 ordered_json choice_schema(const Field& field) {
     ordered_json values = field.choices;
@@ -45,14 +45,14 @@ ordered_json choice_schema(const Field& field) {
     return {{"if", reference(variable_definition())}, {"else", {{"enum", values}}}};
 }
 
-/// A character as a pattern that matches it in either case.
+/// A pattern that matches a character in upper and lower case.
 std::string either_case(char c) {
     if (c == '.') return "\\.";
     if (c < 'a' || c > 'z') return {c};
     return std::string("[") + c + static_cast<char>(c - 'a' + 'A') + "]";
 }
 
-/// The end of the name, or a variable, in which it may stand.
+/// A pattern for the end of a file name, or for a variable that may contain it.
 ordered_json file_schema(const Field& field) {
     ordered_json schema = {{"type", "string"}};
     const bool may_be_empty = field.default_value.is_string() && field.default_value.as_string().empty();
@@ -89,7 +89,7 @@ ordered_json string_item(const Field& field) {
     return schema;
 }
 
-/// A whole map in a list: what it may have and what it must have.
+/// A complete map in a list: its allowed and its required keys.
 ordered_json map_item(const config::Schema& object) {
     ordered_json schema = map_schema(object);
     ordered_json needed = required_schema(object);
@@ -134,7 +134,7 @@ ordered_json bare_schema(const Field& field) {
     return true;
 }
 
-/// An old name: as the new one, but not beside it.
+/// An old name: the same schema as the new name, but both may not be given.
 void add_old_name(const config::Schema& schema, const config::Deprecation& old, ordered_json& map) {
     ordered_json value = value_schema(*schema.find(old.new_name));
     value["description"] = "Old name of '" + old.new_name + "'.";
@@ -146,13 +146,13 @@ void add_old_name(const config::Schema& schema, const config::Deprecation& old, 
         {{"if", {{"required", {old.new_name}}}}, {"then", {{"properties", {{old.old_name, false}}}}}});
 }
 
-/// Whether a map lacks something when the field is left out: then it must be there although it has defaults.
+/// Whether the field must be given although it has defaults, because something inside it is required.
 bool is_needed(const Field& field) {
     if (field.required) return true;
     return field.type == FieldType::object && !field.optional && !required_schema(*field.object).empty();
 }
 
-/// `{"required": [name]}`, or with one of the old names.
+/// `{"required": [name]}`, or the same with one of the old names.
 void add_required(const config::Schema& schema, const std::string& name, ordered_json& needed) {
     ordered_json ways = ordered_json::array({{{"required", {name}}}});
     for (const config::Deprecation& old : schema.deprecations()) {
@@ -207,7 +207,7 @@ ordered_json required_schema(const config::Schema& schema) {
 std::string conditions_text(const config::Schema& schema) {
     std::string text;
     for (const config::CrossCheck& check : schema.checks())
-        text += (text.empty() ? "Checked besides: " : "; ") + check.message;
+        text += (text.empty() ? "Also checked: " : "; ") + check.message;
     return text.empty() ? "" : text + ".";
 }
 

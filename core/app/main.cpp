@@ -15,7 +15,7 @@
 
 namespace {
 
-/// Diagnostics of a configuration name severity and place themselves; every other message gets "error:".
+/// Diagnostics of a configuration already contain severity and place; every other message gets "error:".
 void print_error(const dsc::Error& error) {
     std::string_view text = error.what();
     while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
@@ -23,18 +23,18 @@ void print_error(const dsc::Error& error) {
     dsc::app::tell((diagnostics ? "" : "error: ") + std::string(text) + "\n");
 }
 
-/// `dsc help` and `dsc version`, for those who try them before --help and --version.
+/// Adds `dsc help` and `dsc version`, for users who try these before --help and --version.
 void add_help(CLI::App& app, dsc::app::Context& context) {
-    CLI::App* help = app.add_subcommand("help", "The help of a command");
+    CLI::App* help = app.add_subcommand("help", "Show the help of a command");
     const auto words = std::make_shared<std::vector<std::string>>();
-    help->add_option("COMMAND", *words, "Command, such as run or plugin check; default all commands");
+    help->add_option("COMMAND", *words, "Command, such as run or plugin check; default: all commands");
     help->callback([&app, &context, words] {
         context.action = [&app, words] {
             dsc::app::data_out() << dsc::app::help_text(app, *words);
             return 0;
         };
     });
-    app.add_subcommand("version", "Version, as --version")->callback([&context] {
+    app.add_subcommand("version", "Show the version, like --version")->callback([&context] {
         context.action = [] {
             dsc::app::data_out() << dsc::run::version_text() << "\n";
             return 0;
@@ -42,7 +42,7 @@ void add_help(CLI::App& app, dsc::app::Context& context) {
     });
 }
 
-/// Readers ask for a choice of columns; how it is made is the command's own.
+/// Readers ask the user to choose columns; each command has its own way to do so.
 dsc::Error with_choice_of_columns(const CLI::App& app, const dsc::Error& error) {
     const std::string text = error.what();
     constexpr std::string_view request = "by their numbers from 1";
@@ -52,7 +52,7 @@ dsc::Error with_choice_of_columns(const CLI::App& app, const dsc::Error& error) 
     return {error.exit_code(), error.code(), text + (option ? ": --columns X,Y,Z" : ": input.cloud.columns")};
 }
 
-/// A job that has something of its own to say by its exit code says that.
+/// Writes the remaining data. If this fails, the exit code of a job that has failed is kept.
 void finish_data(int code) {
     try {
         dsc::app::flush_data();
@@ -63,7 +63,7 @@ void finish_data(int code) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("Point clouds without normals to watertight surfaces and conforming tet meshes.", "dsc");
+    CLI::App app("Turns point clouds without normals into watertight surfaces and conforming tet meshes.", "dsc");
     app.set_version_flag("--version", dsc::run::version_text);
     app.require_subcommand(1);
     app.footer(
@@ -103,7 +103,7 @@ int run(int argc, char** argv) {
     try {
         code = context.action();
     } catch (const dsc::Error& error) {
-        dsc::app::data_out().flush();  // what was said before the error
+        dsc::app::data_out().flush();  // output from before the error
         throw with_choice_of_columns(app, error);
     } catch (...) {
         dsc::app::data_out().flush();

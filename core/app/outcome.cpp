@@ -8,7 +8,7 @@
 namespace dsc::app {
 namespace {
 
-/// Where more than two labels meet, the interface as a whole is no manifold; the surface of each label is one.
+/// Where more than two labels meet, the whole interface is not a manifold; the surface of each label is one.
 void report_phase(mesh::Label label, const run::SurfaceMeasure& surface) {
     const bool solid = surface.solid();
     log(solid ? LogLevel::info : LogLevel::warning,
@@ -16,12 +16,12 @@ void report_phase(mesh::Label label, const run::SurfaceMeasure& surface) {
                     solid ? "" : "not ", surface.report.volume));
 }
 
-/// Whether the surface shows what was scanned.
+/// Logs how well the surface and the points agree.
 void report_coverage(const run::RunOutcome& outcome) {
     if (!outcome.coverage) return;
     const run::Coverage& c = *outcome.coverage;
     log(LogLevel::info, fmt::format("{:.2f} % of the points are farther from the surface than noise and spacing explain, the farthest {:.1f} spacings; {:.1f} % of the "
-                                    "surface has no points near by; an edge is {:.1f} spacings long",
+                                    "surface has no points nearby; an edge is {:.1f} spacings long",
                                     100.0 * c.far_share(), c.width > 0.0 ? c.largest_distance / c.width : 0.0, 100.0 * c.unsupported_share, c.resolution()));
 }
 
@@ -32,7 +32,8 @@ void report_trimmed(const run::RunOutcome& outcome) {
     const std::size_t count = outcome.trimmed->islands;
     const std::string islands = count == 0 ? "" : fmt::format(", {} with it", count == 1 ? "a small piece" : fmt::format("{} small pieces", count));
     log(sheet ? LogLevel::info : LogLevel::warning,
-        fmt::format("the surface as written is open by request: {:.1f} % of it, which no points support, is cut off{}; the rest is {}oriented, manifold and free of "
+        fmt::format("the surface as written is open by request: {:.1f} % of it, which no points support, was cut off{}; "
+                    "the rest is {}oriented, manifold and free of "
                     "self-intersections, in {} piece{}",
                     100.0 * outcome.trimmed->area_share, islands, sheet ? "" : "not ", s.shells, s.shells == 1 ? "" : "s"));
 }
@@ -65,10 +66,10 @@ void report(const run::RunOutcome& outcome) {
     for (const hooks::Warning& warning : outcome.totals.warnings) log(LogLevel::warning, warning.text);
     if (!outcome.report.empty()) log(LogLevel::info, "report " + outcome.report.string());
     if (outcome.totals.status == run::Status::stalled) {
-        log(LogLevel::warning, "stalled: the surface could not move on; the result is what was reached");
+        log(LogLevel::warning, "stalled: the surface could not move further; the result contains the state that was reached");
     }
     if (outcome.totals.status == run::Status::cancelled) {
-        log(LogLevel::warning, "stopped before the end of the schedule; the result is what was reached");
+        log(LogLevel::warning, "stopped before the end of the schedule; the result contains the state that was reached");
     }
 }
 

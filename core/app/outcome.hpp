@@ -1,11 +1,11 @@
 #pragma once
-// What a finished run tells its user.
+// Reports a finished run to the user.
 
 #include <dsc/run/runner.hpp>
 
 namespace dsc::app {
 
-/// Two or three lines on stderr.
+/// Prints two or three lines on stderr.
 void report(const run::RunOutcome& outcome);
 
 /// 0, or 75 for a run that was stopped.

@@ -40,7 +40,7 @@ int list_tests() {
     return 0;
 }
 
-/// A strategy's id: which library has it, and its kind.
+/// Finds the library and the kind of a strategy id.
 std::filesystem::path find_strategy(const CheckArguments& arguments, const host::Host& host,
                                     std::vector<conformance::StrategyName>& strategies) {
     std::vector<std::string> ids;
@@ -53,13 +53,13 @@ std::filesystem::path find_strategy(const CheckArguments& arguments, const host:
         if (!wanted) continue;
         if (!file.empty() && file != info.plugin->file)
             throw UsageError("usage.strategy",
-                             "two kinds have a strategy '" + arguments.target + "'; add --kind");
+                             "two kinds have a strategy '" + arguments.target + "'; choose one with --kind");
         file = info.plugin->file;
         strategies.push_back({info.strategy->kind, info.strategy->id});
     }
     if (!file.empty()) return file;
     const auto near = config::closest(arguments.target, ids);
-    throw UsageError("usage.strategy", "there is neither a file nor a strategy '" + arguments.target + "'" +
+    throw UsageError("usage.strategy", "there is no file and no strategy '" + arguments.target + "'" +
                                            (near ? "; did you mean '" + *near + "'?" : "") +
                                            "; dsc plugin list shows all strategies");
 }
@@ -72,7 +72,7 @@ std::string formatted(const conformance::Report& report, const std::string& form
 
 int execute(const CheckArguments& arguments) {
     if (arguments.list) return list_tests();
-    if (arguments.target.empty()) throw UsageError("usage.check", "name a plugin's file or a strategy's id");
+    if (arguments.target.empty()) throw UsageError("usage.check", "a plugin file or a strategy id is missing; give one of them");
     if (!arguments.output.empty()) require_output(arguments.output, arguments.target);
     conformance::CheckOptions options;
     options.level = conformance::find_level(arguments.level).value();
@@ -106,37 +106,37 @@ int execute(const CheckArguments& arguments) {
 }  // namespace
 
 void add_plugin_check(CLI::App& plugin, Context& context) {
-    CLI::App* command = plugin.add_subcommand("check", "Whether a plugin keeps what a plugin promises");
+    CLI::App* command = plugin.add_subcommand("check", "Run the conformance tests on a plugin");
     const auto arguments = std::make_shared<CheckArguments>();
     command->add_option("FILE|ID", arguments->target,
-                        "A library, or a strategy that is found on the search path");
-    command->add_option("--kind", arguments->kind, "The strategy's kind, where two kinds have the id");
-    command->add_option("--level", arguments->level, "smoke, standard or strict")
+                        "Plugin library, or the id of a strategy on the search path");
+    command->add_option("--kind", arguments->kind, "Kind of the strategy, needed if two kinds have the same id");
+    command->add_option("--level", arguments->level, "Level of the tests: smoke, standard or strict")
         ->check(CLI::IsMember({"smoke", "standard", "strict"}))
         ->capture_default_str();
-    command->add_option("--only", arguments->only, "Only this test; may repeat");
-    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
+    command->add_option("--only", arguments->only, "Run only this test; may be repeated");
+    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of libraries; may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option(
         "--notes", arguments->notes,
-        "Parameters without a default and tests waived with a reason; default libdsc_NAME.check.yaml beside");
-    command->add_option("--format", arguments->format, "text, json or junit")
+        "File with parameters without a default and waived tests; default: libdsc_NAME.check.yaml beside the plugin");
+    command->add_option("--format", arguments->format, "Format of the report: text, json or junit")
         ->check(CLI::IsMember({"text", "json", "junit"}))
         ->capture_default_str();
-    command->add_option("-o,--output", arguments->output, "File for the report instead of stdout");
+    command->add_option("-o,--output", arguments->output, "File for the report; default: stdout");
     command
         ->add_option("--seed", arguments->seed,
-                     "Of all that is random in the tests; the same seed is the same check")
+                     "Random seed; the same seed repeats the same checks")
         ->capture_default_str();
-    command->add_option("--fuzz", arguments->fuzz, "Random parameter sets a strategy")->capture_default_str();
+    command->add_option("--fuzz", arguments->fuzz, "Number of random parameter sets per strategy")->capture_default_str();
     command
         ->add_option("--timeout", arguments->limit,
-                     "Seconds a test may take; ten times as much under a sanitizer")
+                     "Time limit per test in seconds; ten times as much under a sanitizer")
         ->check(CLI::Range(0.1, 1e5))
         ->capture_default_str();
-    command->add_flag("--in-process", arguments->in_process, "No process of its own a test, for a debugger");
-    command->add_flag("--list", arguments->list, "Only list the tests");
+    command->add_flag("--in-process", arguments->in_process, "Run all tests in this process (for debugging)");
+    command->add_flag("--list", arguments->list, "List the tests and run none");
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

@@ -21,7 +21,7 @@ struct PluginArguments {
     std::string format = "text";
 };
 
-/// Why a library is not among the plugins: refused by the gate, or it does harm when it is loaded.
+/// Why a library is not among the plugins: the gate refused it, or it crashes or hangs when it is loaded.
 std::string_view state(const host::Fault& fault) {
     const bool broken = fault.code == "plugin.crash" || fault.code == "plugin.hang" || fault.code == "plugin.enroll" ||
                         fault.code == "plugin.load";
@@ -72,10 +72,10 @@ int describe(const PluginArguments& arguments) {
     }
     if (found.empty()) {
         const auto near = config::closest(arguments.id, ids);
-        throw UsageError("usage.strategy", "no strategy is called '" + arguments.id + "'" +
+        throw UsageError("usage.strategy", "there is no strategy '" + arguments.id + "'" +
                                                (arguments.kind.empty() ? "" : " of kind " + arguments.kind) +
                                                (near ? "; did you mean '" + *near + "'?" : "") +
-                                               "; dsc plugin list shows all");
+                                               "; dsc plugin list shows all strategies");
     }
     if (arguments.format == "json") {
         ordered_json array = ordered_json::array();
@@ -100,12 +100,12 @@ int path(const PluginArguments& arguments) {
 }  // namespace
 
 void add_plugin(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("plugin", "Strategies: which there are, and what they take");
+    CLI::App* command = app.add_subcommand("plugin", "List, describe, create and check plugins and their strategies");
     command->require_subcommand(1);
     const auto arguments = std::make_shared<PluginArguments>();
     const auto add = [&](const char* name, const char* text, int (*action)(const PluginArguments&)) {
         CLI::App* sub = command->add_subcommand(name, text);
-        sub->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
+        sub->add_option("--plugin", arguments->plugins, "Plugin library or folder of libraries; may be repeated")
             ->expected(1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         sub->callback([arguments, action, &context] {
@@ -113,14 +113,15 @@ void add_plugin(CLI::App& app, Context& context) {
         });
         return sub;
     };
-    add("list", "All strategies, and the libraries that are no working plugins", list)->add_flag("--json", arguments->json, "JSON instead of text");
-    CLI::App* describing = add("describe", "The parameters of a strategy", describe);
-    describing->add_option("ID", arguments->id, "Its id")->required();
-    describing->add_option("--kind", arguments->kind, "Its kind, where two kinds have the id");
-    describing->add_option("--format", arguments->format, "text, json, yaml (a block for an experiment) or md (a page)")
+    add("list", "List strategies, and libraries that failed to load", list)
+        ->add_flag("--json", arguments->json, "Print JSON instead of text");
+    CLI::App* describing = add("describe", "Describe the parameters of a strategy", describe);
+    describing->add_option("ID", arguments->id, "Id of the strategy")->required();
+    describing->add_option("--kind", arguments->kind, "Kind of the strategy, needed if two kinds have the same id");
+    describing->add_option("--format", arguments->format, "Format: text, json, yaml (a block for an experiment) or md (a page)")
         ->check(CLI::IsMember({"text", "json", "yaml", "md"}))
         ->capture_default_str();
-    add("path", "Where plugins are looked for, in order", path);
+    add("path", "Show where dsc looks for plugins, in order", path);
     add_plugin_new(*command, context);
     add_plugin_check(*command, context);
     add_plugin_doctor(*command, context);

@@ -62,10 +62,10 @@ int execute(const DoctorArguments& arguments) {
 }  // namespace
 
 void add_plugin_doctor(CLI::App& plugin, Context& context) {
-    CLI::App* command = plugin.add_subcommand("doctor", "Step by step, why a file is no working plugin");
+    CLI::App* command = plugin.add_subcommand("doctor", "Find out step by step why a file is not a working plugin");
     const auto arguments = std::make_shared<DoctorArguments>();
-    command->add_option("FILE", arguments->file, "The library, libdsc_NAME.so")->required();
-    command->add_flag("--json", arguments->json, "JSON instead of text");
+    command->add_option("FILE", arguments->file, "Plugin library, libdsc_NAME.so")->required();
+    command->add_flag("--json", arguments->json, "Print JSON instead of text");
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

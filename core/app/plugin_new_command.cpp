@@ -29,27 +29,28 @@ plugin::Kind kind_of_word(const std::string& word) {
                                        (near ? "; did you mean '" + *near + "'?" : "") + "; the kinds are " + config::join(names));
 }
 
-/// A library of the same name in the user's folder would stand in front of one that dsc brings, and hide its strategies.
+/// dsc would use a library of the same name in the user's folder instead of its own one, and ignore the strategies of the latter.
 void require_free_name(const std::string& name) {
     std::error_code error;
     const fs::path built_in = host::installed_folder() / ("libdsc_" + name + ".so");
     if (fs::exists(built_in, error)) {
-        throw UsageError("usage.plugin_taken", "'" + name + "' is the name of a plugin that dsc brings (" + built_in.string() +
-                                                   "); take another one");
+        throw UsageError("usage.plugin_taken", "'" + name + "' is the name of a plugin that comes with dsc (" +
+                                                   built_in.string() +
+                                                   "); choose another name");
     }
     if (fs::symlink_status(name, error).type() != fs::file_type::not_found) {
-        throw UsageError("usage.exists", name + " is here already; take another name or another folder");
+        throw UsageError("usage.exists", name + " already exists here; use another name or another folder");
     }
 }
 
-/// What comes next, on stderr: the commands as they have to be typed here.
+/// Prints the next commands on stderr, as they must be typed here.
 void log_next(const std::string& name) {
     const fs::path package = (host::installed_folder() / "../../cmake/dsc").lexically_normal();
     std::error_code error;
     if (!fs::exists(package / "dscConfig.cmake", error)) {
-        log(LogLevel::warning, "this dsc is not installed, and " + name +
-                                   " builds against an installed one: cmake --install BUILD_FOLDER --prefix PREFIX, "
-                                   "and use PREFIX/bin/dsc");
+        log(LogLevel::warning, "this dsc is not installed, but " + name +
+                                   " needs an installed dsc: run cmake --install BUILD_FOLDER --prefix PREFIX, "
+                                   "then use PREFIX/bin/dsc");
         return;
     }
     log(LogLevel::info, "next: cmake -S " + name + " -B " + name + "/build -Ddsc_DIR='" + package.string() + "'");
@@ -72,11 +73,13 @@ int execute(const NewArguments& arguments) {
 
 void add_plugin_new(CLI::App& plugin, Context& context) {
     CLI::App* command =
-        plugin.add_subcommand("new", "A project for a strategy of your own: code, test, experiment, page, in the new folder NAME");
+        plugin.add_subcommand("new", "Create the new folder NAME with a project for your own strategy: code, test, "
+                                     "experiment, page");
     const auto arguments = std::make_shared<NewArguments>();
-    command->add_option("NAME", arguments->name, "Lower case letters, digits and _; the library will be libdsc_NAME.so")
+    command->add_option("NAME", arguments->name, "Name of lower case letters, digits and _; the library becomes libdsc_NAME.so")
         ->required();
-    command->add_option("--kind", arguments->kind, "velocity, curvature, refinement, initial_mesh, improvement, observer or filter")
+    command->add_option("--kind", arguments->kind, "Kind: velocity, curvature, refinement, initial_mesh, improvement, "
+                                                   "observer or filter")
         ->required();
     command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 using Values = std::map<std::string, std::string, std::less<>>;
 
-/// my_flow -> MyFlow.
+/// my_flow becomes MyFlow.
 std::string in_camel_case(std::string_view name) {
     std::string out;
     bool begins = true;
@@ -33,7 +33,7 @@ std::string in_camel_case(std::string_view name) {
     return out;
 }
 
-/// The kind at the end keeps the class apart from macros and from the hooks' own names.
+/// The kind at the end avoids conflicts with macros and with the names of the hooks.
 std::string class_name(const std::string& name, plugin::Kind kind) {
     const std::string ending = in_camel_case(plugin::kind_name(kind));
     std::string out = in_camel_case(name);
@@ -42,7 +42,7 @@ std::string class_name(const std::string& name, plugin::Kind kind) {
     return ends_so ? out : out + ending;
 }
 
-/// Puts the values in the place of @NAME@ and the like. A word between two @ that is no value is a mistake in the template.
+/// Replaces @NAME@ and similar words by their values. Throws if a word between two @ is not the name of a value.
 std::string filled(const EmbeddedFile& file, const Values& values) {
     std::string out;
     std::string_view rest = file.text;
@@ -51,7 +51,7 @@ std::string filled(const EmbeddedFile& file, const Values& values) {
         const auto value = end == std::string_view::npos ? values.end() : values.find(rest.substr(at + 1, end - at - 1));
         if (value == values.end()) {
             throw Error(ExitCode::internal, "internal.template",
-                        "the template " + std::string(file.path) + " has an @ that belongs to no value");
+                        "the template " + std::string(file.path) + " contains an @ that does not belong to a value");
         }
         out.append(rest.substr(0, at)).append(value->second);
         rest.remove_prefix(end + 1);
@@ -67,8 +67,8 @@ void require_plugin_name(const std::string& name) {
     if (!name.empty() && name[0] >= 'a' && name[0] <= 'z' && std::all_of(name.begin(), name.end(), plain) &&
         name.size() <= longest)
         return;
-    throw UsageError("usage.plugin_name", "'" + name + "' cannot be the name of a plugin; use lower case letters, digits and _, a "
-                                              "letter first, at most " + std::to_string(longest));
+    throw UsageError("usage.plugin_name", "'" + name + "' cannot be the name of a plugin; use lower case letters, digits and _, "
+                                              "with a letter first, at most " + std::to_string(longest));
 }
 
 std::vector<ProjectFile> plugin_project(const std::string& name, plugin::Kind kind) {
@@ -97,8 +97,8 @@ void write_project(const fs::path& place, const std::vector<ProjectFile>& files)
     for (const ProjectFile& file : files) io::write_file(whole / file.name, file.text);
     fs::rename(whole, place, error);
     if (error) {
-        throw IoError("io.write", place.string(), "", "cannot be made (" + error.message() + ")",
-                      "take another name or another folder");
+        throw IoError("io.write", place.string(), "", "cannot be created (" + error.message() + ")",
+                      "use another name or another folder");
     }
 }
 

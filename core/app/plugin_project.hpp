@@ -1,5 +1,5 @@
 #pragma once
-// The project that `dsc plugin new` writes: the templates, filled in.
+// The project that `dsc plugin new` writes: the templates with their values filled in.
 
 #include <dsc/plugin/kind.hpp>
 #include <filesystem>
@@ -19,7 +19,7 @@ void require_plugin_name(const std::string& name);
 /// The files of a plugin with one strategy; plugin and strategy have the same name.
 std::vector<ProjectFile> plugin_project(const std::string& name, plugin::Kind kind);
 
-/// Writes them into the new folder `place`, which appears whole or not at all. Throws IoError.
+/// Writes them into the new folder `place`, which is created completely or not at all. Throws IoError.
 void write_project(const std::filesystem::path& place, const std::vector<ProjectFile>& files);
 
 }  // namespace dsc::app

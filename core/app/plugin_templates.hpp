@@ -1,5 +1,5 @@
 #pragma once
-// The files below share/template/plugin, part of the program.
+// The files in share/template/plugin, which are part of the program.
 
 #include <dsc/base/embedded_file.hpp>
 #include <span>

@@ -12,8 +12,8 @@
 namespace dsc::app {
 namespace {
 
-constexpr double line_seconds = 30.0;    // at most between two lines of a log
-constexpr double rewrite_seconds = 0.1;  // at least between two states of the live line
+constexpr double line_seconds = 30.0;    // longest time between two lines of a log
+constexpr double rewrite_seconds = 0.1;  // shortest time between two states of the live line
 
 /// "12 s", "3:07 min", "2:05 h".
 std::string duration(double seconds) {
@@ -52,7 +52,7 @@ private:
             text += fmt::format(", cloud to surface {:.5f}", *row.cloud_to_surface_mean);
         text += fmt::format(", least quality {:.3f}, {}", row.min_tet_quality, duration(now));
         if (const auto left = estimate_.remaining(); left && row.step < planned)
-            text += fmt::format(", {} to go", duration(*left));
+            text += fmt::format(", {} left", duration(*left));
         return text;
     }
 
@@ -60,7 +60,7 @@ private:
         const bool last = row.step >= planned;
         if (!last && now - told_ < rewrite_seconds) return;
         told_ = now;
-        // A line that wraps is not rewritten by "\r"; the last column stays free, where some terminals wrap already.
+        // "\r" does not rewrite a line that wraps; the last column stays free, because some terminals already wrap there.
         const unsigned columns = stderr_columns();
         tell(fmt::format("\r{}\x1b[K{}", text(row, planned, now).substr(0, columns > 1 ? columns - 1 : 1), last ? "\n" : ""));
     }
@@ -101,8 +101,8 @@ private:
 void add_progress(CLI::App& command, TerminalOptions& options) {
     command
         .add_option("--progress", options.progress,
-                    "auto (a live line on a terminal, elsewhere a line every 10 % or 30 s), never, or json "
-                    "(an object a step)")
+                    "Progress: auto (a live line on a terminal, otherwise a line every 10 % or 30 s), never, or json "
+                    "(an object per step)")
         ->check(CLI::IsMember({"auto", "never", "json"}))
         ->capture_default_str();
 }

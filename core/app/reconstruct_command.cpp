@@ -46,7 +46,7 @@ struct ReconstructArguments {
     TerminalOptions terminal;
 };
 
-/// An output and the format that its name asks for.
+/// An output and the format that its extension selects.
 struct Target {
     fs::path file;
     std::string format;  ///< extension without its dot
@@ -63,20 +63,21 @@ std::vector<Target> targets(const ReconstructArguments& arguments) {
     for (const std::string& name : names) {
         const io::Format* format = io::find_format(name);
         if (format == nullptr) {
-            throw UsageError("usage.format", name + " has no extension that is written; use " +
+            throw UsageError("usage.format", name + " does not have the extension of a format that dsc writes; use " +
                                                  io::surface_extensions() + " for the surface, " +
                                                  io::volume_extensions() + " for the volume");
         }
         require_output(name, arguments.cloud);
         for (const Target& other : list) {
-            if (same_file(other.file, name)) throw UsageError("usage.output", name + " is named by -o twice");
+            if (same_file(other.file, name))
+                throw UsageError("usage.output", name + " is given twice with -o; give each file once");
         }
         list.push_back({name, std::string(format->extension.substr(1)), format->volume});
     }
     return list;
 }
 
-/// The formats that a run must write so that every target can be copied from it.
+/// The formats that a run must write so that every target can be copied from its result.
 config::ConfigNode wanted(const std::vector<Target>& list, bool volume,
                           const std::vector<std::string>& always) {
     std::vector<std::string> formats = always;
@@ -97,11 +98,12 @@ fs::path source_of(const Target& target, const run::RunOutcome& outcome) {
     for (const fs::path& file : target.volume ? outcome.volumes : outcome.surfaces) {
         if (extension_of(file) == "." + target.format) return file;
     }
-    throw Error(ExitCode::internal, "reconstruct.format", "the run wrote no ." + target.format);
+    throw Error(ExitCode::internal, "reconstruct.format", "the run did not write ." + target.format);
 }
 
-/// Refuses a cloud that no surface can come from before anything else happens, by the name that the caller gave it: the
-/// experiment has its absolute one, and its filters would see the cloud first. The run goes on with what was read here.
+/// Refuses a cloud from which no surface can be made, before anything else happens. The message uses the name that the caller
+/// gave: the experiment contains the absolute name, and its filters would be the first to see the cloud. The run uses the cloud
+/// that was read here.
 std::shared_ptr<run::InputFiles> read_good_cloud(const ReconstructArguments& arguments) {
     const auto files = std::make_shared<run::InputFiles>();
     const cloud::Cloud& cloud = files->cloud(arguments.cloud, arguments.columns).cloud;
@@ -109,7 +111,7 @@ std::shared_ptr<run::InputFiles> read_good_cloud(const ReconstructArguments& arg
     return files;
 }
 
-/// The noise of --smooth, in spacings; empty where it shall be measured.
+/// The noise of --smooth, in spacings; empty if it is to be measured.
 std::optional<double> noise_of(const std::string& smooth) {
     if (smooth == "auto") return std::nullopt;
     std::istringstream text(smooth);
@@ -132,7 +134,7 @@ run::ReconstructOptions options_of(const ReconstructArguments& arguments) {
     return options;
 }
 
-/// The outputs, out of the run folder. Where one cannot be written the others are, and the run folder stays.
+/// Copies the outputs from the run folder. If one cannot be written, the others are still written and the run folder is kept.
 void deliver(const std::vector<Target>& list, const run::RunOutcome& outcome, std::optional<TemporaryFolder>& temporary) {
     std::string faults;
     for (const Target& target : list) {
@@ -148,7 +150,7 @@ void deliver(const std::vector<Target>& list, const run::RunOutcome& outcome, st
     throw IoError("io.write", faults + "the result is kept in " + (outcome.folder / "result").string());
 }
 
-/// An experiment is text in UTF-8, and a name of a file need not be: then it gets a link with a plain name.
+/// An experiment is UTF-8 text, but a file name need not be UTF-8: such a file gets a link with a plain name.
 fs::path plain_name(const fs::path& cloud, std::optional<TemporaryFolder>& links) {
     const fs::path whole = fs::absolute(cloud);
     if (is_utf8(whole.string())) return whole;
@@ -158,14 +160,14 @@ fs::path plain_name(const fs::path& cloud, std::optional<TemporaryFolder>& links
     return link;
 }
 
-/// The run; one that is stopped before there is a surface leaves nothing behind, and says so.
+/// Runs the experiment. A run that is stopped before there is a surface leaves nothing behind, and the message states this.
 run::RunOutcome carry_out(const run::LoadedExperiment& loaded, const Plugins& plugins, const run::RunOptions& options) {
     try {
         return run::run_experiment(loaded, plugins.host(), options);
     } catch (const CancelledError& error) {
         throw CancelledError(std::string(error.what()) +
                              "; it was stopped before there was a surface, so no output was written and nothing is kept; with --keep-run FOLDER "
-                             "the folder of the run stays also when the run is stopped");
+                             "the run folder is kept even if the run is stopped");
     } catch (const Error& error) {
         throw with_own_remedy(error);
     }
@@ -212,46 +214,49 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     report(outcome);
     deliver(list, outcome, temporary);
     if (exit_code(outcome) != 0 || !arguments.strict || outcome.totals.warnings.empty()) return exit_code(outcome);
-    log(LogLevel::error, "--strict: the result is written, but there are warnings about it");
+    log(LogLevel::error, "--strict: the result was written, but there are warnings about it");
     return static_cast<int>(ExitCode::geometry);
 }
 
 }  // namespace
 
 void add_reconstruct(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("reconstruct", "Point cloud to surface and volume");
+    CLI::App* command = app.add_subcommand("reconstruct", "Reconstruct a surface and a volume from a point cloud");
     const auto arguments = std::make_shared<ReconstructArguments>();
     command->add_option("CLOUD", arguments->cloud, "Point cloud: .obj .ply .pcd .xyz .txt .asc .pts .csv")
         ->required();
     add_columns(*command, arguments->columns);
     command
         ->add_option("-o,--output", arguments->outputs,
-                     "Output, may repeat; the extension decides: .obj .ply .off .stl surface, .vtu .dsc .msh "
-                     ".mesh volume. Default STEM_surface.ply and STEM_volume.vtu in the current folder")
+                     "Output; may be repeated. The extension selects the format: .obj .ply .off .stl surface, .vtu .dsc .msh "
+                     ".mesh volume. Default: STEM_surface.ply and STEM_volume.vtu in the current folder")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_option("--detail", arguments->detail, "low, medium or high")
+    command->add_option("--detail", arguments->detail, "Level of detail: low, medium or high")
         ->check(CLI::IsMember({"low", "medium", "high"}))
         ->capture_default_str();
-    command->add_option("--edge-length", arguments->edge_length, "Length of the triangles' edges, in the units of the cloud, in place of --detail")
+    command->add_option("--edge-length", arguments->edge_length,
+                    "Edge length of the triangles, in the units of the cloud; replaces --detail")
         ->check(CLI::PositiveNumber)
         ->excludes("--detail");
-    command->add_option("--vertices", arguments->vertices, "Vertices that the surface may have, in place of --detail")
+    command->add_option("--vertices", arguments->vertices, "Number of vertices that the surface may have; replaces --detail")
         ->check(CLI::Range(100, 10000000))
         ->excludes("--detail")
         ->excludes("--edge-length");
-    command->add_option("--smooth", arguments->smooth, "auto (the noise is measured) or the standard deviation of the points' noise in spacings: larger is smoother")
+    command->add_option("--smooth", arguments->smooth,
+                    "Noise of the points: auto (it is measured) or its standard deviation in spacings; larger is smoother")
         ->type_name("auto|NUMBER")
         ->capture_default_str();
     command->add_flag("--trim", arguments->trim, "Write the surface without the parts that no points support, such as the back of a scan from one side");
-    command->add_flag("--strict", arguments->strict, "Exit with 5 where there are warnings about the result, which is written all the same");
-    command->add_flag("--print-config", arguments->print_config, "Print the experiment that would be run; run nothing");
-    command->add_option("--keep-run", arguments->keep_run, "Keep the run folder here");
+    command->add_flag("--strict", arguments->strict,
+                      "Exit with code 5 if there are warnings about the result; the result is still written");
+    command->add_flag("--print-config", arguments->print_config, "Print the experiment that would be run, and run nothing");
+    command->add_option("--keep-run", arguments->keep_run, "Folder in which the run folder is kept");
     command
         ->add_option("--threads", arguments->threads,
-                     "Threads; default all. The result does not depend on it")
+                     "Number of threads; default: all. The result does not depend on it")
         ->check(CLI::Range(1U, 1024U));
-    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
+    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of libraries; may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     add_progress(*command, arguments->terminal);

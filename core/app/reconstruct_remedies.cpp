@@ -9,9 +9,9 @@ namespace dsc::app {
 namespace {
 
 constexpr std::string_view check_cloud =
-    "check with dsc info that the points are the surface of one solid, all around it and dense enough, and remove what is far "
+    "check with dsc info that the points cover the surface of one solid on all sides and densely enough, and remove points far "
     "away from it";
-constexpr std::string_view check_file = "save the cloud again with finite coordinates, nearer to the origin";
+constexpr std::string_view check_file = "save the cloud again with finite coordinates, closer to the origin";
 
 struct Remedy {
     std::string_view code;

@@ -45,12 +45,13 @@ struct Coloured {
     std::vector<double> values;  ///< one per point
 };
 
-/// The surface and the values of the property that colours it.
+/// A surface and the values of the property that colours it.
 Coloured read_coloured(const RenderArguments& arguments) {
     std::filesystem::path file = arguments.input;
     if (std::filesystem::is_directory(file)) file = file / "result" / "surface.ply";
     if (extension_of(file) != ".ply") {
-        throw UsageError("usage.colour", file.string() + ": only a .ply has numbers per vertex that --colour shows; name such a file");
+        throw UsageError("usage.colour", file.string() + ": --colour needs numbers per vertex, which only a .ply contains; "
+                                         "give a .ply file");
     }
     std::vector<io::DataArray> arrays;
     surface::TriangleMesh mesh = io::read_surface(file, &arrays);
@@ -63,17 +64,17 @@ Coloured read_coloured(const RenderArguments& arguments) {
                                          (names.empty() ? "none" : names));
 }
 
-/// As the picture and the report of a run have it: the built-in shapes stand along z, most models in files along y. A file does
-/// not tell, so what was taken is said.
+/// The same axis as in the picture and the report of a run: z points up in the built-in shapes, y in most models from files. A
+/// file does not contain the axis, so the log states which one was used.
 io::UpAxis up_axis(const RenderArguments& arguments) {
     if (arguments.up != "auto") return arguments.up == "z" ? io::UpAxis::z : io::UpAxis::y;
     const bool z = std::filesystem::is_directory(arguments.input) && run::stands_along_z(arguments.input);
-    log(LogLevel::info, z ? "z points up, as in the report of the run; --up y turns it"
-                          : "y points up; --up z stands a model upright whose height is z");
+    log(LogLevel::info, z ? "z points up, as in the report of the run; --up y lets y point up"
+                          : "y points up; use --up z for a model whose height is along z");
     return z ? io::UpAxis::z : io::UpAxis::y;
 }
 
-/// The picture, and on the terminal what its colours mean.
+/// Writes the picture, and prints the meaning of its colours.
 int paint(const RenderArguments& arguments, io::RenderOptions& options) {
     if (arguments.colour.empty()) {
         io::write_png(arguments.output, io::render(read_any_surface(arguments.input), options));
@@ -92,7 +93,7 @@ int paint(const RenderArguments& arguments, io::RenderOptions& options) {
 int execute(const RenderArguments& arguments) {
     if (extension_of(arguments.output) != ".png") {
         throw UsageError("usage.format",
-                         arguments.output + ": pictures are written as .png; name such a file with -o");
+                         arguments.output + ": pictures are written as .png; give a .png file with -o");
     }
     require_output(arguments.output, arguments.input);
     io::RenderOptions options;
@@ -108,19 +109,20 @@ int execute(const RenderArguments& arguments) {
 }  // namespace
 
 void add_render(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("render", "A shaded picture of a surface, a volume or a run");
+    CLI::App* command = app.add_subcommand("render", "Draw a shaded picture of a surface, a volume or a run");
     const auto arguments = std::make_shared<RenderArguments>();
     command->add_option("FILE", arguments->input, "Surface, volume or run folder")->required();
     command->add_option("-o,--output", arguments->output, "Picture, .png")->required();
-    command->add_option("--view", arguments->view, "Where the viewer stands")
+    command->add_option("--view", arguments->view, "Side from which the object is seen")
         ->check(CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "iso"}))
         ->capture_default_str();
-    command->add_option("--up", arguments->up, "The axis that points up: y, z, or auto, which says what it took")
+    command->add_option("--up", arguments->up, "Axis that points up: y, z, or auto, which prints the axis that it chose")
         ->check(CLI::IsMember({"auto", "y", "z"}))
         ->capture_default_str();
     command->add_option("--size", arguments->size, "Width and height in pixels")->capture_default_str();
     command->add_flag("--edges", arguments->edges, "Draw the edges of the triangles");
-    command->add_option("--colour", arguments->colour, "Colour by this property of the vertices of a .ply, such as an attribute");
+    command->add_option("--colour", arguments->colour,
+                        "Property of the vertices of a .ply that colours the surface, such as an attribute");
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

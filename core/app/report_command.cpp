@@ -31,7 +31,7 @@ int execute(const ReportArguments& arguments) {
     const fs::path output = output_of(arguments);
     if (!arguments.output.empty()) require_output(output, "");
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));
-    // They make the cloud's filters. A run whose plugins are gone still has its page, and it says what is not shown.
+    // The plugins provide the filters of the cloud. Without them the page is still written, and it states what is missing.
     Plugins plugins(arguments.plugins);
     const host::Host& host = plugins.load_what_works(run::plugins_of_runs(folders));
     const std::string page = folders.size() == 1 ? run::report_html(folders.front(), host, &workers)
@@ -44,14 +44,14 @@ int execute(const ReportArguments& arguments) {
 }  // namespace
 
 void add_report(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("report", "A page that shows a run, or compares several");
+    CLI::App* command = app.add_subcommand("report", "Write a page that shows a run, or compares several runs");
     const auto arguments = std::make_shared<ReportArguments>();
     command->add_option("DIR", arguments->folders, "Folders of finished runs")->required();
     command
         ->add_option("-o,--output", arguments->output,
-                     "Page; default DIR/report.html, for several runs comparison.html in the current folder")
+                     "Page to write; default: DIR/report.html, for several runs comparison.html in the current folder")
         ->expected(1);
-    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
+    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of libraries; may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->callback(

@@ -56,7 +56,7 @@ int execute(const RunArguments& arguments, const std::vector<std::string>& comma
     const std::filesystem::path folder =
         arguments.folder.empty() ? run::default_folder(loaded, plugins.host()) : std::filesystem::path(arguments.folder);
     if (arguments.resume && run::is_finished(folder, loaded, plugins.host())) {
-        log(LogLevel::info, folder.string() + " is finished, there is nothing to resume");
+        log(LogLevel::info, folder.string() + " is finished; there is nothing to resume");
         data_out() << folder.string() << "\n";
         return 0;
     }
@@ -78,24 +78,24 @@ int execute(const RunArguments& arguments, const std::vector<std::string>& comma
 }  // namespace
 
 void add_run(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("run", "Carry out an experiment");
+    CLI::App* command = app.add_subcommand("run", "Run an experiment");
     const auto arguments = std::make_shared<RunArguments>();
     command->add_option("CONFIG", arguments->config, "Experiment, a YAML file")->required();
-    command->add_option("KEY=VALUE", arguments->overrides, "Values that override the file's, by dotted path");
-    command->add_option("-o,--output", arguments->folder, "Run folder; default runs/NAME/HASH");
+    command->add_option("KEY=VALUE", arguments->overrides, "Values that replace those of the file, by dotted path");
+    command->add_option("-o,--output", arguments->folder, "Run folder; default: runs/NAME/HASH");
     command
         ->add_option("--threads", arguments->threads,
-                     "Threads; default all. The result does not depend on it")
+                     "Number of threads; default: all. The result does not depend on it")
         ->check(CLI::Range(1U, 1024U));
-    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
+    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of libraries; may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_flag("--check", arguments->check, "Only say whether the experiment is right");
+    command->add_flag("--check", arguments->check, "Check the experiment and run nothing");
     command->add_flag("--print-config", arguments->print_config,
-                      "Print the experiment with all defaults, run nothing");
+                      "Print the experiment with all defaults, and run nothing");
     command->add_flag("--resume", arguments->resume,
-                      "Go on from the last checkpoint in the run folder, from the start where there is none; a finished run "
-                      "stays as it is, the run of another experiment is refused");
+                      "Continue from the last checkpoint in the run folder, or from the start if there is none; a finished run "
+                      "is not changed, and the run of another experiment is refused");
     command->add_option("--time-budget", arguments->time_budget, "Save a checkpoint and stop, with exit code 75, after this time: 90, 90s, 10m, 1.5h");
     add_progress(*command, arguments->terminal);
     add_verbosity(*command, arguments->terminal);

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// The object in a file of the folder; null where there is none.
+/// The object in a file of the folder; null if there is none.
 ordered_json object_in(const fs::path& file) {
     std::error_code error;
     if (!fs::exists(file, error)) return nullptr;
@@ -22,7 +22,7 @@ ordered_json object_in(const fs::path& file) {
     return object.is_object() ? object : ordered_json(nullptr);
 }
 
-/// The names of a folder, sorted.
+/// The names in a folder, sorted.
 std::vector<std::string> names_in(const fs::path& folder) {
     std::vector<std::string> names;
     std::error_code error;
@@ -37,7 +37,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
 
 ordered_json run_figures(const fs::path& folder) {
     if (!run::RunFolder::is_ours(folder)) {
-        throw IoError("io.no_run", folder.string(), "", "is not the folder of a run", "name a file or the folder of a run");
+        throw IoError("io.no_run", folder.string(), "", "is not a run folder", "give a file or a run folder");
     }
     const ordered_json status = object_in(folder / "status.json");
     ordered_json figures;
@@ -49,7 +49,7 @@ ordered_json run_figures(const fs::path& folder) {
     if (!owner.empty()) figures["owner"] = owner;
     if (owner.empty() && figures.value("state", "") == "running") {
         figures["state"] = "killed";
-        figures["remedy"] = "dsc run --resume goes on from the last checkpoint";
+        figures["remedy"] = "dsc run --resume continues from the last checkpoint";
     }
     if (const auto checkpoints = names_in(folder / "checkpoint"); !checkpoints.empty()) figures["last_checkpoint"] = checkpoints.back();
     if (const auto files = names_in(folder / "result"); !files.empty()) figures["result"] = files;

@@ -1,5 +1,5 @@
 #pragma once
-// What `dsc info` says of a run folder.
+// The figures that `dsc info` prints for a run folder.
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

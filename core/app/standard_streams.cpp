@@ -20,7 +20,8 @@ namespace {
 
 constexpr int lowest_private = 10;  // shells leave the descriptors below to scripts
 
-/// Writes all of it, through interruptions and to descriptors that do not block. 0, or the errno of the failure.
+/// Writes all of the text, in spite of interruptions and also to non-blocking descriptors. Returns 0, or the errno of the
+/// failure.
 int write_whole(int to, std::string_view text, int patience_ms) noexcept {
     while (!text.empty()) {
         const ::ssize_t count = ::write(to, text.data(), text.size());
@@ -36,7 +37,7 @@ int write_whole(int to, std::string_view text, int patience_ms) noexcept {
     return 0;
 }
 
-/// A buffer before a descriptor that remembers its first failure.
+/// A buffer for a descriptor; it remembers the first failure.
 class DescriptorBuffer : public std::streambuf {
 public:
     int descriptor = STDOUT_FILENO;
@@ -63,7 +64,7 @@ private:
     std::string waiting_;
 };
 
-/// Neither is ever destroyed: a process that exit() ends in the midst of things may still write.
+/// Neither is ever destroyed: a process that exit() ends during a job may still write.
 DescriptorBuffer& data_buffer() {
     static auto* const buffer = new DescriptorBuffer;
     return *buffer;
@@ -73,14 +74,14 @@ DescriptorBuffer& data_buffer() {
 
 void take_standard_streams() {
     for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-        // open() takes the lowest free number, which is this one: those below are open.
+        // open() uses the lowest free number, which is this one: those below are open.
         if (::fcntl(number, F_GETFD) < 0 && errno == EBADF) {
             static_cast<void>(::open("/dev/null", number == STDIN_FILENO ? O_RDONLY : O_WRONLY));
         }
     }
     std::signal(SIGPIPE, SIG_IGN);
     const int ours = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, lowest_private);
-    if (ours < 0) return;  // no descriptor is left: stdout stays shared
+    if (ours < 0) return;  // no free descriptor: stdout stays shared
     ::dup2(STDERR_FILENO, STDOUT_FILENO);
     data_buffer().descriptor = ours;
 }
@@ -98,7 +99,8 @@ void flush_data() {
         std::signal(SIGPIPE, SIG_DFL);
         static_cast<void>(std::raise(SIGPIPE));
     }
-    throw IoError("io.write", "stdout cannot be written: " + std::generic_category().message(failure) + "; check where it goes");
+    throw IoError("io.write", "stdout cannot be written: " + std::generic_category().message(failure) +
+                                      "; check the file or program that receives it");
 }
 
 void tell(std::string_view text) noexcept {

@@ -31,10 +31,12 @@ std::string points_text(std::size_t count) { return std::to_string(count) + (cou
 
 int expand(const ExpandArguments& arguments) {
     if (arguments.folder.empty() && !arguments.check)
-        throw UsageError("usage.output", "-o DIR is missing: the folder for the points; or --check to write nothing");
+        throw UsageError("usage.output", "-o DIR, the folder for the points, is missing; add it, or use --check to write "
+                                         "nothing");
     const run::Sweep sweep = run::load_sweep(arguments.file);
     if (sweep.repeated > 0)
-        log(LogLevel::warning, arguments.file + ": " + points_text(sweep.repeated) + " left out, equal to earlier ones");
+        log(LogLevel::warning, arguments.file + ": " + points_text(sweep.repeated) +
+                                   " left out because they equal earlier points");
     Plugins plugins(arguments.plugins);
     const std::vector<std::string> experiments = run::sweep_experiments(sweep, plugins.loader(), plugins.host());
     if (arguments.check) {
@@ -45,7 +47,7 @@ int expand(const ExpandArguments& arguments) {
     std::string text = points_text(sweep.points.size()) + ": " + std::to_string(done.added) + " new, " +
                        std::to_string(done.kept) + " kept";
     if (done.others > 0) {
-        text += "; the table has " + std::to_string(done.others) + " more, which the sweep does not name any longer";
+        text += "; the table contains " + std::to_string(done.others) + " more, which are no longer part of the sweep";
     }
     log(LogLevel::info, text);
     data_out() << (fs::path(arguments.folder) / "jobs.tsv").string() << "\n";
@@ -69,30 +71,31 @@ int collect(const CollectArguments& arguments) {
 }
 
 void add_expand(CLI::App& sweep, Context& context) {
-    CLI::App* command = sweep.add_subcommand("expand", "A folder for each point of a sweep, and a job table");
+    CLI::App* command = sweep.add_subcommand("expand", "Write a folder for each point of a sweep, and a job table");
     const auto arguments = std::make_shared<ExpandArguments>();
     command->add_option("SWEEP", arguments->file, "Sweep, a YAML file")->required();
-    command->add_option("-o,--output", arguments->folder, "Folder; points that are in it already are kept");
-    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of them; may repeat")
+    command->add_option("-o,--output", arguments->folder, "Folder for the points; points that it already contains are kept");
+    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of libraries; may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_flag("--check", arguments->check, "Only say whether all points are right");
+    command->add_flag("--check", arguments->check, "Check all points and write nothing");
     command->callback([arguments, &context] { context.action = [arguments] { return expand(*arguments); }; });
 }
 
 void add_collect(CLI::App& sweep, Context& context) {
     CLI::App* command =
-        sweep.add_subcommand("collect", "One CSV table: status, overrides and headline figures of every point");
+        sweep.add_subcommand("collect", "Collect one CSV table: status, overrides and main figures of every point");
     const auto arguments = std::make_shared<CollectArguments>();
     command->add_option("DIR", arguments->folder, "Folder that dsc sweep expand wrote")->required();
-    command->add_option("-o,--output", arguments->output, "File; default stdout");
+    command->add_option("-o,--output", arguments->output, "File for the table; default: stdout");
     command->callback([arguments, &context] { context.action = [arguments] { return collect(*arguments); }; });
 }
 
 }  // namespace
 
 void add_sweep(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("sweep", "Many experiments for an engine: folders out of a file, a table out of folders");
+    CLI::App* command = app.add_subcommand("sweep", "Expand a parameter sweep into run folders; collect their results into a "
+                                                    "table");
     command->require_subcommand(1);
     add_expand(*command, context);
     add_collect(*command, context);

@@ -12,8 +12,8 @@ TemporaryFolder::TemporaryFolder() {
     const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
     std::string pattern = ((error ? std::filesystem::path(".") : parent) / "dsc-XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr) {
-        throw IoError("io.temporary", pattern, "", "a temporary folder cannot be made there",
-                      "set TMPDIR to a folder that can be written");
+        throw IoError("io.temporary", pattern, "", "a temporary folder cannot be created there",
+                      "set TMPDIR to a writable folder");
     }
     path_ = pattern;
 }
@@ -21,8 +21,9 @@ TemporaryFolder::TemporaryFolder() {
 TemporaryFolder::TemporaryFolder(const std::filesystem::path& parent, const std::string& name) {
     std::string pattern = (parent / (name + "-XXXXXX")).string();
     if (mkdtemp(pattern.data()) == nullptr) {
-        throw IoError("io.folder", parent.string(), "", std::string("no folder can be made there (") + std::strerror(errno) + ")",
-                      "go to a folder that can be written");
+        throw IoError("io.folder", parent.string(), "", std::string("no folder can be created there (") +
+                          std::strerror(errno) + ")",
+                      "change to a writable folder");
     }
     path_ = pattern;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A folder that is gone when its owner is.
+// A folder that is removed together with its owner.
 
 #include <filesystem>
 #include <string>
@@ -8,15 +8,15 @@ namespace dsc::app {
 
 class TemporaryFolder {
 public:
-    /// In the system's folder for such. Throws IoError "io.temporary".
+    /// Creates it in the system's folder for temporary files. Throws IoError "io.temporary".
     TemporaryFolder();
-    /// In `parent`, its name beginning with `name`. Throws IoError "io.folder".
+    /// Creates it in `parent`; its name begins with `name`. Throws IoError "io.folder".
     TemporaryFolder(const std::filesystem::path& parent, const std::string& name);
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
     const std::filesystem::path& path() const noexcept { return path_; }
-    /// It stays.
+    /// Keeps the folder.
     void keep() noexcept { kept_ = true; }
 
 private:

@@ -17,8 +17,8 @@ CancelToken cancel_token;
 
 extern "C" void on_signal(int signal) {
     cancel_token.cancel();
-    // A person who asks twice wants an end at once. The others may come twice for one cause: SIGXCPU comes every second of
-    // time that is used up, SIGHUP from the shell and from the terminal.
+    // A user who asks twice wants the program to end at once. The other signals may come twice for one reason: SIGXCPU comes
+    // every second of time over the limit, SIGHUP from the shell and from the terminal.
     if (signal == SIGINT || signal == SIGTERM) std::signal(signal, SIG_DFL);
 }
 
@@ -39,13 +39,13 @@ spdlog::level::level_enum spdlog_level(LogLevel level) {
 }  // namespace
 
 void add_verbosity(CLI::App& command, TerminalOptions& options) {
-    auto* verbose = command.add_flag("-v,--verbose", options.verbose, "Say more on stderr");
-    command.add_flag("-q,--quiet", options.quiet, "Say only errors on stderr")->excludes(verbose);
+    auto* verbose = command.add_flag("-v,--verbose", options.verbose, "Print more messages on stderr");
+    command.add_flag("-q,--quiet", options.quiet, "Print only errors on stderr")->excludes(verbose);
 }
 
 void start_log(const TerminalOptions& options) {
     const auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
-    // https://no-color.org: set and not empty means no colours.
+    // https://no-color.org: if the variable is set and not empty, use no colours.
     const char* no_color = std::getenv("NO_COLOR");
     if (!stderr_rewrites() || (no_color != nullptr && *no_color != '\0')) sink->set_color_mode(spdlog::color_mode::never);
     const auto logger = std::make_shared<spdlog::logger>("dsc", sink);
@@ -61,7 +61,7 @@ void start_log(const TerminalOptions& options) {
 
 const CancelToken& cancel_on_signals() {
     for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGXCPU}) std::signal(signal, on_signal);
-    // Under nohup it is ignored, and stays so.
+    // Under nohup the signal is ignored, and stays ignored.
     if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
     return cancel_token;
 }

@@ -6,9 +6,9 @@
 namespace dsc::app {
 namespace {
 
-constexpr std::size_t remembered = 20;  // steps whose cost counts
-constexpr double cheap = 0.15;          // part of them that cost less than what is reckoned with
-constexpr double usual_growth = 1.35;   // of the vertices by a refinement, until one was seen
+constexpr std::size_t remembered = 20;  // number of last steps whose cost counts
+constexpr double cheap = 0.15;          // fraction of them that cost less than the cost used
+constexpr double usual_growth = 1.35;   // growth of the vertices per refinement, until one was seen
 
 }  // namespace
 

@@ -18,7 +18,7 @@ std::vector<const CLI::App*> below(const CLI::App& command) {
     return command.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// The only one that begins with the word, else the one that is spelled most like it.
+/// The only name that begins with the word, otherwise the name with the most similar spelling.
 std::optional<std::string> meant(const std::string& word, const std::vector<std::string>& names) {
     std::vector<std::string> longer;
     for (const std::string& name : names) {
@@ -29,11 +29,11 @@ std::optional<std::string> meant(const std::string& word, const std::vector<std:
 
 std::string hint(const std::optional<std::string>& name) { return name ? "; did you mean '" + *name + "'?" : ""; }
 
-/// The innermost command that the words name, and the first word after it that is not an option.
+/// The innermost command that the words name, and the first word after it that is not an option of it.
 struct Reached {
     const CLI::App* command;
     std::string name;     ///< "dsc plugin"
-    std::string unknown;  ///< empty where the words end or an option follows
+    std::string unknown;  ///< empty if the words end or an option follows
 };
 
 Reached reach(const CLI::App& app, const std::vector<std::string>& words) {
@@ -55,10 +55,10 @@ std::string unknown_command(const Reached& at) {
     const std::vector<std::string> names = names_of(below(*at.command));
     const std::optional<std::string> near = meant(at.unknown, names);
     return (at.name == "dsc" ? "no command '" : at.name + " has no command '") + at.unknown + "'" +
-           (near ? hint(near) : "; there are " + config::join(names, ", "));
+           (near ? hint(near) : "; the commands are " + config::join(names, ", "));
 }
 
-/// The first option of the call that the command does not have; empty where there is none.
+/// The first option of the call that the command does not have; empty if there is none.
 std::string unknown_option(const CLI::App& app, const Reached& at) {
     for (const std::string& word : app.remaining(true)) {
         if (word.size() < 2 || word.front() != '-' || word == "--") continue;
@@ -91,7 +91,7 @@ std::string usage_text(const CLI::App& app, const std::vector<std::string>& word
 std::string help_text(const CLI::App& app, const std::vector<std::string>& words) {
     const Reached at = reach(app, words);
     if (!at.unknown.empty()) throw UsageError("usage.command", unknown_command(at));
-    // Not help(): of a parser that has parsed `dsc help` it gives the help of that.
+    // Not help(): after `dsc help` was parsed, it returns the help of the command `help`.
     return at.command->get_formatter()->make_help(at.command, at.name, CLI::AppFormatMode::Normal);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Wrong calls: what was meant, and where it is written.
+// Messages for wrong calls: the command or option that was probably meant, and where the help is.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace dsc::app {
 
-/// One line about a call that the parser refuses, without "error: ": an unknown command or option is named, with the one that
-/// was probably meant. `words`: the call as typed, without the program. [setup]
+/// One line about a call that the parser refuses, without "error: ". It names an unknown command or option, and the one that
+/// was probably meant. `words`: the call as typed, without the name of the program. [setup]
 std::string usage_text(const CLI::App& app, const std::vector<std::string>& words, const CLI::ParseError& error);
 
-/// The help of the command that the words name, of `app` for none. Throws UsageError "usage.command" for an unknown one. [setup]
+/// The help of the command that the words name, or of `app` if there are no words. Throws UsageError "usage.command". [setup]
 std::string help_text(const CLI::App& app, const std::vector<std::string>& words);
 
 }  // namespace dsc::app

@@ -69,14 +69,13 @@ TEST_CASE("a plugin that does not load") {
     const Result option = run(cli, good, {"--plugin", "libdsc_text.so"});
     CHECK(option.code == 4);
     CHECK(option.err ==
-          "error: --plugin: DIR/libdsc_text.so: is not a shared library; name a plugin's file, "
+          "error: --plugin: DIR/libdsc_text.so: is not a shared library; give the file of a plugin, "
           "libdsc_NAME.so\n");
     const Result key = run(cli, good + "plugins: [missing/libdsc_x.so]\n");
     CHECK(key.code == 4);
     CHECK(key.err ==
-          "error: plugins:: DIR/missing/libdsc_x.so: cannot be opened (No such file or directory); check the "
-          "name and the "
-          "permissions\n");
+          "error: plugins:: DIR/missing/libdsc_x.so: cannot be opened (No such file or directory); check its "
+          "name and permissions\n");
     CHECK_FALSE(cli.exists("out"));
 }
 
@@ -86,7 +85,7 @@ TEST_CASE("a velocity that needs a cloud without one") {
         run(cli, with("input: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {scale: 0.9}}\n", ""));
     CHECK(result.code == 3);
     CHECK(result.err ==
-          "error: velocity 'point_cloud': the experiment has no cloud to go to; add input: {cloud: {file: "
+          "error: velocity 'point_cloud': the experiment has no cloud; add input: {cloud: {file: "
           "...}}\n");
     CHECK_FALSE(dsc::test::looks_finished(cli.folder() / "out"));
 }

@@ -59,7 +59,7 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
     CHECK(said({"recon"}) == "error: no command 'recon'; did you mean 'reconstruct'?; see dsc --help\n");
     CHECK(said({"rnu", "a.yaml"}) == "error: no command 'rnu'; did you mean 'run'?; see dsc --help\n");
     CHECK(said({"plugin", "lst"}) == "error: dsc plugin has no command 'lst'; did you mean 'list'?; see dsc plugin --help\n");
-    CHECK(said({"frobnicate"}).find("; there are run, reconstruct, ") != std::string::npos);
+    CHECK(said({"frobnicate"}).find("; the commands are run, reconstruct, ") != std::string::npos);
     CHECK(said({"reconstruct", "c.ply", "--detial", "low"}) ==
           "error: dsc reconstruct has no option '--detial'; did you mean '--detail'?; see dsc reconstruct --help\n");
     CHECK(said({"reconstruct", "c.ply", "-detail=low"}) ==
@@ -67,8 +67,8 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
     CHECK(said({"sample", "torus", "--nose", "0.1", "-o", "a.xyz"}) ==
           "error: dsc sample has no option '--nose'; did you mean '--noise'?; see dsc sample --help\n");
     CHECK(cli.dsc({"plugin", "describe", "point_clod"}).err ==
-          "error: no strategy is called 'point_clod'; did you mean 'point_cloud'?; dsc plugin list shows "
-          "all\n");
+          "error: there is no strategy 'point_clod'; did you mean 'point_cloud'?; dsc plugin list shows "
+          "all strategies\n");
 }
 
 TEST_CASE("a configuration that is too large is a wrong experiment, read from a file as well") {
@@ -100,11 +100,11 @@ TEST_CASE("info of a run folder, and render as its report has it") {
     CHECK(json::parse(cli.dsc({"info", "r", "--json"}).out).at("state") == "killed");
     CHECK(cli.dsc({"info", "."}).code == 6);
     const Result picture = cli.dsc({"render", "r", "-o", "r.png"});
-    CHECK(picture.err == "info: z points up, as in the report of the run; --up y turns it\n");
+    CHECK(picture.err == "info: z points up, as in the report of the run; --up y lets y point up\n");
     REQUIRE(cli.dsc({"render", "r", "-o", "z.png", "--up", "z"}).err.empty());
     CHECK(cli.read("r.png") == cli.read("z.png"));
     CHECK(cli.dsc({"render", "r/result/surface.obj", "-o", "y.png"}).err ==
-          "info: y points up; --up z stands a model upright whose height is z\n");
+          "info: y points up; use --up z for a model whose height is along z\n");
     CHECK(cli.read("y.png") != cli.read("z.png"));
 }
 
@@ -236,15 +236,16 @@ TEST_CASE("reconstruct: names of outputs are judged before anything is computed"
     const Cli cli;
     cli.dsc({"sample", "sphere", "-n", "200", "-o", "cloud.obj"});
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "cloud.obj"}).err ==
-          "error: cloud.obj is the input; name another file with -o\n");
+          "error: cloud.obj is the input; give another file with -o\n");
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "./x/../cloud.obj"}).code == 2);
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.doc"}).err ==
-          "error: a.doc has no extension that is written; use .obj, .ply, .off, .stl for the surface, .vtu, "
+          "error: a.doc does not have the extension of a format that dsc writes; use .obj, .ply, .off, .stl for the surface, "
+          ".vtu, "
           ".dsc, .msh, .mesh for the volume\n");
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.obj", "-o", "a.obj"}).code == 2);
     const Result folder = cli.dsc({"reconstruct", "cloud.obj", "-o", "none/a.obj"});
     CHECK(folder.code == 6);
-    CHECK(folder.err == "error: none/a.obj: its folder none does not exist; make the folder first\n");
+    CHECK(folder.err == "error: none/a.obj: its folder none does not exist; create the folder first\n");
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "--detail", "ultra"}).code == 2);
 }
 

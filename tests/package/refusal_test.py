@@ -28,8 +28,8 @@ class Refusal(unittest.TestCase):
     def test_built_in_another_way(self):
         align = FIXTURES / "libdsc_bad_align.so"
         if align.exists():
-            self.refused(align, "align is '32' there and '16' here")
-        self.refused(FIXTURES / "libdsc_bad_debug_stl.so", "dbgstl is '1' there and '0' here")
+            self.refused(align, "align is '32' in the plugin and '16' in dsc")
+        self.refused(FIXTURES / "libdsc_bad_debug_stl.so", "dbgstl is '1' in the plugin and '0' in dsc")
 
     def test_of_another_abi(self):
         self.refused(FIXTURES / "libdsc_bad_abi_old.so", "was built for ABI 1.0, this dsc has ABI 2.0")
@@ -41,7 +41,7 @@ class Refusal(unittest.TestCase):
             library = self.folder / "libdsc_cut.so"
             library.write_bytes(whole[: len(whole) * part // 16])
             self.refused(library, "is a damaged or truncated shared library")
-        self.refused(FIXTURES / "libdsc_bad_short_entry.so", "is no entry of a dsc plugin")
+        self.refused(FIXTURES / "libdsc_bad_short_entry.so", "is not a valid plugin entry")
 
     def test_no_library(self):
         text = self.folder / "libdsc_text.so"
@@ -58,7 +58,7 @@ class Refusal(unittest.TestCase):
                         CXXFLAGS="-D_GLIBCXX_DEBUG")
             for _ in range(2):  # a second try does not take the library for finished
                 said = package.run(["cmake", "--build", "misfit/build"], self.folder, expect=None)
-                self.assertIn("dbgstl is '1' there and '0' here", said)
+                self.assertIn("dbgstl is '1' in the plugin and '0' in dsc", said)
                 self.assertIn("dsc does not take it", said)
 
 

@@ -29,7 +29,7 @@ Verdict run_here(const Test& test, const fs::path& file, const StrategyName* str
     } catch (const std::exception& error) {
         return {Status::fail, error.what()};
     } catch (...) {
-        return {Status::fail, "it throws something that is no std::exception"};
+        return {Status::fail, "it throws something that is not a std::exception"};
     }
 }
 
@@ -68,7 +68,7 @@ private:
         fs::path path = fs::canonical(file, error);
         if (error)
             throw PluginError("plugin.open", file.string() + ": cannot be opened (" + error.message() +
-                                                 "); check the name and the permissions");
+                                                 "); check its name and permissions");
         return path;
     }
 
@@ -112,7 +112,7 @@ private:
         if (options_.on_outcome) options_.on_outcome(report_.outcomes.back());
     }
 
-    // Asked of a child, so that the plugin never comes into this process.
+    // A child process lists them, so that the plugin is never loaded into this process.
     std::vector<StrategyName> strategies() {
         const Verdict listed = run_in_child(
             [this] {
@@ -146,8 +146,8 @@ private:
                 return name.kind == wanted.kind && name.id == wanted.id;
             });
             if (!there)
-                throw UsageError("usage.strategy", file_.string() + " has no " + described(wanted) +
-                                                       "; dsc plugin list --plugin shows what it has");
+                throw UsageError("usage.strategy", file_.string() + " does not contain " + described(wanted) +
+                                                       "; dsc plugin list --plugin shows its strategies");
         }
         return options_.strategies;
     }

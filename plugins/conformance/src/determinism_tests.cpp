@@ -1,4 +1,4 @@
-// det.*, seed.*: the same question gets the same answer, bit by bit.
+// det.*, seed.*: the same calls return the same answers, bit by bit.
 #include <locale.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -22,13 +22,13 @@ void require_same(const Trace& a, const Trace& b, const std::string& otherwise) 
 void repeat(const Subject& subject) {
     const Exercise how{.seed = subject.seed()};
     const Trace first = subject.answers(how).trace;
-    // Other memory, other addresses: whatever hangs on them differs.
+    // This changes memory and addresses, so that answers that depend on them differ.
     const std::vector<std::unique_ptr<char[]>> shift = [] {
         std::vector<std::unique_ptr<char[]>> blocks;
         for (std::size_t i = 1; i < 200; ++i) blocks.push_back(std::make_unique<char[]>(37 * i));
         return blocks;
     }();
-    require_same(first, subject.answers(how).trace, "the same question twice gives two answers");
+    require_same(first, subject.answers(how).trace, "the same calls return different answers the second time");
 }
 
 void threads(const Subject& subject) {
@@ -46,7 +46,7 @@ void threads(const Subject& subject) {
     }
 }
 
-// One instance's steps between those of another must not show.
+// Steps of one instance between the steps of another instance must have no effect.
 void instances(const Subject& subject) {
     subject.require_repeatable();
     const Fixture other = triangles(2);
@@ -75,12 +75,12 @@ void instances(const Subject& subject) {
     require_same(second, second_mixed, "two instances disturb each other");
 }
 
-// The values of vertex i of the reordered fixture against those of order[i].
+// Compares the values of vertex i of the reordered fixture with those of order[i].
 void require_permuted(const Trace& plain, const Trace& permuted, const std::vector<std::uint32_t>& order,
                       std::size_t width) {
     const std::size_t count = order.size() * width;
     require(plain.values().size() == permuted.values().size(),
-            "another order gives another number of answers");
+            "a different order of the vertices changes the number of answers");
     double largest = 0;
     for (const double v : plain.values()) largest = std::max(largest, std::abs(v));
     for (std::size_t i = 0; i < count; ++i) {
@@ -88,7 +88,7 @@ void require_permuted(const Trace& plain, const Trace& permuted, const std::vect
         const double found = permuted.values()[i];
         if (std::abs(expected - found) <= 1e-9 * largest) continue;
         throw Failed("vertex " + std::to_string(order[i / width]) + " gets " + std::to_string(found) +
-                     " instead of " + std::to_string(expected) + " when the vertices come in another order");
+                     " instead of " + std::to_string(expected) + " when the vertices have a different order");
     }
 }
 
@@ -96,7 +96,7 @@ void order(const Subject& subject) {
     subject.require_repeatable();
     subject.require_finite();
     if (Trace::difference(subject.answers().trace, subject.answers({.block = 17}).trace))
-        throw Skipped("the split into blocks changes its answers, see det.threads");
+        throw Skipped("the split into blocks changes its answers; see det.threads");
     std::vector<std::uint32_t> order(subject.fixture().view.vertex_count());
     std::iota(order.begin(), order.end(), 0U);
     RandomStream random(RandomKey{subject.seed(), stream_id("order"), 0, 0});
@@ -107,7 +107,7 @@ void order(const Subject& subject) {
     require_permuted(plain, permuted, order, subject.kind() == plugin::Kind::velocity ? 3 : 1);
 }
 
-// A decimal comma, as in half of the world.
+// A locale with a decimal comma, as in half of the world.
 class Comma : public std::numpunct<char> {
 protected:
     char do_decimal_point() const override { return ','; }
@@ -129,7 +129,7 @@ void environment(const Subject& subject) {
     if (chdir("/") != 0) throw Skipped("cannot change to another folder");
     const Trace after = subject.answers().trace;
     std::locale::global(locale);
-    require_same(before, after, "another locale, time zone, home and working folder change the answers");
+    require_same(before, after, "a different locale, time zone, home folder or working folder changes the answers");
 }
 
 void seed(const Subject& subject) {
@@ -138,31 +138,31 @@ void seed(const Subject& subject) {
     const Trace two = subject.answers({.seed = 2}).trace;
     const auto difference = Trace::difference(one, two);
     if (subject.record().traits.stochastic) {
-        require(difference.has_value(), "it is declared stochastic, and two seeds give the same answers");
+        require(difference.has_value(), "it is declared stochastic, but two seeds give the same answers");
     } else if (difference) {
-        throw Failed("two seeds give different answers, and it is not declared stochastic: " + *difference);
+        throw Failed("two seeds give different answers, but it is not declared stochastic: " + *difference);
     }
 }
 
 }  // namespace
 
 void add_determinism_tests(std::vector<Test>& table) {
-    add(table, {"det.repeat", Level::smoke, false, "The same question twice gives the same answer."}, repeat);
+    add(table, {"det.repeat", Level::smoke, false, "The same calls return the same answers each time."}, repeat);
     add(table,
         {"det.threads", Level::standard, false,
-         "Neither the number of threads nor the split into blocks changes an answer."},
+         "The number of threads and the split into blocks change no answer."},
         threads);
-    add(table, {"det.instances", Level::standard, false, "Two instances in turn do not disturb each other."},
+    add(table, {"det.instances", Level::standard, false, "Two instances that are called alternately do not disturb each other."},
         instances);
     add(table,
-        {"det.order", Level::strict, false, "Vertices in another order get the same values, up to rounding."},
+        {"det.order", Level::strict, false, "Vertices in a different order get the same values, up to rounding."},
         order, per_vertex);
     add(table,
-        {"det.env", Level::strict, false, "Locale, time zone, home and working folder change no answer."},
+        {"det.env", Level::strict, false, "Locale, time zone, home folder and working folder change no answer."},
         environment);
     add(table,
         {"seed.used", Level::standard, false,
-         "The seed changes the answers of strategies that are declared stochastic, and of no other."},
+         "The seed changes the answers of strategies that are declared stochastic, and of no others."},
         seed);
 }
 

@@ -13,19 +13,19 @@ namespace {
 
 constexpr std::size_t margin = 32;
 
-// An output with entries before and behind it that nobody may write.
+// An output with guard entries before and after it, which a strategy must not write.
 template <class T>
 class Output {
 public:
     Output(std::size_t size, const T& fill) : memory_(size + 2 * margin, fill) {}
     std::span<T> entries() { return std::span(memory_).subspan(margin, memory_.size() - 2 * margin); }
-    // "2 entries behind its end", or nothing.
+    // "2 entries after its end", or nothing.
     std::string touched() const {
         for (std::size_t i = 0; i < margin; ++i) {
             if (!untouched(memory_[margin - 1 - i]))
-                return std::to_string(i + 1) + " entries before its begin";
+                return std::to_string(i + 1) + " entries before its beginning";
             if (!untouched(memory_[memory_.size() - margin + i]))
-                return std::to_string(i + 1) + " entries behind its end";
+                return std::to_string(i + 1) + " entries after its end";
         }
         return {};
     }
@@ -43,7 +43,7 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-// Which part of the input differs; empty: none.
+// The part of the input that differs; empty: none.
 std::string difference(const Fixture& before, const Fixture& after) {
     const surface::SurfaceView& a = before.view;
     const surface::SurfaceView& b = after.view;
@@ -64,7 +64,7 @@ bool same_bytes(const cloud::Cloud& a, const cloud::Cloud& b) {
            same_bytes(a.orientation.samples, b.orientation.samples) && a.source == b.source;
 }
 
-// Goes along the normals, less where it is far from the middle: what refinements look at.
+// A velocity along the normals that decreases with the distance from the middle, for refinements to read.
 class Breathing final : public hooks::VelocityField {
 public:
     void prepare(const hooks::StepContext& context) override { surface_ = &context.surface; }
@@ -220,7 +220,7 @@ private:
         record(requests.attributes, context);
     }
 
-    // One repair round on a mesh whose worst tets are called dirty.
+    // One repair round on a mesh whose worst tets are marked as dirty.
     void improvement(hooks::Improvement& policy, const Fixture& now, const hooks::StepContext& context) {
         if (!now.complex) return;
         const mesh::Complex& complex = *now.complex;
@@ -307,7 +307,7 @@ private:
 
     void filter(hooks::CloudFilter& filter) {
         const cloud::Cloud cloud = cloud_of(fixture_);
-        if (cloud.points.empty()) return;  // a run has at least one point
+        if (cloud.points.empty()) return;  // in a run there is at least one point
         const cloud::Cloud before = cloud;
         const cloud::Filtered result = filter.apply(cloud, filter_context(how_, &workers_));
         if (!same_bytes(before, cloud)) answers_.changed = "the cloud";

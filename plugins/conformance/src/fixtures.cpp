@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t cloud_points = 1500;
 
-// Points of an ellipsoid, evenly in the area of the sphere [golden spiral].
+// Points of an ellipsoid, from points that are evenly spread over a sphere [golden spiral].
 std::vector<Vec3> ellipsoid(std::size_t count) {
     const Vec3 radii(1.0, 0.85, 0.7);
     const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
@@ -84,7 +84,7 @@ surface::TriangleMesh stretched(const Vec3& factors, const Vec3& shift = Vec3::Z
                       [&](const Vec3& p) { return Vec3(factors.cwiseProduct(p) + shift); });
 }
 
-// The first face shrunk to a line, the second to a point.
+// Shrinks the first face to a line and the second to a point.
 surface::TriangleMesh with_flat_faces() {
     surface::TriangleMesh mesh = sdk::icosphere(2, 1.0);
     const auto& [a, b, c] = mesh.faces[0];

@@ -1,5 +1,5 @@
 #pragma once
-// What strategies are tried on: ordinary surfaces and clouds, and hostile ones.
+// Fixtures for the tests: ordinary surfaces and clouds, and hostile ones.
 
 #include <dsc/cloud/target.hpp>
 #include <dsc/mesh/complex.hpp>
@@ -11,30 +11,30 @@
 
 namespace dsc::conformance {
 
-/// An interface, and what lies round it.
+/// An interface with its cloud and tets.
 struct Fixture {
     std::string name;
     surface::SurfaceView view;
     std::shared_ptr<const mesh::Complex>
-        complex;  ///< that the view is of; null where there are only triangles
+        complex;  ///< complex of the view; null if there are only triangles
     std::optional<cloud::TargetCloud> cloud;
 };
 
-/// A sphere in a box of tets, and 1,500 points of an ellipsoid that is its target.
+/// A sphere in a box of tets, and 1,500 points of an ellipsoid as its target.
 Fixture ordinary();
 /// The unit sphere as 20 * 4^level triangles with an ellipsoid of points, without tets.
 Fixture triangles(unsigned level);
 
-/// Surfaces as a bad run may have them: none at all, one tet, slivers, faces without area, coinciding points, tiny and far
-/// off, many pieces, vertices that may not move.
+/// Surfaces that a bad run may have: an empty one, one tet, slivers, faces without area, coinciding points, tiny and distant
+/// surfaces, many pieces, vertices that may not move.
 std::vector<Fixture> hostile_surfaces();
-/// The ordinary surface with no cloud, one point, points on a line, all in one place, few and far.
+/// The ordinary surface with no cloud, one point, points on a line, all points in one place, few distant points.
 std::vector<Fixture> hostile_clouds();
 
-/// The fixture as it is at a step: the surface drawn a little towards its centroid.
+/// The fixture at a step: the surface is moved a little towards its centroid.
 Fixture at_step(const Fixture& fixture, std::uint64_t step);
 
-/// Moved as a rigid body: x goes to rotation * x + shift.
+/// The fixture moved as a rigid body: x becomes rotation * x + shift.
 struct Motion {
     Eigen::Matrix3d rotation;
     Vec3 shift;

@@ -1,4 +1,4 @@
-// geo.*: the answers are geometry, not coordinates.
+// geo.*: the answers do not depend on the coordinate system.
 #include <algorithm>
 #include <cmath>
 
@@ -17,10 +17,10 @@ double largest_of(const std::vector<double>& values, const Trace::Stretch& part)
     return largest;
 }
 
-// Scalars stay, vectors turn along. Vectors are judged by the largest of all vectors, scalars by the largest of their part, whose
-// unit is its own, or by that of the vectors, beside which a part may be zero but for rounding.
+// Scalars stay the same, vectors rotate. Vectors are compared relative to the longest vector, scalars relative to the largest
+// value of their part, which has its own unit, or to the longest vector, since a part may be zero up to rounding.
 void rigid(const Subject& subject) {
-    if (!subject.record().traits.rigid) throw Skipped("it is declared to know a place or a direction");
+    if (!subject.record().traits.rigid) throw Skipped("it declares that it depends on a place or a direction");
     if (subject.record().traits.stochastic) throw Skipped("it is declared stochastic");
     subject.require_repeatable();
     subject.require_finite();
@@ -30,19 +30,21 @@ void rigid(const Subject& subject) {
     const std::vector<double>& plain = trace.values();
     const std::vector<double> there =
         subject.answers_on(moved(subject.fixture(), motion), {.steps = 1}).trace.values();
-    require(plain.size() == there.size(), "it gives another number of answers when all is moved");
+    require(plain.size() == there.size(), "the number of answers changes when everything is moved");
     const std::vector<Trace::Stretch> parts = trace.stretches();
     double longest = 0;
     for (const Trace::Stretch& part : parts) {
         if (part.width == 3) longest = std::max(longest, largest_of(plain, part));
     }
-    const std::string remedy = " when all is moved and turned; a strategy that knows a place or a direction says so: traits = {.rigid = false}";
+    const std::string remedy = " when everything is moved and rotated; a strategy that depends on a place or a direction "
+                               "declares traits = {.rigid = false}";
     for (const Trace::Stretch& part : parts) {
         if (part.width == 3) {
             for (std::size_t i = part.begin; i + 2 < part.end; i += 3) {
                 const Vec3 turned = motion.rotation * Vec3(plain[i], plain[i + 1], plain[i + 2]);
                 const Vec3 found(there[i], there[i + 1], there[i + 2]);
-                require((turned - found).norm() <= relative * longest, "the vector of " + trace.place(i) + " does not turn along" + remedy);
+                require((turned - found).norm() <= relative * longest,
+                        "the vector of " + trace.place(i) + " does not rotate" + remedy);
             }
             continue;
         }
@@ -59,7 +61,7 @@ void rigid(const Subject& subject) {
 void add_geometry_tests(std::vector<Test>& table) {
     add(table,
         {"geo.rigid", Level::standard, false,
-         "Surface and cloud moved as a rigid body move the answers with them."},
+         "If surface and cloud are moved as a rigid body, the answers move with them."},
         rigid, per_vertex);
 }
 

@@ -1,10 +1,10 @@
-// *.hostile, err.*: input that no one would wish for.
+// *.hostile, err.*: tests with bad input.
 #include "test_table.hpp"
 
 namespace dsc::conformance {
 namespace {
 
-// Finite answers, or an exception. A crash or an endless loop ends the process, and the test with it.
+// The strategy must return finite answers or throw. A crash or an endless loop ends the process and the test.
 void survive(const Subject& subject, const std::vector<Fixture>& fixtures) {
     for (const Fixture& fixture : fixtures) {
         const auto strategy = subject.make();
@@ -14,10 +14,10 @@ void survive(const Subject& subject, const std::vector<Fixture>& fixtures) {
         } catch (const std::exception&) {
             continue;
         } catch (...) {
-            throw Failed("on " + fixture.name + " it throws something that is no std::exception");
+            throw Failed("on " + fixture.name + " it throws something that is not a std::exception");
         }
         if (const auto bad = answers.trace.first_not_finite())
-            throw Failed("on " + fixture.name + " it gives " + std::to_string(answers.trace.values()[*bad]) +
+            throw Failed("on " + fixture.name + " it returns " + std::to_string(answers.trace.values()[*bad]) +
                          " as " + answers.trace.place(*bad));
     }
 }
@@ -26,7 +26,7 @@ void surfaces(const Subject& subject) { survive(subject, hostile_surfaces()); }
 
 void clouds(const Subject& subject) { survive(subject, hostile_clouds()); }
 
-// After a failure a strategy is as good as new.
+// After an exception a strategy works like a new one.
 void throws(const Subject& subject) {
     subject.require_repeatable();
     const Trace fresh = subject.answers().trace;
@@ -42,15 +42,15 @@ void throws(const Subject& subject) {
             break;
         }
     }
-    if (!thrown) throw Skipped("nothing makes it throw");
+    if (!thrown) throw Skipped("no input makes it throw");
     Trace after;
     try {
         after = exercise(subject.kind(), *strategy, subject.fixture(), {}).trace;
     } catch (const std::exception& error) {
-        throw Failed(std::string("after an exception it cannot be used any more: ") + error.what());
+        throw Failed(std::string("after an exception it can no longer be used: ") + error.what());
     }
     if (const auto difference = Trace::difference(fresh, after))
-        throw Failed("after an exception it gives other answers: " + *difference);
+        throw Failed("after an exception it gives different answers: " + *difference);
 }
 
 }  // namespace
@@ -63,11 +63,11 @@ void add_hostile_tests(std::vector<Test>& table) {
         {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement, plugin::Kind::observer});
     add(table,
         {"cloud.hostile", Level::standard, false,
-         "No cloud, one point, points on a line or in one place give finite answers or an exception."},
+         "No cloud, one point, and points on a line or in one place give finite answers or an exception."},
         clouds,
         {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement, plugin::Kind::observer,
          plugin::Kind::initial_mesh, plugin::Kind::filter});
-    add(table, {"err.throw", Level::standard, false, "After an exception it is as good as new."}, throws);
+    add(table, {"err.throw", Level::standard, false, "After an exception it works like a new one."}, throws);
 }
 
 }  // namespace dsc::conformance

@@ -1,4 +1,4 @@
-// lib.*: the file, its door, and what loading it leaves behind.
+// lib.*: the file, its entry, and the effects of loading it.
 #include <unistd.h>
 
 #include <dsc/base/error.hpp>
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Fails with what the doctor says where one of these steps fails; skips where another one does, of the test `before`.
+// Fails with the doctor's message if one of these steps fails; skips if another step fails, which the test `before` reports.
 void require_steps(const Subject& subject, std::initializer_list<std::string_view> mine,
                    std::string_view before) {
     for (const host::Examination& e : host::examine(subject.file(), {})) {
@@ -38,21 +38,21 @@ void entry(const Subject& subject) {
             "the file of plugin '" + info.name + "' must be libdsc_" + info.name + ".so");
     static const std::regex semver(R"((0|[1-9]\d*)\.(0|[1-9]\d*)\.(0|[1-9]\d*)([-+][0-9A-Za-z.+-]+)?)");
     require(std::regex_match(info.version, semver),
-            "the version '" + info.version + "' is no semantic version, MAJOR.MINOR.PATCH");
+            "the version '" + info.version + "' is not a semantic version, MAJOR.MINOR.PATCH");
     static const std::regex spdx(R"([A-Za-z0-9][A-Za-z0-9.+ ()-]*)");
     require(std::regex_match(info.license, spdx),
-            "the licence '" + info.license + "' is no SPDX expression, as MIT or BSD-3-Clause");
+            "the licence '" + info.license + "' is not an SPDX expression such as MIT or BSD-3-Clause");
     require(!info.summary.empty(), "the plugin has no summary");
 }
 
 void bind(const Subject& subject) { require_steps(subject, {"load"}, "lib.entry"); }
 
-// For tests of what loading does: it must be the first time in this process.
+// For tests of loading: the library must not yet be loaded in this process.
 void load(host::Host& host, const Subject& subject) {
     try {
         host.load(subject.file());
     } catch (const Error& error) {
-        throw Skipped(std::string("it does not load, see lib.entry and lib.bind: ") + error.what());
+        throw Skipped(std::string("it does not load; see lib.entry and lib.bind: ") + error.what());
     }
 }
 
@@ -63,7 +63,7 @@ std::size_t count_entries(const char* folder) {
     return count;
 }
 
-// Loading is listing: it must be quick, and leave nothing but the strategies.
+// A list of plugins loads them: loading must be quick, and must add nothing except the strategies.
 void scan(const Subject& subject) {
     const std::size_t files = count_entries("/proc/self/fd");
     const std::size_t threads = count_entries("/proc/self/task");
@@ -75,10 +75,11 @@ void scan(const Subject& subject) {
     require(count_entries("/proc/self/task") == threads, "it starts a thread when it is loaded");
     require(count_entries("/proc/self/fd") == files, "it leaves a file or socket open when it is loaded");
     const bool silent = printed_so_far() == printed;
-    require(silent, "it prints when it is loaded: " + printed_since(printed));
+    require(silent, "it prints text when it is loaded: " + printed_since(printed));
     if (seconds > 5) throw Failed("it takes " + std::to_string(seconds) + " s to load");
     if (seconds > 0.5)
-        throw Warned("it takes " + std::to_string(seconds) + " s to load; a list of plugins should be quick");
+        throw Warned("it takes " + std::to_string(seconds) +
+                     " s to load; plugins should load quickly, because a list of plugins loads them all");
 }
 
 std::string names(const host::Host& host) {
@@ -101,7 +102,7 @@ void twice(const Subject& subject) {
         throw Failed(std::string("a second host cannot load it: ") + error.what());
     }
     require(names(first) == names(second),
-            "a second host gets other strategies or parameters than the first");
+            "a second host gets different strategies or parameters from the first one");
 }
 
 }  // namespace
@@ -115,7 +116,7 @@ void add_library_tests(std::vector<Test>& table) {
         bind);
     add(table,
         {"lib.scan", Level::smoke, true,
-         "It loads quickly and starts no thread, opens no file and prints nothing."},
+         "It loads quickly, starts no thread, leaves no file open and prints nothing."},
         scan);
     add(table, {"lib.twice", Level::standard, true, "Two hosts in one process get the same strategies."},
         twice);

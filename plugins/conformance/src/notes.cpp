@@ -29,7 +29,7 @@ std::map<std::string, std::string> waivers(const ConfigNode& map) {
         bool is_test = false;
         for (const TestInfo& test : known) is_test = is_test || test.id == entry.key;
         if (!is_test) refuse(entry.value, "there is no test '" + entry.key + "' to waive");
-        if (entry.value.as_string().empty()) refuse(entry.value, "a test is waived with a reason");
+        if (entry.value.as_string().empty()) refuse(entry.value, "a waived test needs a reason");
         result[entry.key] = entry.value.as_string();
     }
     return result;
@@ -40,7 +40,7 @@ StrategyNotes strategy(const ConfigNode& node) {
     StrategyNotes notes;
     const auto kind = plugin::find_kind(node.at("kind").as_string());
     if (!kind)
-        refuse(node.at("kind"), "there is no kind '" + node.at("kind").as_string() + "' of strategies");
+        refuse(node.at("kind"), "there is no kind of strategy '" + node.at("kind").as_string() + "'");
     notes.kind = *kind;
     notes.id = node.at("id").as_string();
     if (const ConfigNode* parameters = node.find("parameters")) notes.parameters = *parameters;

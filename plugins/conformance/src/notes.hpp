@@ -1,5 +1,5 @@
 #pragma once
-// The notes on a plugin, libdsc_NAME.check.yaml beside it or a file named: what the tests cannot guess, and what need not hold.
+// The notes on a plugin, libdsc_NAME.check.yaml beside it or a given file: values that the tests cannot guess, and waived tests.
 //
 //     strategies:
 //       - kind: initial_mesh
@@ -27,10 +27,10 @@ using Notes = std::vector<StrategyNotes>;
 
 /// Throws ConfigError, IoError.
 Notes read_notes(const std::filesystem::path& file);
-/// Beside the plugin in this file; empty where there are none. Throws as read_notes().
+/// The notes beside the plugin in this file; empty if there are none. Throws as read_notes().
 Notes notes_beside(const std::filesystem::path& library);
 
-/// Null where the strategy has none.
+/// The notes on a strategy; null if there are none.
 const StrategyNotes* find(const Notes& notes, plugin::Kind kind, const std::string& id);
 
 }  // namespace dsc::conformance

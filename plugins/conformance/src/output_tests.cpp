@@ -1,4 +1,4 @@
-// out.*: what is written, where, and what is left alone.
+// out.*: what a strategy writes and where, and what it must not change.
 #include <dsc/base/log.hpp>
 
 #include "process.hpp"
@@ -22,7 +22,7 @@ void complete(const Subject& subject) {
 void output_bounds(const Subject& subject) {
     for (const std::size_t block : {std::size_t{64}, std::size_t{1}}) {
         const Answers answers = subject.answers({.block = block});
-        require(answers.outside.empty(), "it writes outside of its output, in " + answers.outside);
+        require(answers.outside.empty(), "it writes outside its output, in " + answers.outside);
     }
 }
 
@@ -37,12 +37,12 @@ void output_attributes(const Subject& subject) {
 }
 
 void quiet(const Subject& subject) {
-    set_log_sink([](LogLevel, std::string_view) {});  // what goes through the log may be said
+    set_log_sink([](LogLevel, std::string_view) {});  // messages through the log are allowed
     const std::size_t before = printed_so_far();
     subject.answers();
     const bool silent = printed_so_far() == before;
     require(silent,
-            "it prints; strategies say what they have to say through dsc::log: " + printed_since(before));
+            "it prints text; strategies must use dsc::log for messages: " + printed_since(before));
 }
 
 }  // namespace
@@ -51,12 +51,12 @@ void add_output_tests(std::vector<Test>& table) {
     add(table, {"out.finite", Level::smoke, false, "No answer is NaN or infinite."}, finite);
     add(table, {"out.complete", Level::smoke, false, "Every entry of an output is written."}, complete,
         per_vertex);
-    add(table, {"out.bounds", Level::standard, false, "Nothing outside of an output is written."}, output_bounds,
+    add(table, {"out.bounds", Level::standard, false, "Nothing outside an output is written."}, output_bounds,
         per_vertex);
-    add(table, {"out.const", Level::standard, false, "The input is as it was before, bit by bit."}, inputs);
+    add(table, {"out.const", Level::standard, false, "The input does not change, bit by bit."}, inputs);
     add(table,
         {"out.attributes", Level::standard, false,
-         "Published attributes have one value per vertex, and names that are allowed and differ."},
+         "Published attributes have one value per vertex, and valid names that differ."},
         output_attributes, {plugin::Kind::velocity, plugin::Kind::refinement});
     add(table, {"out.quiet", Level::strict, false, "Nothing is printed."}, quiet);
 }

@@ -8,13 +8,13 @@ namespace {
 
 using config::ConfigNode;
 
-// A set of parameters that the schema accepts either works, with finite answers, or is refused by an exception.
+// A set of parameters that the schema accepts either works, with finite answers, or leads to an exception.
 void try_out(const Subject& subject, const Variation& variation) {
     ConfigNode resolved;
     try {
         resolved = subject.resolve(variation.parameters);
     } catch (const std::exception&) {
-        return;  // refused by a cross check; schema.reject judges the judging
+        return;  // refused by a condition; schema.reject tests the conditions
     }
     Answers answers;
     try {
@@ -23,14 +23,14 @@ void try_out(const Subject& subject, const Variation& variation) {
     } catch (const std::exception&) {
         return;
     } catch (...) {
-        throw Failed("with " + variation.name + " it throws something that is no std::exception");
+        throw Failed("with " + variation.name + " it throws something that is not a std::exception");
     }
     if (const auto bad = answers.trace.first_not_finite())
-        throw Failed("with " + variation.name + " it gives " + std::to_string(answers.trace.values()[*bad]) +
+        throw Failed("with " + variation.name + " it returns " + std::to_string(answers.trace.values()[*bad]) +
                      " as " + answers.trace.place(*bad));
 }
 
-// What nobody says and what is said explicitly come to the same.
+// Defaults that are left out and defaults that are written out have the same effect.
 void defaults(const Subject& subject) {
     const auto run = [&](const ConfigNode& resolved) {
         try {
@@ -44,11 +44,11 @@ void defaults(const Subject& subject) {
     const Trace explicitly = run(resolved);
     bool required = false;
     for (const config::Field& field : subject.schema().fields()) required = required || field.required;
-    if (required) return;  // nothing of it goes without saying
+    if (required) return;  // there are no defaults to leave out
     subject.require_repeatable();
-    // Only those that the struct of parameters can hold by itself: a nested strategy's defaults are its own.
+    // Only for parameters without nested strategies, which have their own defaults.
     if (const auto difference = Trace::difference(explicitly, run(ConfigNode::map())))
-        throw Failed("defaults that are written out give other answers than those left out: " + *difference);
+        throw Failed("defaults that are written out give different answers from defaults that are left out: " + *difference);
 }
 
 void parameter_bounds(const Subject& subject) {
@@ -67,15 +67,15 @@ void fuzz(const Subject& subject) {
 void add_parameter_tests(std::vector<Test>& table) {
     add(table,
         {"param.default", Level::smoke, false,
-         "It works with its defaults, and the same whether they are written out or left out."},
+         "It works with its defaults, with the same answers whether they are written out or left out."},
         defaults);
     add(table,
         {"param.bounds", Level::standard, false,
-         "It works, or refuses by an exception, with every parameter at the ends of its range."},
+         "It works or throws an exception with every parameter at the ends of its range."},
         parameter_bounds);
     add(table,
         {"param.fuzz", Level::standard, false,
-         "It works, or refuses by an exception, with random parameters within their ranges."},
+         "It works or throws an exception with random parameters within their ranges."},
         fuzz);
 }
 

@@ -29,7 +29,7 @@ bool is_number(const Field& field) {
     return field.type == FieldType::integer || field.type == FieldType::real;
 }
 
-// The last value inside a bound; for an open one the next double, or integer, within.
+// The last value inside a bound; for an open bound the next double or integer inside.
 double inside(const Field& field, const Bound& bound, bool lower) {
     if (!bound.open) return bound.value;
     if (field.type == FieldType::integer) return lower ? bound.value + 1 : bound.value - 1;
@@ -60,7 +60,7 @@ void add_number(const Field& field, const ConfigNode& base, std::vector<Variatio
         out.push_back(vary(base, field, number(field, inside(field, *field.maximum, false)), "greatest"));
 }
 
-// Where a range is open to one side, values up to ten times the usual one; powers of two between far ends.
+// If a range has only one end, values up to ten times the usual one; powers of two if the ends are far apart.
 double draw(const Field& field, double usual, RandomStream& random) {
     const double reach = 10.0 * std::max(std::abs(usual), 1e-3);
     const double low = field.minimum ? inside(field, *field.minimum, true) : -reach;
@@ -153,7 +153,7 @@ std::vector<Variation> wrong(const config::Schema& schema, const ConfigNode& bas
             out.push_back(vary(base, field, "no_such_choice", "not a choice"));
         out.push_back(vary(base, field, other_type(field), "another type"));
     }
-    out.push_back({"a key that there is not", base.with("no_such_parameter", 1)});
+    out.push_back({"a key that does not exist", base.with("no_such_parameter", 1)});
     return out;
 }
 

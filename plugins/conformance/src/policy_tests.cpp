@@ -1,4 +1,4 @@
-// mesh.topology, policy.*, cloud.attributes: what generators make, what policies ask for, what filters leave.
+// mesh.topology, policy.*, cloud.attributes: tests of initial meshes, requests and filtered clouds.
 #include <algorithm>
 #include <cstring>
 #include <dsc/kernel/deformer.hpp>
@@ -15,7 +15,7 @@ namespace {
 constexpr unsigned rounds_of_refinement = 4;
 constexpr unsigned steps_of_improvement = 4;
 
-// The kernel takes the mesh, and a full scan finds no fault in it.
+// The kernel accepts the mesh, and a full scan finds no fault in it.
 void topology(const Subject& subject) {
     const auto strategy = subject.make();
     const run::MeshFiles files;
@@ -28,14 +28,14 @@ void topology(const Subject& subject) {
     const mesh::ComplexReport report = mesh::validate(complex);
     require(report.valid(), report.faults.empty() ? "" : report.faults.front());
     require(report.irregular_vertices == 0,
-            "the interface is no 2-manifold at " + std::to_string(report.irregular_vertices) + " vertices");
+            "the interface is not a 2-manifold at " + std::to_string(report.irregular_vertices) + " vertices");
     require(std::any_of(mesh.labels.begin(), mesh.labels.end(), [](mesh::Label l) { return l > 0; }),
-            "no tet has a label above 0: there is nothing to deform");
+            "no tet has a label above 0, so there is nothing to deform");
     require(std::any_of(mesh.labels.begin(), mesh.labels.end(), [](mesh::Label l) { return l == 0; }),
-            "no tet has the label 0: the body fills the box");
+            "no tet has the label 0, so the body fills the box");
 }
 
-// Goes along x: the velocity that refinements are shown.
+// A velocity along x, for refinements to read.
 class Drift final : public hooks::VelocityField {
 public:
     void prepare(const hooks::StepContext&) override {}
@@ -57,7 +57,7 @@ hooks::RefinementRequests ask(hooks::RefinementPolicy& policy, const Fixture& fi
     return requests;
 }
 
-// Requests name each simplex once, asking again on the same mesh asks for no more, and a few rounds end.
+// Requests name each simplex once, a second call on the same mesh requests nothing more, and a few rounds end.
 void refinement(const Subject& subject) {
     const auto strategy = subject.make();
     auto& policy = static_cast<hooks::RefinementPolicy&>(*strategy);
@@ -69,18 +69,18 @@ void refinement(const Subject& subject) {
         std::sort(requests.split_faces.begin(), requests.split_faces.end());
         require(std::adjacent_find(requests.split_faces.begin(), requests.split_faces.end()) ==
                     requests.split_faces.end(),
-                "it asks twice for the split of one face");
+                "it requests the split of one face twice");
         const hooks::RefinementRequests again = ask(policy, fixture, round + 1);
         require(again.split_faces.size() <= requests.split_faces.size() &&
                     again.split_edges.size() <= requests.split_edges.size(),
-                "asked again about the same mesh it wants more: " + std::to_string(again.split_faces.size()) +
+                "a second call on the same mesh requests more: " + std::to_string(again.split_faces.size()) +
                     " faces and " + std::to_string(again.split_edges.size()) + " edges after " +
                     std::to_string(requests.split_faces.size()) + " and " +
                     std::to_string(requests.split_edges.size()));
         std::vector<std::array<mesh::VertexId, 3>> faces;
         for (const std::uint32_t f : requests.split_faces) {
             require(f < fixture.view.face_count(),
-                    "it asks for face " + std::to_string(f) + ", which does not exist");
+                    "it requests face " + std::to_string(f) + ", which does not exist");
             const auto& [a, b, c] = fixture.view.faces[f];
             faces.push_back(
                 {fixture.view.vertex_ids[a], fixture.view.vertex_ids[b], fixture.view.vertex_ids[c]});
@@ -90,14 +90,14 @@ void refinement(const Subject& subject) {
     require(mesh::validate(deformer.complex()).valid(), "its refinement left an invalid mesh");
 }
 
-// Displacements that spoil the tets: a twist that grows along z.
+// Displacements that make bad tets: a twist that grows along z.
 std::vector<Vec3> twist(const surface::SurfaceView& view) {
     std::vector<Vec3> out;
     for (const Vec3& p : view.positions) out.push_back(0.08 * p.z() * Vec3(-p.y(), p.x(), 0));
     return out;
 }
 
-// A few steps with it as the policy end within their rounds, with a valid mesh.
+// A few steps with this policy end within their rounds, with a valid mesh.
 void improvement(const Subject& subject) {
     const auto strategy = subject.make();
     auto& policy = static_cast<hooks::Improvement&>(*strategy);
@@ -132,10 +132,10 @@ std::string bits_of(const Vec3& point) {
 
 void require_size(std::size_t size, std::size_t points, const char* what) {
     require(size == 0 || size == points,
-            "it gives " + std::to_string(size) + " " + what + " for " + std::to_string(points) + " points");
+            "it returns " + std::to_string(size) + " " + what + " for " + std::to_string(points) + " points");
 }
 
-// Attributes fit the points, a point that stays keeps its colour, and the report adds up.
+// The attributes match the points, a point that stays keeps its colour, and the numbers in the report add up.
 void filter_attributes(const Subject& subject) {
     const auto strategy = subject.make();
     const cloud::Cloud given = cloud_of(subject.fixture());
@@ -146,7 +146,8 @@ void filter_attributes(const Subject& subject) {
     require_size(result.cloud.areas.size(), points, "areas");
     require_size(result.cloud.confidence.size(), points, "confidences");
     require(result.cloud.colours.size() == points,
-            "the cloud has a colour for each of its points, and it gives " + std::to_string(result.cloud.colours.size()) +
+            "the cloud has a colour for each of its points, but the filter returns " +
+                std::to_string(result.cloud.colours.size()) +
                 " colours for " + std::to_string(points) + " points");
     std::map<std::string, cloud::Colour> colours;
     for (std::size_t i = 0; i < given.points.size(); ++i) colours[bits_of(given.points[i])] = given.colours[i];
@@ -156,7 +157,7 @@ void filter_attributes(const Subject& subject) {
                 "point " + std::to_string(i) + " has the colour of another point");
     }
     require(result.report.kept == points && result.report.kept + result.report.removed == given.points.size(),
-            "its report has " + std::to_string(result.report.kept) + " points kept and " + std::to_string(result.report.removed) +
+            "its report counts " + std::to_string(result.report.kept) + " points kept and " + std::to_string(result.report.removed) +
                 " removed, of " + std::to_string(given.points.size()) + " given and " + std::to_string(points) + " left");
 }
 
@@ -174,7 +175,8 @@ void sizing(const Subject& subject) {
     const auto strategy = subject.make();
     const unsigned passes = static_cast<hooks::RefinementPolicy&>(*strategy).passes();
     require(passes >= 1 && passes <= hooks::refinement_passes,
-            "it wants " + std::to_string(passes) + " passes, from 1 to " + std::to_string(hooks::refinement_passes) + " are possible");
+            "it asks for " + std::to_string(passes) + " passes, but only 1 to " +
+                std::to_string(hooks::refinement_passes) + " are possible");
 }
 
 }  // namespace
@@ -182,19 +184,19 @@ void sizing(const Subject& subject) {
 void add_policy_tests(std::vector<Test>& table) {
     add(table,
         {"mesh.topology", Level::standard, false,
-         "A generated mesh is conforming, fills its box and has a manifold interface."},
+         "An initial mesh is conforming, fills its box and has a manifold interface."},
         topology, {plugin::Kind::initial_mesh});
     add(table,
         {"policy.progress", Level::standard, false,
-         "Requests end: refinement asks for nothing twice, improvement leaves valid meshes."},
+         "Requests come to an end: refinements request nothing twice, improvements leave valid meshes."},
         progress, {plugin::Kind::refinement, plugin::Kind::improvement});
     add(table,
         {"policy.sizing", Level::standard, false,
-         "Target lengths are above 0, one for all or one per vertex, and the number of passes is possible."},
+         "Target lengths are above 0, one for all vertices or one per vertex, and the number of passes is allowed."},
         sizing, {plugin::Kind::refinement});
     add(table,
         {"cloud.attributes", Level::standard, false,
-         "A filter's points keep their attributes, and its report counts them."},
+         "The points that a filter keeps have their attributes, and its report counts them."},
         filter_attributes, {plugin::Kind::filter});
 }
 

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-int printed = -1;  // in a child: the memory file behind its standard output and error
+int printed = -1;  // in a child: the memory file that receives its standard output and error
 
 std::string read_file(int file, std::size_t begin, std::size_t most) {
     std::string text(most, '\0');
@@ -36,14 +36,14 @@ std::size_t size_of(int file) {
     return end < 0 ? 0 : static_cast<std::size_t>(end);
 }
 
-// An empty folder, gone with its owner.
+// An empty folder that is removed together with its owner.
 class Scratch {
 public:
     Scratch() {
         std::string pattern = (fs::temp_directory_path() / "dsc-check-XXXXXX").string();
         if (mkdtemp(pattern.data()) == nullptr)
             throw IoError("check.scratch", pattern, "", strerror(errno),
-                          "set TMPDIR to a folder that can be written");
+                          "set TMPDIR to a writable folder");
         path_ = pattern;
     }
     ~Scratch() {
@@ -78,7 +78,7 @@ std::string last_line(const std::string& text) {
                        end - (begin == std::string::npos ? 0 : begin + 1) + 1);
 }
 
-// The line of a sanitizer's report that says what it is; empty without one.
+// The line of a sanitizer's report that names the error; empty if there is none.
 std::string sanitizer_report(const std::string& output) {
     for (const char* sign :
          {"ERROR: AddressSanitizer", "ERROR: LeakSanitizer", "WARNING: ThreadSanitizer", "runtime error:"}) {
@@ -96,7 +96,7 @@ Verdict judge(int status, bool in_time, const std::string& bytes, const std::str
         return {Status::timeout, "it did not end within " + std::to_string(limit.count() / 1000) + " s"};
     if (const std::string report = sanitizer_report(output); !report.empty()) return {Status::fail, report};
     const std::string said = last_line(output);
-    const std::string last_words = said.empty() ? "" : ", its last words: " + said;
+    const std::string last_words = said.empty() ? "" : "; it printed: " + said;
     if (WIFSIGNALED(status)) return {Status::crash, host::end_text(status) + last_words};
     if (bytes.empty() || WEXITSTATUS(status) != 0)
         return {Status::crash,
@@ -129,7 +129,7 @@ Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::millisec
     std::array<int, 2> ends{};
     const int output = memfd_create("output", MFD_CLOEXEC);
     if (output < 0 || pipe2(ends.data(), O_CLOEXEC) != 0)
-        throw PluginError("check.process", std::string("cannot make a pipe for a test (") + strerror(errno) +
+        throw PluginError("check.process", std::string("cannot create a pipe for a test (") + strerror(errno) +
                                                "); close other programs");
     std::cout.flush();
     std::fflush(nullptr);
@@ -145,13 +145,13 @@ Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::millisec
     if (child > 0) {
         if (!in_time) kill(child, SIGKILL);
         status = host::wait_for(child);
-        kill(-child, SIGKILL);  // whatever it has started
+        kill(-child, SIGKILL);  // also ends the processes that it has started
     }
     const std::string said = read_file(output, 0, std::size_t{1} << 20U);
     close(ends[0]);
     close(output);
     if (child < 0)
-        throw PluginError("check.process", std::string("cannot make a process for a test (") +
+        throw PluginError("check.process", std::string("cannot start a process for a test (") +
                                                strerror(errno) + "); close other programs");
     return judge(status, in_time, bytes, said, limit);
 }

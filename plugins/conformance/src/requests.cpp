@@ -8,10 +8,10 @@ namespace dsc::conformance {
 std::string unfit(const hooks::Attributes& attributes, std::size_t vertices) {
     for (std::size_t i = 0; i < attributes.size(); ++i) {
         const hooks::Attribute& a = attributes[i];
-        if (!hooks::may_name_attribute(a.name)) return "'" + a.name + "' is not a name that an attribute may have";
+        if (!hooks::may_name_attribute(a.name)) return "'" + a.name + "' is not a valid name for an attribute";
         const auto before = attributes.begin() + static_cast<std::ptrdiff_t>(i);
         if (std::any_of(attributes.begin(), before, [&a](const hooks::Attribute& other) { return other.name == a.name; })) {
-            return "attribute '" + a.name + "' is there twice";
+            return "attribute '" + a.name + "' is published twice";
         }
         if (a.values.size() != vertices) {
             return "attribute '" + a.name + "' has " + std::to_string(a.values.size()) + " values for " + std::to_string(vertices) +
@@ -30,7 +30,8 @@ std::string unfit_lengths(const hooks::RefinementRequests& requests, std::size_t
         if (std::any_of(lengths->begin(), lengths->end(), bad)) return "a target length is not above 0";
     }
     if (requests.target_length < 0.0) return "the target length is below 0";
-    if (requests.target_length > 0.0 && !requests.target_lengths.empty()) return "there are a target length for all and one per vertex";
+    if (requests.target_length > 0.0 && !requests.target_lengths.empty())
+        return "there is a target length for all vertices and also one per vertex";
     return {};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a refinement asks for and what strategies publish, as numbers and as faults.
+// The requests of refinements and the attributes of strategies: as numbers, and their faults.
 
 #include <dsc/hooks/refinement_policy.hpp>
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace dsc::conformance {
 
-/// Which attribute does not fit a surface with so many vertices; empty: none.
+/// The attribute that does not fit a surface with this number of vertices; empty: none.
 std::string unfit(const hooks::Attributes& attributes, std::size_t vertices);
-/// Which target lengths do not fit; empty: none. Values that are not finite are the business of out.finite.
+/// The target lengths that do not fit; empty: none. out.finite tests for values that are not finite.
 std::string unfit_lengths(const hooks::RefinementRequests& requests, std::size_t vertices);
 
-/// All requests but the attributes, in parts whose names end with `at`.
+/// All requests except the attributes, in parts whose names end with `at`.
 void add_requests(const hooks::RefinementRequests& requests, const std::string& at, Trace& trace);
 
 }  // namespace dsc::conformance

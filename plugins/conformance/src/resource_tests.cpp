@@ -1,4 +1,4 @@
-// cancel, leak, thr.*, perf.*: what a strategy uses.
+// cancel, leak, thr.*, perf.*: the resources that a strategy uses.
 #include <malloc.h>
 
 #include <dsc/base/error.hpp>
@@ -18,7 +18,7 @@ bool sanitized(std::string_view by) {
     return plugin::core_fingerprint().find("san=" + std::string(by)) != std::string_view::npos;
 }
 
-// Cancelled before it begins, it comes back soon, with or without an answer.
+// A strategy that is cancelled before it begins returns soon, with or without an answer.
 void cancel(const Subject& subject) {
     CancelToken token;
     token.cancel();
@@ -27,11 +27,11 @@ void cancel(const Subject& subject) {
     try {
         exercise(subject.kind(), *strategy, subject.fixture(), {.steps = 1, .cancel = &token});
     } catch (const std::exception&) {
-        // a CancelledError, most likely
+        // most likely a CancelledError
     }
     const double seconds = cpu_seconds() - begin;
     if (seconds > cancel_seconds && !sanitized("address") && !sanitized("thread"))
-        throw Failed("cancelled, it works on for " + std::to_string(seconds) + " s");
+        throw Failed("after it was cancelled, it works for another " + std::to_string(seconds) + " s");
 }
 
 void use_once(const Subject& subject, const Fixture& fixture) {
@@ -39,11 +39,11 @@ void use_once(const Subject& subject, const Fixture& fixture) {
     try {
         exercise(subject.kind(), *strategy, fixture, {.steps = 1});
     } catch (const std::exception& error) {
-        throw Skipped(std::string("it throws, see param.default: ") + error.what());
+        throw Skipped(std::string("it throws; see param.default: ") + error.what());
     }
 }
 
-// Made, used and destroyed many times, it holds no more memory than after a few times.
+// A strategy that is created, used and destroyed many times keeps no more memory than after a few times.
 void leak(const Subject& subject) {
     const bool costly = subject.kind() == plugin::Kind::initial_mesh || subject.kind() == plugin::Kind::improvement ||
                         subject.kind() == plugin::Kind::filter;
@@ -56,7 +56,7 @@ void leak(const Subject& subject) {
         return;
     }
     if (sanitized("thread")) throw Skipped("memory is not counted under ThreadSanitizer");
-    // The allocator counts what it caches as in use, now and then some hundred bytes more: a leak is there in every round.
+    // The allocator counts its cache as used memory, which sometimes grows by some hundred bytes: a leak shows in every round.
     constexpr std::size_t much = 256;
     std::size_t lost = much;
     for (unsigned round = 0; round < 3 && lost >= much; ++round) {
@@ -65,16 +65,16 @@ void leak(const Subject& subject) {
         const std::size_t after = mallinfo2().uordblks + mallinfo2().hblkhd;
         lost = after > before ? (after - before) / repeats : 0;
     }
-    require(lost < much, std::to_string(lost) + " bytes are lost each time it is made, used and destroyed");
+    require(lost < much, std::to_string(lost) + " bytes are lost each time it is created, used and destroyed");
 }
 
-// The report of the sanitizer is the verdict; the process that runs the test reads it.
+// The sanitizer's report decides; the process that runs the test reads it.
 void race(const Subject& subject) {
-    if (!sanitized("thread")) throw Skipped("races show in a build with ThreadSanitizer only");
+    if (!sanitized("thread")) throw Skipped("races are found only in a build with ThreadSanitizer");
     for (unsigned i = 0; i < 3; ++i) subject.answers({.threads = 4, .block = 8});
 }
 
-// Four times the surface takes about four times as long.
+// A surface four times as large takes about four times as long.
 void scale(const Subject& subject) {
     const auto time = [&](unsigned level) {
         const Fixture fixture = triangles(level);
@@ -91,21 +91,21 @@ void scale(const Subject& subject) {
     const double large = time(5);
     const double ratio = large / std::max(small, 1e-6);
     if (large > 0.02 && ratio > 9)
-        throw Warned("four times the surface takes " + std::to_string(ratio) +
-                     " times as long: it grows faster than the surface");
+        throw Warned("a surface four times as large takes " + std::to_string(ratio) +
+                     " times as long; the time grows faster than the surface");
 }
 
 }  // namespace
 
 void add_resource_tests(std::vector<Test>& table) {
-    add(table, {"cancel", Level::standard, false, "Cancelled, it comes back within 2 s."}, cancel);
-    add(table, {"leak", Level::standard, false, "Made, used and destroyed, it leaves no memory behind."},
+    add(table, {"cancel", Level::standard, false, "It returns within 2 s after it is cancelled."}, cancel);
+    add(table, {"leak", Level::standard, false, "It loses no memory when it is created, used and destroyed."},
         leak);
     add(table,
         {"thr.race", Level::strict, false,
          "Concurrent calls have no data race (in a build with ThreadSanitizer)."},
         race);
-    add(table, {"perf.scale", Level::strict, false, "The time grows with the surface, not faster."}, scale,
+    add(table, {"perf.scale", Level::strict, false, "The time grows no faster than the surface."}, scale,
         {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement});
 }
 

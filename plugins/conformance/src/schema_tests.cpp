@@ -15,9 +15,10 @@ using config::ConfigNode;
 using config::Field;
 using config::FieldType;
 
-// Words that units are made of, joined by / or ^.
+// The words of units; / or ^ joins them.
 constexpr std::array unit_words = {
     "1",      "length",  "curvature",    "time",       "radians", "degrees",         "mean edges",
+    "target lengths (L)", "current mean edges",
     "steps",  "seconds", "vertices",     "faces",      "tets",    "points",          "diagonals",
     "radius", "cells",   "finest cells", "directions", "levels",  "point distances", "point spacings",
     "2",      "3",       "threads",      "rounds",     "point widths", "budgets", "sweeps",
@@ -50,7 +51,7 @@ void lint_field(const Field& field, std::vector<std::string>& problems) {
     });
     if (!snake) problems.push_back(subject + "is not named in snake_case");
     if (field.doc.empty() || field.doc.back() != '.')
-        problems.push_back(subject + "has a doc that is no sentence");
+        problems.push_back(subject + "has a doc that is not a sentence");
     if (!field.unit.empty() && !is_unit(field.unit))
         problems.push_back(subject + "has the unknown unit '" + field.unit + "'");
     const bool number =
@@ -67,7 +68,7 @@ void lint(const Subject& subject) {
     require(problems.empty(), config::join(problems, "; "));
 }
 
-// What has a default resolves, is written as YAML and read back as the same.
+// Defaults are accepted; written as YAML and read back, they are the same.
 void parameters_roundtrip(const Subject& subject) {
     for (const Field& field : subject.schema().fields()) {
         if (field.required) {
@@ -82,12 +83,12 @@ void parameters_roundtrip(const Subject& subject) {
                         [](const Field& field) { return field.required; });
         resolved = needs_notes ? subject.defaults() : subject.resolve(ConfigNode::map());
     } catch (const StrategyError& error) {
-        throw Failed(std::string("its defaults cannot be judged: ") + error.what());
+        throw Failed(std::string("its defaults cannot be validated: ") + error.what());
     } catch (const Failed& failed) {
         throw Failed(std::string("its own defaults are refused: ") + failed.what());
     }
     const ConfigNode again = subject.resolve(config::parse_yaml(config::to_yaml(resolved), "defaults"));
-    require(again == resolved, "the defaults, written and read back, are others:\n" + config::to_yaml(again));
+    require(again == resolved, "the defaults change when they are written and read back:\n" + config::to_yaml(again));
     for (const Field& field : subject.schema().fields()) {
         std::vector<std::string> choices = field.choices;
         std::sort(choices.begin(), choices.end());
@@ -96,7 +97,7 @@ void parameters_roundtrip(const Subject& subject) {
     }
 }
 
-// The schema says clearly what is wrong and what is not: a bound is in or out, and judging throws nothing else.
+// The schema decides clearly what is accepted: a bound is inside or outside, and validation throws nothing else.
 void reject(const Subject& subject) {
     const ConfigNode& base = subject.defaults();
     for (const Variation& v : wrong(subject.schema(), base)) {
@@ -112,9 +113,9 @@ void reject(const Subject& subject) {
         try {
             subject.resolve(v.parameters);
         } catch (const Failed&) {
-            continue;  // a cross check may refuse it
+            continue;  // a condition may refuse it
         } catch (const std::exception& error) {
-            throw Failed("judging " + v.name + " throws: " + error.what());
+            throw Failed("validation of " + v.name + " throws: " + error.what());
         }
     }
 }
@@ -124,15 +125,15 @@ void reject(const Subject& subject) {
 void add_schema_tests(std::vector<Test>& table) {
     add(table,
         {"schema.lint", Level::smoke, false,
-         "Parameters are named in snake_case, documented in sentences, and numbers have known units."},
+         "Parameters have names in snake_case and docs that are sentences, and numbers have known units."},
         lint);
     add(table,
         {"schema.roundtrip", Level::smoke, false,
-         "The defaults are accepted, and written as YAML and read back they are the same."},
+         "The defaults are accepted, and stay the same when they are written as YAML and read back."},
         parameters_roundtrip);
     add(table,
         {"schema.reject", Level::standard, false,
-         "Values outside of a range, of another type, and unknown keys are refused; judging never throws."},
+         "Values outside a range, values of another type and unknown keys are refused; validation never throws."},
         reject);
 }
 

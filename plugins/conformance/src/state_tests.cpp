@@ -1,4 +1,4 @@
-// state.*: what a checkpoint holds of a strategy.
+// state.*: the state of a strategy in a checkpoint.
 #include <dsc/base/random.hpp>
 #include <sstream>
 
@@ -13,7 +13,7 @@ std::string saved(const hooks::Strategy& strategy) {
     return out.str();
 }
 
-// Two steps, saved, read by another instance: both go on to the same answers, and hold the same state.
+// After two steps the state is saved and read by another instance: both then give the same answers, and store the same state.
 void state_roundtrip(const Subject& subject) {
     subject.require_repeatable();
     const auto original = subject.make();
@@ -24,17 +24,17 @@ void state_roundtrip(const Subject& subject) {
         std::istringstream in(state, std::ios::binary);
         resumed->load(in);
     } catch (const std::exception& error) {
-        throw Failed(std::string("it cannot read what it has saved: ") + error.what());
+        throw Failed(std::string("it cannot read the state that it has saved: ") + error.what());
     }
-    require(saved(*resumed) == state, "saved, read and saved again, the state differs");
+    require(saved(*resumed) == state, "the state differs after it is saved, read and saved again");
     const Exercise on{.first_step = 3, .steps = 2};
     const Trace uninterrupted = exercise(subject.kind(), *original, subject.fixture(), on).trace;
     const Trace continued = exercise(subject.kind(), *resumed, subject.fixture(), on).trace;
     if (const auto difference = Trace::difference(uninterrupted, continued))
-        throw Failed("a resumed run is another run: " + *difference);
+        throw Failed("a resumed run gives different answers: " + *difference);
 }
 
-// Damaged states: an empty one is refused; no other ends in anything but an exception or a reading.
+// Damaged states: an empty one is refused; any other is read or leads to an exception.
 void damaged(const Subject& subject) {
     const auto original = subject.make();
     exercise(subject.kind(), *original, subject.fixture(), {.steps = 2});
@@ -50,7 +50,7 @@ void damaged(const Subject& subject) {
         }
         return false;
     };
-    require(refuses(""), "it reads an empty state as if it were one");
+    require(refuses(""), "it accepts an empty state");
     for (std::size_t part = 1; part < 16; ++part) refuses(state.substr(0, state.size() * part / 16));
     RandomStream random(RandomKey{subject.seed(), stream_id("state"), 0, 0});
     for (int i = 0; i < 50; ++i) {
@@ -60,13 +60,13 @@ void damaged(const Subject& subject) {
     }
 }
 
-// State belongs to advance(): a step in which prepare() is called again is the same step.
+// Only advance() may change the state: a second prepare() in a step changes nothing.
 void prepare_again(const Subject& subject) {
     subject.require_repeatable();
     const Trace once = subject.answers({.steps = 3}).trace;
     const Trace often = subject.answers({.steps = 3, .prepares = 3}).trace;
     if (const auto difference = Trace::difference(once, often)) {
-        throw Failed("calling prepare() again changes its answers, so it changes a state that belongs to advance(): " + *difference);
+        throw Failed("a second call of prepare() changes its answers; only advance() may change the state: " + *difference);
     }
 }
 
@@ -75,12 +75,12 @@ void prepare_again(const Subject& subject) {
 void add_state_tests(std::vector<Test>& table) {
     add(table,
         {"state.roundtrip", Level::standard, false,
-         "Saved and read by another instance, a run goes on as if nothing had been."},
+         "After another instance has read its saved state, the run continues with the same answers."},
         state_roundtrip);
     add(table,
         {"state.prepare", Level::standard, false, "prepare() may be called more than once per step and changes no answer."}, prepare_again,
         per_vertex);
-    add(table, {"state.bad", Level::standard, false, "Damaged states end in an exception, never in a crash."},
+    add(table, {"state.bad", Level::standard, false, "Damaged states lead to an exception, never to a crash."},
         damaged);
 }
 

@@ -26,7 +26,7 @@ Subject::Subject(std::filesystem::path file, const StrategyName* strategy, const
 
 const plugin::StrategyRecord& Subject::record() const {
     if (!strategy_)
-        throw Failed("the strategy is gone: the plugin registers another set of strategies each time");
+        throw Failed("the strategy is missing: the plugin registers a different set of strategies each time");
     return *strategy_->strategy;
 }
 
@@ -47,14 +47,14 @@ const config::ConfigNode& Subject::defaults() const {
         notes_ != nullptr && notes_->parameters.is_map() ? notes_->parameters : config::ConfigNode::map();
     for (const config::Field& field : schema().fields()) {
         if (field.required && given.find(field.name) == nullptr) {
-            throw Skipped("parameter '" + field.name + "' has no default; give it a value in " +
+            throw Skipped("parameter '" + field.name + "' has no default; set its value in " +
                           file_.stem().string() + ".check.yaml beside the plugin");
         }
     }
     try {
         defaults_ = resolve(given);
     } catch (const std::exception&) {
-        throw Skipped("the default parameters are refused, see schema.roundtrip");
+        throw Skipped("the default parameters are refused; see schema.roundtrip");
     }
     return *defaults_;
 }
@@ -73,19 +73,19 @@ Answers Subject::answers_on(const Fixture& on, const Exercise& how) const {
     } catch (const Skipped&) {
         throw;
     } catch (const std::exception& error) {
-        throw Skipped(std::string("it throws, see param.default: ") + error.what());
+        throw Skipped(std::string("it throws; see param.default: ") + error.what());
     }
 }
 
 void Subject::require_repeatable() const {
     if (Trace::difference(answers().trace, answers().trace))
-        throw Skipped("two runs with the same seed differ, see det.repeat");
+        throw Skipped("two runs with the same seed differ; see det.repeat");
 }
 
 void Subject::require_finite() const {
     const Answers given = answers();
     if (given.trace.first_not_finite() || given.trace.first_unwritten())
-        throw Skipped("not all answers are numbers, see out.finite and out.complete");
+        throw Skipped("not all answers are numbers; see out.finite and out.complete");
 }
 
 const Fixture& Subject::fixture() const {

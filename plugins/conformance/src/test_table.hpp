@@ -1,5 +1,5 @@
 #pragma once
-// The tests by the families of their ids; each file <family>_tests.cpp adds its own.
+// The table of tests, in families by their ids; each file <family>_tests.cpp adds its tests.
 
 #include <algorithm>
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace dsc::conformance {
 
-/// Passes by returning; otherwise throws Failed, Skipped or Warned. Any other exception is a failure, too.
+/// Returns if the test passes; otherwise throws Failed, Skipped or Warned. Any other exception is also a failure.
 struct Test {
     TestInfo info;
     void (*run)(const Subject&) = nullptr;
-    std::vector<plugin::Kind> kinds;  ///< that it is for; empty: all
+    std::vector<plugin::Kind> kinds;  ///< kinds for which it runs; empty: all
 
     bool is_for(plugin::Kind kind) const {
         return kinds.empty() || std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
@@ -22,7 +22,7 @@ struct Test {
 void add(std::vector<Test>& table, TestInfo info, void (*run)(const Subject&),
          std::vector<plugin::Kind> kinds = {});
 
-/// Kinds with a value for each vertex.
+/// Kinds that return a value per vertex.
 inline const std::vector<plugin::Kind> per_vertex = {plugin::Kind::velocity, plugin::Kind::curvature};
 
 void add_library_tests(std::vector<Test>& table);
@@ -36,7 +36,7 @@ void add_hostile_tests(std::vector<Test>& table);
 void add_policy_tests(std::vector<Test>& table);
 void add_resource_tests(std::vector<Test>& table);
 
-/// All of them.
+/// All tests.
 const std::vector<Test>& test_table();
 
 }  // namespace dsc::conformance

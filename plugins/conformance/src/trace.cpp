@@ -9,13 +9,13 @@
 namespace dsc::conformance {
 namespace {
 
-constexpr std::uint64_t unwritten_bits = 0x7ff4dead0000beefULL;  // a signalling NaN with a payload of its own
+constexpr std::uint64_t unwritten_bits = 0x7ff4dead0000beefULL;  // a signalling NaN with a special payload
 
 }  // namespace
 
 double unwritten() { return std::bit_cast<double>(unwritten_bits); }
 
-// Copying a signalling NaN may make it quiet, which sets one bit.
+// A copy of a signalling NaN may become quiet, which sets one bit.
 bool is_unwritten(double value) {
     constexpr std::uint64_t quiet = 0x0008000000000000ULL;
     return (std::bit_cast<std::uint64_t>(value) | quiet) == (unwritten_bits | quiet);

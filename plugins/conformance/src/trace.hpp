@@ -1,5 +1,5 @@
 #pragma once
-// Trace: all that a strategy answered in an exercise, to be compared bit by bit.
+// Trace: all answers of a strategy in an exercise, for a comparison bit by bit.
 
 #include <cstdint>
 #include <dsc/geometry/vec.hpp>
@@ -10,10 +10,10 @@
 
 namespace dsc::conformance {
 
-/// Numbers in the order in which they came, in named parts.
+/// The numbers in the order in which they were returned, in named parts.
 class Trace {
 public:
-    /// Opens a part: "displacements at step 2", with so many numbers an entry.
+    /// Begins a part, such as "displacements at step 2", with this count of numbers per entry.
     void part(std::string name, std::size_t width = 1);
     void add(double value) { values_.push_back(value); }
     void add(const Vec3& value) {
@@ -26,7 +26,7 @@ public:
 
     const std::vector<double>& values() const { return values_; }
 
-    /// A part: its values are [begin, end), `width` of them an entry.
+    /// A part: its values are [begin, end), `width` of them per entry.
     struct Stretch {
         std::size_t begin;
         std::size_t end;
@@ -36,7 +36,7 @@ public:
     /// "entry 12 of displacements at step 2" for the value at `index`.
     std::string place(std::size_t index) const;
 
-    /// Where two traces differ first, in words; nothing where all bits agree.
+    /// Describes the first difference of two traces; nothing if all bits agree.
     static std::optional<std::string> difference(const Trace& a, const Trace& b);
     /// The first value that is neither finite nor, bit for bit, `unwritten`.
     std::optional<std::size_t> first_not_finite() const;
@@ -53,7 +53,7 @@ private:
     std::vector<double> values_;
 };
 
-/// A NaN that no computation gives: what outputs hold before a strategy writes them.
+/// A NaN that no computation returns; it fills the outputs before a strategy writes them.
 double unwritten();
 bool is_unwritten(double value);
 

@@ -1,5 +1,5 @@
 #pragma once
-// How a test says that it did not pass: by throwing one of these.
+// A test that does not pass throws one of these.
 
 #include <stdexcept>
 #include <string>

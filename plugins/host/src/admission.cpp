@@ -9,19 +9,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Loading a library is running it: nobody else may be able to put one there. A sticky folder (as /tmp)
-// protects a file that the user names, but not what a scan of it would find.
+// Loading a library runs it, so nobody else may be able to put one there. A sticky folder (like /tmp)
+// protects a file that the user names, but not the files that a scan of the folder would find.
 void require_unwritable(const fs::path& path, bool sticky_will_do) {
     std::error_code error;
     const fs::perms permissions = fs::status(path, error).permissions();
     if (error || (permissions & fs::perms::others_write) == fs::perms::none) return;
     if (sticky_will_do && (permissions & fs::perms::sticky_bit) != fs::perms::none) return;
-    refuse(path, "plugin.writable", "may be written by everyone, and loading a plugin runs it",
-           "take the permission away (chmod o-w) or move the plugin to a folder of your own");
+    refuse(path, "plugin.writable", "can be written by everyone, and loading a plugin runs its code",
+           "remove this permission (chmod o-w) or move the plugin to your own folder");
 }
 
-// The folder beside the core library: whoever may write there may as well replace the program, so a judgement
-// of it would only stop builds made with a permissive umask.
+// The folder beside the core library: a user who may write there may also replace the program, so a check
+// of it would only refuse builds made with a permissive umask.
 bool as_trusted_as_the_program(const fs::path& folder) {
     std::error_code error;
     return fs::equivalent(folder, installed_folder(), error);
@@ -34,7 +34,7 @@ fs::path real_path(const fs::path& file) {
     fs::path real = fs::canonical(file, error);
     if (error)
         refuse(file, "plugin.open", "cannot be opened (" + error.message() + ")",
-               "check the name and the permissions");
+               "check its name and permissions");
     return real;
 }
 

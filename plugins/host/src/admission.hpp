@@ -1,5 +1,5 @@
 #pragma once
-// What is judged of a plugin's file while nothing of it runs.
+// Checks of a plugin's file before any of its code runs.
 
 #include <filesystem>
 
@@ -8,12 +8,12 @@ namespace dsc::host {
 /// The file without symbolic links. Throws PluginError "plugin.open".
 std::filesystem::path real_path(const std::filesystem::path& file);
 
-/// Nobody else may be able to put a library there. Throws PluginError "plugin.writable".
+/// Requires that nobody else can put a library there. Throws PluginError "plugin.writable".
 void require_safe_folder(const std::filesystem::path& folder);
-/// The same for one file, which the user named, and for the folder that it lies in.
+/// The same for one file that the user named, and for its folder.
 void require_safe_file(const std::filesystem::path& real);
 
-/// Safe, a library with an entry, and built to fit. Throws as these do, and as read_entry() and require_fitting().
+/// Requires a safe library with an entry that fits this dsc. Throws as the functions above, read_entry() and require_fitting().
 void require_admissible(const std::filesystem::path& real);
 
 }  // namespace dsc::host

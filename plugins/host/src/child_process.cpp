@@ -18,7 +18,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Up to `size` bytes; 0 at the end, -1 where the time is over.
+// Reads up to `size` bytes; returns 0 at the end, -1 when the time limit is reached.
 ssize_t read_some(int from, void* data, std::size_t size, Clock::time_point until) {
     for (;;) {
         const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now());

@@ -25,7 +25,7 @@ public:
         });
         step("permissions", [this] {
             require_safe_file(real_);
-            return std::string("nobody else may write it");
+            return std::string("nobody else can write it");
         });
         step("library", [this] {
             entry_ = read_entry(real_);
@@ -36,7 +36,7 @@ public:
         step("load", [this] {
             rehearsed_ = scan({&real_, 1}).front();
             if (rehearsed_ && rehearsed_->code != "plugin.enroll") raise(*rehearsed_);
-            return std::string("opened in a process of its own, nothing missing");
+            return std::string("opened in a child process, nothing missing");
         });
         step("register", [this] { return judge_strategies(); });
         step("names", [this] { return judge_names(); });
@@ -67,7 +67,7 @@ private:
         const plugin::PluginEntry& entry = entry_.entry;
         return "plugin '" + text_of(entry.name) + "' " + text_of(entry.version) + ", licence " +
                text_of(entry.license) + ", ABI " + std::to_string(entry.abi_major) + "." +
-               std::to_string(entry.abi_minor) + ", built to fit this dsc";
+               std::to_string(entry.abi_minor) + ", fits this dsc";
     }
 
     void note_soft_differences() {
@@ -76,7 +76,7 @@ private:
              plugin::compare_fingerprints(text_of(entry_.entry.fingerprint), plugin::core_fingerprint())) {
             all_.push_back(
                 {"build", Result::note,
-                 d.key + " is '" + d.plugin + "', that of dsc is '" + d.host + "'; this does no harm"});
+                 d.key + " is '" + d.plugin + "', that of dsc is '" + d.host + "'; this is harmless"});
         }
     }
 
@@ -92,7 +92,7 @@ private:
         return text;
     }
 
-    // The plugins that a run would find as well. One of them may be this very file, or an older build of it.
+    // The plugins that a run would also find. One of them may be this same file, or an older build of it.
     std::string judge_names() const {
         Host together;
         together.load(real_);

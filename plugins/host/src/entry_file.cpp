@@ -15,9 +15,9 @@
 namespace dsc::host {
 namespace {
 
-static_assert(sizeof(void*) == 8, "the reader knows 64-bit ELF files");
+static_assert(sizeof(void*) == 8, "the reader supports 64-bit ELF files only");
 
-// A file's bytes; every read is checked, because the file may be anything.
+// The bytes of a file; every read is checked, because the file may contain anything.
 class Bytes {
 public:
     explicit Bytes(std::vector<char> data) : data_(std::move(data)) {}
@@ -31,7 +31,7 @@ public:
         return value;
     }
 
-    // Up to `size` bytes into `to`; the number read.
+    // Reads up to `size` bytes into `to`; returns the number read.
     std::size_t copy(std::uint64_t offset, std::size_t size, void* to) const {
         if (offset >= data_.size()) return 0;
         const std::size_t count =
@@ -44,7 +44,7 @@ public:
         return offset <= data_.size() && size <= data_.size() - offset;
     }
 
-    // Whether a zero-ended text stands at the offset.
+    // Whether this zero-terminated text is at the offset.
     bool text_equals(std::uint64_t offset, std::string_view text) const {
         if (offset > data_.size() || data_.size() - offset < text.size() + 1) return false;
         return std::memcmp(data_.data() + offset, text.data(), text.size()) == 0 &&
@@ -58,12 +58,12 @@ private:
 Bytes load_bytes(const std::filesystem::path& file) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error)) {
-        refuse(file, "plugin.open", "is a folder, not a library", "name the file libdsc_NAME.so in it");
+        refuse(file, "plugin.open", "is a folder, not a library", "give the file libdsc_NAME.so in it");
     }
     std::ifstream in(file, std::ios::binary);
     if (!in) {
         refuse(file, "plugin.open", std::string("cannot be read (") + std::strerror(errno) + ")",
-               "check the name and the permissions");
+               "check its name and permissions");
     }
     std::vector<char> data;
     constexpr std::size_t chunk = std::size_t{1} << 18U;
@@ -73,7 +73,7 @@ Bytes load_bytes(const std::filesystem::path& file) {
         in.read(data.data() + size, static_cast<std::streamsize>(chunk));
         data.resize(size + static_cast<std::size_t>(in.gcount()));
     }
-    if (in.bad()) refuse(file, "plugin.open", "cannot be read to its end", "check the disk it lies on");
+    if (in.bad()) refuse(file, "plugin.open", "cannot be read completely", "check its disk");
     return Bytes(std::move(data));
 }
 
@@ -84,14 +84,14 @@ Bytes load_bytes(const std::filesystem::path& file) {
 Elf64_Ehdr require_library(const Bytes& bytes, const std::filesystem::path& file) {
     const auto header = bytes.read<Elf64_Ehdr>(0);
     if (!header || std::memcmp(header->e_ident, ELFMAG, SELFMAG) != 0) {
-        refuse(file, "plugin.not_elf", "is not a shared library", "name a plugin's file, libdsc_NAME.so");
+        refuse(file, "plugin.not_elf", "is not a shared library", "give the file of a plugin, libdsc_NAME.so");
     }
     if (header->e_ident[EI_CLASS] != ELFCLASS64 || header->e_ident[EI_DATA] != ELFDATA2LSB ||
         header->e_type != ET_DYN) {
         refuse(file, "plugin.not_elf", "is not a shared library for this machine",
                "build it on this machine");
     }
-    // The dynamic linker maps the segments without asking whether the file is long enough, and dies of it.
+    // The dynamic linker maps the segments without checking that the file is long enough, and would crash.
     bool whole = header->e_shentsize == sizeof(Elf64_Shdr) && header->e_phentsize == sizeof(Elf64_Phdr) &&
                  bytes.holds(header->e_shoff, std::uint64_t{header->e_shnum} * sizeof(Elf64_Shdr));
     for (std::uint64_t i = 0; whole && i < header->e_phnum; ++i) {
@@ -102,7 +102,7 @@ Elf64_Ehdr require_library(const Bytes& bytes, const std::filesystem::path& file
     return *header;
 }
 
-// Place in the file of what will lie at a virtual address.
+// The offset in the file of a virtual address.
 std::optional<std::uint64_t> file_offset(const Bytes& bytes, const Elf64_Ehdr& header,
                                          std::uint64_t address) {
     for (std::uint64_t i = 0; i < header.e_phnum; ++i) {
@@ -115,7 +115,7 @@ std::optional<std::uint64_t> file_offset(const Bytes& bytes, const Elf64_Ehdr& h
     return std::nullopt;
 }
 
-// The symbol in the table of dynamic symbols; empty where there is none. Fails on a table that leaves the
+// Finds the symbol in the table of dynamic symbols; empty if there is none. Fails if the table extends beyond the
 // file.
 std::optional<Elf64_Sym> find_symbol(const Bytes& bytes, const Elf64_Ehdr& header, std::string_view name,
                                      const std::filesystem::path& file) {
@@ -145,8 +145,8 @@ void require_same_build(const plugin::PluginEntry& entry, const std::filesystem:
     std::string cause;
     for (const auto& difference : plugin::compare_fingerprints(theirs, ours)) {
         if (!difference.hard) continue;
-        cause += cause.empty() ? "was built in another way than this dsc: " : ", ";
-        cause += difference.key + " is '" + difference.plugin + "' there and '" + difference.host + "' here";
+        cause += cause.empty() ? "was built differently from this dsc: " : ", ";
+        cause += difference.key + " is '" + difference.plugin + "' in the plugin and '" + difference.host + "' in dsc";
     }
     if (cause.empty()) return;
     refuse(
@@ -170,7 +170,7 @@ EntryBytes read_entry(const std::filesystem::path& file) {
     if (!symbol) {
         refuse(file, "plugin.no_entry",
                std::string("is a library without the symbol ") + plugin::entry_symbol,
-               "a plugin has one DSC_PLUGIN(...) { ... } in one of its sources");
+               "write one DSC_PLUGIN(...) { ... } in one source file of the plugin");
     }
     const auto offset = file_offset(bytes, header, symbol->st_value);
     if (!offset) damaged(file);
@@ -185,10 +185,10 @@ void require_fitting(const EntryBytes& bytes, const std::filesystem::path& file)
     const plugin::PluginEntry& entry = bytes.entry;
     if (bytes.available < offsetof(plugin::PluginEntry, fingerprint) || entry.magic != plugin::entry_magic) {
         refuse(file, "plugin.magic",
-               std::string("has a symbol ") + plugin::entry_symbol + " that is no entry of a dsc plugin",
-               "a plugin's entry is made by DSC_PLUGIN(...) { ... }, never by hand");
+               std::string("has a symbol ") + plugin::entry_symbol + " that is not a valid plugin entry",
+               "write the entry with DSC_PLUGIN(...) { ... }, never by hand");
     }
-    const std::string rebuild = "rebuild it against dsc's headers of this version";
+    const std::string rebuild = "rebuild it with the headers of this dsc";
     if (entry.abi_major != DSC_ABI_MAJOR) {
         refuse(file, "plugin.abi",
                "was built for ABI " + version_text(entry.abi_major, entry.abi_minor) + ", this dsc has ABI " +
@@ -197,15 +197,15 @@ void require_fitting(const EntryBytes& bytes, const std::filesystem::path& file)
     }
     if (entry.struct_size != sizeof(plugin::PluginEntry) || bytes.available != sizeof(plugin::PluginEntry)) {
         refuse(file, "plugin.size",
-               "has an entry of " + std::to_string(entry.struct_size) + " bytes where " +
-                   std::to_string(sizeof(plugin::PluginEntry)) + " are due",
+               "has an entry of " + std::to_string(entry.struct_size) + " bytes instead of the expected " +
+                   std::to_string(sizeof(plugin::PluginEntry)) + " bytes",
                rebuild);
     }
     if (entry.abi_minor > DSC_ABI_MINOR) {
         refuse(file, "plugin.abi",
                "needs ABI " + version_text(entry.abi_major, entry.abi_minor) + ", this dsc has ABI " +
                    version_text(DSC_ABI_MAJOR, DSC_ABI_MINOR),
-               "install a newer dsc or rebuild it against this one");
+               "install a newer dsc, or rebuild the plugin with the headers of this one");
     }
     require_same_build(entry, file);
 }

@@ -1,6 +1,6 @@
 #pragma once
 // Reads a plugin's entry from the library's file, so that the gate decides before any code of the library
-// runs: not even its static constructors, nor the start-up of a sanitizer that the host lacks.
+// runs, including its static constructors and the start-up code of a sanitizer that the host lacks.
 
 #include <array>
 #include <cstdint>
@@ -10,16 +10,16 @@
 
 namespace dsc::host {
 
-/// The entry's plain part. `enroll` is an address in the file, of no use to anyone.
+/// The plain part of the entry. `enroll` is an address in the file and must not be used.
 struct EntryBytes {
     plugin::PluginEntry entry{};
-    std::size_t available = 0;  ///< bytes that the symbol has; entries of other layouts may be shorter
+    std::size_t available = 0;  ///< size of the symbol in bytes; entries of other layouts may be shorter
 };
 
 /// Throws PluginError "plugin.open", "plugin.not_elf", "plugin.no_entry".
 EntryBytes read_entry(const std::filesystem::path& file);
 
-/// Judges magic, ABI, size and fingerprint, in this order: another ABI explains another size. Throws
+/// Checks magic, ABI, size and fingerprint, in this order, since another ABI explains another size. Throws
 /// PluginError "plugin.magic", "plugin.abi", "plugin.size", "plugin.fingerprint".
 void require_fitting(const EntryBytes& bytes, const std::filesystem::path& file);
 

@@ -52,7 +52,7 @@ void Host::rehearse(std::span<const fs::path> files) {
     for (std::size_t i = 0; i < files.size(); ++i) rehearsed_[files[i]] = faults[i];
 }
 
-// One child process for a whole folder. What does not pass the gate is refused again, and reported, when its turn comes.
+// One child process for a whole folder. Libraries that do not pass the gate here are refused and reported later, in their order.
 void Host::rehearse_folder(const std::set<fs::path>& files) {
     std::vector<fs::path> admissible;
     for (const fs::path& file : files) {
@@ -89,9 +89,9 @@ void Host::load(const fs::path& file) {
         const auto taken = strategies_.find({record.kind, record.id});
         if (taken == strategies_.end()) continue;
         refuse(real, "plugin.duplicate",
-               std::string(plugin::kind_name(record.kind)) + " '" + record.id + "' is already there, from " +
+               std::string(plugin::kind_name(record.kind)) + " '" + record.id + "' already exists, from " +
                    taken->second.plugin->file.string(),
-               "load only one of the two files, or give one strategy another id");
+               "load only one of the two files, or give one strategy a different id");
     }
     for (const plugin::StrategyRecord& record : loaded->strategies) {
         strategies_[{record.kind, record.id}] = {&record, &loaded->info};
@@ -105,7 +105,7 @@ void Host::attempt(const SearchEntry& entry, const fs::path& file, OnFault on_fa
     try {
         load();
     } catch (const PluginError& error) {
-        // Two answers to one name are never a matter of order.
+        // Two strategies with the same id are an error in any order.
         const bool fatal = entry.required || error.code() == "plugin.duplicate";
         if (on_fault == OnFault::stop_if_required && fatal) {
             throw PluginError(error.code(), entry.origin + ": " + error.what());
@@ -119,7 +119,7 @@ void Host::attempt(const SearchEntry& entry, const fs::path& file, OnFault on_fa
 }
 
 void Host::load_folder(const SearchEntry& entry, OnFault on_fault) {
-    std::set<fs::path> files;  // sorted, so that no order of the file system matters
+    std::set<fs::path> files;  // sorted, so that the order in the file system has no influence
     attempt(entry, entry.path, on_fault, [&] {
         require_safe_folder(entry.path);
         std::error_code error;
@@ -140,7 +140,8 @@ void Host::load_folder(const SearchEntry& entry, OnFault on_fault) {
         if (earlier != loaded_.end()) {
             const fs::path& front = (*earlier)->info.file;
             if (!fs::equivalent(front, file, error)) {
-                log(LogLevel::info, front.string() + " stands in front of " + file.string());
+                log(LogLevel::info, "using " + front.string() + "; " + file.string() +
+                                        " is ignored (same file name, later on the search path)");
             }
             continue;
         }

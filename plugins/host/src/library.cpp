@@ -18,7 +18,7 @@ bool is_plain_name(std::string_view name) {
                        [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
 }
 
-// Holds what enroll() registers until all of it is known to be sound.
+// Stores what enroll() registers until all of it has been checked.
 class Staging : public plugin::Registrar {
 public:
     std::vector<plugin::StrategyRecord> records;
@@ -46,7 +46,7 @@ const plugin::PluginEntry& open_library(const std::filesystem::path& file) {
     if (library == nullptr) {
         refuse(file, "plugin.load",
                std::string("does not load: ") + (reason == nullptr ? "no reason given" : reason),
-               "a symbol or library that it needs is missing; link with -Wl,-z,defs to see it when building");
+               "a symbol or library that it needs is missing; link with -Wl,-z,defs to find it at build time");
     }
     const void* entry = dlsym(library, plugin::entry_symbol);
     if (entry == nullptr)
@@ -59,7 +59,7 @@ std::vector<plugin::StrategyRecord> enroll(const plugin::PluginEntry& entry,
     const std::string remedy = "report this to the plugin's authors";
     const std::string name = text_of(entry.name);
     if (!is_plain_name(name)) {
-        refuse(file, "plugin.enroll", "names itself '" + name + "', which is not of the form [a-z][a-z0-9_]*",
+        refuse(file, "plugin.enroll", "has the name '" + name + "', which is not of the form [a-z][a-z0-9_]*",
                remedy);
     }
     if (entry.enroll == nullptr) refuse(file, "plugin.enroll", "has no enroll function", remedy);
@@ -69,7 +69,7 @@ std::vector<plugin::StrategyRecord> enroll(const plugin::PluginEntry& entry,
     } catch (const std::exception& error) {
         refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: " + error.what(), remedy);
     } catch (...) {
-        refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: it threw no std::exception",
+        refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: it threw something that is not a std::exception",
                remedy);
     }
     if (staging.records.empty())

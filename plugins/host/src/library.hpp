@@ -1,5 +1,5 @@
 #pragma once
-// Opens a library that has passed the gate and collects what it registers: from here on its code runs.
+// Opens a library that has passed the gate and collects the strategies that it registers; here its code runs.
 
 #include <dsc/plugin/entry.hpp>
 #include <dsc/plugin/registrar.hpp>
@@ -8,8 +8,8 @@
 
 namespace dsc::host {
 
-/// Opened now, locally and for good: virtual tables, exceptions and statics of a plugin stay valid to the end. Throws
-/// PluginError "plugin.load", "plugin.no_entry".
+/// Opens it with RTLD_NOW and RTLD_LOCAL and never closes it: virtual tables, exceptions and statics of a plugin stay
+/// valid. Throws PluginError "plugin.load", "plugin.no_entry".
 const plugin::PluginEntry& open_library(const std::filesystem::path& file);
 
 /// The strategies that the plugin registers, all or none. Throws PluginError "plugin.enroll".

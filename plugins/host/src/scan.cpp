@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// One message of the child, for each library in turn: the two texts of a fault, empty for none.
+// One message of the child per library: the two texts of a fault, both empty if there is none.
 struct Answer {
     std::string code;
     std::string message;
@@ -37,7 +37,7 @@ void send(int to, const Answer& answer) {
     if (!write_all(to, bytes)) _exit(1);
 }
 
-[[noreturn]] void rehearse(std::span<const fs::path> libraries, int to) {
+[[noreturn]] void trial_load(std::span<const fs::path> libraries, int to) {
     keep_to_itself(open("/dev/null", O_WRONLY | O_CLOEXEC));
     for (const fs::path& library : libraries) {
         Answer answer;
@@ -62,7 +62,7 @@ public:
         process_ = fork();
         if (process_ == 0) {
             close(ends[0]);
-            rehearse(libraries, ends[1]);
+            trial_load(libraries, ends[1]);
         }
         close(ends[1]);
         from_ = ends[0];
@@ -79,7 +79,7 @@ public:
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    // The next message, unless the child ends or the time is over first.
+    // The next message, unless the child ends or the time limit is reached first.
     ReadEnd next(Answer& answer, Clock::time_point until) const {
         std::array<std::uint32_t, 2> head{};
         if (const ReadEnd end = read_all(from_, head.data(), sizeof(head), until); end != ReadEnd::all) return end;
@@ -90,15 +90,15 @@ public:
     }
 
     // How it ended: "was ended by signal 11 (Segmentation fault)".
-    std::string obituary() {
+    std::string exit_description() {
         const int status = wait_for(process_);
         ended_ = true;
-        return (WIFSIGNALED(status) ? "was ended by " : "ended itself with ") + end_text(status);
+        return (WIFSIGNALED(status) ? "was ended by " : "exited with ") + end_text(status);
     }
 
 private:
     [[noreturn]] static void throw_system(const std::string& what) {
-        throw PluginError("plugin.scan", "cannot make " + what + " to try plugins in (" + strerror(errno) +
+        throw PluginError("plugin.scan", "cannot create " + what + " for the trial load of plugins (" + strerror(errno) +
                                              "); close other programs");
     }
 
@@ -118,7 +118,7 @@ std::vector<std::optional<Fault>> scan(std::span<const fs::path> libraries, std:
     std::size_t next = 0;
     while (next < libraries.size()) {
         Child child(libraries.subspan(next));
-        // As long as the child answers, it goes on to the next library; where it ends, another one takes over.
+        // One child process handles all libraries; if it ends, a new child continues with the next library.
         for (ReadEnd end = ReadEnd::all; end == ReadEnd::all && next < libraries.size();
              ++next) {
             Answer answer;
@@ -127,11 +127,11 @@ std::vector<std::optional<Fault>> scan(std::span<const fs::path> libraries, std:
             if (end == ReadEnd::late) {
                 faults[next] = fault_of(file, "plugin.hang",
                                         "did not load within " + std::to_string(limit.count() / 1000) +
-                                            " s when it was tried in a process of its own");
+                                            " s in a child process");
             } else if (end == ReadEnd::closed) {
                 faults[next] =
                     fault_of(file, "plugin.crash",
-                             "crashes when it is loaded: the process that tried it " + child.obituary());
+                             "crashes when it is loaded: the child process " + child.exit_description());
             } else if (!answer.code.empty()) {
                 faults[next] = Fault{file, answer.code, answer.message};
             }

@@ -18,8 +18,8 @@ void add_variable(std::vector<SearchEntry>& entries, const std::string& list) {
         if (path.empty()) continue;
         if (path.is_relative()) {
             throw PluginError("plugin.search_path", "DSC_PLUGIN_PATH: '" + path.string() +
-                                                        "' is relative, and what it means would depend on "
-                                                        "the current folder; write it from the root");
+                                                        "' is relative, so its meaning would depend on "
+                                                        "the current folder; write an absolute path");
         }
         entries.push_back({path, "DSC_PLUGIN_PATH", true});
     }

@@ -7,7 +7,7 @@ namespace dsc::strategies {
 
 void AngularDefect::declare(config::ParamSchema<Params>& schema) {
     schema.boolean("per_area", &Params::per_area)
-        .doc("Divide by the area that belongs to the vertex: the Gaussian curvature instead of an angle.");
+        .doc("Divide the angle by the area that belongs to the vertex; the result is the Gaussian curvature.");
 }
 
 AngularDefect::AngularDefect(const Params& params, const plugin::Setup&) : per_area_(params.per_area) {}
@@ -19,7 +19,7 @@ double AngularDefect::at(std::size_t vertex) const {
     double angles = 0;
     double area = 0;
     for (const std::uint32_t face : surface_->faces_of(vertex)) {
-        // The corners in the face's order, turned so that the vertex comes first.
+        // The corners in the order of the face, rotated so that the vertex comes first.
         const auto& f = surface_->faces[face];
         const std::size_t k = f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2;
         const Vec3& a = positions[f[k]];

@@ -1,5 +1,5 @@
 #pragma once
-// Curvature `angular_defect`: what the angles round a vertex lack to a full turn.
+// Curvature `angular_defect`: a full turn minus the sum of the angles around a vertex.
 
 #include <dsc/hooks/curvature_estimator.hpp>
 #include <dsc/plugin/plugin.hpp>

@@ -7,10 +7,9 @@ namespace dsc::strategies {
 void ImplicitFairing::declare(config::ParamSchema<Params>& schema) {
     schema.choice("area", &Params::area, {{"mixed", Area::mixed}, {"ring", Area::ring}})
         .doc(
-            "What the sum is divided by: 'mixed', the part of the faces that belongs to the vertex, gives "
-            "the mean "
-            "curvature, 1/r on a sphere; 'ring', all of the faces round it, gives the thesis' figure, about "
-            "a third of it.");
+            "Area by which the sum is divided. 'mixed' is the part of the faces that belongs to the vertex; it gives the mean "
+            "curvature, 1/r on a sphere. 'ring' is the area of all faces around the vertex; it gives the figure of the thesis, "
+            "about a third of the mean curvature.");
 }
 
 ImplicitFairing::ImplicitFairing(const Params& params, const plugin::Setup&) : area_(params.area) {}
@@ -18,12 +17,12 @@ ImplicitFairing::ImplicitFairing(const Params& params, const plugin::Setup&) : a
 void ImplicitFairing::prepare(const hooks::StepContext& context) { surface_ = &context.surface; }
 
 Vec3 ImplicitFairing::at(std::size_t vertex) const {
-    constexpr double cotangent_limit = 57.28996163075943;  // cot 1 degree: flatter corners are noise
+    constexpr double cotangent_limit = 57.28996163075943;  // cot 1 degree: smaller angles are noise
     const auto& positions = surface_->positions;
     Vec3 sum = Vec3::Zero();
     double area = 0;
     for (const std::uint32_t face : surface_->faces_of(vertex)) {
-        // The corners in the face's order, turned so that the vertex comes first.
+        // The corners in the order of the face, rotated so that the vertex comes first.
         const auto& f = surface_->faces[face];
         const std::size_t k = f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2;
         const Vec3& a = positions[f[k]];

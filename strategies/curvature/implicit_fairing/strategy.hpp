@@ -6,12 +6,12 @@
 
 namespace dsc::strategies {
 
-/// K = 1/(4A) sum_j (cot a_j + cot b_j) (x_i - x_j), a_j and b_j the angles opposite edge ij [Desbrun1999,
+/// K = 1/(4A) sum_j (cot a_j + cot b_j) (x_i - x_j), where a_j and b_j are the angles opposite edge ij [Desbrun1999,
 /// eq. 14]. The vector is K, which points outwards where the solid is convex; the scalar is its length with
 /// that sign.
 class ImplicitFairing final : public hooks::CurvatureEstimator {
 public:
-    /// What A is: the part of the faces that belongs to the vertex [Meyer2003], or all of the faces round it.
+    /// The area A: the part of the faces that belongs to the vertex [Meyer2003], or all faces around it.
     enum class Area { mixed, ring };
     struct Params {
         Area area = Area::mixed;

@@ -3,6 +3,6 @@
 
 #include "strategy.hpp"
 
-DSC_PLUGIN("clusters", DSC_VERSION, "BSD-3-Clause", "Filter of crowded points") {
-    registrar.add<dsc::strategies::Clusters>("clusters", "thins places where points crowd together");
+DSC_PLUGIN("clusters", DSC_VERSION, "BSD-3-Clause", "Filter that thins crowded points") {
+    registrar.add<dsc::strategies::Clusters>("clusters", "removes points where many lie close together");
 }

@@ -9,8 +9,8 @@ void Clusters::declare(config::ParamSchema<Params>& schema) {
         .open_high()
         .unit("point distances")
         .doc(
-            "A point this close to an earlier one is removed; 1 is how far apart the 24 nearest points would lie if they were "
-            "spread evenly.");
+            "Distance to an earlier point up to which a point is removed; 1 is the distance that the 24 nearest points would "
+            "have if they were spread evenly.");
 }
 
 Clusters::Clusters(const Params& params, const plugin::Setup&) : params_(params) {}

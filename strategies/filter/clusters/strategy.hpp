@@ -1,5 +1,5 @@
 #pragma once
-// Filter `clusters`: thins places where points crowd together.
+// Filter `clusters`: removes points where many lie close together.
 
 #include <dsc/cloud/filter.hpp>
 #include <dsc/hooks/cloud_filter.hpp>

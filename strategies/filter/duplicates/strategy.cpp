@@ -6,12 +6,12 @@ void Duplicates::declare(config::ParamSchema<Params>& schema) {
     schema.real("tolerance", &Params::tolerance)
         .range(0, 1)
         .unit("diagonals")
-        .doc("A point this close to an earlier one is removed; 0 removes exact repetitions only.");
+        .doc("Distance to an earlier point up to which a point is removed; 0 removes only exact repetitions.");
     schema.boolean("sort", &Params::sort)
         .doc(
-            "Order the points by x, y and z, before any is removed: then a shuffled file gives the same cloud, bit for bit, with "
-            "all its attributes. Of equal points the one with the least colour, normal, area and confidence stays. Without it "
-            "the order of the file is kept, and the first of equal points stays.");
+            "Sort the points by x, y and z before any is removed. A shuffled file then gives the same cloud, bit for bit, "
+            "with all its attributes. Of equal points the one with the smallest colour, normal, area and confidence stays. "
+            "Without sorting, the order of the file is kept, and the first of equal points stays.");
 }
 
 Duplicates::Duplicates(const Params& params, const plugin::Setup&) : params_(params) {}

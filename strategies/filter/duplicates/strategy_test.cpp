@@ -16,13 +16,13 @@ Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map
     return dsc::sdk::filtered(DSC_TEST_PLUGIN, "duplicates", cloud, params);
 }
 
-/// Points of a small lattice in an order that the seed gives, many of them repeated, with all attributes.
+/// Points of a small lattice in an order that depends on the seed, many of them repeated, with all attributes.
 Cloud shuffled(std::uint64_t seed) {
     dsc::RandomStream values(dsc::RandomKey{7, 0, 0, 0});
     Cloud cloud;
     for (int i = 0; i < 400; ++i) {
         Vec3 p(static_cast<double>(values.index(5)), static_cast<double>(values.index(5)), static_cast<double>(values.index(4)));
-        if (values.index(2) == 0) p = p.cwiseProduct(Vec3(-1, 1, 1));  // among others, -0
+        if (values.index(2) == 0) p = p.cwiseProduct(Vec3(-1, 1, 1));  // this also makes -0
         cloud.points.push_back(p);
         cloud.colours.push_back({static_cast<std::uint8_t>(values.index(3)), 0, static_cast<std::uint8_t>(values.index(3))});
         cloud.normals.push_back(Vec3(values.normal(), values.normal(), values.normal()).normalized());
@@ -85,7 +85,7 @@ TEST_CASE("sorted, the order of the file changes not a bit, whatever attributes 
             const Cloud other = shuffled(seed);
             REQUIRE(bytes(other) != bytes(first));
             CHECK(bytes(filtered(other, sorted(tolerance)).cloud) == bytes(expected.cloud));
-            // Without it the order shows, so the test can fail.
+            // Without sorting the order has an effect, so the test can fail.
             CHECK(bytes(filtered(other, ConfigNode::map({{"tolerance", tolerance}})).cloud) != bytes(expected.cloud));
         }
     }

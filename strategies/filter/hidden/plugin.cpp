@@ -3,6 +3,6 @@
 
 #include "strategy.hpp"
 
-DSC_PLUGIN("hidden", DSC_VERSION, "BSD-3-Clause", "Filter of points that lie inside") {
+DSC_PLUGIN("hidden", DSC_VERSION, "BSD-3-Clause", "Filter that removes points inside the object") {
     registrar.add<dsc::strategies::Hidden>("hidden", "removes points that no view from outside can see");
 }

@@ -6,22 +6,22 @@ void Hidden::declare(config::ParamSchema<Params>& schema) {
     schema.integer("views", &Params::views)
         .range(1, 10000)
         .unit("directions")
-        .doc("From so many directions all round the cloud is looked at.");
+        .doc("Number of view directions on all sides of the cloud.");
     schema.real("radius", &Params::radius)
         .range(0, 10)
         .open_low()
         .unit("point spacings")
-        .doc("Radius of the disc that stands for the surface round a point.");
+        .doc("Radius of the disc that represents the surface around a point.");
     schema.real("depth", &Params::depth)
         .range(0, 10)
         .open_low()
         .unit("point spacings")
-        .doc("A point this far behind a disc is hidden by it.");
+        .doc("Distance behind a disc from which the disc hides a point.");
     schema.real("share", &Params::share)
         .range(0, 1)
         .open_high()
         .unit("1")
-        .doc("A point that this part of the views or fewer see is removed.");
+        .doc("Fraction of the views; a point that this fraction of the views or fewer see is removed.");
 }
 
 Hidden::Hidden(const Params& params, const plugin::Setup&) : params_(params) {}

@@ -18,7 +18,7 @@ Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map
     return dsc::sdk::filtered(DSC_TEST_PLUGIN, "hidden", cloud, params);
 }
 
-/// Points evenly over a sphere, along a spiral; their confidence tells the sphere.
+/// Points evenly spread over a sphere, along a spiral; their confidence is the number of the sphere.
 void add_sphere(Cloud& cloud, int count, double radius, double confidence) {
     const double turn = std::acos(-1.0) * (3.0 - std::sqrt(5.0));
     for (int i = 0; i < count; ++i) {
@@ -38,7 +38,7 @@ Cloud nested() {
 
 }  // namespace
 
-TEST_CASE("a sphere within a sphere goes, the outer one stays") {
+TEST_CASE("a sphere within a sphere is removed, the outer one stays") {
     const Filtered result = filtered(nested());
     CHECK(result.report.kept == 600);
     CHECK(result.report.removed == 100);

@@ -44,16 +44,19 @@ void Orient::declare(config::ParamSchema<Params>& schema) {
     schema
         .choice("from", &Params::from,
                 {{"auto", NormalSource::automatic}, {"file", NormalSource::file}, {"estimate", NormalSource::estimate}})
-        .doc("Where the normals come from: the file, the points alone, or (auto) the file if its normals or its viewpoint are consistent.");
+        .doc("Source of the normals: 'file', 'estimate' (from the points alone), or 'auto', which uses the file if its "
+             "normals or its viewpoint are consistent.");
     schema.boolean("all_points", &Params::all_points)
-        .doc("Estimates with every point, or cell of a large cloud, from the start: slower, better at parts thinner than a few points.");
+        .doc("Use every point (or every cell of a large cloud) from the beginning of the estimate; slower, but better for "
+             "parts thinner than a few points.");
     schema.integer("iterations", &Params::iterations)
         .range(1, 1000)
         .unit("1")
-        .doc("Iterations of the coarse stage of the estimate.");
+        .doc("Number of iterations of the coarse stage of the estimate.");
     schema.choice("one_sided", &Params::one_sided, {{"auto", OneSided::automatic}, {"never", OneSided::never}})
-        .doc("A cloud that was recorded from one side, such as a depth image or terrain, bounds no solid. 'auto' recognises it by its "
-             "single layer of points and closes it by a copy of it farther away, from where its surface can be cut off again.");
+        .doc("Whether a cloud that was recorded from one side, such as a depth image or terrain, is closed. 'auto' recognises "
+             "it by its single layer of points and closes it with a copy of the layer farther away; the surface of the copy "
+             "can be removed later.");
 }
 
 Orient::Orient(const Params& params, const plugin::Setup&) : params_(params) {}
@@ -79,8 +82,8 @@ cloud::Filtered Orient::apply(const cloud::Cloud& cloud, const hooks::FilterCont
     if (params_.from == NormalSource::file) {
         if (!has_normals)
             throw ConfigError("filter.normals", (cloud.source.empty() ? "cloud" : cloud.source) +
-                                                    ": filter orient: from: file needs normals, and the cloud has none; write " +
-                                                    "from: estimate, or take a file with normals");
+                                                    ": filter orient: from: file needs normals, but the cloud has none; write " +
+                                                    "from: estimate, or use a file with normals");
         return with_attributes(cloud, from_file(cloud, context), false);
     }
     if (params_.from == NormalSource::estimate) return with_attributes(cloud, estimated(cloud, context), true);

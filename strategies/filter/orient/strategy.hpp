@@ -7,10 +7,10 @@
 
 namespace dsc::strategies {
 
-/// Where the normals come from.
+/// Source of the normals.
 enum class NormalSource { automatic, file, estimate };
 
-/// Whether a cloud that was recorded from one side is closed by a copy of it.
+/// Whether a cloud that was recorded from one side is closed with a copy of it.
 enum class OneSided { automatic, never };
 
 /// cloud::orient_points and cloud::orient_by_normals as a filter of experiments.
@@ -26,8 +26,8 @@ public:
 
     Orient(const Params& params, const plugin::Setup& setup);
 
-    /// The cloud with normals, areas, confidence and orientation. Throws ConfigError "filter.normals" where the file's
-    /// normals are wanted and there are none.
+    /// The cloud with normals, areas, confidence and orientation. Throws ConfigError "filter.normals" if the file's
+    /// normals are requested and there are none.
     cloud::Filtered apply(const cloud::Cloud& cloud, const hooks::FilterContext& context) override;
 
 private:

@@ -68,7 +68,7 @@ TEST_CASE("a cloud without normals gets them, and keeps its points and colours")
     CHECK(figure(result, "mean_confidence") > 0.8);
 }
 
-TEST_CASE("normals of the file are taken where they are wanted") {
+TEST_CASE("normals of the file are used if they are requested") {
     const Cloud good = with_normals(1.0);
     const Filtered taken = filtered(good, from("file"));
     CHECK(taken.cloud.normals == good.normals);
@@ -77,7 +77,7 @@ TEST_CASE("normals of the file are taken where they are wanted") {
     CHECK(figure(filtered(good, from("estimate")), "estimated") == 1.0);
 }
 
-TEST_CASE("normals that point inwards are turned unless they are insisted on") {
+TEST_CASE("normals that point inwards are reversed, except with from: file") {
     const Cloud bad = with_normals(-1.0);
     const Filtered result = filtered(bad);
     CHECK(figure(result, "estimated") == 0.0);
@@ -90,7 +90,7 @@ TEST_CASE("normals that point inwards are turned unless they are insisted on") {
     CHECK(insisted.report.notes.empty());
 }
 
-TEST_CASE("normals that contradict the points are estimated anew, and a note says why") {
+TEST_CASE("normals that contradict the points are estimated again, and a note states why") {
     Cloud bad = with_normals(1.0);
     for (Vec3& normal : bad.normals) normal = Vec3::UnitX();
     const Filtered result = filtered(bad);
@@ -101,14 +101,14 @@ TEST_CASE("normals that contradict the points are estimated anew, and a note say
     CHECK(filtered(bad, from("estimate")).report.notes.empty());
 }
 
-TEST_CASE("the scanner's place is used where there are no normals to use") {
+TEST_CASE("the viewpoint is used if there are no usable normals") {
     Cloud view;
     for (const Vec3& p : sphere().points)
         if (p.z() > 0.6) view.points.push_back(p);
     view.sensor = dsc::cloud::Sensor{Vec3(0, 0, 9), true};
     const Filtered result = filtered(view);
     CHECK(figure(result, "estimated") == 0.0);
-    std::size_t upright = 0;  // all but some at the border, where the walls to the copy behind begin
+    std::size_t upright = 0;  // all except some at the border, where the walls to the copy behind begin
     for (std::size_t i = 0; i < view.points.size(); ++i) {
         const double along = result.cloud.normals[i].dot(view.points[i]) / 2.0;
         CHECK(along > 0.5);
@@ -119,7 +119,7 @@ TEST_CASE("the scanner's place is used where there are no normals to use") {
     CHECK(result.cloud.sensor.has_value());
 }
 
-TEST_CASE("without normals, those of the file cannot be taken") {
+TEST_CASE("from: file is refused without normals") {
     try {
         filtered(sphere(), from("file"));
         FAIL("nothing was thrown");
@@ -130,7 +130,7 @@ TEST_CASE("without normals, those of the file cannot be taken") {
     }
 }
 
-TEST_CASE("parameters are heard") {
+TEST_CASE("parameters have an effect") {
     CHECK(filtered(sphere(), ConfigNode::map({{"iterations", 1}})).report.figures != filtered(sphere()).report.figures);
     CHECK_THROWS_AS(filtered(sphere(), from("nowhere")), dsc::ConfigError);
     Cloud many = sphere();

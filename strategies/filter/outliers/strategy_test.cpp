@@ -44,7 +44,7 @@ TEST_CASE("points far from all others go, the rest keep their attributes") {
     CHECK(result.report.reasons[0].count + result.report.reasons[1].count == 2);
 }
 
-TEST_CASE("parameters are heard") {
+TEST_CASE("parameters have an effect") {
     Cloud cloud = sphere();
     cloud.points.emplace_back(3, 0, 0);
     cloud.confidence.push_back(1.0);

@@ -3,6 +3,6 @@
 
 #include "strategy.hpp"
 
-DSC_PLUGIN("radius_outliers", DSC_VERSION, "BSD-3-Clause", "Filter of lonely points") {
+DSC_PLUGIN("radius_outliers", DSC_VERSION, "BSD-3-Clause", "Filter of isolated points") {
     registrar.add<dsc::strategies::RadiusOutliers>("radius_outliers", "removes points with few neighbours");
 }

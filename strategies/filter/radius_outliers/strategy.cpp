@@ -7,11 +7,11 @@ void RadiusOutliers::declare(config::ParamSchema<Params>& schema) {
         .range(0, 1)
         .open_low()
         .unit("diagonals")
-        .doc("Radius in which neighbours are counted.");
+        .doc("Radius within which neighbours are counted.");
     schema.integer("neighbours", &Params::neighbours)
         .range(1, 1000)
         .unit("points")
-        .doc("A point with fewer neighbours is removed.");
+        .doc("Number of neighbours below which a point is removed.");
 }
 
 RadiusOutliers::RadiusOutliers(const Params& params, const plugin::Setup&) : params_(params) {}

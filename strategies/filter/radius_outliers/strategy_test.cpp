@@ -36,7 +36,7 @@ TEST_CASE("points far from all others go, the rest keep their attributes") {
     CHECK(result.cloud.confidence == dsc::sdk::square_grid(12).confidence);
 }
 
-TEST_CASE("parameters are heard") {
+TEST_CASE("parameters have an effect") {
     // In the grid a corner has two neighbours at distance 1, an edge point three, any other four.
     const double radius = 1.2 / (11.0 * std::sqrt(2.0));
     const auto kept = [&](int neighbours) {

@@ -6,11 +6,11 @@ void StatisticalOutliers::declare(config::ParamSchema<Params>& schema) {
     schema.integer("neighbours", &Params::neighbours)
         .range(1, 1000)
         .unit("points")
-        .doc("Nearest points whose mean distance is taken.");
+        .doc("Number of nearest points whose mean distance is used.");
     schema.real("deviations", &Params::deviations)
         .range(0, 1000)
         .unit("1")
-        .doc("Standard deviations above the mean of all points that a point may lie.");
+        .doc("Number of standard deviations above the mean of all points that the mean distance of a point may have.");
 }
 
 StatisticalOutliers::StatisticalOutliers(const Params& params, const plugin::Setup&) : params_(params) {}

@@ -35,7 +35,7 @@ TEST_CASE("points far from all others go, the rest keep their attributes") {
     CHECK(result.cloud.confidence == dsc::sdk::square_grid(12).confidence);
 }
 
-TEST_CASE("parameters are heard") {
+TEST_CASE("parameters have an effect") {
     const auto kept = [&](double deviations) {
         return filtered(with_outliers(), ConfigNode::map({{"neighbours", 8}, {"deviations", deviations}})).report.kept;
     };

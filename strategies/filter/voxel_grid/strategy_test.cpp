@@ -20,7 +20,7 @@ Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map
 
 TEST_CASE("of each cell the point nearest to the middle of its points stays, with its attributes") {
     Cloud cloud = dsc::sdk::square_grid(9);
-    // The box is 8 wide, its diagonal 8 sqrt 2: cells of 2.8, which hold 3 by 3 points.
+    // The box is 8 wide, its diagonal 8 sqrt 2: cells of 2.8, which contain 3 by 3 points.
     const double size = 2.8 / (8.0 * std::sqrt(2.0));
     const Filtered result = filtered(cloud, ConfigNode::map({{"size", size}}));
     std::vector<Vec3> expected;

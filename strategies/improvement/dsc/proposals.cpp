@@ -47,24 +47,24 @@ bool Proposals::first_visit(mesh::VertexId v) {
     return true;
 }
 
-// The volume below which a tet is thinned out.
+// The volume below which a tet is collapsed.
 double Proposals::small_volume_of(const mesh::RepairRound& round, mesh::TetId t) const {
     return limits_.min_tet_volume * geometry::regular_tet_volume(round.length_of(t));
 }
 
-// Where a refinement owns the sizing, tets with an interface edge stay as they are.
+// If a refinement owns the sizing, tets with an interface edge are not changed.
 bool Proposals::may_thin_out(const mesh::RepairRound& round, mesh::TetId t) {
     if (round.size_edits) return true;
     const auto& v = round.complex.tet(t).v;
     return std::count_if(v.begin(), v.end(), [&](mesh::VertexId x) { return round.complex.on_interface(x); }) < 2;
 }
 
-// The target length of an edge from the interface into a phase: that of its end on the interface.
+// The target length of an edge from the interface into a phase is that of its end on the interface.
 double Proposals::free_length(const mesh::RepairRound& round, mesh::VertexId a, mesh::VertexId b) {
     return round.length_at(round.complex.on_interface(a) ? a : b);
 }
 
-// What a tet gives cause for: reads only, so that threads may share it.
+// Finds the repairs that a tet needs; it only reads, so threads may call it together.
 std::uint8_t Proposals::look(const mesh::RepairRound& round, mesh::TetId t) const {
     const mesh::Complex& c = round.complex;
     const auto length2 = [&c](mesh::VertexId a, mesh::VertexId b) { return (c.position(a) - c.position(b)).squaredNorm(); };
@@ -80,7 +80,7 @@ std::uint8_t Proposals::look(const mesh::RepairRound& round, mesh::TetId t) cons
         for (unsigned k = 0; k < 3; ++k) {
             const mesh::VertexId a = v[mesh::face_vertices[f][k]], b = v[mesh::face_vertices[f][(k + 1) % 3]];
             const double target = round.length_at(a, b), l2 = length2(a, b);
-            // A little wider than what is wanted: note_edges() decides.
+            // Slightly wider than the wanted range; note_edges() decides.
             const double shortest2 = square(limits_.min_edge_length * target) * (1.0 + 1e-9);
             const double longest2 = square(limits_.max_edge_length * target) * (1.0 - 1e-9);
             if (l2 < shortest2 || l2 > longest2) found |= interface_edges;
@@ -98,7 +98,7 @@ std::uint8_t Proposals::look(const mesh::RepairRound& round, mesh::TetId t) cons
 void Proposals::note_edges(const mesh::RepairRound& round, mesh::TetId t) {
     const mesh::Complex& c = round.complex;
     for (unsigned f = 0; f < 4; ++f) {
-        // Of the two tets at an interface face the one with the larger label looks after its edges.
+        // Of the two tets at an interface face, the one with the larger label handles its edges.
         if (c.label(t) <= c.label_across(t, f)) continue;
         for (unsigned k = 0; k < 3; ++k) {
             mesh::VertexId a = c.tet(t).v[mesh::face_vertices[f][k]], b = c.tet(t).v[mesh::face_vertices[f][(k + 1) % 3]];
@@ -160,7 +160,7 @@ void Proposals::sort_out(const mesh::RepairRound& round, Workers* workers) {
         if ((found & interface_edges) != 0) note_edges(round, t);
         if ((found & free_edges) != 0) note_free_edges(round, t);
     }
-    // Total orders, so that no stable sort with its buffer is needed.
+    // Total orders, so that a stable sort with its buffer is not needed.
     const auto by_key = [](const Entry& x, const Entry& y) { return x.key != y.key ? x.key < y.key : x.order < y.order; };
     std::sort(low_.begin(), low_.end(), by_key);
     std::sort(small_.begin(), small_.end(), by_key);
@@ -183,13 +183,13 @@ void Proposals::write(const mesh::RepairRound& round, Workers* workers, std::vec
     const mesh::Complex& c = round.complex;
     sort_out(round, workers);
     const double low = limits_.min_tet_quality, degenerate = limits_.degenerate_tet_quality;
-    // 0. Long edges ahead of the interface, longest first: what follows smooths the vertices that they get.
+    // 0. Long edges ahead of the interface, longest first: the next stages smooth the new vertices.
     for (const EdgeEntry& edge : free_long_) {
         Request request = on_tet(c, edge.tet, Operation::edge_split, 2.0, 2.0);
         request.vertices = {edge.a, edge.b, mesh::none};
         out.push_back(request);
     }
-    // 1. Free vertices to the mean of their neighbours.
+    // 1. Free vertices move to the mean of their neighbours.
     for (std::size_t i = 0; i < free_.size(); ++i) {
         Request request = on_tet(c, free_tets_[i], Operation::smooth_laplacian, 2.0, 2.0);
         request.vertices[0] = free_[i];
@@ -207,7 +207,7 @@ void Proposals::write(const mesh::RepairRound& round, Workers* workers, std::vec
             out.push_back(request);
         }
     }
-    // 3. What is still degenerate: collapse without harm, by shape, within the bounds, split what is long.
+    // 3. Tets that are still degenerate: collapse without loss, by shape, within the bounds; split long edges.
     for (const Entry& entry : low_) {
         if (static_cast<double>(c.quality(entry.tet)) >= degenerate) break;
         out.push_back(on_tet(c, entry.tet, Operation::edge_collapse, degenerate, low));
@@ -232,7 +232,7 @@ void Proposals::write(const mesh::RepairRound& round, Workers* workers, std::vec
         out.push_back(request);
     }
     for (const Entry& entry : small_) out.push_back(on_tet(c, entry.tet, Operation::edge_collapse, 2.0, low));
-    // 5. Shapes and sizes of single edges, faces and tets, where there are thresholds for them.
+    // 5. Shapes and sizes of single edges, faces and tets, if their thresholds are set.
     shapes_.write(round, {static_cast<float>(degenerate), static_cast<float>(low)}, out);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Which repairs a round tries: the quality-driven pipeline of the deformable simplicial complex [Misztal2012].
+// Selects the repairs of a round: the quality-driven pipeline of the deformable simplicial complex [Misztal2012].
 
 #include <cstdint>
 #include <vector>
@@ -20,15 +20,15 @@ struct Thresholds {
     double min_edge_length = 0.5;
     double max_edge_length = 2.0;
     double min_tet_volume = 0.2;
-    double max_free_edge = 0.0;  ///< of edges from the interface into a phase; 0: any
+    double max_free_edge = 0.0;  ///< of edges from the interface into a phase; 0: no limit
     ShapeLimits shapes;
 };
 
-/// Writes the requests of a round. Keeps scratch memory only: the result depends on the round alone.
+/// Writes the requests of a round. It keeps only scratch memory: the result depends on the round alone.
 class Proposals {
 public:
     explicit Proposals(const Thresholds& thresholds) : limits_(thresholds), shapes_(thresholds.shapes) {}
-    /// `workers`, null for one thread, share the look at the dirty tets.
+    /// `workers` (null for one thread) examine the dirty tets together.
     void write(const mesh::RepairRound& round, Workers* workers, std::vector<mesh::Request>& out);
 
 private:
@@ -44,7 +44,7 @@ private:
         std::int64_t key;
         std::uint32_t order;  // of discovery
     };
-    // What look() finds.
+    // The findings of look().
     static constexpr std::uint8_t small_volume = 1, interface_edges = 2, free_edges = 4, low_quality = 8, to_smooth = 16;
     static constexpr std::size_t look_block = 8192;  // tets
 
@@ -59,7 +59,7 @@ private:
 
     Thresholds limits_;
     ShapeProposals shapes_;
-    std::vector<std::uint8_t> looks_;  // one a dirty tet
+    std::vector<std::uint8_t> looks_;  // one per dirty tet
     std::vector<Entry> low_, small_;
     std::vector<EdgeEntry> short_, long_, free_long_;
     std::vector<mesh::VertexId> free_;

@@ -1,5 +1,5 @@
 #pragma once
-// How measures are compared: in steps of 1e-4, so that rounding does not decide the order.
+// Measures are compared in steps of 1e-4, so that rounding does not decide the order.
 
 #include <cmath>
 #include <cstdint>

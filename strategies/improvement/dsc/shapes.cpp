@@ -22,7 +22,7 @@ std::array<std::uint32_t, 3> births_of(const mesh::Complex& c, VertexId a, Verte
     return births;
 }
 
-// A face by its sides; side k lies opposite corner k.
+// The sides of a face; side k is opposite corner k.
 struct Face {
     std::array<VertexId, 3> v;
     std::array<double, 3> length2;
@@ -89,7 +89,7 @@ void ShapeProposals::note_faces(const mesh::RepairRound& round, mesh::TetId t) {
             note(face.quality < limits_.degenerate_face_quality ? Kind::degenerate_face : Kind::low_face, face.quality,
                  cap ? longest : face.shortest(), cap ? face.v[longest] : mesh::none);
         }
-        // Of the two tets at an interface face the one with the larger label looks after it.
+        // Of the two tets at an interface face, the one with the larger label handles it.
         if (!round.size_edits || c.label(t) <= c.label_across(t, f)) continue;
         const double area = face.area / unit;
         if (area < limits_.min_face_area) note(Kind::small_face, area, face.shortest(), mesh::none);
@@ -134,7 +134,7 @@ void ShapeProposals::request(const mesh::RepairRound& round, const Entry& entry,
         out.push_back(request);
         return;
     }
-    // A cap goes with its longest edge.
+    // A cap is removed with its longest edge.
     const bool interface = round.complex.on_interface(entry.edge[0]) && round.complex.on_interface(entry.edge[1]);
     request.operation = Operation::edge_removal;
     out.push_back(request);
@@ -154,7 +154,7 @@ void ShapeProposals::write(const mesh::RepairRound& round, const ShapeBounds& bo
         if (faces) note_faces(round, t);
         note_tet(round, t);
     }
-    // By measure, then by birth; of the tets round one simplex the first in the slots' order asks.
+    // By measure, then by birth; of the tets around one simplex the first in the order of the slots makes the request.
     std::sort(entries_.begin(), entries_.end(), [](const Entry& x, const Entry& y) {
         return std::tie(x.kind, x.key, x.births, x.tet) < std::tie(y.kind, y.key, y.births, y.tet);
     });

@@ -1,6 +1,6 @@
 #pragma once
-// Repairs by the shape and size of single edges, faces and tets: those of the thesis' twelve thresholds ([Saul2015], ch. 4)
-// that the quality of tets does not stand for. All of them are off by default.
+// Repairs by the shape and size of single edges, faces and tets: those of the twelve thresholds of the thesis ([Saul2015], ch. 4)
+// that the quality of tets does not cover. All of them are off by default.
 
 #include <array>
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace dsc::improvement {
 
-/// A lower bound of 0 and an upper bound of 0 are off. Lengths are in target lengths L, areas in regular triangles and
-/// volumes in regular tets of edge L. The quality of an edge is its length, that of a face 1 - max |cos| over its corners:
+/// A bound of 0 is off. Lengths are in target lengths L, areas in regular triangles of edge L, volumes in regular tets of edge
+/// L. The quality of an edge is its length, that of a face 1 - max |cos| over its corners:
 /// 0.5 for a regular triangle, 0 for a needle or cap.
 struct ShapeLimits {
     double degenerate_edge_quality = 0.0;
@@ -25,28 +25,28 @@ struct ShapeLimits {
     bool any() const;
 };
 
-/// Accepted qualities of the tets that come about.
+/// Accepted qualities of the new tets.
 struct ShapeBounds {
-    float degenerate = 0.0F;  ///< where shape is paid for a repair, within the kernel's bounds
-    float low = 0.0F;         ///< where the repair must do no harm
+    float degenerate = 0.0F;  ///< for repairs that may change the shape within the kernel's bounds
+    float low = 0.0F;         ///< for repairs that must cost neither shape nor quality
 };
 
-/// Writes the requests of a round. Keeps scratch memory only: the result depends on the round alone.
+/// Writes the requests of a round. It keeps only scratch memory: the result depends on the round alone.
 class ShapeProposals {
 public:
     explicit ShapeProposals(const ShapeLimits& limits) : limits_(limits) {}
     void write(const mesh::RepairRound& round, const ShapeBounds& bounds, std::vector<mesh::Request>& out);
 
 private:
-    // In the order in which they are asked for.
+    // In the order of the requests.
     enum class Kind : std::uint8_t { degenerate_edge, degenerate_face, low_edge, low_face, small_face, large_face, large_tet };
     struct Entry {
         Kind kind;
-        std::int64_t key;                      // least first
+        std::int64_t key;                      // smallest first
         std::array<std::uint32_t, 3> births;   // ascending: an edge, a face, or a tet's longest edge
         mesh::TetId tet;
         std::array<mesh::VertexId, 2> edge;    // to collapse or split
-        mesh::VertexId opposite;               // a cap's blunt corner; none: no cap
+        mesh::VertexId opposite;               // the blunt corner of a cap; none: not a cap
     };
 
     void note_edges(const mesh::RepairRound& round, mesh::TetId t);

@@ -1,4 +1,4 @@
-// The thresholds of edges, faces and large tets: what is asked for, counted again from positions.
+// The thresholds of edges, faces and large tets: the requests, counted again from positions.
 #include "shapes.hpp"
 
 #include <doctest/doctest.h>
@@ -14,7 +14,8 @@ namespace {
 using namespace dsc;
 using mesh::Operation;
 
-// Two tets of two labels: their common face, the given triangle, is the interface. They fill no box, which reads do not need.
+// Two tets of two labels: their common face, the given triangle, is the interface. They do not fill a box, which
+// the code under test does not need.
 mesh::Complex two_tets(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 middle = (a + b + c) / 3.0, up = (b - a).cross(c - a).normalized();
     // The face that two tets share lies opposite corner 3 of both.
@@ -42,7 +43,7 @@ const Vec3 left(0, 0, 0), right(1, 0, 0), top(0.5, std::sqrt(0.75), 0);
 
 }  // namespace
 
-TEST_CASE("without thresholds nothing is asked for") {
+TEST_CASE("without thresholds nothing is requested") {
     CHECK_FALSE(improvement::ShapeLimits{}.any());
     CHECK(proposals(two_tets(left, Vec3(1e-3, 0, 0), top), {}).empty());
 }
@@ -60,7 +61,7 @@ TEST_CASE("short edges are collapsed, shortest first, each once, the degenerate 
     CHECK(requests[1].mode == mesh::CollapseMode::safe);
     CHECK(length(c, requests[1]) == doctest::Approx(0.3));
     CHECK(length(c, requests[2]) == doctest::Approx(std::hypot(0.05, 0.3)));
-    // Lengths count in mean edges.
+    // Lengths are in target lengths.
     CHECK(proposals(c, limits, 0.01).empty());
 }
 
@@ -98,8 +99,8 @@ TEST_CASE("a needle loses its shortest edge, a cap its longest") {
     for (const mesh::Request& r : requests) CHECK(r.mode == mesh::CollapseMode::safe);
 }
 
-TEST_CASE("interface faces are held between two areas") {
-    // The faces of the tet with label 1, in regular triangles of edge `unit`: those at the hull count as interface.
+TEST_CASE("interface faces are kept between two areas") {
+    // The faces of the tet with label 1, in regular triangles of edge `unit`: faces at the hull count as interface.
     const auto beyond = [](const mesh::Complex& c, double least, double most, double unit) {
         std::ptrdiff_t count = 0;
         for (const auto& f : mesh::face_vertices) {

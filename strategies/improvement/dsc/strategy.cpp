@@ -5,95 +5,98 @@
 namespace dsc::strategies {
 
 void DscImprovement::Topology::declare(config::ParamSchema<Topology>& schema) {
-    schema.boolean("open", &Topology::open).doc("Thin sheets of a label above 0 may be pierced.");
-    schema.boolean("merge", &Topology::merge).doc("Thin gaps of label 0 may be bridged.");
-    schema.boolean("cut", &Topology::cut).doc("Thin necks may be cut.");
+    schema.boolean("open", &Topology::open).doc("Allow holes in thin sheets of a label above 0.");
+    schema.boolean("merge", &Topology::merge).doc("Allow bridges across thin gaps of label 0.");
+    schema.boolean("cut", &Topology::cut).doc("Allow cuts through thin necks.");
     schema.real("thickness", &Topology::thickness)
         .range(0, 2)
-        .unit("mean edges")
-        .doc("Sheets, gaps and necks up to this thickness may change topology; 0 switches all changes off.");
+        .unit("target lengths (L)")
+        .doc("Largest thickness of sheets, gaps and necks that may change topology; 0 switches all changes off.");
     schema.real("support", &Topology::support)
         .range(0, 10)
-        .unit("mean edges")
-        .doc("A change is vetoed where a cloud point lies this close to its centre.");
+        .unit("target lengths (L)")
+        .doc("Distance from the centre of a change within which a cloud point forbids it.");
     schema.real("spacing", &Topology::spacing)
         .range(0, 10)
         .unit("1")
-        .doc("Necks and the rims of sheets are also spared this close to a cloud point, in distances to its sixth neighbour there: where "
-             "the cloud is sparse, a thin part of the object has few points of its own.");
+        .doc("Distance from necks and rims of sheets within which a cloud point forbids a change, in distances from the point "
+             "to its sixth neighbour: where the cloud is sparse, few points lie on a thin part of the object.");
     schema.real("min_component", &Topology::min_component)
         .range(0, 1000)
         .unit("1")
-        .doc("Components below this many regular tets of the mean edge vanish.");
+        .doc("Volume below which components are removed, in regular tets with edges of the target length.");
 }
 
 void DscImprovement::declare(config::ParamSchema<Params>& schema) {
     schema.real("min_tet_quality", &Params::min_tet_quality)
         .range(0, 1)
         .unit("1")
-        .doc("Tets below this volume-length quality are repaired.");
+        .doc("Volume-length quality below which tets are repaired.");
     schema.real("degenerate_tet_quality", &Params::degenerate_tet_quality)
         .range(0, 1)
         .unit("1")
-        .doc("Tets below this quality are removed, at the price of the interface's shape within the kernel's bounds.");
+        .doc("Quality below which tets are removed, even if this changes the shape of the interface within the kernel's bounds.");
     schema.real("smooth_below", &Params::smooth_below)
         .range(0, 1)
         .unit("1")
-        .doc("Free vertices of tets below this quality are smoothed.");
+        .doc("Quality of tets below which their free vertices are smoothed.");
     schema.real("min_edge_length", &Params::min_edge_length)
         .range(0, 1)
-        .unit("mean edges")
-        .doc("Interface edges shorter than this are collapsed.");
+        .unit("target lengths (L)")
+        .doc("Length below which interface edges are collapsed.");
     schema.real("max_edge_length", &Params::max_edge_length)
         .range(1, 100)
-        .unit("mean edges")
-        .doc("Interface edges longer than this are split where the interface is not flat.");
+        .unit("target lengths (L)")
+        .doc("Length above which interface edges are split where the interface is not flat.");
     schema.real("min_tet_volume", &Params::min_tet_volume)
         .range(0, 1)
         .unit("1")
-        .doc("Tets below this part of a regular tet with the mean edge are thinned out.");
+        .doc("Volume below which tets are collapsed, in regular tets with edges of the target length.");
     schema.real("max_free_edge", &Params::max_free_edge)
         .range(0, 100)
-        .unit("mean edges")
-        .doc("Edges from the interface into a phase that are longer than this are split, so that a surface that moves into large tets "
-             "finds room there; 0 switches it off.");
+        .unit("target lengths (L)")
+        .doc("Length above which edges from the interface into a phase are split, so that the surface does not get stuck when it "
+             "moves into large tets; 0 switches this off.");
     schema.real("degenerate_edge_quality", &Params::degenerate_edge_quality)
         .range(0, 1)
-        .unit("mean edges")
-        .doc("Edges shorter than this, inside a phase too, are collapsed, at the price of the interface's shape within the kernel's "
-             "bounds; 0 switches it off.");
+        .unit("target lengths (L)")
+        .doc("Length below which edges, also inside a phase, are collapsed, even if this changes the shape of the interface "
+             "within the kernel's bounds; 0 switches this off.");
     schema.real("min_edge_quality", &Params::min_edge_quality)
         .range(0, 1)
-        .unit("mean edges")
-        .doc("Edges shorter than this are collapsed where that costs neither shape nor quality; 0 switches it off.");
+        .unit("target lengths (L)")
+        .doc("Length below which edges are collapsed if neither shape nor quality is lost; 0 switches this off.");
     schema.real("degenerate_face_quality", &Params::degenerate_face_quality)
         .range(0, 0.5)
         .unit("1")
-        .doc("Faces below this quality, 1 - max |cos| over the corners, are removed, at the price of the interface's shape within the "
-             "kernel's bounds; 0 switches it off.");
+        .doc("Quality, 1 - max |cos| over the corners, below which faces are removed, even if this changes the shape of the "
+             "interface within the kernel's bounds; 0 switches this off.");
     schema.real("min_face_quality", &Params::min_face_quality)
         .range(0, 0.5)
         .unit("1")
-        .doc("Faces below this quality are removed where that costs neither shape nor quality; 0 switches it off.");
+        .doc("Quality below which faces are removed if neither shape nor quality is lost; 0 switches this off.");
     schema.real("min_face_area", &Params::min_face_area)
         .range(0, 1)
         .unit("1")
-        .doc("Interface faces below this part of a regular triangle with the mean edge lose their shortest edge; 0 switches it off.");
+        .doc("Area below which the shortest edge of an interface face is collapsed, in regular triangles with edges of the "
+             "target length; 0 switches this off.");
     schema.real("max_face_area", &Params::max_face_area)
         .range(0, 1000)
         .unit("1")
-        .doc("Interface faces above so many regular triangles with the mean edge are split at their longest edge, flat ones too; 0 "
-             "switches it off.");
+        .doc("Area above which interface faces, also flat ones, are split at their longest edge, in regular triangles with "
+             "edges of the target length; 0 switches this off.");
     schema.real("max_tet_volume", &Params::max_tet_volume)
         .range(0, 1e9)
         .unit("1")
-        .doc("Tets above so many regular tets with the mean edge are split at their longest edge; 0 switches it off.");
+        .doc("Volume above which tets are split at their longest edge, in regular tets with edges of the target length; 0 "
+             "switches this off.");
     schema.real("flatness", &Params::flatness)
         .range(0, 1)
         .unit("1")
         .advanced()
-        .doc("Cosine between the normals of interface faces above which they count as flat.");
-    schema.object("topology", &Params::topology, Topology::declare).doc("When the interface may change its topology.");
+        .doc("Cosine between the normals of neighbouring interface faces above which they count as flat.");
+    schema.object("topology", &Params::topology, Topology::declare).doc("Conditions under which the interface may change its "
+                                                                        "topology.");
     schema.check([](const Params& p) { return p.degenerate_tet_quality <= p.min_tet_quality; },
                  "degenerate_tet_quality must not be above min_tet_quality");
     schema.check([](const Params& p) { return p.min_edge_quality == 0 || p.degenerate_edge_quality <= p.min_edge_quality; },

@@ -9,7 +9,7 @@
 namespace dsc::strategies {
 
 /// Smooths, flips, collapses and splits by quality and size [Misztal2012]; lets the topology change where a sheet, gap
-/// or neck is thin and no cloud point speaks for it.
+/// or neck is thin and no cloud point supports it.
 class DscImprovement final : public hooks::Improvement {
 public:
     struct Topology {

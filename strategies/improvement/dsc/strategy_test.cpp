@@ -58,7 +58,7 @@ TEST_CASE("a mesh of good tets needs no repair") {
     CHECK(proposals(cells(1.0), config::ConfigNode::map()).empty());
 }
 
-TEST_CASE("bad tets are asked for worst first, each with edges, interface, faces") {
+TEST_CASE("bad tets are requested worst first, each with edges, interface, faces") {
     const mesh::Complex c = cells(0.02);
     const auto requests = proposals(c, config::ConfigNode::map());
     REQUIRE_FALSE(requests.empty());
@@ -91,7 +91,7 @@ TEST_CASE("short interface edges are collapsed within the bounds, unless the thr
     CHECK(shorts(config::ConfigNode::map({{"min_edge_length", 0.2}})) == 0);
 }
 
-TEST_CASE("long edges from the interface into a phase are split when asked for, longest first") {
+TEST_CASE("long edges from the interface into a phase are split on request, longest first") {
     const auto splits = [](const mesh::Complex& c, double longest) {
         auto requests = proposals(c, config::ConfigNode::map({{"max_free_edge", longest}, {"min_edge_length", 0.0}, {"max_edge_length", 100.0}}));
         requests.erase(std::remove_if(requests.begin(), requests.end(), [](const mesh::Request& r) { return r.operation != mesh::Operation::edge_split; }),
@@ -130,7 +130,7 @@ TEST_CASE("the topology policy follows its parameters") {
     CHECK(off->topology_limits().open);
     const auto on = host.create<hooks::Improvement>({"dsc", config::ConfigNode::map()}, "improvement");
     CHECK(on->topology_limits().min_component == 2.0);
-    // A cloud point within half a mean edge of the first candidate, none near the second.
+    // A cloud point within half a target length of the first candidate, none near the second.
     cloud::Cloud cloud;
     for (const double s : {-1.0, 1.0}) cloud.points.insert(cloud.points.end(), {Vec3(s, 0, 0), Vec3(0, s, 0), Vec3(0, 0, s)});
     const cloud::TargetCloud target(cloud::normalize(cloud, 1.0));
@@ -143,7 +143,7 @@ TEST_CASE("the topology policy follows its parameters") {
     std::vector<std::uint8_t> accept(2, 7);
     on->select(step, candidates, accept);
     CHECK(accept == std::vector<std::uint8_t>{0, 1});
-    // The octahedron's points are sqrt(2) apart: so sparse a cloud vetoes cuts of necks everywhere near it.
+    // The octahedron's points are sqrt(2) apart: such a sparse cloud forbids cuts of necks everywhere near it.
     for (auto& candidate : candidates) candidate.kind = mesh::TopologyCandidate::Kind::cut;
     on->select(step, candidates, accept);
     CHECK(accept == std::vector<std::uint8_t>{0, 0});

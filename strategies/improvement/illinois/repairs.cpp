@@ -51,7 +51,7 @@ bool Repairs::interface_edge(const mesh::Complex& c, mesh::TetId t, VertexId a, 
     return std::any_of(ring_.tets.begin(), ring_.tets.end(), [&](mesh::TetId r) { return c.label(r) != label; });
 }
 
-// The two edges of a sliver that cross, one of the interface first.
+// The two edges of a sliver that cross; an edge of the interface comes first.
 std::array<std::array<VertexId, 2>, 2> Repairs::crossing_edges(const mesh::Complex& c, const Entry& entry) {
     const auto& v = c.tet(entry.tet).v;
     const TetShape& shape = entry.shape;
@@ -97,7 +97,7 @@ void Repairs::note(const mesh::RepairRound& round, mesh::TetId t, bool blocking)
     queue_.push_back({quantised(shape.altitude), t, static_cast<std::uint32_t>(queue_.size()), by_class, shape});
 }
 
-// What stops a vertex is the tet of lowest quality in its star, flat or not.
+// The tet of lowest quality in the star of a vertex stops the vertex, whether it is flat or not.
 void Repairs::note_blocking(const mesh::RepairRound& round, VertexId v) {
     const mesh::Complex& c = round.complex;
     if (searched_.size() < c.vertex_slots()) searched_.resize(c.vertex_slots(), 0);
@@ -137,7 +137,7 @@ void Repairs::note_spokes(const mesh::RepairRound& round, mesh::TetId t) {
     }
 }
 
-// Longest first, each once, so that those that share tets keep pace.
+// Longest first, each once, so that edges that share tets are split at the same rate.
 void Repairs::split_spokes(std::vector<Request>& out) {
     const auto key = [](const Spoke& s) { return std::tie(s.length, s.low, s.high); };
     std::sort(spokes_.begin(), spokes_.end(), [&](const Spoke& x, const Spoke& y) { return key(x) < key(y); });
@@ -224,7 +224,7 @@ void Repairs::flip_or_smooth(const mesh::RepairRound& round, const Entry& entry,
     }
 }
 
-// The shortest edge that has an end in a phase: the interface's own edges are left to the wedges.
+// The shortest edge with an end inside a phase; edges of the interface are handled as wedges.
 void Repairs::collapse(const mesh::RepairRound& round, const Entry& entry, std::vector<Request>& out) const {
     const mesh::Complex& c = round.complex;
     const auto& v = c.tet(entry.tet).v;
@@ -253,7 +253,7 @@ void Repairs::write(const mesh::RepairRound& round, std::vector<Request>& out) {
     split_spokes(out);
     smooth(round, out);
     for (const Entry& entry : queue_) {
-        // A vertex more on the interface is what nothing takes away again: those slivers come after the flips.
+        // Nothing removes an additional vertex on the interface: these slivers come after the flips.
         const bool last = limits_.fallbacks && inserts_on_interface(round.complex, entry);
         if (entry.by_class && !last) repair_by_class(round, entry, out);
         if (!limits_.fallbacks) continue;

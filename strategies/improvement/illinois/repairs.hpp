@@ -1,5 +1,5 @@
 #pragma once
-// The requests of a repair round of the Illinois DSC: which tets, which repairs, in which order.
+// The requests of a repair round of the Illinois DSC: tets, repairs and their order.
 
 #include <dsc/mesh/repair.hpp>
 #include <string>
@@ -9,25 +9,25 @@
 
 namespace dsc::improvement {
 
-/// What a request is counted as: the four classes, then the fall-backs.
+/// The class under which a request is counted: the four classes, then the fall-backs.
 enum class RepairClass : std::uint8_t { wedge, tee, cap, sliver, edge_removal, face_removal, smoothing, collapse, spoke };
 /// Names of RepairClass, in its order.
 std::vector<std::string> repair_class_names();
 
-/// Altitudes are least distances of a vertex from the plane of a tet's others, in min(longest edge, L).
+/// An altitude is the least distance of a vertex of a tet from the plane of its other vertices, in min(longest edge, L).
 struct RepairLimits {
     ShapeLimits shape;
     double flat = 0.05;          ///< altitude below which a tet is repaired by its class
     double flip_below = 0.1;     ///< altitude below which flips and smoothing are tried
-    double smooth_below = 0.2;   ///< altitude below which free vertices go to the mean of their neighbours
-    double degenerate = 0.05;    ///< a collapse leaves no tet below this quality, or below what there was
-    double least_edge = 0.25;    ///< in L: no insertion makes a shorter edge or splits one of less than twice this
-    double insertions = 0.2;     ///< new vertices a step, in interface vertices
-    double longest_spoke = 0.0;  ///< in L, of edges from the interface into a phase; 0: any
+    double smooth_below = 0.2;   ///< altitude below which free vertices move to the mean of their neighbours
+    double degenerate = 0.05;    ///< a collapse leaves no tet below this quality, or below the previous lowest quality
+    double least_edge = 0.25;    ///< in L: no insertion makes a shorter edge or splits an edge shorter than twice this
+    double insertions = 0.2;     ///< new vertices per step, as a fraction of the interface vertices
+    double longest_spoke = 0.0;  ///< in L, of edges from the interface into a phase; 0: no limit
     bool fallbacks = true;
 };
 
-/// Writes the requests of a round. What it remembers does not outlive a step.
+/// Writes the requests of a round. Its memory does not outlive a step.
 class Repairs {
 public:
     explicit Repairs(const RepairLimits& limits) : limits_(limits) {}
@@ -38,7 +38,7 @@ private:
         std::int64_t altitude;  // quantised
         mesh::TetId tet;
         std::uint32_t order;  // of discovery
-        bool by_class;        // flat, or in the way of a vertex
+        bool by_class;        // flat, or stops a vertex
         TetShape shape;
     };
     struct Spoke {
@@ -82,9 +82,9 @@ private:
     std::vector<mesh::TetId> star_;
     mesh::EdgeRing ring_;
     Visits tets_seen_, vertices_seen_;
-    std::vector<std::uint32_t> searched_;  // per vertex slot: change clock of the last search of its star, 0: not in this step
+    std::vector<std::uint32_t> searched_;  // per vertex slot: change clock of the last search of its star; 0: none in this step
     std::size_t insertions_left_ = 0;      // of the step
-    std::size_t insertions_open_ = 0;      // the same less what the round has asked for
+    std::size_t insertions_open_ = 0;      // the same minus the requests of the round
 };
 
 }  // namespace dsc::improvement

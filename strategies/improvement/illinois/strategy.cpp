@@ -6,43 +6,46 @@ void IllinoisImprovement::declare(config::ParamSchema<Params>& schema) {
     schema.real("flat", &Params::flat)
         .range(0, 1)
         .unit("1")
-        .doc("A tet is flat when a vertex is nearer than this to the plane of the others, in the smaller of its longest edge and "
-             "the mean edge.");
-    schema.real("wedge", &Params::wedge).range(0, 1).unit("1").doc("A flat tet with an edge shorter than this, in the same unit, is a wedge.");
-    schema.real("tee", &Params::tee).range(0, 1).unit("1").doc("Where a vertex is nearer than this to an edge, it is a tee.");
+        .doc("Altitude below which a tet is flat: the distance of a vertex from the plane of the others, in the smaller of "
+             "the longest edge of the tet and the target length.");
+    schema.real("wedge", &Params::wedge).range(0, 1).unit("1").doc("Edge length below which a flat tet is a wedge, in the "
+                                                                   "same unit.");
+    schema.real("tee", &Params::tee).range(0, 1).unit("1").doc("Distance of a vertex from an edge below which a flat tet is a "
+                                                               "tee, in the same unit.");
     schema.real("flip_below", &Params::flip_below)
         .range(0, 1)
         .unit("1")
-        .doc("Fall-back: tets that are this flat, in the unit of 'flat', are tried with flips and smoothing.");
+        .doc("Fall-back: altitude below which flips and smoothing are tried, in the unit of 'flat'.");
     schema.real("smooth_below", &Params::smooth_below)
         .range(0, 1)
         .unit("1")
-        .doc("Fall-back: free vertices of tets that are this flat go to the mean of their neighbours.");
+        .doc("Fall-back: altitude of tets below which their free vertices move to the mean of their neighbours, in the unit "
+             "of 'flat'.");
     schema.real("degenerate_tet_quality", &Params::degenerate_tet_quality)
         .range(0, 1)
         .unit("1")
-        .doc("A collapse may leave no tet below this volume-length quality, or below what there was.");
+        .doc("Volume-length quality below which a collapse may leave no tet, unless the lowest quality was already lower.");
     schema.real("least_edge", &Params::least_edge)
         .range(0, 1)
-        .unit("mean edges")
-        .doc("No insertion makes an edge shorter than this, nor splits one shorter than twice this.");
+        .unit("target lengths (L)")
+        .doc("Length below which no insertion makes an edge; edges shorter than twice this length are not split.");
     schema.real("insertions", &Params::insertions)
         .range(0, 10)
         .unit("1")
-        .doc("Vertices that a step may insert, as a part of the interface's vertices.");
+        .doc("Number of vertices that may be inserted per step, as a fraction of the interface vertices.");
     schema.real("longest_spoke", &Params::longest_spoke)
         .range(0, 1000)
-        .unit("mean edges")
-        .doc("Edges from the interface into a phase that are longer than this are split, as the thesis tried with those that lead to "
-             "the corners of the box; 0: none is.");
+        .unit("target lengths (L)")
+        .doc("Length above which edges from the interface into a phase are split, as the thesis tried with edges to "
+             "the corners of the box; 0: none is split.");
     schema.real("flatness", &Params::flatness)
         .range(0, 1)
         .unit("1")
         .advanced()
-        .doc("Cosine between the normals of interface faces above which they count as flat.");
+        .doc("Cosine between the normals of neighbouring interface faces above which they count as flat.");
     schema.boolean("fallbacks", &Params::fallbacks)
-        .doc("Whether a tet that its class' repair did not remove is tried with flips, smoothing and collapse; without them the "
-             "motion locks, as in the thesis.");
+        .doc("Whether flips, smoothing and collapse are tried on a tet that the repair of its class did not remove; without "
+             "them the motion gets stuck, as in the thesis.");
 }
 
 IllinoisImprovement::IllinoisImprovement(const Params& params, const plugin::Setup&)

@@ -1,5 +1,5 @@
 #pragma once
-// Improvement `illinois`: repairs of the Illinois DSC in a form that ends.
+// Improvement `illinois`: the repairs of the Illinois DSC, in a form that terminates.
 
 #include <dsc/hooks/improvement.hpp>
 #include <dsc/plugin/plugin.hpp>
@@ -8,7 +8,7 @@
 
 namespace dsc::strategies {
 
-/// Looks only at tets that are flat or stop a vertex, and repairs each by its class [Saul2015, ch. 3]; falls back on
+/// Examines only tets that are flat or stop a vertex, and repairs each by its class [Saul2015, ch. 3]; then falls back on
 /// flips, smoothing and collapses. No topology changes.
 class IllinoisImprovement final : public hooks::Improvement {
 public:

@@ -1,4 +1,4 @@
-// What the strategy asks for, on small complexes with a flat tet of each class.
+// The requests of the strategy, on small complexes with a flat tet of each class.
 #include "strategy.hpp"
 
 #include <doctest/doctest.h>
@@ -43,7 +43,7 @@ mesh::Complex cells() {
     return mesh::adopt(m, "cells", nullptr, 0.0);
 }
 
-// Moves a vertex by a part of the way to a point.
+// Moves a vertex by a fraction of the way to a point.
 void move_towards(mesh::Complex& c, VertexId v, const Vec3& target, double part) {
     std::vector<TetId> star;
     c.star(v, star);
@@ -100,7 +100,7 @@ std::map<std::string, std::size_t> counts(const Bench& bench, const std::vector<
 
 const ConfigNode classes_only = ConfigNode::map({{"fallbacks", false}});
 
-// A free vertex of the lattice and, of one tet, its other vertices.
+// A free vertex of the lattice, and the other vertices of one of its tets.
 struct Corner {
     VertexId apex;
     std::array<VertexId, 3> face;
@@ -117,7 +117,7 @@ Corner free_corner(const mesh::Complex& c) {
 
 TEST_CASE("a mesh of good tets needs no repair") { CHECK(Bench().propose_all(cells()).empty()); }
 
-TEST_CASE("cap: its vertex moves into the face, or the face goes") {
+TEST_CASE("cap: its vertex moves into the face, or the face is removed") {
     mesh::Complex c = cells();
     const Corner corner = free_corner(c);
     REQUIRE(corner.tet != mesh::none);
@@ -141,7 +141,7 @@ TEST_CASE("cap: its vertex moves into the face, or the face goes") {
     CHECK(named == face);
 }
 
-TEST_CASE("tee: the vertex moves onto the edge, or the edge goes; every tet of the edge that is flat says so") {
+TEST_CASE("tee: the vertex moves onto the edge, or the edge is removed; every flat tet of the edge requests this") {
     mesh::Complex c = cells();
     const Corner corner = free_corner(c);
     const VertexId a = corner.face[0], b = corner.face[1];
@@ -242,7 +242,7 @@ TEST_CASE("the budget counts what was committed, and a new step has a new one") 
     CHECK(bench.propose(c, round).size() == 1);
 }
 
-TEST_CASE("fall-backs follow the class' repair, in their order, and only where they are wanted") {
+TEST_CASE("fall-backs follow the repair of the class, in their order, and only if they are switched on") {
     mesh::Complex c = cells();
     const Corner corner = free_corner(c);
     move_towards(c, corner.apex, (c.position(corner.face[0]) + c.position(corner.face[1]) + c.position(corner.face[2])) / 3.0, 0.97);
@@ -252,7 +252,7 @@ TEST_CASE("fall-backs follow the class' repair, in their order, and only where t
     for (const Request& r : requests) {
         if (order.empty() || order.back() != bench.class_of(r)) order.push_back(bench.class_of(r));
     }
-    // Smoothing to the mean comes ahead of all tets, towards better quality with its tet.
+    // Smoothing to the mean comes before all tets; smoothing by quality comes with its tet.
     CHECK(order == std::vector<std::string>{"smoothing", "cap", "edge_removal", "face_removal", "smoothing", "collapse"});
     CHECK(requests.front().operation == Operation::smooth_laplacian);
     for (const Request& r : requests) {
@@ -304,7 +304,7 @@ TEST_CASE("a blocked vertex: the worst tet of its star is repaired though it is 
     CHECK_FALSE(bench.propose(c, round).empty());
 }
 
-TEST_CASE("spokes: long edges from the interface into a phase are split when asked for, longest first, each once") {
+TEST_CASE("spokes: long edges from the interface into a phase are split on request, longest first, each once") {
     const mesh::Complex c = cells();
     const auto splits = [&](double longest) {
         Bench bench(ConfigNode::map({{"longest_spoke", longest}}));
@@ -333,7 +333,7 @@ TEST_CASE("spokes: long edges from the interface into a phase are split when ask
     CHECK(diagonals.size() > 0);
 }
 
-TEST_CASE("no topology changes; the order of proposals does not depend on the order of the dirty tets but for ties") {
+TEST_CASE("no topology changes; the order of proposals does not depend on the order of the dirty tets except for ties") {
     Bench bench;
     CHECK(bench.strategy->topology_limits().thickness == 0.0);
     CHECK(bench.strategy->topology_limits().min_component == 0.0);

@@ -10,7 +10,7 @@ namespace {
 using Pair = std::array<std::uint8_t, 2>;
 constexpr std::array<Pair, 6> pairs = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-// The two of 0..3 that are not in the pair.
+// The two numbers of 0..3 that are not in the pair.
 Pair others(const Pair& pair) {
     Pair rest{};
     std::size_t n = 0;
@@ -62,7 +62,7 @@ TetShape classify(const std::array<Vec3, 4>& p, double length, const ShapeLimits
     shape.opposite = others(*shortest)[1];
     if (!(scale > 0.0)) return shape;
 
-    // The vertex with the least altitude stands on the largest face.
+    // The vertex with the least altitude is opposite the largest face.
     std::uint8_t apex = 0;
     Face base = face_opposite(p, 0);
     for (std::uint8_t i = 1; i < 4; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Which of the four flat shapes a tet has, or would have if it were pressed flat [Saul2015, ch. 3].
+// The flat shape, one of four, that a tet has or would have if it were pressed flat [Saul2015, ch. 3].
 
 #include <array>
 #include <cstdint>
@@ -11,14 +11,14 @@ namespace dsc::improvement {
 /// others. Sliver: it lies outside, two opposite edges cross.
 enum class FlatClass : std::uint8_t { wedge, tee, cap, sliver };
 
-/// Borders between the classes, in min(longest edge of the tet, L): a small tet is judged by its own size, a tet that
-/// reaches far, as those at the corners of a box, by the size of the interface's faces.
+/// Limits between the classes, in min(longest edge of the tet, L): a small tet is classified by its own size, a tet that
+/// extends far, such as those at the corners of a box, by the size of the interface's faces.
 struct ShapeLimits {
     double wedge = 0.25;  ///< shortest edge below which a tet is a wedge
-    double tee = 0.1;     ///< distance of vertex and edge below which it is a tee
+    double tee = 0.1;     ///< distance between a vertex and an edge below which a tet is a tee
 };
 
-/// Local indices (0 to 3) tell what the class means.
+/// Local indices (0 to 3); their meaning depends on the class.
 struct TetShape {
     FlatClass flat_class = FlatClass::wedge;
     /// Wedge: the short edge. Tee: the edge that `vertex` lies on. Sliver: the edge of the face that `vertex` lies beyond;
@@ -30,8 +30,8 @@ struct TetShape {
     double altitude = 0.0;      ///< least distance of a vertex from the plane of the others, in min(longest edge, L)
 };
 
-/// Shape of the tet p; `length` is L. Every tet has one: the classes are tried in the order of FlatClass, so that none of them
-/// overlap and the answer depends on the points alone, not on their order, but for ties. Finite for coinciding points too.
+/// Shape of the tet p; `length` is L. Every tet has a shape: the classes are tried in the order of FlatClass, so that they do not
+/// overlap and the answer depends on the points alone, not on their order, except for ties. Also finite for coinciding points.
 TetShape classify(const std::array<Vec3, 4>& p, double length, const ShapeLimits& limits);
 
 }  // namespace dsc::improvement

@@ -1,4 +1,4 @@
-// The classes on single tets, whichever way they lie and are numbered.
+// The classes on single tets, in any position and numbering.
 #include "tet_shape.hpp"
 
 #include <doctest/doctest.h>
@@ -28,7 +28,7 @@ Eigen::Matrix3d rotation(RandomStream& random) {
     return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
 }
 
-// The same tet rotated, moved, scaled and renumbered: `order[i]` is the place of vertex i.
+// The same tet rotated, moved, scaled and renumbered: `order[i]` is the new index of vertex i.
 struct Disguise {
     Points points;
     std::array<std::uint8_t, 4> order{0, 1, 2, 3};
@@ -45,7 +45,7 @@ Disguise disguise(const Points& p, RandomStream& random, double scale) {
 std::array<std::uint8_t, 2> sorted(std::uint8_t a, std::uint8_t b) { return {std::min(a, b), std::max(a, b)}; }
 std::array<std::uint8_t, 2> sorted(const std::array<std::uint8_t, 2>& e) { return sorted(e[0], e[1]); }
 
-// A flat tet in the plane z = 0 but for its vertex 3, which is `height` above it.
+// A flat tet in the plane z = 0 except its vertex 3, which is `height` above the plane.
 Points flat(double x, double y, double height) { return {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.4, 0.8, 0), Vec3(x, y, height)}; }
 
 template <class Check>
@@ -107,7 +107,7 @@ TEST_CASE("a kite's diagonals are found though they are not its two longest edge
     });
 }
 
-TEST_CASE("the borders are where the limits say") {
+TEST_CASE("the borders are at the limits") {
     const double longest = 1.0;
     const auto class_of = [&](const Points& p) { return classify(p, huge_length, {}).flat_class; };
     const ShapeLimits limits;
@@ -119,14 +119,14 @@ TEST_CASE("the borders are where the limits say") {
     CHECK(classify(flat(0.5, 0.3, 0.0), huge_length, {0.0, 0.0}).flat_class == FlatClass::cap);
 }
 
-TEST_CASE("a tet that reaches far is judged by L, not by its length") {
-    // Three vertices of a fine interface, the fourth at a corner of the box, ten edges away; 0.1 is L.
+TEST_CASE("a tet that extends far is classified by L, not by its length") {
+    // Three vertices of a fine interface, and the fourth at a corner of the box, ten edges away; L is 0.1.
     const Points spike = {Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0.05, 0.087, 0), Vec3(0.05, 0.03, 1)};
     const TetShape shape = classify(spike, 0.1, {});
     CHECK(shape.flat_class != FlatClass::wedge);
     CHECK(shape.altitude > 0.7);
     CHECK(classify(spike, huge_length, {}).flat_class == FlatClass::wedge);
-    // Pressed flat it is what it looks like in its plane: the far vertex sees one edge, or two.
+    // Pressed flat, its class follows from its shape in the plane: the far vertex sees one edge or two.
     const Points quad = {Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0.05, 0.087, 0.001), Vec3(0.05, -1, 0)};
     CHECK(classify(quad, 0.1, {}).flat_class == FlatClass::sliver);
     CHECK(classify(quad, 0.1, {}).altitude < 0.05);
@@ -143,7 +143,7 @@ TEST_CASE("coinciding points give finite answers") {
     CHECK(classify(line, 1.0, {}).flat_class == FlatClass::tee);
 }
 
-TEST_CASE("random flat tets: the class agrees with the plane figure") {
+TEST_CASE("random flat tets: the class agrees with the shape in the plane") {
     std::array<int, 4> seen{};
     for (std::uint64_t n = 0; n < 5000; ++n) {
         RandomStream random = stream(n + 1000);

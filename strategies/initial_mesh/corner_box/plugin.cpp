@@ -3,6 +3,7 @@
 
 #include "strategy.hpp"
 
-DSC_PLUGIN("corner_box", DSC_VERSION, "BSD-3-Clause", "A sphere or box joined to the corners of the box round it") {
-    registrar.add<dsc::strategies::CornerBox>("corner_box", "a sphere or box joined to the eight corners of the box, no vertex between");
+DSC_PLUGIN("corner_box", DSC_VERSION, "BSD-3-Clause", "Start from a sphere or box joined to the corners of the outer box") {
+    registrar.add<dsc::strategies::CornerBox>("corner_box", "a sphere or box joined to the eight corners of the outer box, "
+                                                            "with no vertices between them");
 }

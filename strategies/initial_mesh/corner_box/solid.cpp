@@ -15,7 +15,7 @@ using Node = std::array<int, 3>;
 Node plus(const Node& a, const Node& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 int levels(const Node& node) { return std::abs(node[0]) + std::abs(node[1]) + std::abs(node[2]); }
 
-// Gathers tets between integer nodes; a node becomes a point where it is used first.
+// Collects tets between integer nodes; a node becomes a point when it is first used.
 class Builder {
 public:
     explicit Builder(std::function<Vec3(const Node&)> place) : place_(std::move(place)) {}
@@ -51,7 +51,7 @@ public:
     }
 
 private:
-    // No face crosses a plane between octants, and none of the surface lies in one.
+    // No face crosses a plane between octants, and no face of the surface lies in such a plane.
     Octant octant(const mesh::FaceKey& key) const {
         unsigned bits = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -66,7 +66,7 @@ private:
     std::map<Node, std::uint32_t> index_;
 };
 
-// The nodes of one octant with at most `divisions` levels, cut as a tet is into smaller ones: along each cube of nodes an
+// The nodes of one octant with at most `divisions` levels, cut as a tet is cut into smaller tets: each cube of nodes gives an
 // upright tet, an octahedron and an inverted tet, as far as they are inside.
 void fill_octant(Builder& builder, const Node& signs, int divisions) {
     const Node x = {signs[0], 0, 0}, y = {0, signs[1], 0}, z = {0, 0, signs[2]};
@@ -79,7 +79,7 @@ void fill_octant(Builder& builder, const Node& signs, int divisions) {
                 const int room = divisions - (i + j + k);
                 if (room < 2) continue;
                 const Node pxy = plus(px, y), pyz = plus(py, z), pzx = plus(pz, x);
-                // Round the shortest of the octahedron's three diagonals; ring[m] is opposite ring[m + 2].
+                // Four tets around the shortest of the octahedron's three diagonals; ring[m] is opposite ring[m + 2].
                 struct Diagonal {
                     Node from, to;
                     std::array<Node, 4> ring;
@@ -108,7 +108,7 @@ Solid sphere(const Vec3& centre, double radius, unsigned divisions) {
     Builder builder([&](const Node& node) -> Vec3 {
         const int level = levels(node);
         if (level == 0) return centre;
-        // Sines make the arcs along the octants' borders equal.
+        // Sines make the arcs along the borders of the octants equal.
         Vec3 direction;
         for (std::size_t a = 0; a < 3; ++a) {
             direction[static_cast<Eigen::Index>(a)] = std::sin(quarter_turn * static_cast<double>(node[a]) / level);
@@ -129,7 +129,7 @@ Solid box(const Vec3& centre, const Vec3& half_size, unsigned divisions) {
     for (int k = -n; k < n; ++k) {
         for (int j = -n; j < n; ++j) {
             for (int i = -n; i < n; ++i) {
-                // Of the cell's corners, those whose coordinates have an even sum span the tet in the middle.
+                // The corners of the cell whose coordinates have an even sum form the tet in the middle.
                 const auto corner = [&](int x, int y, int z) { return Node{i + x, j + y, k + z}; };
                 const int flip = (i + j + k) & 1;
                 const auto at = [&](int x, int y, int z) { return corner(x ^ flip, y, z); };

@@ -8,7 +8,7 @@
 
 namespace dsc::corner_box {
 
-/// Which of the eight octants about a solid's centre: bit a is set where coordinate a is positive.
+/// The number of an octant about the centre of a solid: bit a is set if coordinate a is positive.
 using Octant = std::uint8_t;
 
 struct SurfaceFace {
@@ -21,11 +21,11 @@ struct Solid {
     std::vector<Vec3> points;
     std::vector<std::array<std::uint32_t, 4>> tets;
     std::vector<SurfaceFace> faces;
-    /// Where the surface meets the axes: the vertex at the positive and at the negative end of each.
+    /// The vertices where the surface meets the axes: at the positive and at the negative end of each axis.
     std::array<std::array<std::uint32_t, 2>, 3> poles{};
 };
 
-/// `divisions` edges lead from the centre to each pole, as many along a quarter of each great circle: 4 n^2 + 2 vertices on
+/// n = `divisions` edges lead from the centre to each pole, and n along a quarter of each great circle: 4 n^2 + 2 vertices on
 /// the surface, all at `radius`, 8 n^3 tets.
 Solid sphere(const Vec3& centre, double radius, unsigned divisions);
 

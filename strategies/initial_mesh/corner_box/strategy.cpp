@@ -37,7 +37,7 @@ private:
         if (geometry::orient3d(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]) < 0) std::swap(tet[2], tet[3]);
     }
 
-    // An edge of the surface on the border of two octants, and the edge of the box between their corners.
+    // A tet of an edge of the surface on the border of two octants and the edge of the box between their corners.
     void join_octants(const Solid& solid) {
         struct Side {
             std::uint32_t a, b;
@@ -59,7 +59,7 @@ private:
         }
     }
 
-    // Four octants meet at a pole: the side of the box in front of it, in two triangles.
+    // Four octants meet at a pole: two tets with the two triangles of the box's side in front of it.
     void close_sides(const Solid& solid) {
         for (unsigned axis = 0; axis < 3; ++axis) {
             const unsigned u = 1U << ((axis + 1) % 3), v = 1U << ((axis + 2) % 3);
@@ -79,16 +79,17 @@ private:
 }  // namespace
 
 void CornerBox::declare(config::ParamSchema<Params>& schema) {
-    schema.choice("shape", &Params::shape, {{"sphere", Shape::sphere}, {"box", Shape::box}}).doc("The solid of label 1.");
+    schema.choice("shape", &Params::shape, {{"sphere", Shape::sphere}, {"box", Shape::box}}).doc("Solid with label 1.");
     schema.real("radius", &Params::radius).greater(0).unit("length").doc("Radius of the sphere.");
-    schema.vec3("half_size", &Params::half_size).unit("length").doc("Half the edges of the solid box.");
+    schema.vec3("half_size", &Params::half_size).unit("length").doc("Half the edge lengths of the solid box.");
     schema.vec3("centre", &Params::centre).unit("length").doc("Centre of the solid.");
     schema.integer("divisions", &Params::divisions)
         .range(1, 200)
         .unit("1")
         .costly()
-        .doc("Edges from the solid's centre to its surface along an axis.");
-    schema.real("box", &Params::box).greater(0).unit("length").doc("Half the edge of the box, which is centred at 0.");
+        .doc("Number of edges along an axis from the centre of the solid to its surface.");
+    schema.real("box", &Params::box).greater(0).unit("length").doc("Half the edge length of the outer box, which is centred "
+                                                                   "at 0.");
     schema.check([](const Params& p) { return p.half_size.minCoeff() > 0; }, "half_size must be above 0");
     schema.check([](const Params& p) { return (p.centre.cwiseAbs() + p.extent()).maxCoeff() < p.box; },
                  "the solid must lie inside the box and not touch it");

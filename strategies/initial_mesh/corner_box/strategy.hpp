@@ -1,14 +1,14 @@
 #pragma once
-// Initial mesh `corner_box`: a sphere or box joined to the corners of the box round it, with nothing between.
+// Initial mesh `corner_box`: a sphere or box joined to the corners of the outer box, with no vertices between them.
 
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/plugin/plugin.hpp>
 
 namespace dsc::strategies {
 
-/// The start of the Illinois DSC [Saul2015, ch. 3, figure 3.2]: every vertex of the interface is joined to the corner of the
-/// box that is nearest, in whose octant it lies; one on a border of octants to each of their corners. Outside the solid there are
-/// only the box's eight vertices.
+/// The initial mesh of the Illinois DSC [Saul2015, ch. 3, figure 3.2]: every vertex of the interface is joined to the nearest
+/// corner of the box, whose octant contains it; a vertex on a border of octants is joined to each of their corners. Outside the
+/// solid there are only the box's eight vertices.
 class CornerBox final : public hooks::InitialMesh {
 public:
     enum class Shape { sphere, box };
@@ -26,7 +26,7 @@ public:
 
     CornerBox(const Params& params, const plugin::Setup& setup);
 
-    /// All tets are positive; the solid's come first and have label 1.
+    /// All tets are positive; the tets of the solid come first and have label 1.
     mesh::TetMesh build(const hooks::InitialMeshContext& context) override;
 
 private:

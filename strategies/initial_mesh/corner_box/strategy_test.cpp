@@ -34,7 +34,8 @@ double volume(const TetMesh& m, dsc::mesh::Label label) {
     return sum;
 }
 
-// Every tet positive as it is, and adopted as a conforming mesh of the whole box with one sphere as its interface.
+// Requires that every tet is positive and that the mesh is adopted as a conforming mesh of the whole box with one sphere as its
+// interface.
 void check_sound(const TetMesh& m, double half) {
     for (const auto& v : m.tets) REQUIRE(dsc::geometry::orient3d(m.points[v[0]], m.points[v[1]], m.points[v[2]], m.points[v[3]]) == 1);
     dsc::mesh::AdoptReport report;
@@ -68,7 +69,7 @@ TEST_CASE("sphere: counts, volume, every vertex of the interface on the radius")
         std::size_t inside = 0;
         for (const auto label : m.labels) inside += label == 1 ? 1 : 0;
         CHECK(inside == static_cast<std::size_t>(8 * n * n * n));
-        // A tet a face, one for each edge on the three great circles, two a side of the box.
+        // One tet per face, one per edge on the three great circles, two per side of the box.
         CHECK(m.tets.size() - inside == static_cast<std::size_t>(8 * n * n + 12 * n + 12));
     }
     const TetMesh fine = build(ConfigNode::map({{"divisions", 24}, {"radius", 0.9}}));
@@ -108,7 +109,7 @@ TEST_CASE("sphere: each vertex is joined to its nearest corner") {
             if (c.cwiseAbs().minCoeff() < 1.5) continue;
             const bool nearest = (c.array() * m.points[v].array() >= -1e-9).all();
             const bool joined = edges.count({v, corner}) > 0;
-            // On a pole the side's other diagonal may be the one that was not drawn.
+            // At a pole, the side may be cut along its other diagonal.
             const bool pole = (m.points[v].cwiseAbs().array() < 1e-9).count() == 2;
             if (!pole || !nearest) REQUIRE(joined == nearest);
         }
@@ -126,7 +127,7 @@ TEST_CASE("box: counts and exact volume, also off centre and not a cube") {
     }
 }
 
-TEST_CASE("any solid that fits is joined soundly: near the walls, small, large, in another box") {
+TEST_CASE("any solid that fits is joined correctly: near the walls, small, large, in another box") {
     check_sound(build(ConfigNode::map({{"radius", 1.49}, {"divisions", 5}})), 1.5);
     check_sound(build(ConfigNode::map({{"radius", 0.01}, {"divisions", 4}, {"centre", vector(-1.4, 1.3, 1.45)}})), 1.5);
     check_sound(build(ConfigNode::map({{"radius", 0.6}, {"divisions", 7}, {"centre", vector(0.8, 0.2, -0.85)}})), 1.5);

@@ -6,7 +6,8 @@ void DscFile::declare(config::ParamSchema<Params>& schema) {
     schema.file("file", &Params::file)
         .required()
         .extensions({".dsc", ".vtu"})
-        .doc("A labelled tet mesh that fills a box: of the original's .dsc files, of a former run, or of your own.");
+        .doc("Labelled tet mesh that fills a box: a .dsc file of the original program, the result of a former run, or your "
+             "own file.");
     plugin::declare_coordinates(schema, &Params::coordinates);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Initial mesh `dsc_file`: the labelled box of a file.
+// Initial mesh `dsc_file`: a labelled box of tets from a file.
 
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/plugin/placing.hpp>
@@ -8,8 +8,8 @@
 
 namespace dsc::strategies {
 
-/// The mesh as the file has it, with any number of labels. It must fill an axis-parallel box; the kernel re-orients its
-/// tets, mends pinched vertices and refuses what is no complex.
+/// The mesh of the file, with any number of labels. It must fill an axis-parallel box; the kernel re-orients its
+/// tets, makes pinched vertices regular and refuses a mesh that is not a complex.
 class DscFile final : public hooks::InitialMesh {
 public:
     struct Params {

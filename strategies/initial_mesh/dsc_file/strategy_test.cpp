@@ -21,7 +21,7 @@ using dsc::Vec3;
 using dsc::config::ConfigNode;
 using dsc::mesh::TetMesh;
 
-/// A file of its own that goes away.
+/// A temporary file.
 class File {
 public:
     explicit File(const std::string& name)
@@ -50,7 +50,7 @@ TetMesh load(const std::string& file, const dsc::cloud::TargetCloud* cloud = nul
     return host.create<dsc::hooks::InitialMesh>({"dsc_file", params}, "initial_mesh")->build(context);
 }
 
-/// A box of equal cells with a cube of three slabs in it.
+/// A box of equal cells that contains a cube of three slabs.
 TetMesh slabs() {
     dsc::mesh::LatticeOptions options;
     options.cells = 18;
@@ -70,7 +70,7 @@ double volume_of(const dsc::mesh::Complex& c, dsc::mesh::Label label) {
     return sum;
 }
 
-/// The text of a .dsc with its lines in another order and every third tet the other way round.
+/// The text of a .dsc with its lines in another order and every third tet in negative orientation.
 std::string shuffled(const std::string& text) {
     std::istringstream lines(text);
     std::string line, vertices, tets;
@@ -123,7 +123,7 @@ TEST_CASE("tets of either orientation, in any order, the last line once: three l
                        [&](auto v) { return complex.phases(v) == 3 && complex.movable(v); }));
 }
 
-TEST_CASE("coordinates of the input go with the cloud") {
+TEST_CASE("coordinates of the input move with the cloud") {
     const File file("far.dsc");
     TetMesh start = slabs();
     const Vec3 centre(100, -40, 7);
@@ -136,7 +136,7 @@ TEST_CASE("coordinates of the input go with the cloud") {
     const auto complex = dsc::mesh::adopt(load(file.name(), &target), "file");
     CHECK((complex.box().high - Vec3::Constant(1.5)).norm() < 1e-12);
     CHECK(volume_of(complex, 2) == doctest::Approx(8.0 / 3));
-    // Without the parameter it stays where it is.
+    // Without the parameter the mesh is not moved.
     CHECK(dsc::mesh::adopt(load(file.name()), "file").box().high == Vec3(centre + 20.0 * Vec3::Constant(1.5)));
 }
 
@@ -162,7 +162,7 @@ TEST_CASE("hostile files end in one message with place, cause and remedy") {
     refused(v4 + "t 0 1 2 3 -4\n", "io.syntax", ":5: label -4 is out of range");
     refused(v4 + "t 0 1 2 3 1\n", "mesh.volume", "bounding box");
     refused(v4 + "t 0 1 2 2 1\n", "mesh.flat_tet", "zero volume");
-    // The original's readers saw the last line twice, and their results have it twice.
+    // The readers of the original program read the last line twice, so its results contain this line twice.
     const File good("good.dsc");
     dsc::io::write_volume(good.name(), slabs());
     const std::string text = dsc::read_file(good.name());

@@ -9,7 +9,7 @@ namespace dsc::strategies::from_surface {
 namespace {
 
 constexpr std::size_t block = 256;
-constexpr double most_halves = 4096;  // of a triangle's longest side
+constexpr double most_halves = 4096;  // largest number of halves of the longest side of a triangle
 
 struct Farthest {
     double distance = 0;
@@ -19,7 +19,8 @@ struct Farthest {
     }
 };
 
-/// The farthest of a triangle's points from `tree`, on a grid that has its corners and the middles of its sides.
+/// The point of a triangle that is farthest from `tree`, among the points of a grid with the corners and the middles of the
+/// sides.
 template <class Tree>
 Farthest of_triangle(const Vec3& a, const Vec3& b, const Vec3& c, double spacing, const Tree& tree) {
     const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});

@@ -1,5 +1,5 @@
 #pragma once
-// How far two surfaces are apart.
+// The distance between two surfaces.
 
 #include <dsc/surface/triangle_mesh.hpp>
 
@@ -7,13 +7,13 @@
 
 namespace dsc::strategies::from_surface {
 
-/// Greatest distances from points of one surface to the other, taken at every vertex and at most `spacing` apart along and
-/// inside the faces.
+/// Greatest distances from points of one surface to the other. The points are the vertices and points at most `spacing` apart
+/// along and inside the faces.
 struct Deviation {
-    double of_vertices = 0;   ///< vertices of the interface from the surface
-    double of_interface = 0;  ///< any point of the interface from the surface
-    double of_surface = 0;    ///< any point of the surface from the interface
-    Vec3 farthest = Vec3::Zero();  ///< where the greatest of the last two is
+    double of_vertices = 0;   ///< from vertices of the interface to the surface
+    double of_interface = 0;  ///< from any point of the interface to the surface
+    double of_surface = 0;    ///< from any point of the surface to the interface
+    Vec3 farthest = Vec3::Zero();  ///< the point with the greater of the last two distances
 
     double greatest() const { return std::max(of_interface, of_surface); }
 };

@@ -44,7 +44,7 @@ Features::Features(const surface::TriangleMesh& mesh, double angle) {
     for (const auto& [a, b] : edges) {
         ends[a].push_back(b);
         ends[b].push_back(a);
-        lines.faces.push_back({a, b, b});  // a triangle without an area is the union of its sides
+        lines.faces.push_back({a, b, b});  // a triangle without area is the union of its sides
     }
     for (std::size_t v = 0; v < ends.size(); ++v) {
         if (ends[v].empty()) continue;

@@ -8,7 +8,8 @@
 
 namespace dsc::strategies::from_surface {
 
-/// Edges whose two faces turn by more than an angle, and the points where other than two of them meet, or two at an angle.
+/// Edges whose two faces differ by more than an angle, and corners: points where not exactly two such edges meet, or two at an
+/// angle.
 class Features {
 public:
     /// `mesh` must be closed and manifold; the angle in radians. [setup]
@@ -17,7 +18,7 @@ public:
     const std::vector<Vec3>& corners() const { return corners_; }
     bool empty() const { return !edges_; }
     bool corner(const Vec3& p) const;
-    /// Nearest point of the sharp edges; not for empty ones. [parallel]
+    /// The nearest point of the sharp edges; there must be at least one. [parallel]
     surface::NearestHit nearest(const Vec3& p) const { return edges_->nearest(p); }
 
 private:

@@ -7,16 +7,17 @@
 namespace dsc::strategies::from_surface {
 namespace {
 
-/// Beyond some forty rounds vertices that are stuck take to sliding about and stretch the triangles round them.
+/// After about forty rounds, vertices that are stuck begin to slide and stretch the triangles around them.
 constexpr unsigned rounds = 40;
-/// What is not there by then goes on at the cost of shape.
+/// Further rounds, in which the vertices that have not arrived continue at the cost of shape.
 constexpr unsigned last_rounds = 20;
 constexpr double last_quality = 0.08;
-/// Parts of a finest cell: what is nearer to a sharp edge goes onto it; each corner takes the nearest vertex within its reach.
+/// In finest cells: vertices nearer than this to a sharp edge move onto it; each corner takes the nearest vertex within its
+/// reach.
 constexpr double edge_reach = 0.35, corner_reach = 1.5;
 constexpr double least_quality = 0.05;
 
-/// Least quality of the star of v with v at `position`, 0 where a tet would not be positive.
+/// The lowest quality in the star of v with v at `position`; 0 if a tet would not be positive.
 double star_quality(const mesh::Complex& c, mesh::VertexId v, const Vec3& position, const std::vector<mesh::TetId>& star) {
     double least = 1.0;
     for (const mesh::TetId t : star) {
@@ -28,8 +29,8 @@ double star_quality(const mesh::Complex& c, mesh::VertexId v, const Vec3& positi
     return least;
 }
 
-/// The movable interface vertex within reach of the corner whose tets keep the best shape when it goes there; none if all would
-/// be bad.
+/// The movable interface vertex within reach of the corner whose tets keep the best shape when it moves there; none if the tets
+/// of all would be bad.
 mesh::VertexId best_for(const mesh::Complex& c, const Vec3& corner, double reach, std::vector<mesh::TetId>& star) {
     mesh::VertexId best = mesh::none;
     double best_quality = least_quality;
@@ -45,7 +46,7 @@ mesh::VertexId best_for(const mesh::Complex& c, const Vec3& corner, double reach
     return best;
 }
 
-/// Brings a vertex to each corner where one can come; returns these.
+/// Moves a vertex to each corner that a vertex can reach; returns these vertices.
 std::vector<mesh::VertexId> take_corners(mesh::Complex& c, const std::vector<Vec3>& corners, double reach) {
     std::vector<mesh::VertexId> taken;
     std::vector<mesh::TetId> star;

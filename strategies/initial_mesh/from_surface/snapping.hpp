@@ -1,5 +1,5 @@
 #pragma once
-// Takes the interface of a labelled lattice to a surface.
+// Moves the interface of a labelled lattice onto a surface.
 
 #include <dsc/mesh/complex.hpp>
 #include <dsc/mesh/project.hpp>
@@ -9,9 +9,9 @@
 
 namespace dsc::strategies::from_surface {
 
-/// First every vertex of the interface to its nearest point of the surface, then those near sharp edges and corners onto these.
-/// No tet inverts or is taken below a volume-length quality of 0.02, unless it was there before; a vertex for which there is
-/// no way stays as near as it got. [setup]
+/// First moves every vertex of the interface to its nearest point of the surface, then vertices near sharp edges and corners
+/// onto these. No tet inverts or gets a volume-length quality below 0.02, unless it was lower before; a vertex that cannot get
+/// there stays at the nearest place that it reached. [setup]
 mesh::ProjectReport snap(mesh::Complex& complex, const Solid& solid, const Features& features, double cell);
 
 }  // namespace dsc::strategies::from_surface

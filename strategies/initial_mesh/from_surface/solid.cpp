@@ -20,13 +20,13 @@ std::string place(const Vec3& p) {
     return text;
 }
 
-/// A directed side of a face, by its points in ascending order.
+/// A directed side of a face, stored with its points in ascending order.
 struct DirectedSide {
     std::uint32_t low, high;
     bool ascending;
 };
 
-/// Midpoint of the first edge, by its points, whose sides are not one in each direction.
+/// The midpoint of the first edge that does not have exactly one side in each direction.
 Vec3 first_bad_edge(const surface::TriangleMesh& mesh) {
     std::vector<DirectedSide> sides;
     for (const auto& f : mesh.faces) {
@@ -61,7 +61,7 @@ surface::TriangleMesh require_solid(const surface::TriangleMesh& given, const st
         refuse(file, "surface.open",
                "the surface is open: " + edges(report.boundary_edges) + " with one face, the first at " +
                    place(first_bad_edge(mesh)),
-               "close its holes, or take its points as a cloud and reconstruct");
+               "close its holes, or reconstruct a surface from its points as a cloud");
     }
     if (report.nonmanifold_edges > 0) {
         refuse(file, "surface.not_manifold",
@@ -70,7 +70,7 @@ surface::TriangleMesh require_solid(const surface::TriangleMesh& given, const st
     }
     if (report.misoriented_edges > 0) {
         refuse(file, "surface.misoriented",
-               edges(report.misoriented_edges) + " whose faces look to opposite sides, the first at " +
+               edges(report.misoriented_edges) + " whose faces have opposite orientations, the first at " +
                    place(first_bad_edge(mesh)),
                "orient all faces outwards");
     }
@@ -80,8 +80,9 @@ surface::TriangleMesh require_solid(const surface::TriangleMesh& given, const st
         refuse(file, "surface.self_intersecting",
                std::to_string(crossed.count) + (crossed.count == 1 ? " pair" : " pairs") +
                    " of faces intersect, the first at " + place(mesh.points[first[0]]) + ", and " +
-                   std::to_string(intersections) + " may",
-               "mend them, or raise `intersections`: the solid is then what the surface winds round");
+                   std::to_string(intersections) + " are allowed",
+               "remove them and export the surface again, or increase `intersections`: the solid then contains all points "
+               "that the surface winds around");
     }
     return mesh;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A closed surface as a solid: which points are inside, how far away it is.
+// A closed surface as a solid: the points inside, and the distance to the surface.
 
 #include <dsc/surface/distance.hpp>
 #include <dsc/surface/triangle_mesh.hpp>
@@ -8,13 +8,13 @@
 
 namespace dsc::strategies::from_surface {
 
-/// The mesh with equal points joined, once it is known to bound a solid: throws GeometryError "surface.empty",
-/// "surface.open", "surface.not_manifold", "surface.misoriented", "surface.self_intersecting" naming `file`, the number of
-/// faults and where the first one is. At most `intersections` pairs of faces may intersect. [setup]
+/// The mesh with equal points joined, after a check that it bounds a solid: throws GeometryError "surface.empty",
+/// "surface.open", "surface.not_manifold", "surface.misoriented", "surface.self_intersecting" with `file`, the number of
+/// faults and the place of the first one. At most `intersections` pairs of faces may intersect. [setup]
 surface::TriangleMesh require_solid(const surface::TriangleMesh& mesh, const std::string& file, std::size_t intersections,
                                     Workers* workers);
 
-/// What a surface encloses: all points that it winds round, whichever way its faces look.
+/// The solid that a surface encloses: all points that it winds around, for any orientation of its faces.
 class Solid {
 public:
     explicit Solid(surface::TriangleMesh mesh) : mesh_(std::move(mesh)), nearest_(mesh_), winding_(mesh_) {}

@@ -19,10 +19,10 @@ using from_surface::Features;
 using from_surface::Solid;
 
 constexpr const char* name = "initial mesh 'from_surface'";
-/// A tet belongs to the solid when no vertex lies farther outside than this part of a finest cell: so no tet outside has four
-/// vertices on the interface, and the interface has as much to go inwards as outwards.
+/// A tet belongs to the solid if no vertex is farther outside than this fraction of a finest cell. So no tet outside has four
+/// vertices on the interface, and the interface must move as far inwards as outwards.
 constexpr double reach = 0.4;
-/// Distances are looked for this many finest cells apart.
+/// Distance between the sample points for distances, in finest cells.
 constexpr double probe_spacing = 0.5;
 constexpr std::size_t block = 1024;  // points
 constexpr double pi = 3.14159265358979323846;
@@ -35,8 +35,8 @@ void centre_and_scale(std::vector<Vec3>& points, const Vec3& centre, double half
     for (Vec3& p : points) p = centre + (p - middle) * scale;
 }
 
-/// How much farther than from a plane a point may be from a sharp edge or a corner, so that the solid grown by a layer has them
-/// too: what it is where two or three planes meet at right angles.
+/// Factor by which a point may be farther from a sharp edge or a corner than from a plane, so that the solid grown by a layer
+/// also has sharp edges and corners. It is exact where two or three planes meet at right angles.
 double mitre(const Features& features, const Vec3& on_surface) {
     if (features.empty() || features.nearest(on_surface).distance > rounding * on_surface.norm()) return 1.0;
     return features.corner(on_surface) ? 1.7320508 : 1.4142136;
@@ -61,33 +61,34 @@ void FromSurface::declare(config::ParamSchema<Params>& schema) {
     schema.file("file", &Params::file)
         .required()
         .extensions({".obj", ".ply", ".off", ".stl"})
-        .doc("A closed, manifold surface, its faces oriented alike; several shells and cavities are welcome.");
+        .doc("Closed, manifold surface whose faces are oriented alike; it may have several shells and cavities.");
     plugin::declare_coordinates(schema, &Params::coordinates);
     schema.real("fit", &Params::fit)
         .greater(0)
         .unit("length")
         .doc(
-            "Centre the surface in the box and scale it to this longest half-extent; unset: it stays where it is.");
+            "Longest half-extent to which the surface is scaled after it is centred in the box; unset: the surface is not "
+            "moved.");
     schema.integer("label", &Params::label).range(1, 1000).unit("1").doc("Label of the tets inside.");
     schema.real("tolerance", &Params::tolerance)
         .greater(0)
         .unit("finest cells")
         .doc(
-            "Greatest distance allowed between surface and interface, from either to the other; a start that misses it is "
+            "Greatest distance allowed between surface and interface, in both directions; an initial mesh that exceeds it is "
             "refused.");
     schema.real("sharp", &Params::sharp)
         .range(0, 180)
         .unit("degrees")
         .doc(
-            "Edges of the surface at which it turns by more than this, and their corners, take vertices of the interface; 180 "
-            "for none.");
+            "Angle between the faces of an edge above which vertices of the interface are moved onto the edge and its "
+            "corners; 180: none are.");
     schema.integer("intersections", &Params::intersections)
         .range(0, 1000000)
         .unit("1")
-        .doc("Pairs of faces that may intersect; the solid is what the surface winds round.");
+        .doc("Number of pairs of faces that may intersect; the solid contains all points that the surface winds around.");
     plugin::declare_lattice(schema, "the surface");
     schema.check([](const Params& p) { return !p.fit || p.coordinates == plugin::Coordinates::as_they_are; },
-                 "fit moves the surface away from the input's cloud; leave it or 'coordinates: of_input' out");
+                 "fit moves the surface away from the input's cloud; leave out fit or 'coordinates: of_input'");
 }
 
 FromSurface::FromSurface(const Params& params, const plugin::Setup&) : params_(params) {}
@@ -102,7 +103,7 @@ mesh::TetMesh FromSurface::build(const hooks::InitialMeshContext& context) {
     const surface::TriangleMesh interface = surface::extract_interface(out);
     if (interface.faces.empty()) {
         throw GeometryError("from_surface.vanished", std::string(name) + ": " + params_.file +
-                                                         " is smaller than a cell of the lattice, so no tet is inside; use "
+                                                         " is smaller than a cell of the lattice, so it contains no tet; use "
                                                          "more `cells` or `fit` it into the box");
     }
     const surface::SurfaceReport given = surface::analyse(solid.surface()), made = surface::analyse(interface);
@@ -122,8 +123,8 @@ mesh::TetMesh FromSurface::build(const hooks::InitialMeshContext& context) {
                 {"interface_volume", made.volume}};
     judge(found, cell);
     if (given.shells != made.shells || given.genus != made.genus) {
-        log(LogLevel::warning, std::string(name) + ": the surface has " + topology(given) + ", the mesh " + topology(made) +
-                                   "; use more `cells` for gaps and walls thinner than two of them");
+        log(LogLevel::warning, std::string(name) + ": the surface has " + topology(given) + ", but the mesh has " + topology(made) +
+                                   "; use more `cells` if gaps or walls are thinner than two cells");
     }
     return out;
 }
@@ -139,7 +140,7 @@ surface::TriangleMesh FromSurface::read(const hooks::InitialMeshContext& context
 mesh::TetMesh FromSurface::labelled(const Solid& solid, const Features& features, const hooks::InitialMeshContext& context) const {
     const Box3 box = mesh::box_of(params_), used = bounding_box(solid.surface().points);
     if ((used.low.array() <= box.low.array()).any() || (used.high.array() >= box.high.array()).any()) {
-        throw ConfigError("lattice.box", std::string(name) + ": " + params_.file + " reaches from " + place(used.low) +
+        throw ConfigError("lattice.box", std::string(name) + ": " + params_.file + " extends from " + place(used.low) +
                                              " to " + place(used.high) + ", beyond the box from " + place(box.low) +
                                              " to " + place(box.high) + "; `fit` it into the box or make `box` larger");
     }
@@ -161,7 +162,7 @@ mesh::TetMesh FromSurface::labelled(const Solid& solid, const Features& features
     }
     if (mesh::labels_touch_box(out)) {
         throw ConfigError("lattice.box", std::string(name) + ": " + params_.file +
-                                             " comes too near to the faces of the box; make `box` larger or `fit` smaller");
+                                             " comes too close to the faces of the box; make `box` larger or `fit` smaller");
     }
     return out;
 }

@@ -13,7 +13,7 @@
 
 namespace dsc::strategies {
 
-/// The tets of a lattice are labelled by the solid that the surface bounds, then the interface's vertices go onto the
+/// The tets of a lattice are labelled by the solid that the surface bounds, then the vertices of the interface move onto the
 /// surface, as far as the tets' quality allows (mesh::project_interface).
 class FromSurface final : public hooks::InitialMesh {
 public:
@@ -31,10 +31,10 @@ public:
 
     FromSurface(const Params& params, const plugin::Setup& setup);
 
-    /// Throws IoError, GeometryError as from_surface::require_solid() and "from_surface.tolerance", ConfigError where the
-    /// surface reaches the box or the mesh would become too large, CancelledError.
+    /// Throws IoError, GeometryError as from_surface::require_solid() and "from_surface.tolerance", ConfigError if the
+    /// surface reaches the box or the mesh would be too large, CancelledError.
     mesh::TetMesh build(const hooks::InitialMeshContext& context) override;
-    /// How well the mesh fits, lengths in finest cells.
+    /// Figures of the fit between mesh and surface; lengths in finest cells.
     hooks::Figures figures() const override { return figures_; }
 
 private:

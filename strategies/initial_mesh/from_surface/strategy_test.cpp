@@ -20,7 +20,7 @@ using dsc::mesh::TetMesh;
 using dsc::surface::TriangleMesh;
 constexpr double pi = 3.14159265358979323846;
 
-/// One surface, whatever file is asked for.
+/// Readers that return the same surface for any file.
 struct OneFile final : dsc::hooks::MeshFiles {
     explicit OneFile(TriangleMesh held) : mesh(std::move(held)) {}
     TetMesh read_volume(const std::string&) const override { return {}; }
@@ -88,7 +88,7 @@ TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
     return a;
 }
 
-/// A valid complex as it comes: positive, conforming, regular, nothing to mend.
+/// A valid complex without changes: positive, conforming, regular.
 dsc::mesh::Complex check_sound(const TetMesh& mesh) {
     dsc::mesh::AdoptReport report;
     dsc::mesh::Complex complex = dsc::mesh::adopt(mesh, "from_surface", &report);
@@ -134,11 +134,11 @@ TEST_CASE("sphere: distance, volume and area at three resolutions, the better th
             const Vec3 middle = (b.surface.points[i] + b.surface.points[j] + b.surface.points[k]) / 3;
             flattest = std::max(flattest, radius - middle.norm());
         }
-        // The file's own faces lie up to 3.6e-4 inside the sphere; a chord of two cells as deep as cell^2 / 2 r.
+        // The faces of the file lie up to 3.6e-4 inside the sphere; a chord of two cells lies up to cell^2 / 2 r inside.
         CHECK(away < 0.15 * cell + 3.6e-4);
         CHECK(flattest < 0.7 * cell * cell / radius + 3.6e-4 + 0.1 * cell);
         const double volume = std::abs(dsc::surface::volume(b.surface) / (4 * pi / 3 * std::pow(radius, 3)) - 1);
-        // A triangle of edges l with its corners on the sphere takes l^2 / 4 r^2 of the volume, the file's 0.0003.
+        // Triangles of edges l with their corners on the sphere reduce the volume by l^2 / 4 r^2, those of the file by 0.0003.
         const double edge = 1.6 * cell;
         CHECK(volume < edge * edge / (4 * radius * radius) + 0.0003);
         CHECK(volume < last_volume);
@@ -159,7 +159,7 @@ TEST_CASE("torus: one handle, its vertices on the torus") {
     CHECK(counts.genus() == 1);
     CHECK(b.figures.at("surface_genus") == 1);
     CHECK(b.figures.at("interface_genus") == 1);
-    // The file's chords lie up to 0.3 (1 - cos(pi / 48)) + 1.05 (1 - cos(pi / 96)) = 0.0012 inside.
+    // The chords of the file lie up to 0.3 (1 - cos(pi / 48)) + 1.05 (1 - cos(pi / 96)) = 0.0012 inside.
     std::size_t off = 0;
     for (const Vec3& p : b.surface.points)
         off += std::abs(std::hypot(std::hypot(p.x(), p.y()) - 0.75, p.z()) - 0.3) > 1.3e-3 ? 1 : 0;
@@ -178,7 +178,7 @@ TEST_CASE("a box along the axes, its sides between the lattice's: edges and corn
     }
 }
 
-TEST_CASE("a box that stands askew: within the default tolerance, edges cut by a cell") {
+TEST_CASE("a rotated box: within the default tolerance, edges cut by a cell") {
     const Eigen::AngleAxisd turn(0.7, Vec3(1, 2, 3).normalized());
     const Built b = build(dsc::sdk::moved(box(Vec3::Constant(0.7)), [&](const Vec3& p) { return Vec3(turn * p); }));
     const auto complex = check_sound(b.mesh);
@@ -243,13 +243,13 @@ TEST_CASE("the same bits with any number of threads") {
     CHECK(one.figures == more.figures);
 }
 
-TEST_CASE("a surface that bounds no solid is refused by its fault and place") {
+TEST_CASE("a surface that bounds no solid is refused; the message states fault and place") {
     TriangleMesh open = box(Vec3::Constant(0.8));
     open.faces.pop_back();
     check_refused(open, {}, "surface.open", "the surface is open: 3 edges with one face, the first at (0.8, ");
     TriangleMesh turned = box(Vec3::Constant(0.8));
     std::swap(turned.faces[4][0], turned.faces[4][1]);
-    check_refused(turned, {}, "surface.misoriented", "edges whose faces look to opposite sides, the first at (");
+    check_refused(turned, {}, "surface.misoriented", "edges whose faces have opposite orientations, the first at (");
     // Two boxes along one common edge.
     TriangleMesh fin = box(Vec3::Constant(0.5));
     fin = joined(fin, dsc::sdk::moved(box(Vec3::Constant(0.5)), [](const Vec3& p) { return Vec3(p + Vec3(1, 1, 0)); }));
@@ -260,7 +260,7 @@ TEST_CASE("a surface that bounds no solid is refused by its fault and place") {
     check_refused(flat, {}, "surface.empty", "no face has three different corners");
 }
 
-TEST_CASE("a missed tolerance is refused with distance and place; what is too small or too large too") {
+TEST_CASE("a missed tolerance is refused with distance and place; surfaces that are too small or too large are refused") {
     check_refused(box({0.8, 0.8, 0.03}), {{"cells", 16}}, "from_surface.vanished", "is smaller than a cell");
     // A needle that is thinner than a cell over its last cells.
     TriangleMesh needle;
@@ -274,7 +274,7 @@ TEST_CASE("a missed tolerance is refused with distance and place; what is too sm
     check_refused(dsc::sdk::icosphere(3, 1.55), {{"cells", 32}}, "lattice.box", "`fit` it into the box");
 }
 
-TEST_CASE("a host without readers is told so") {
+TEST_CASE("a host without readers gets an error") {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
     const auto strategy = host.create<dsc::hooks::InitialMesh>(

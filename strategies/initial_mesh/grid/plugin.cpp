@@ -3,6 +3,6 @@
 
 #include "strategy.hpp"
 
-DSC_PLUGIN("grid", DSC_VERSION, "BSD-3-Clause", "Regular box of tetrahedra with simple shapes in it") {
-    registrar.add<dsc::strategies::Grid>("grid", "a box of equal cells, five tets each; shapes add and cut");
+DSC_PLUGIN("grid", DSC_VERSION, "BSD-3-Clause", "Start from a regular box of tetrahedra that contains simple shapes") {
+    registrar.add<dsc::strategies::Grid>("grid", "a box of equal cells with five tets each; shapes are added and cut");
 }

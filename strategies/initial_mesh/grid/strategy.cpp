@@ -39,8 +39,8 @@ std::vector<Vec3> lattice_points(unsigned cells, double half, const Vec3& centre
 }  // namespace
 
 void Grid::declare(config::ParamSchema<Params>& schema) {
-    schema.integer("cells", &Params::cells).range(1, 200).unit("1").costly().doc("Cells along each edge of the box.");
-    schema.real("box", &Params::box).greater(0).unit("length").doc("Half the edge of the box.");
+    schema.integer("cells", &Params::cells).range(1, 200).unit("1").costly().doc("Number of cells along each edge of the box.");
+    schema.real("box", &Params::box).greater(0).unit("length").doc("Half the edge length of the box.");
     schema.vec3("box_centre", &Params::box_centre).unit("length").doc("Centre of the box.");
     plugin::declare_shapes(schema);
 }

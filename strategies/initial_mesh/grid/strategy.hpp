@@ -10,7 +10,7 @@ namespace dsc::strategies {
 
 /// Cells alternate between two mirrored patterns of five tets (four corners and a regular one in the middle),
 /// so that the diagonals of neighbouring cells agree. Tets are labelled by the shapes in their order; their interface is
-/// stair-stepped, or, projected, on the shapes' surface.
+/// stair-stepped, or projected onto the surface of the shapes.
 class Grid final : public hooks::InitialMesh {
 public:
     struct Params : plugin::ShapeParams {

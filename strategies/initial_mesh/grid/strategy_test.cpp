@@ -35,7 +35,7 @@ struct Census {
     std::size_t faces = 0;
 };
 
-// Counts everything from the arrays alone.
+// Counts everything using only the arrays.
 Census count(const dsc::mesh::TetMesh& mesh) {
     Census census;
     std::map<std::array<std::uint32_t, 3>, std::vector<dsc::mesh::Label>> faces;

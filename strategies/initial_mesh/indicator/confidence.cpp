@@ -9,9 +9,9 @@
 namespace dsc::strategies {
 namespace {
 
-/// Local widths from the nearest sample beyond which the interface closes a gap of the data.
+/// Distance from the nearest sample, in local widths, beyond which the interface closes a gap in the data.
 constexpr double gap_widths = 3.0;
-/// Certain vertices that a part has at least whose attachment counts.
+/// Least number of certain vertices of a part whose attachment counts.
 constexpr std::size_t least_part = 10;
 
 std::size_t changed(const Labels& labels, bool inside) {
@@ -67,13 +67,15 @@ hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orie
     hooks::Warnings out;
     const double area_ratio = start.cloud_area > 0.0 ? start.area / start.cloud_area : 0.0;
     if (orientation.one_sided()) {
-        out.push_back({"cloud.one_sided", "The points lie in one layer, as a scan from one side records them, so they bound no volume. It is closed by a copy of "
-                                          "the surface farther back and by walls between the two, which are not measured. --trim (in an experiment output: "
-                                          "{trim: {}}) writes the measured side alone."});
+        out.push_back({"cloud.one_sided", "The points lie in one layer, like a scan from one side, so they do not bound a "
+                                          "volume. The volume is closed by a copy of the surface farther back and by walls "
+                                          "between the two, where nothing was measured. --trim (in an experiment output: "
+                                          "{trim: {}}) writes only the measured side."});
     } else if (orientation.residual > open_residual || area_ratio > open_area) {
         out.push_back({"cloud.open", "The cloud seems to be open, such as a scan of one side: the closed surface has " + rounded(area_ratio, 2) +
                                          " times the area of the points, and the winding field has a residual of " +
-                                         rounded(orientation.residual, 3) + ". Where there are no points the surface is a guess. --trim (in an experiment output: {trim: {}}) writes it "
+                                         rounded(orientation.residual, 3) + ". Where there are no points, the surface is a "
+                                                                            "guess. --trim (in an experiment output: {trim: {}}) writes it "
                                          "without these parts."});
     }
     if (labels.changed_share() > most_changed) {
@@ -82,12 +84,12 @@ hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orie
                            rounded(100.0 * labels.changed_share(), 1) +
                            " vertices per 100 points) the solid or a gap is thinner than about one spacing of the points. Without the "
                            "filter: " + in_words(labels.filter.before) + "; with it: " + in_words(labels.counts) +
-                           ". A denser cloud decides these places."});
+                           ". Use a denser cloud to decide these places."});
     } else if (orientation.residual > most_residual) {
         out.push_back({"topology.doubtful", "The topology is doubtful: the winding field has a residual of " +
                                                 rounded(orientation.residual, 3) +
-                                                " at the points, so the normals of some points may point to the wrong side. A denser or "
-                                                "less noisy cloud helps."});
+                                                " at the points, so the normals of some points may point to the wrong side. "
+                                                "Use a denser or less noisy cloud."});
     }
     return out;
 }
@@ -113,7 +115,7 @@ void add_figures(const Labels& labels, const cloud::Orientation& orientation, co
     add("genus", static_cast<double>(labels.counts.genus()));
     whole("islands_removed", changed(labels, true));
     whole("cavities_filled", changed(labels, false));
-    // Parts that are connected by certain values have no weakest attachment: 1/2 is the most that a value can be.
+    // Parts that are connected by certain values have no weakest attachment: 1/2 is the largest possible value.
     const auto inside = mesh::weakest_attachment(labels.filter, true, least_part), outside = mesh::weakest_attachment(labels.filter, false, least_part);
     add("weakest_bridge", inside ? inside->level : 0.5);
     add("weakest_gap", outside ? outside->level : 0.5);

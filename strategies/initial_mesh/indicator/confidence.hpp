@@ -12,8 +12,8 @@ namespace dsc::strategies {
 
 /// Changed vertices per sample above which the topology is doubtful.
 inline constexpr double most_changed = 0.004;
-/// Residual of the winding field above which a finer orientation is tried, and above which the topology stays doubtful: noisy clouds
-/// reach 0.14 and are right.
+/// Residual of the winding field above which a finer orientation is tried, and above which the topology stays doubtful; noisy
+/// clouds with correct labels reach 0.14.
 inline constexpr double retry_residual = 0.135, most_residual = 0.15;
 /// Residual, and area of the start per area of the points, above which the cloud is open.
 inline constexpr double open_residual = 0.17, open_area = 1.3;
@@ -21,11 +21,11 @@ inline constexpr double open_residual = 0.17, open_area = 1.3;
 /// Whether a finer orientation may help. [setup]
 bool doubtful(const Labels& labels, const cloud::Orientation& orientation);
 
-/// What the start's interface says about the cloud.
+/// Figures of the initial interface about the cloud.
 struct StartSurface {
     double area = 0.0;           ///< of the interface
     double cloud_area = 0.0;     ///< cloud::Statistics::area
-    double gap_share = 0.0;      ///< part of the interface's area farther than 3 local widths from every sample
+    double gap_share = 0.0;      ///< fraction of the interface's area farther than 3 local widths from every sample
 };
 /// Measures the interface of the labelled tets against the samples. [setup]
 StartSurface measure_start(const mesh::TetMesh& mesh, const cloud::Orientation& orientation, double cloud_area);

@@ -12,11 +12,11 @@ namespace {
 
 /// Smoothing length of the field, in widths of the samples.
 constexpr double smoothing = 0.5;
-/// The finest cells are made for the samples below this quantile of the widths.
+/// The finest cells have the size for samples at this quantile of the widths.
 constexpr double finest_quantile = 0.05;
-/// A cell with both labels is split while it is larger than this part of its distance to the cloud.
+/// A cell with both labels is split while it is larger than this fraction of its distance to the cloud.
 constexpr double cell_per_distance = 0.35;
-/// Cells may be larger than wanted by this factor, as sizes go by twos.
+/// Cells may be larger than wanted by this factor, because sizes are powers of two.
 constexpr double slack = 1.2;
 constexpr unsigned most_rounds = 8;
 
@@ -28,8 +28,8 @@ std::vector<cloud::SurfaceSample> used_samples(const cloud::Orientation& orienta
     }
     if (used.empty()) {
         throw GeometryError("indicator.no_samples", std::string(generator_name) +
-                                                        ": no point of the cloud has a normal, so inside and outside cannot be told "
-                                                        "apart; check the cloud, or use another initial mesh");
+                                                        ": no point of the cloud has a normal, so inside and outside cannot be "
+                                                        "distinguished; check the cloud, or use another initial mesh");
     }
     return used;
 }
@@ -54,7 +54,7 @@ mesh::GradedLattice make_lattice(std::span<const cloud::SurfaceSample> samples, 
     return {lattice, sizes, generator_name};
 }
 
-/// The values of vertices from `first` on: the winding number less 1/2, never 0.
+/// The values of vertices from `first` on: the winding number minus 1/2, never 0.
 void evaluate(const cloud::WindingField& field, const mesh::GradedLattice& lattice, std::size_t first, std::vector<double>& values,
               Workers* workers) {
     const std::span<const Vec3> points = lattice.points();
@@ -67,7 +67,7 @@ void evaluate(const cloud::WindingField& field, const mesh::GradedLattice& latti
     }
 }
 
-/// Splits cells with both labels that are large for the cloud's samples there, until there are none.
+/// Splits cells with both labels that are too large for the samples there, until there are none.
 unsigned refine(mesh::GradedLattice& lattice, std::span<const cloud::SurfaceSample> samples, std::span<const Vec3> places,
                 const cloud::WindingField& field, const LabelOptions& options, std::vector<double>& values, Workers* workers) {
     const cloud::NearestSearch search(places);
@@ -84,7 +84,7 @@ unsigned refine(mesh::GradedLattice& lattice, std::span<const cloud::SurfaceSamp
     return most_rounds;
 }
 
-/// Leaves only those cells small that the interface needs.
+/// Keeps only those cells small that the interface needs.
 void coarsen(const mesh::GradedLattice& lattice, Labels& labels, Workers* workers, const CancelToken* cancel) {
     std::vector<std::uint32_t> origins;
     const mesh::GradedLattice coarse = lattice.coarsened(labels.values, origins);

@@ -11,33 +11,34 @@
 
 namespace dsc::strategies {
 
-/// How messages call this strategy.
+/// The name of this strategy in messages.
 inline constexpr const char* generator_name = "initial mesh 'indicator'";
 
-/// Constants of the labelling; lengths count in the widths of the samples (cloud::SurfaceSample::width).
+/// Constants of the labelling; lengths are in widths of the samples (cloud::SurfaceSample::width).
 struct LabelOptions {
     double cell = 1.0;          ///< edge of the cells at the samples, from this to 1.2 times this
     double certain = 0.2;       ///< distance of the field from its value at the surface from which a label is certain
     bool remove_islands = true;
     mesh::CavityPolicy cavities = mesh::CavityPolicy::automatic;
-    double least_volume = 30.0;  ///< of islands and cavities that may stay, in cubed widths
+    double least_volume = 30.0;  ///< of islands and cavities that are kept, in cubed widths
 };
 
-/// A lattice and the number of each of its vertices, above 0 inside: the winding number less 1/2, as far as the filters
-/// left it.
+/// A lattice and a value per vertex, above 0 inside: the winding number minus 1/2, unless the filters
+/// changed it.
 struct Labels {
     mesh::TetMesh lattice;  ///< without labels of tets
     std::vector<double> values;
     mesh::TopologyFilterReport filter;
     std::vector<mesh::LabelComponent> components;
-    mesh::TopologyCounts counts;  ///< of the labels as they are returned
-    std::size_t samples = 0;      ///< that the field is made of
+    mesh::TopologyCounts counts;  ///< of the returned labels
+    std::size_t samples = 0;      ///< number of samples of the field
     double width = 0.0;           ///< median width of the samples
-    unsigned rounds = 0;          ///< of further splits
+    unsigned rounds = 0;          ///< rounds of further splits
 
-    /// Vertices of islands and cavities that did not stay.
+    /// Vertices of islands and cavities that were not kept.
     std::size_t settled() const;
-    /// Refused and settled vertices per sample: the share of the cloud whose topology the filters decided, not the field.
+    /// Refused and changed vertices per sample: the share of the cloud whose topology was decided by the filters, not by the
+    /// field.
     double changed_share() const;
 };
 

@@ -14,8 +14,8 @@
 namespace dsc::strategies {
 namespace {
 
-/// Where the labels are doubtful, the cloud is oriented again: all points take part in the first stage, more iterations follow
-/// each other, at last in the second stage too.
+/// If the labels are doubtful, the cloud is oriented again: all points take part in the first stage, with more iterations;
+/// the last attempt also has more iterations in the second stage.
 constexpr std::array<cloud::OrientOptions, 2> retries = {{{.all_points = true, .coarse_iterations = 60, .fine_iterations = 12},
                                                           {.all_points = true, .coarse_iterations = 60, .fine_iterations = 40}}};
 
@@ -36,7 +36,7 @@ private:
 const cloud::TargetCloud& cloud_of(const hooks::InitialMeshContext& context) {
     if (context.cloud == nullptr) {
         throw ConfigError("indicator.no_cloud",
-                          std::string(generator_name) + ": the experiment has no cloud to label the box by; add input: {cloud: {file: ...}}");
+                          std::string(generator_name) + ": the experiment has no cloud; add input: {cloud: {file: ...}}");
     }
     return *context.cloud;
 }
@@ -45,41 +45,44 @@ const cloud::TargetCloud& cloud_of(const hooks::InitialMeshContext& context) {
 
 void Indicator::declare(config::ParamSchema<Params>& schema) {
     schema.choice("detail", &Params::detail, {{"low", cloud::Detail::low}, {"medium", cloud::Detail::medium}, {"high", cloud::Detail::high}})
-        .doc("Half, all or twice the budget of vertices that the number of points gives: 2 per point up to 3,000 points, then less, "
-             "1 per point at 20,000 points, above that growing with the root of their number.");
+        .doc("Level of detail: half, all or twice the budget of vertices that follows from the number of points. The budget "
+             "is 2 per point up to 3,000 points, 1 per point at 20,000 points, with linear interpolation between; above that "
+             "it grows with the root of the number of points.");
     schema.integer("vertices", &Params::vertices)
         .range(100, 10000000)
         .unit("vertices")
-        .doc("Budget of interface vertices, in place of the one that the number of points and `detail` give.");
+        .doc("Budget of interface vertices; replaces the budget from the number of points and `detail`.");
     schema.real("start", &Params::start)
         .range(0.1, 2)
         .unit("budgets")
-        .doc("Vertices of the interface that is handed over, at most, as a part of the budget.");
+        .doc("Largest number of vertices of the initial interface, as a fraction of the budget.");
     schema.real("cell", static_cast<double Params::*>(&LabelOptions::cell))
         .range(0.3, 4)
         .unit("point widths")
-        .doc("Edge of the lattice's cells at the points: up to 1.2 times this. Cells twice as large lose thin parts and gaps.");
+        .doc("Edge length of the lattice cells at the points, up to a factor of 1.2. Cells twice as large lose thin parts and "
+             "gaps.");
     schema.real("certain", static_cast<double Params::*>(&LabelOptions::certain))
         .range(0, 0.5)
         .open_low()
         .open_high()
         .unit("1")
-        .doc("A label is certain where the winding number is at least this far from 1/2. A handle stays only where both its body and "
-             "its hole are certain all along.");
+        .doc("Difference of the winding number from 1/2 from which a label is certain. A handle is kept only if its body and "
+             "its hole are certain everywhere along it.");
     schema.boolean("remove_islands", static_cast<bool Params::*>(&LabelOptions::remove_islands))
-        .doc("Bodies smaller than `least_volume` are left out, but never the largest one.");
+        .doc("Whether bodies smaller than `least_volume` are removed; the largest body is always kept.");
     schema.choice("cavities", static_cast<mesh::CavityPolicy Params::*>(&LabelOptions::cavities),
                   {{"auto", mesh::CavityPolicy::automatic}, {"keep", mesh::CavityPolicy::keep}, {"fill", mesh::CavityPolicy::fill}})
-        .doc("Enclosed empty rooms: 'auto' keeps those that are certainly empty and whose wall at least 12 points lie at, 'keep' "
+        .doc("Enclosed cavities: 'auto' keeps those that are certainly empty and have at least 12 points on their wall, 'keep' "
              "keeps all above `least_volume`, 'fill' fills all.");
     schema.real("least_volume", static_cast<double Params::*>(&LabelOptions::least_volume))
         .at_least(0)
         .unit("point widths^3")
-        .doc("Volume below which islands are removed and cavities filled.");
-    schema.integer("smoothing", &Params::smoothing).range(0, 100).unit("sweeps").doc("Sweeps that smooth the interface at the end.");
+        .doc("Volume below which islands are removed and cavities are filled.");
+    schema.integer("smoothing", &Params::smoothing).range(0, 100).unit("sweeps").doc("Number of sweeps that smooth the "
+                                                                                     "interface at the end.");
     schema.choice("retry", &Params::retry, {{"auto", Retry::automatic}, {"never", Retry::never}})
-        .doc("Where the labels are doubtful, 'auto' orients the cloud up to twice more, with all points in the first stage and more "
-             "iterations, which takes longer, and keeps the labels that the filters changed least.");
+        .doc("Further attempts if the labels are doubtful: 'auto' orients the cloud up to two more times, with all points in "
+             "the first stage and more iterations. This takes longer. It keeps the labels that the filters changed least.");
 }
 
 Indicator::Indicator(const Params& params, const plugin::Setup&) : params_(params) {}

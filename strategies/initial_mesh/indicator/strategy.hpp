@@ -1,5 +1,5 @@
 #pragma once
-// Initial mesh `indicator`: inside and outside are decided from the cloud alone, before anything is deformed.
+// Initial mesh `indicator`: inside and outside are determined from the cloud alone, before anything is deformed.
 
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/plugin/plugin.hpp>
@@ -17,8 +17,8 @@ public:
     enum class Retry { automatic, never };
     struct Params : LabelOptions {
         cloud::Detail detail = cloud::Detail::medium;
-        std::optional<std::uint64_t> vertices;  ///< of the interface; empty: the budget that the number of points gives
-        double start = 1.0;                     ///< interface vertices of the start, in budgets
+        std::optional<std::uint64_t> vertices;  ///< of the interface; empty: the budget that follows from the number of points
+        double start = 1.0;                     ///< interface vertices of the initial mesh, in budgets
         std::uint32_t smoothing = 3;
         Retry retry = Retry::automatic;
     };

@@ -31,7 +31,7 @@ struct Built {
     dsc::mesh::AdoptReport adopted;
 };
 
-/// Builds, adopts and looks at the interface; what must hold of every start is checked here.
+/// Builds and adopts the mesh and examines the interface; requirements for every initial mesh are checked here.
 Built build(const dsc::cloud::TargetCloud& cloud, const ConfigNode& params = ConfigNode::map(), dsc::Workers* workers = nullptr) {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
@@ -87,7 +87,7 @@ TEST_CASE("a ball, a torus and the teapot get their topology, and a volume near 
     CHECK(teapot.surface.components == 1);
 }
 
-TEST_CASE("several bodies stay apart, and a hollow ball keeps its cavity unless it is to be filled") {
+TEST_CASE("several bodies stay separate, and a hollow ball keeps its cavity unless it is to be filled") {
     const Built two = build(target(spheres({{Vec3(0, 0, 0), 1.0}, {Vec3(2.5, 0, 0), 1.0}}, 2000)));
     CHECK(two.surface.components == 2);
     CHECK(two.surface.genus == 0);
@@ -123,7 +123,7 @@ TEST_CASE("the same bits for any number of threads") {
     CHECK(one.mesh.labels == three.mesh.labels);
 }
 
-TEST_CASE("a tube is closed, and its open ends are said") {
+TEST_CASE("a tube is closed, and a warning reports its open ends") {
     dsc::RandomStream random(dsc::RandomKey{3, 0, 0, 0});
     dsc::cloud::Cloud tube;
     for (int i = 0; i < 4000; ++i) {
@@ -137,7 +137,7 @@ TEST_CASE("a tube is closed, and its open ends are said") {
     CHECK(closed.figures.at("gap_share") > 0.1);
 }
 
-TEST_CASE("half a ball is closed by a copy behind it, and that is said") {
+TEST_CASE("half a ball is closed by a copy behind it, and a warning reports this") {
     dsc::cloud::Cloud ball = spheres({{Vec3(0, 0, 0), 1.0}}, 4000), half;
     for (const Vec3& p : ball.points) {
         if (p.z() > 0.2) half.points.push_back(p);

@@ -3,7 +3,7 @@
 
 #include "strategy.hpp"
 
-DSC_PLUGIN("lattice", DSC_VERSION, "BSD-3-Clause", "Graded box of tetrahedra with simple shapes in it") {
+DSC_PLUGIN("lattice", DSC_VERSION, "BSD-3-Clause", "Start from a graded box of tetrahedra that contains simple shapes") {
     registrar.add<dsc::strategies::Lattice>(
-        "lattice", "a box of cells, fine at the shapes' surface, coarse away from it");
+        "lattice", "a box of cells, fine at the surface of the shapes, coarse away from it");
 }

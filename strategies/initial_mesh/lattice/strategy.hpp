@@ -1,5 +1,5 @@
 #pragma once
-// Initial mesh `lattice`: a box of cells that are small at the shapes' surface and grow away from it.
+// Initial mesh `lattice`: a box of cells that are small at the surface of the shapes and larger away from it.
 
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/mesh/lattice.hpp>
@@ -9,8 +9,8 @@
 
 namespace dsc::strategies {
 
-/// A balanced octree, its cells filled with tets of a few well-shaped kinds [LabelleShewchuk2007]. Tets are
-/// labelled by the shapes in their order; all tets at the labels' border are of the finest cells.
+/// A balanced octree whose cells are filled with a few kinds of well-shaped tets [LabelleShewchuk2007]. Tets are
+/// labelled by the shapes in their order; all tets at the interface are in the finest cells.
 class Lattice final : public hooks::InitialMesh {
 public:
     struct Params : mesh::LatticeOptions, plugin::ShapeParams {};
@@ -18,8 +18,8 @@ public:
 
     Lattice(const Params& params, const plugin::Setup& setup);
 
-    /// All tets are positive. Throws CancelledError, and ConfigError where a shape reaches the box or the mesh
-    /// would become too large.
+    /// All tets are positive. Throws CancelledError, and ConfigError if a shape reaches the box or the mesh
+    /// would be too large.
     mesh::TetMesh build(const hooks::InitialMeshContext& context) override;
 
 private:

@@ -58,8 +58,8 @@ struct Adopted {
     dsc::mesh::InterfaceCounts interface;
 };
 
-// Positive as it comes, conforming, filling the box, every vertex of the interface regular, none on the box.
-// Stairs of a slanting wall may pinch, in any lattice: adopt() mends them, `smooth` says that there are none.
+// Requires positive tets that are conforming and fill the box; every vertex of the interface is regular, none is on the box.
+// The stairs of a slanting wall may pinch, in any lattice: adopt() makes these vertices regular; `smooth`: there are none.
 Adopted check_sound(const TetMesh& m, bool smooth = true) {
     Adopted out;
     out.complex = dsc::mesh::adopt(m, "lattice", &out.report);
@@ -94,7 +94,7 @@ TEST_CASE("the defaults are the grid's cube in a graded box") {
     CHECK(m.tets.size() < 40 * a.interface.vertices);
 }
 
-TEST_CASE("sound for every pattern, shape, growth and number of layers") {
+TEST_CASE("valid for every pattern, shape, growth and number of layers") {
     const ConfigNode tunnel = ConfigNode::map({{"shape", "cylinder"},
                                                {"action", "cut"},
                                                {"radius", 0.45},
@@ -131,7 +131,7 @@ TEST_CASE("tets are of the stated kinds and no others") {
         const TetMesh m = build(only(sphere(1.0), 48, 2.0, 2, finest));
         for (std::size_t t = 0; t < m.tets.size(); ++t) ++kinds[std::lround(1e4 * quality(m, t))];
     }
-    // Quarter of a bcc tet, half pyramid, half a bcc tet, corner of a cell, bcc tet, middle of a cell.
+    // Quarter of a bcc tet, half a pyramid, half a bcc tet, corner of a cell, bcc tet, middle of a cell.
     const std::vector<long> known = {6573, 6651, 7155, 7698, 9295, 10000};
     for (const long kind : known) CHECK(kinds[kind] > 0);
     CHECK(kinds.size() == known.size());
@@ -157,7 +157,7 @@ TEST_CASE("tets at the interface are of the finest cells, all that touch it") {
             const int cells = 48;
             const TetMesh m = build(
                 only(sphere(0.97, "barycentre", {0.02, 0.01, 0.03}), cells, 2.0, layers, finest.c_str()));
-            // A face's diagonal in cells of five tets, a cell's edge in the others; larger cells have twice that.
+            // The diagonal of a face in cells of five tets, the edge of a cell in the others; twice that in larger cells.
             const double largest = 3.0 / cells * (finest == "bcc" ? 1.001 : 1.415);
             const dsc::mesh::Complex c = dsc::mesh::adopt(m, "lattice");
             REQUIRE(c.vertex_slots() == m.points.size());
@@ -176,14 +176,14 @@ TEST_CASE("tets at the interface are of the finest cells, all that touch it") {
                 near = std::move(next);
             }
             CHECK(coarse[0] == 0);
-            // Where stairs run diagonally, a ring of tets is thinner than a layer of cells.
+            // Where stairs are diagonal, a ring of tets is thinner than a layer of cells.
             if (layers >= 3) CHECK(coarse[1] < c.interface_vertices().size() / 10);
             CHECK(coarse[2] > 0);
         }
     }
 }
 
-TEST_CASE("sizes grow with the distance as told") {
+TEST_CASE("sizes grow with the distance as set") {
     std::size_t tets = 0;
     double last_nearest = 0;
     for (const int per_size : {1, 2, 3}) {
@@ -204,7 +204,7 @@ TEST_CASE("sizes grow with the distance as told") {
             if (size > 7.9) nearest = std::min(nearest, least);
         }
         CHECK(fastest < (per_size == 1 ? 0.45 : 0.28));
-        // Between the finest and the cells of eight lie so many layers of two and of four; on a diagonal they are
+        // Between the finest cells and cells of size 8 there are this many layers of sizes 2 and 4; along a diagonal they are
         // thinner by the square root of two.
         CHECK(nearest > 1 + per_size * (2 + 4) / std::sqrt(2.0));
         if (per_size < 3) CHECK(nearest > last_nearest + 4);
@@ -229,10 +229,10 @@ TEST_CASE("the labelled volume is the shape's, up to the tets that its surface c
         for (const int cells : {30, 60, 120}) {
             CAPTURE(cells);
             const auto complex = dsc::mesh::adopt(build(only(sphere(1.0), cells, 2.0, 2, finest)), "lattice");
-            // Barycentres err both ways: a hundredth of the surface's layer of cells remains.
+            // The errors of barycentres cancel: a hundredth of the surface's layer of cells remains.
             const double layer = 4 * pi * 3.0 / cells;
             CHECK(std::abs(dsc::mesh::labelled_volume(complex) - exact) < 0.03 * layer);
-            // Whole tets inside lose some half a cell all over.
+            // With whole tets inside, the solid loses about half a cell everywhere.
             const auto inner =
                 dsc::mesh::adopt(build(only(sphere(1.0, "vertices"), cells, 2.0, 2, finest)), "lattice");
             const double lost = exact - dsc::mesh::labelled_volume(inner);
@@ -281,11 +281,11 @@ TEST_CASE("coordinates are the grid's, symmetric to the last bit") {
     std::map<std::array<double, 3>, int> points;
     for (const Vec3& p : m.points) points[{p.x(), p.y(), p.z()}] = 1;
     for (const Vec3& p : m.points) REQUIRE(points.count({-p.x() + 0.0, -p.y() + 0.0, -p.z() + 0.0}) == 1);
-    // On the surface x = 1/2 the grid's own numbers: half * (2 i - N) / N.
+    // On the surface x = 1/2 the numbers are those of the grid: half * (2 i - N) / N.
     for (int i = 10; i <= 20; ++i) CHECK(points.count({0.5, 1.5 * (2.0 * i - 30.0) / 30.0, 0.5}) == 1);
 }
 
-TEST_CASE("a cell's edge may be told instead of the number of cells") {
+TEST_CASE("a cell's edge may be given instead of the number of cells") {
     const TetMesh by_number = build(ConfigNode::map({{"cells", 60}, {"half_width", 0.5}}));
     const TetMesh by_length = build(ConfigNode::map({{"cell", 0.05}, {"half_width", 0.5}}));
     REQUIRE(by_number.tets == by_length.tets);

@@ -8,7 +8,7 @@
 namespace dsc::strategies {
 namespace {
 
-/// Every face is split into this squared many equal parts, whose centroids stand for them.
+/// Every face is split into the square of this number of equal parts, which are represented by their centroids.
 constexpr int parts_an_edge = 3;
 
 using Corners = std::array<Vec3, 3>;
@@ -30,7 +30,7 @@ void for_part_centroids(const Corners& p, Visit visit) {
     }
 }
 
-/// Mean of a function of a point over the area of the mesh.
+/// The mean of a function of a point over the area of the mesh.
 template <class Function>
 double mean_over(const surface::TriangleMesh& mesh, Function function) {
     double sum = 0.0;

@@ -27,10 +27,9 @@ void Analytic::declare(config::ParamSchema<Params>& schema) {
                  {"growing_sphere", Solution::growing_sphere},
                  {"shrinking_sphere", Solution::shrinking_sphere}})
         .doc(
-            "Where the interface should be: 'start', where it began, for a motion that comes back; 'sphere', "
-            "on "
-            "a sphere that stays; 'growing_sphere', on one whose radius grows with every step; "
-            "'shrinking_sphere', on one whose radius is sqrt(radius^2 - 4 t).");
+            "Surface where the interface should be: 'start', its place at the start, for a motion that returns there; "
+            "'sphere', a sphere that does not change; 'growing_sphere', a sphere whose radius grows with every step; "
+            "'shrinking_sphere', a sphere whose radius is sqrt(radius^2 - 4 t).");
     schema.vec3("centre", &Params::centre).unit("length").doc("Centre of the sphere.");
     schema.real("radius", &Params::radius)
         .greater(0)
@@ -38,16 +37,16 @@ void Analytic::declare(config::ParamSchema<Params>& schema) {
         .doc("Radius of the sphere at the start.");
     schema.real("growth", &Params::growth)
         .unit("length")
-        .doc("By how much the radius of 'growing_sphere' grows in a step.");
+        .doc("Growth of the radius of 'growing_sphere' per step.");
     schema.real("time_step", &Params::time_step)
         .greater(0)
         .unit("length^2")
-        .doc("Time of a step of 'shrinking_sphere'; that of the velocity.");
+        .doc("Time per step of 'shrinking_sphere'; use the same value as the velocity.");
     schema.real("down_to", &Params::down_to)
         .range(0, 1)
         .open_low()
         .unit("radius")
-        .doc("radius_error judges a sphere that shrinks until its radius is this part of the start's.");
+        .doc("Fraction of the initial radius down to which radius_error includes a shrinking sphere.");
 }
 
 Analytic::Analytic(const Params& params, const plugin::Setup&) : params_(params) {}
@@ -87,7 +86,7 @@ void Analytic::add_sphere_figures(const hooks::StepContext& context, hooks::Figu
     const double radius = true_radius(context.step);
     const double least = params_.down_to * params_.radius;
     const SphereComparison found = compare_with_sphere(now_, params_.centre, radius);
-    // Where nothing is left, the sphere is as far away as it is large.
+    // If nothing is left, the distance from the sphere is its radius.
     const double distance = now_.faces.empty() ? radius : found.largest_distance;
     const double mean = now_.faces.empty() ? radius : found.mean_distance;
     const double error = std::abs(found.radius - radius) / std::max(radius, least);
@@ -154,7 +153,7 @@ void Analytic::load(std::istream& in) {
     }
     if (!in)
         throw StrategyError("observer.state",
-                            "observer 'analytic': the saved state is damaged; start the run anew");
+                            "observer 'analytic': the saved state is damaged; start the run again");
     surface::require_sound(start_);
 }
 

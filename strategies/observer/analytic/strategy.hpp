@@ -1,5 +1,5 @@
 #pragma once
-// Observer `analytic`: how far the interface is from a known solution.
+// Observer `analytic`: the distance of the interface from a known solution.
 
 #include <dsc/hooks/observer.hpp>
 #include <dsc/plugin/plugin.hpp>
@@ -7,12 +7,12 @@
 
 namespace dsc::strategies {
 
-/// Compares the interface with where it should be and what it should enclose. It looks at all of the interface as one
-/// surface, so it is meant for complexes of two labels.
+/// Compares the place and the enclosed volume of the interface with those that they should have. It treats the whole interface
+/// as one surface, so it is meant for complexes with two labels.
 class Analytic final : public hooks::Observer {
 public:
-    /// The solution: the start's own surface (of a motion that comes back, or keeps it), a sphere that stays, one that
-    /// grows by the same length in every step, or one that shrinks by its mean curvature.
+    /// The solution: the surface of the start (for a motion that returns to it, or keeps it), a sphere that does not change,
+    /// one that grows by the same length in every step, or one that shrinks by its mean curvature.
     enum class Solution { start, sphere, growing_sphere, shrinking_sphere };
     struct Params {
         Solution solution = Solution::start;
@@ -30,7 +30,7 @@ public:
     hooks::Figures step(const hooks::StepContext& context, const hooks::StepFigures& figures) override;
     hooks::Figures end(const hooks::StepContext& context) override;
 
-    /// The start's figures and surface, and the largest radius error so far.
+    /// The figures and the surface of the start, and the largest radius error so far.
     void save(std::ostream& out) const override;
     /// Throws StrategyError "observer.state".
     void load(std::istream& in) override;

@@ -44,7 +44,7 @@ dsc::surface::TriangleMesh scaled(dsc::surface::TriangleMesh mesh, double factor
     return dsc::sdk::moved(std::move(mesh), [factor](const Vec3& p) { return Vec3(factor * p); });
 }
 
-// A square prism of two triangles a side, corners at +-1, faces outwards.
+// A square prism with two triangles per side, corners at +-1, faces outwards.
 dsc::surface::TriangleMesh cube() {
     dsc::surface::TriangleMesh mesh;
     for (int i = 0; i < 8; ++i) mesh.points.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
@@ -56,7 +56,7 @@ dsc::surface::TriangleMesh cube() {
 }  // namespace
 
 TEST_CASE("the distance of a cube from a sphere is that of its faces' middles, not of its corners") {
-    // Corners on the sphere of radius sqrt(3): they say 0, the faces' middles are sqrt(3) - 1 away.
+    // The corners are on the sphere of radius sqrt(3), with distance 0; the middles of the faces are sqrt(3) - 1 away.
     const auto found = dsc::strategies::compare_with_sphere(cube(), Vec3::Zero(), std::sqrt(3.0));
     CHECK(found.radius == doctest::Approx(std::sqrt(3.0)));
     CHECK(found.largest_distance == doctest::Approx(std::sqrt(3.0) - 1).epsilon(1e-12));
@@ -68,7 +68,7 @@ TEST_CASE("two parallel squares are as far apart as their planes, from both side
     const auto low = dsc::sdk::square(3, 0.5);
     const auto high = dsc::sdk::moved(low, [](const Vec3& p) { return Vec3(p.x(), p.y(), 0.25); });
     CHECK(dsc::strategies::mean_distance(low, high) == doctest::Approx(0.25).epsilon(1e-12));
-    // Half of the large square is far from the small one: only this way round the mean shows it.
+    // Half of the large square is far from the small one: only the mean in this direction shows it.
     const auto large = dsc::sdk::square(6, 1.0);
     CHECK(dsc::strategies::mean_distance(low, large) > 0.1);
     CHECK(dsc::strategies::mean_distance(low, large) == dsc::strategies::mean_distance(large, low));
@@ -110,13 +110,13 @@ TEST_CASE("sphere: each figure shows the error that it is for") {
     CHECK(spike.at("radius_error") < 0.001);
 
     CHECK(step(*observer, dsc::sdk::icosphere(2, 0.8), 4).at("vertex_ratio") == doctest::Approx(162.0 / 642));
-    // In the summary the radius error is the largest of the run, the rest is as it ends.
+    // In the summary the radius error is the largest of the run, the other figures are those of the end.
     const Table summary = end(*observer, mesh, 4);
     CHECK(summary.at("radius_error") == doctest::Approx(0.01).epsilon(1e-6));
     CHECK(summary.at("volume_drift") < 1e-14);
 }
 
-TEST_CASE("shrinking_sphere: sqrt(r^2 - 4 t), judged down to half the radius") {
+TEST_CASE("shrinking_sphere: sqrt(r^2 - 4 t), measured down to half the radius") {
     const Bench bench;
     const auto observer =
         bench.make(ConfigNode::map({{"solution", "shrinking_sphere"}, {"radius", 1.0}, {"time_step", 0.01}}));
@@ -128,7 +128,7 @@ TEST_CASE("shrinking_sphere: sqrt(r^2 - 4 t), judged down to half the radius") {
         CHECK(row.at("radius_error") < 1e-13);
         CHECK(row.at("volume_drift") < 1e-13);
     }
-    // Beyond half the radius (step 18.75) a wrong radius is no longer held against it, and nothing divides by 0.
+    // Below half the radius (step 18.75) a wrong radius no longer counts, and nothing divides by 0.
     CHECK(step(*observer, scaled(mesh, 0.4), 24).at("radius_error") == doctest::Approx(0.4).epsilon(1e-6));
     CHECK(step(*observer, {}, 25).at("radius_error") == 0.0);
     CHECK(end(*observer, {}, 26).at("radius_error") < 1e-13);
@@ -175,7 +175,7 @@ TEST_CASE("start: the mean distance from where it began, in L") {
     CHECK(end(*observer, {}, 2).count("surface_error") == 0);
 }
 
-TEST_CASE("a saved observer goes on as if it had never stopped") {
+TEST_CASE("a saved observer continues as if it had never stopped") {
     const Bench bench;
     const auto mesh = dsc::sdk::icosphere(2, 1.0);
     for (const char* solution : {"start", "sphere", "shrinking_sphere"}) {

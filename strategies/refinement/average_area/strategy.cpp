@@ -6,7 +6,7 @@ void AverageArea::declare(config::ParamSchema<Params>& schema) {
     schema.real("factor", &Params::factor)
         .greater(0)
         .unit("1")
-        .doc("Faces of at least this many average areas are split.");
+        .doc("Area from which faces are split, in average areas.");
 }
 
 AverageArea::AverageArea(const Params& params, const plugin::Setup&) : factor_(params.factor) {}
@@ -16,7 +16,7 @@ void AverageArea::refine(const hooks::RefinementContext& context, hooks::Refinem
     if (areas.empty()) return;
     double sum = 0;
     for (const double area : areas) sum += area;
-    // Equal areas equal their average, whatever the rounding of the sum.
+    // Equal areas equal their average, in spite of rounding in the sum.
     constexpr double rounding = 1e-12;
     const double bound = factor_ * (sum / static_cast<double>(areas.size())) * (1 - rounding);
     for (std::uint32_t face = 0; face < areas.size(); ++face) {

@@ -6,7 +6,7 @@
 
 namespace dsc::strategies {
 
-/// Asks for a split of every interface face whose area is at least the average [Saul2015, ch. 4].
+/// Requests a split of every interface face whose area is at least the average [Saul2015, ch. 4].
 class AverageArea final : public hooks::RefinementPolicy {
 public:
     struct Params {

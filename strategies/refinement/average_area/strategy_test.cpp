@@ -50,6 +50,6 @@ TEST_CASE("the factor moves the bound") {
     CHECK(split_faces(uneven(), ConfigNode::map({{"factor", 0.4}})).size() == 8);
 }
 
-TEST_CASE("without faces nothing is asked for") {
+TEST_CASE("without faces nothing is requested") {
     CHECK(split_faces(dsc::sdk::view_of({}), ConfigNode::map()).empty());
 }

@@ -7,21 +7,23 @@ namespace dsc::strategies {
 void CentroidSpeed::declare(config::ParamSchema<Params>& schema) {
     schema.real("rest", &Params::rest)
         .at_least(0)
-        .unit("mean edges")
-        .doc("A vertex that would go less than this in a step is at rest.");
+        .unit("current mean edges")
+        .doc("Distance per step below which a vertex is at rest.");
     schema.real("moving", &Params::moving)
         .at_least(0)
-        .unit("mean edges")
-        .doc("A face is split when its vertices are at rest and its centroid would go further than this in a step.");
+        .unit("current mean edges")
+        .doc("Distance per step of the centroid above which a face is split if its vertices are at rest.");
     schema.real("absolute", &Params::absolute)
         .at_least(0)
         .unit("length")
-        .doc("Above 0: takes the place of both thresholds, whatever the mean edge; 0.0015 in the thesis' program.");
+        .doc("Distance per step that replaces both thresholds, for any mean edge; 0: not used; 0.0015 in the program of the "
+             "thesis.");
     schema.real("finest", &Params::finest)
         .at_least(0)
         .unit("point spacings")
-        .doc("Faces whose longest edge is shorter than this many spacings of the cloud (distance from the point nearest to the "
-             "centroid to its sixth neighbour) are not split: the points say nothing about what lies between them. 0: no bound.");
+        .doc("Length of the longest edge below which faces are not split, in spacings of the cloud (distance from the point "
+             "nearest to the centroid to its sixth neighbour), because the points contain no information about smaller "
+             "details. 0: no bound.");
 }
 
 CentroidSpeed::CentroidSpeed(const Params& params, const plugin::Setup&) : params_(params) {}

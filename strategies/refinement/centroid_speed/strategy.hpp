@@ -6,7 +6,7 @@
 
 namespace dsc::strategies {
 
-/// Asks for a split of every interface face whose three vertices are at rest while its centroid is not: "a face that is
+/// Requests a split of every interface face whose three vertices are at rest while its centroid is not: "a face that is
 /// out-of-place, but whose endpoints are happy where they are" [Saul2015, ch. 7]. The speed of a point is the length of
 /// velocity->sample() there, with the normal of the vertex or of the face.
 class CentroidSpeed final : public hooks::RefinementPolicy {
@@ -30,7 +30,7 @@ private:
     bool too_fine(const hooks::StepContext& step, std::uint32_t face) const;
 
     Params params_;
-    // Kept from call to call for their memory.
+    // Kept between calls to reuse their memory.
     std::vector<std::uint8_t> resting_;      // of each vertex
     std::vector<std::uint32_t> candidates_;  // faces with three resting vertices
     std::vector<Vec3> points_, normals_, displacements_;

@@ -11,7 +11,7 @@ namespace {
 using dsc::Vec3;
 using dsc::config::ConfigNode;
 
-// A field that is known everywhere: `speed(point)` along the normal, and what its samples were asked for.
+// A field with a value everywhere: `speed(point)` along the normal. It records the requested samples.
 struct Field final : dsc::hooks::VelocityField {
     explicit Field(std::function<double(const Vec3&)> law) : speed(std::move(law)) {}
     void prepare(const dsc::hooks::StepContext&) override {}
@@ -71,7 +71,7 @@ TEST_CASE("one moving vertex keeps a face from being split") {
     for (const std::uint32_t face : view.faces_of(mover)) CHECK(std::find(split.begin(), split.end(), face) == split.end());
 }
 
-TEST_CASE("the thresholds are parts of the mean edge, or a length") {
+TEST_CASE("the thresholds are fractions of the mean edge, or a length") {
     for (const double scale : {1.0, 0.01}) {
         const auto view = dsc::sdk::view_of(dsc::sdk::square(4, scale));
         const double fast = 0.05 * view.mean_edge;
@@ -89,7 +89,7 @@ TEST_CASE("the thresholds are parts of the mean edge, or a length") {
     }
 }
 
-TEST_CASE("the vertices are asked with their own normals, the centroids with those of the faces") {
+TEST_CASE("the vertices are sampled with their own normals, the centroids with those of the faces") {
     const auto roof = dsc::sdk::view_of(dsc::sdk::moved(dsc::sdk::square(2, 1.0), [](const Vec3& p) {
         return Vec3(p.x(), p.y(), -std::abs(p.x()));
     }));
@@ -124,7 +124,7 @@ TEST_CASE("the vertices are asked with their own normals, the centroids with tho
     }
 }
 
-TEST_CASE("faces finer than the cloud are left alone") {
+TEST_CASE("faces finer than the cloud are not split") {
     dsc::cloud::Normalized lattice;
     for (int j = -20; j <= 20; ++j) {
         for (int i = -20; i <= 20; ++i) lattice.points.emplace_back(0.1 * i, 0.1 * j, 0.3);
@@ -140,7 +140,7 @@ TEST_CASE("faces finer than the cloud are left alone") {
     CHECK(split_faces(view, field, params).size() == view.face_count());  // without a cloud there is no bound
 }
 
-TEST_CASE("without faces nothing is asked for") {
+TEST_CASE("without faces nothing is requested") {
     const Field field([](const Vec3&) { return 1.0; });
     CHECK(split_faces(dsc::sdk::view_of({}), field, ConfigNode::map()).empty());
 }

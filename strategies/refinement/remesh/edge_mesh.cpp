@@ -41,7 +41,7 @@ std::uint32_t EdgeMesh::opposite(std::size_t edge, unsigned side) const {
     for (const std::uint32_t v : view->faces[edges[edge].faces[side]]) {
         if (v != a && v != b) return v;
     }
-    return a;  // of no triangle
+    return a;  // not a corner of a triangle
 }
 
 }  // namespace dsc::remesh

@@ -1,5 +1,5 @@
 #pragma once
-// The interface with its edges: what all choices of edits of one pass read.
+// The interface with its edges, from which all edits of one pass are chosen.
 
 #include <cstdint>
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace dsc::remesh {
 
-/// Between the normals of an edge's two faces, in radians: above it the edge is a crease.
+/// Angle between the normals of the two faces of an edge, in radians, above which the edge is a crease.
 inline constexpr double crease_angle = 0.6;
 
-/// A length per vertex, or one for all.
+/// One length per vertex, or one length for all vertices.
 struct Lengths {
     double everywhere = 0.0;
     std::span<const double> each = {};  ///< empty, or one per view vertex
@@ -26,16 +26,16 @@ struct EdgeMesh {
     const surface::SurfaceView* view = nullptr;
     std::vector<surface::ViewEdge> edges;  ///< in ascending order of their vertices
     std::vector<double> lengths;           ///< of each edge
-    std::vector<double> cosines;           ///< between the normals of the edge's two faces; 2 where it has not exactly two
-    std::vector<std::uint8_t> creases;     ///< per vertex: edges above crease_angle at it
-    std::vector<std::uint8_t> fixed;       ///< per vertex: it may not move, and takes part in no collapse or flip
+    std::vector<double> cosines;           ///< between the normals of the edge's two faces; 2 if it does not have exactly two
+    std::vector<std::uint8_t> creases;     ///< per vertex: number of its edges above crease_angle
+    std::vector<std::uint8_t> fixed;       ///< per vertex: whether it may not move and takes part in no collapse or flip
 
-    /// Fills it from a view, reusing its memory. [step]
+    /// Fills it from a view and reuses its memory. [step]
     void build(const surface::SurfaceView& from, Workers* workers = nullptr);
     const Vec3& place(std::uint32_t v) const { return view->positions[v]; }
-    /// Whether it has two faces at an angle above crease_angle.
+    /// Whether the edge has two faces at an angle above crease_angle.
     bool is_crease(std::size_t edge) const;
-    /// The corner of the edge's face `side`, 0 or 1, that is not on it.
+    /// The corner of the edge's face `side`, 0 or 1, that is not on the edge.
     std::uint32_t opposite(std::size_t edge, unsigned side) const;
 };
 

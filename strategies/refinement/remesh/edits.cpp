@@ -10,7 +10,7 @@ namespace {
 
 constexpr unsigned collapse_attempts = 3, flip_attempts = 2;  // within one refinement
 constexpr double least_move = 0.02;     // of the target length
-constexpr double least_overlap = 1e-6;  // cotangents below its negative: an edge of a square stays
+constexpr double least_overlap = 1e-6;  // flip only if the sum of cotangents is below minus this: the edge of a square stays
 
 double cotangent(const Vec3& at, const Vec3& p, const Vec3& q) {
     const Vec3 u = p - at, v = q - at;
@@ -91,7 +91,7 @@ void Edits::block_ring(const EdgeMesh& mesh, std::uint32_t vertex) {
     }
 }
 
-// Which end stays, and where; false where creases forbid it.
+// Chooses the end that stays and its place; false if creases forbid the collapse.
 bool Edits::place_of(const EdgeMesh& mesh, std::size_t edge, unsigned attempt, bool keep_creases, hooks::CollapseRequest& request) const {
     const auto& [a, b] = mesh.edges[edge].vertices;
     const bool crease_a = mesh.creases[a] > 0, crease_b = mesh.creases[b] > 0;
@@ -101,7 +101,7 @@ bool Edits::place_of(const EdgeMesh& mesh, std::size_t edge, unsigned attempt, b
     };
     if (crease_a != crease_b) return crease_a ? stays_at(a, b) : stays_at(b, a);
     if (keep_creases && crease_a) {
-        // Both on a crease: only along it, and a vertex where it ends or bends off stays.
+        // Both ends are on a crease: only a collapse along it is allowed, and a vertex where the crease ends or bends stays.
         if (!mesh.is_crease(edge)) return false;
         const bool corner_a = mesh.creases[a] != 2, corner_b = mesh.creases[b] != 2;
         if (corner_a && corner_b) return false;
@@ -112,7 +112,7 @@ bool Edits::place_of(const EdgeMesh& mesh, std::size_t edge, unsigned attempt, b
     return true;
 }
 
-// Whether a face of `vertex` that the collapse with `other` leaves turns too far.
+// Whether a face of `vertex` that remains after the collapse with `other` turns too far.
 bool Edits::turns(const EdgeMesh& mesh, std::uint32_t vertex, std::uint32_t other, const Vec3& place) const {
     const surface::SurfaceView& view = *mesh.view;
     for (const std::uint32_t f : view.faces_of(vertex)) {
@@ -129,7 +129,7 @@ bool Edits::turns(const EdgeMesh& mesh, std::uint32_t vertex, std::uint32_t othe
     return false;
 }
 
-// The link condition [Dey1999], no new edge that would be split again, and no face that turns too far.
+// Requires the link condition [Dey1999], no new edge that would be split again, and no face that turns too far.
 bool Edits::fits(const EdgeMesh& mesh, const Lengths& lengths, const hooks::CollapseRequest& r) {
     ring_of(mesh, r.kept, near_a_);
     ring_of(mesh, r.removed, near_b_);
@@ -164,7 +164,7 @@ void Edits::collapse(const EdgeMesh& mesh, const Lengths& lengths, bool keep_cre
     for (const Candidate& c : candidates_) {
         const auto& [a, b] = mesh.edges[c.edge].vertices;
         if (blocked_[a] != 0 || blocked_[b] != 0) continue;
-        // An attempt that this surface does not allow is passed over.
+        // An attempt that this surface does not allow is skipped.
         hooks::CollapseRequest request;
         bool found = false;
         const std::uint64_t births = births_of(mesh, c.edge);
@@ -187,7 +187,7 @@ void Edits::flip(const EdgeMesh& mesh, double flatness, std::vector<hooks::FlipR
         const surface::ViewEdge& edge = mesh.edges[e];
         if (edge.face_count != 2 || mesh.cosines[e] < flatness) continue;
         const Vec3 &a = mesh.place(edge.vertices[0]), &b = mesh.place(edge.vertices[1]);
-        // The sum of two angles is above pi where that of their cotangents is below 0.
+        // The sum of two angles is above pi if the sum of their cotangents is below 0.
         const double sum = cotangent(mesh.place(mesh.opposite(e, 0)), a, b) + cotangent(mesh.place(mesh.opposite(e, 1)), a, b);
         if (sum < -least_overlap) candidates_.push_back({sum, e});
     }
@@ -215,7 +215,7 @@ bool Edits::may_flip(const EdgeMesh& mesh, std::uint32_t e) {
     if (view.faces_of(a).size() < 4 || view.faces_of(b).size() < 4) return false;
     ring_of(mesh, p, near_a_);
     if (std::binary_search(near_a_.begin(), near_a_.end(), q)) return false;
-    // Both new faces must look the way that the old ones do.
+    // Both new faces must have the orientation of the old ones.
     const Vec3 normal = view.face_normals[edge.faces[0]] + view.face_normals[edge.faces[1]];
     const Vec3 &pa = mesh.place(a), &pb = mesh.place(b), &pp = mesh.place(p), &pq = mesh.place(q);
     const Vec3 first = (pq - pp).cross(pa - pp), second = (pb - pp).cross(pq - pp);

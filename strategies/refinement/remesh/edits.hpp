@@ -1,5 +1,5 @@
 #pragma once
-// Which edges of the interface shall be split, collapsed or flipped, and which vertices moved.
+// Chooses the edges of the interface to split, collapse or flip, and the vertices to move.
 
 #include <array>
 #include <cstdint>
@@ -11,36 +11,36 @@
 
 namespace dsc::remesh {
 
-/// Edges above this part of the target length are split, those below the other are collapsed [Botsch2004].
+/// Edges longer than the first fraction of the target length are split, edges shorter than the second are collapsed [Botsch2004].
 inline constexpr double split_above = 4.0 / 3.0;
 inline constexpr double collapse_below = 4.0 / 5.0;
 /// Least cosine between the normals of a face before and after a collapse.
 inline constexpr double turn_cosine = 0.7;
 
 /// Chooses the edits of a pass. An edit that changes the same faces as an earlier one, of the same function or the one before,
-/// waits for the next pass. What the kernel has refused is asked for again only a few times. All orders are total, so that the
+/// waits for the next pass. Requests that the kernel refused are repeated only a few times. All orders are total, so that the
 /// same surface gives the same edits.
 class Edits {
 public:
-    /// Forgets what has been asked for. To be called before the first pass of a refinement.
+    /// Forgets the requests made so far. To be called before the first pass of a refinement.
     void start_refinement();
-    /// Forgets what the last pass has chosen.
+    /// Forgets the choices of the last pass.
     void start_pass(const EdgeMesh& mesh);
 
     /// Edges above 4/3 of their target length, the longest first.
     void split(const EdgeMesh& mesh, const Lengths& lengths, std::vector<std::array<std::uint32_t, 2>>& out);
 
     /// Edges below 4/5 of their target length, the shortest first, no two next to each other. The vertex that stays is the one on
-    /// a crease if only one is; else it goes to the midpoint, in a second attempt to one end and in a third to the other. With
-    /// `keep_creases` a crease only shrinks along itself, and its ends and corners stay.
+    /// a crease if only one is; otherwise it moves to the midpoint, in a second attempt to one end and in a third to the other.
+    /// With `keep_creases` a crease becomes shorter only along itself, and its ends and corners stay.
     void collapse(const EdgeMesh& mesh, const Lengths& lengths, bool keep_creases, std::vector<hooks::CollapseRequest>& out);
 
     /// Edges whose opposite angles sum up to more than pi, the worst first, no two of them at one face. Edges whose faces have a
-    /// smaller cosine than `flatness` between their normals stay.
+    /// smaller cosine than `flatness` between their normals are not flipped.
     void flip(const EdgeMesh& mesh, double flatness, std::vector<hooks::FlipRequest>& out);
 
-    /// Half the way to the centroid of the faces round each vertex, within its tangential plane. Vertices at creases stay, and
-    /// those that would go less than `least_move` of the target length.
+    /// Moves half the way to the centroid of the faces around each vertex, within its tangent plane. Vertices at creases stay,
+    /// and so do vertices that would move less than `least_move` of the target length.
     void move(const EdgeMesh& mesh, const Lengths& lengths, std::vector<hooks::MoveRequest>& out);
 
 private:
@@ -48,7 +48,7 @@ private:
         double key;
         std::uint32_t edge;
     };
-    /// An edge, by its ends' birth ids, and the number of attempts at it in this refinement.
+    /// An edge, by the birth ids of its ends, and the number of attempts at it in this refinement.
     struct Tried {
         std::uint64_t births;
         unsigned attempts;
@@ -64,12 +64,12 @@ private:
     void block_ring(const EdgeMesh& mesh, std::uint32_t vertex);
     void ring_of(const EdgeMesh& mesh, std::uint32_t vertex, std::vector<std::uint32_t>& out) const;
 
-    // Kept from call to call for their memory.
+    // Kept between calls to reuse their memory.
     std::vector<Candidate> candidates_;
-    std::vector<std::uint8_t> blocked_;  // per vertex: of an edit's ring
+    std::vector<std::uint8_t> blocked_;  // per vertex: on the ring of an edit
     std::vector<std::uint8_t> used_;     // per face: an edit changes it
     std::vector<Tried> tried_collapses_, tried_flips_;
-    std::vector<Tried> asked_;           // in this call
+    std::vector<Tried> asked_;           // requests of this call
     std::vector<std::uint32_t> near_a_, near_b_;
 };
 

@@ -12,7 +12,7 @@ namespace {
 using dsc::Vec3;
 using namespace dsc::remesh;
 
-// A view and its edges, which live as long.
+// A view and its edges, with the same lifetime.
 struct Start {
     explicit Start(const dsc::surface::TriangleMesh& triangles) : view(dsc::sdk::view_of(triangles)) {
         mesh.build(view);
@@ -35,7 +35,7 @@ dsc::surface::TriangleMesh shaken(dsc::surface::TriangleMesh mesh, double most, 
     });
 }
 
-// Two half planes that meet at x = 0 in a right angle.
+// Two half planes that meet at x = 0 at a right angle.
 dsc::surface::TriangleMesh roof(unsigned n) {
     return dsc::sdk::moved(dsc::sdk::square(n, 1.0), [](const Vec3& p) { return Vec3(p.x(), p.y(), -std::abs(p.x())); });
 }
@@ -54,7 +54,7 @@ TEST_CASE("edges above 4/3 of the target length are split, the longest first, an
     std::size_t wanted = 0;
     for (const double length : s.mesh.lengths) wanted += length > 0.16 ? 1 : 0;
     CHECK(splits.size() == wanted);
-    // A length per vertex: only edges at short ones are split.
+    // A length per vertex: only edges at vertices with short lengths are split.
     std::vector<double> each(s.view.vertex_count(), 1.0);
     each[7] = 0.01;
     splits.clear();
@@ -80,7 +80,7 @@ TEST_CASE("short edges collapse to their midpoints, independently, and make no l
         const Vec3 middle = 0.5 * (s.view.positions[r.kept] + s.view.positions[r.removed]);
         in_the_middle += (r.place - middle).norm() < 1e-15 ? 1 : 0;
         CHECK(std::min({(r.place - middle).norm(), (r.place - s.view.positions[r.kept]).norm(), (r.place - s.view.positions[r.removed]).norm()}) < 1e-15);
-        // No end lies next to another collapse.
+        // No end is next to another collapse.
         CHECK(taken[r.kept] == 0);
         CHECK(taken[r.removed] == 0);
         for (const std::uint32_t end : {r.kept, r.removed}) {
@@ -93,7 +93,7 @@ TEST_CASE("short edges collapse to their midpoints, independently, and make no l
         }
     }
     CHECK(in_the_middle > 0.9 * static_cast<double>(collapses.size()));
-    // Where every new edge would be too long, nothing collapses; nor does the rim of an open mesh.
+    // If every new edge would be too long, nothing is collapsed; the border of an open mesh is not collapsed either.
     Start plane(dsc::sdk::square(8, 1.0));
     collapses.clear();
     plane.edits.collapse(plane.mesh, {0.26 / 0.8}, false, collapses);
@@ -103,7 +103,7 @@ TEST_CASE("short edges collapse to their midpoints, independently, and make no l
     }
 }
 
-TEST_CASE("a refused collapse is asked for with the ends as places, then no more") {
+TEST_CASE("a refused collapse is requested again with the ends as places, then no more") {
     Start s(shaken(dsc::sdk::icosphere(2, 1.0), 0.02, 9));
     const Lengths lengths{0.42};
     std::vector<std::vector<dsc::hooks::CollapseRequest>> asked;
@@ -129,13 +129,13 @@ TEST_CASE("a refused collapse is asked for with the ends as places, then no more
         return false;
     };
     std::sort(seen.begin(), seen.end(), less);
-    CHECK(std::adjacent_find(seen.begin(), seen.end()) == seen.end());  // never the same twice
+    CHECK(std::adjacent_find(seen.begin(), seen.end()) == seen.end());  // no request is repeated
     std::size_t at_ends = 0;
     for (const auto& [a, b, place] : seen) at_ends += place == a || place == b ? 1 : 0;
     CHECK(at_ends > 20);
 }
 
-TEST_CASE("a crease shrinks along itself only") {
+TEST_CASE("a crease becomes shorter only along itself") {
     Start s(shaken(roof(16), 0.0, 1));
     const Lengths lengths{0.3};
     for (const bool keep : {false, true}) {
@@ -160,7 +160,7 @@ TEST_CASE("a crease shrinks along itself only") {
 }
 
 TEST_CASE("flips make a plane's triangulation Delaunay, and leave creases") {
-    // Columns shifted against each other: many diagonals have opposite angles above pi.
+    // Columns that are shifted against each other: many diagonals have opposite angles above pi.
     const auto slanted = dsc::sdk::moved(dsc::sdk::square(10, 1.0), [](const Vec3& p) { return Vec3(p.x(), p.y() + 0.8 * p.x(), 0.0); });
     Start s(slanted);
     std::vector<dsc::hooks::FlipRequest> flips;
@@ -181,12 +181,12 @@ TEST_CASE("flips make a plane's triangulation Delaunay, and leave creases") {
             CHECK(sum > 3.14159265358979);
         }
     }
-    // Squares' diagonals stay, whichever they are.
+    // Both diagonals of a square are allowed to stay.
     Start square(dsc::sdk::square(10, 1.0));
     flips.clear();
     square.edits.flip(square.mesh, -1.0, flips);
     CHECK(flips.empty());
-    // A ridge between needles on both sides: a flip would be worth it, and is not allowed.
+    // A ridge between needles on both sides: a flip would improve it, but is not allowed.
     Start crease(dsc::sdk::moved(roof(10), [](const Vec3& p) { return Vec3(0.2 * p.x(), p.y(), 0.2 * p.z()); }));
     flips.clear();
     crease.edits.flip(crease.mesh, -1.0, flips);
@@ -200,9 +200,9 @@ TEST_CASE("flips make a plane's triangulation Delaunay, and leave creases") {
     CHECK(free >= 0);
 }
 
-TEST_CASE("moves go along the surface, half the way, and not off creases") {
+TEST_CASE("vertices move along the surface, half the way, and not off creases") {
     Start s(shaken(roof(12), 0.0, 1));
-    // Pull the vertices of one side about within their plane.
+    // Move the vertices of one side within their plane.
     dsc::RandomStream random(dsc::RandomKey{4, 0, 0, 0});
     auto pulled = dsc::sdk::moved(roof(12), [&](const Vec3& p) {
         if (std::abs(p.x()) < 0.1 || p.cwiseAbs().maxCoeff() > 0.99) return p;

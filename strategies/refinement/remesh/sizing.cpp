@@ -8,15 +8,15 @@
 namespace dsc::remesh {
 namespace {
 
-constexpr double faces_of_budget = 1.1547;  // 2 / sqrt 3: squared edge times vertices of regular triangles, by area
-constexpr double filled_part = 0.95;        // of the budget
-constexpr double widest = 4.0;              // local point widths are limited to this many medians, and to the median over this
-constexpr double slope = 0.3;               // by which lengths may grow along an edge
+constexpr double faces_of_budget = 1.1547;  // 2 / sqrt 3: squared edge times vertices over area, for regular triangles
+constexpr double filled_part = 0.95;        // fraction of the budget that is used
+constexpr double widest = 4.0;              // local point widths are limited to the median times this and the median over this
+constexpr double slope = 0.3;               // growth of lengths along an edge
 constexpr unsigned smoothing_rounds = 3;
 constexpr std::size_t vertex_block = 512;
-constexpr double edges_across = 2.0;        // of a thin part: its thickness over its edge length
-constexpr double shortest = 0.5;            // point widths: no part makes edges shorter
-constexpr double most_for_thin = 1.5;       // times the budget
+constexpr double edges_across = 2.0;        // least thickness over edge length, for a thin part
+constexpr double shortest = 0.5;            // point widths: edges in thin parts are not shorter than this
+constexpr double most_for_thin = 1.5;       // times the budget, because of thin parts
 constexpr double opposite_cosine = 0.7;     // faces whose normals differ by more are not the two sides of a thin part
 constexpr unsigned median_rounds = 3;
 
@@ -38,7 +38,7 @@ double Sizing::budget(const Wish& wish, const cloud::TargetCloud* cloud) {
     return cloud != nullptr ? cloud::vertex_budget(cloud->size(), wish.detail) : 0.0;
 }
 
-// Vertices that regular triangles of these lengths have on this surface.
+// Number of vertices of regular triangles with these lengths on this surface.
 double Sizing::count(const EdgeMesh& mesh) const {
     const surface::SurfaceView& view = *mesh.view;
     double sum = 0.0;
@@ -48,7 +48,7 @@ double Sizing::count(const EdgeMesh& mesh) const {
     return faces_of_budget * sum;
 }
 
-// The mean over neighbours, in the logarithm.
+// Averages the logarithms over neighbours.
 void Sizing::smooth(const EdgeMesh& mesh) {
     for (double& x : each_) x = std::log(x);
     for (unsigned round = 0; round < smoothing_rounds; ++round) {
@@ -66,7 +66,7 @@ void Sizing::smooth(const EdgeMesh& mesh) {
     for (double& x : each_) x = std::exp(x);
 }
 
-// No length exceeds a neighbour's by more than `slope` times the distance.
+// Limits each length to that of a neighbour plus `slope` times the distance.
 void Sizing::grade(const EdgeMesh& mesh) {
     const auto limit = [&](const surface::ViewEdge& edge, double length) {
         const auto& [a, b] = edge.vertices;
@@ -79,7 +79,7 @@ void Sizing::grade(const EdgeMesh& mesh) {
         }
         return changed;
     };
-    // Forwards and backwards in turn: few rounds reach far.
+    // Alternates between forwards and backwards, so that a few rounds are enough.
     for (unsigned round = 0; round < 32; ++round) {
         bool changed = false;
         for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
@@ -101,7 +101,7 @@ void Sizing::follow_widths(const hooks::StepContext& context, const EdgeMesh& me
         }
     });
     smooth(mesh);
-    // The slope is judged on the lengths, which are known up to their scale after it: twice is enough.
+    // The slope limit needs the scale of the lengths, which changes afterwards: two repetitions are enough.
     for (int turn = 0; turn < 2; ++turn) {
         const double wanted = std::sqrt(count(mesh) / vertices);
         for (double& x : each_) x *= wanted;
@@ -111,14 +111,14 @@ void Sizing::follow_widths(const hooks::StepContext& context, const EdgeMesh& me
     for (double& x : each_) x *= wanted * scale;
 }
 
-// Each value becomes the median of those of the vertex and its neighbours.
+// Replaces each value by the median of the values of the vertex and its neighbours.
 void Sizing::median_of_rings(const EdgeMesh& mesh, std::vector<double>& values) {
     for (unsigned round = 0; round < median_rounds; ++round) {
         next_ = values;
         for (std::uint32_t v = 0; v < values.size(); ++v) {
             ring_.assign(1, values[v]);
             for (const std::uint32_t f : mesh.view->faces_of(v)) {
-                // Of each face the corner behind v: on a closed surface every neighbour once.
+                // The corner after v in each face: on a closed surface, this gives every neighbour once.
                 const auto& face = mesh.view->faces[f];
                 for (std::size_t k = 0; k < 3; ++k) {
                     if (face[k] == v) ring_.push_back(values[face[(k + 1) % 3]]);
@@ -132,7 +132,7 @@ void Sizing::median_of_rings(const EdgeMesh& mesh, std::vector<double>& values) 
     }
 }
 
-// Half of the thickness where that is shorter; less so where it would take too many vertices. False if nothing is thin.
+// Reduces lengths to half of the thickness; less if this would need too many vertices. False if nothing is thin.
 bool Sizing::shorten_thin_parts(const hooks::StepContext& context, const EdgeMesh& mesh) {
     const double longest = *std::max_element(each_.begin(), each_.end());
     surface::measure_thickness(*mesh.view, edges_across * longest, opposite_cosine, thickness_, context.workers);

@@ -1,5 +1,5 @@
 #pragma once
-// How long the edges of the interface shall be: as many vertices as the cloud's points are worth.
+// Target lengths of the interface edges, from the number of vertices that suits the points of the cloud.
 
 #include <cstdint>
 #include <vector>
@@ -10,23 +10,23 @@
 
 namespace dsc::remesh {
 
-/// What the user asks for.
+/// The wishes of the user.
 struct Wish {
-    std::uint64_t vertices = 0;  ///< budget; 0: what the number of points is worth
+    std::uint64_t vertices = 0;  ///< budget; 0: from the number of points
     double edge_length = 0.0;    ///< in normalised units; 0: from the budget
     bool thin_parts = true;      ///< thin parts get shorter edges
-    cloud::Detail detail = cloud::Detail::medium;  ///< of the budget that the points give
+    cloud::Detail detail = cloud::Detail::medium;  ///< level of detail of the budget from the points
 };
 
 /// Target lengths for a surface. [step]
 class Sizing {
 public:
-    /// Number of vertices that the surface may have; 0 where neither wish nor cloud says anything.
+    /// Number of vertices that the surface may have; 0 if there is neither a wish nor a cloud.
     static double budget(const Wish& wish, const cloud::TargetCloud* cloud);
 
-    /// The lengths for `mesh`, the view of `context`, all times `factor`; they live until the next call.
+    /// The lengths for `mesh`, the view of `context`, multiplied by `factor`; they are valid until the next call.
     Lengths lengths(const hooks::StepContext& context, const EdgeMesh& mesh, const Wish& wish, double factor);
-    /// By how many times thin parts may exceed the budget with the lengths given last, from 1 to 1.5.
+    /// Factor by which thin parts may exceed the budget with the last lengths, from 1 to 1.5.
     double allowance() const { return allowance_; }
 
 private:
@@ -43,8 +43,8 @@ private:
     std::vector<double> thickness_, usual_, ring_;
 };
 
-/// By what the lengths grow where the points are noisy: min(2, 1 + 1.5 s), with the ratio s of noise to point width, of which
-/// an even cloud has a dead zone up to 0.12, since curvature reads as noise there.
+/// Factor by which noise makes the lengths longer: min(2, 1 + 1.5 s), with the ratio s of noise to point width. For an
+/// even cloud, ratios up to 0.12 have no effect, since curvature is measured as noise there.
 double noise_factor(const cloud::Statistics& statistics);
 
 }  // namespace dsc::remesh

@@ -13,7 +13,7 @@ using namespace dsc::remesh;
 
 constexpr double pi = 3.14159265358979323846;
 
-// Points on a sphere, evenly spread but for `squeeze`, which crowds them towards the north pole.
+// Points on a sphere, evenly spread except for `squeeze`, which moves them towards the north pole.
 void add_sphere(std::size_t count, double squeeze, double radius, dsc::cloud::Normalized& points) {
     for (std::size_t i = 0; i < count; ++i) {
         const double t = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
@@ -64,7 +64,7 @@ TEST_CASE("an even cloud gives one length, from the area and the number of its p
     Sizing sizing;
     const Lengths lengths = sizing.lengths(s.context(&cloud), s.mesh, {}, 1.0);
     CHECK(lengths.each.empty());
-    // 3,000 points are worth 6,000 vertices and 20,000 points 20,000, so 4,000 points are worth 6,824.
+    // The budget is 6,000 vertices for 3,000 points and 20,000 for 20,000 points, so it is 6,824 for 4,000 points.
     const double budget = dsc::cloud::vertex_budget(4000);
     CHECK(lengths.everywhere == doctest::Approx(std::sqrt(1.1547 * 4 * pi / (0.95 * budget))).epsilon(0.05));
     CHECK(s.vertices(lengths) == doctest::Approx(0.95 * budget).epsilon(0.08));
@@ -74,7 +74,7 @@ TEST_CASE("an even cloud gives one length, from the area and the number of its p
     CHECK(sizing.lengths(s.context(&cloud), s.mesh, {1000, 0.2, true}, 1.0).everywhere == 0.2);
 }
 
-TEST_CASE("without a cloud the area of the interface counts, and without a wish nothing changes") {
+TEST_CASE("without a cloud the area of the interface is used, and without a wish nothing changes") {
     const Start s(dsc::sdk::icosphere(4, 1.0));
     Sizing sizing;
     CHECK(sizing.lengths(s.context(nullptr), s.mesh, {}, 1.0).everywhere == 0.123);
@@ -122,8 +122,8 @@ TEST_CASE("an uneven cloud gives lengths that follow it, graded, for the same nu
 }
 
 TEST_CASE("a thin wall gets edges of half its thickness, within one and a half times the budget") {
-    // Points are 0.057 apart, and the usual edges that long: a wall of 0.2 is not thin, one of 0.1 is. The one of 0.04 would take too
-    // many vertices.
+    // Points are 0.057 apart, and the usual edges have this length: a wall of 0.2 is not thin, one of 0.1 is. A wall of 0.04
+    // would need too many vertices.
     for (const double inner : {0.8, 0.9, 0.96}) {
         CAPTURE(inner);
         dsc::cloud::Normalized points;

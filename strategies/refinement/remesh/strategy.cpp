@@ -10,15 +10,15 @@
 namespace dsc::strategies {
 namespace {
 
-constexpr std::uint64_t usual_steps = 14;  // of a run that does not say how many it has
+constexpr std::uint64_t usual_steps = 14;  // for a run without a planned number of steps
 constexpr unsigned first_sweeps = 6, later_sweeps = 2;
-constexpr unsigned last_flips = 2;         // passes of flips alone at the end
-constexpr double sweep_angle = 1.0;        // radians: edges above it are not flipped in sweeps once creases are kept,
-constexpr double flip_angle = 0.5;         // nor those above this one where nothing but flips is done
+constexpr unsigned last_flips = 2;         // passes with only flips at the end
+constexpr double sweep_angle = 1.0;        // radians: edges above this angle are not flipped in sweeps once creases are kept,
+constexpr double flip_angle = 0.5;         // nor edges above this angle in passes with only flips
 constexpr double too_many_factor = 1.02;
-constexpr double far_ratio = 1.25;         // of mean edge and target length, or its inverse: another refinement has not been here
+constexpr double far_ratio = 1.25;         // of mean edge and target length, or its inverse: above it, not yet remeshed
 
-// Whether the surface has yet to get its edge length, though the run is under way.
+// Whether the surface still has to get its edge length although the run has begun.
 bool far_off(const hooks::StepContext& step) {
     return !(step.surface.mean_edge < far_ratio * step.target_length && step.target_length < far_ratio * step.surface.mean_edge);
 }
@@ -27,20 +27,20 @@ bool far_off(const hooks::StepContext& step) {
 
 void Remesh::declare(config::ParamSchema<Params>& schema) {
     schema.choice("detail", &Params::detail, {{"low", cloud::Detail::low}, {"medium", cloud::Detail::medium}, {"high", cloud::Detail::high}})
-        .doc("Half, all or twice the vertices that the number of points is worth.");
+        .doc("Level of detail: half, all or twice the number of vertices that follows from the number of points.");
     schema.integer("vertices", &Params::vertices)
         .at_least(0)
         .unit("vertices")
-        .doc("Number of vertices that the surface may have. 0: what the number of points is worth, which is two per point up to 3,000 "
-             "points, 20,000 at 20,000 points, and grows with the root of their number above that.");
+        .doc("Number of vertices that the surface may have. 0: it follows from the number of points; it is two per point up "
+             "to 3,000 points, 20,000 at 20,000 points, and grows with the root of their number above that.");
     schema.real("edge_length", &Params::edge_length)
         .at_least(0)
         .unit("length")
-        .doc("Length that all edges shall have, in the units of the input. 0: from the number of vertices and the area that the "
-             "cloud's points are worth, longer where the points are noisy, and local where their spacing is uneven.");
+        .doc("Length of all edges, in the units of the input. 0: it follows from the number of vertices and the area of the "
+             "cloud's points; it is longer if the points are noisy, and local if their spacing is uneven.");
     schema.boolean("thin_parts", &Params::thin_parts)
-        .doc("Parts that are thinner than two edges get edges of half their thickness, but of at least half a point width, and up to 1.5 "
-             "times as many vertices for that. Only with a cloud and without an edge length.");
+        .doc("Whether parts thinner than two edges get shorter edges: half their thickness, at least half a point width, and "
+             "up to 1.5 times as many vertices. Only with a cloud and without an edge length.");
 }
 
 Remesh::Remesh(const Params& params, const plugin::Setup&) : params_(params) {}
@@ -89,13 +89,13 @@ remesh::Lengths Remesh::set_lengths(const hooks::StepContext& step, hooks::Refin
     return lengths;
 }
 
-// True if it asked for anything.
+// True if it requested anything.
 bool Remesh::ask(Stage stage, const remesh::Lengths& lengths, hooks::RefinementRequests& out) {
     if (stage == Stage::sizes) edits_.split(mesh_, lengths, out.split_edges);
     if (stage == Stage::sizes || stage == Stage::collapses) edits_.collapse(mesh_, lengths, keeps(), out.collapse_edges);
     edits_.flip(mesh_, flatness_, out.flip_edges);
     const bool edits = !out.split_edges.empty() || !out.collapse_edges.empty() || !out.flip_edges.empty();
-    // A surface that needs no edit at the beginning of a sweep is done, and not even smoothed.
+    // A surface that needs no edit at the beginning of a sweep is finished, and is not smoothed either.
     if (stage == Stage::sizes && !edits) next_stage_ = stages_.size();
     if (stage == Stage::moves) edits_.move(mesh_, lengths, out.move_vertices);
     return edits || !out.move_vertices.empty();
@@ -108,7 +108,7 @@ void Remesh::refine(const hooks::RefinementContext& context, hooks::RefinementRe
     if (context.pass == 0) {
         begin(context.step);
         edits_.start_refinement();
-        // Flips need none, and the kernel remembers those of the last sweep.
+        // Flips need no target lengths, and the kernel keeps those of the last sweep.
         if (stages_.front() != Stage::flips) lengths = set_lengths(context.step, out);
     }
     edits_.start_pass(mesh_);
@@ -124,7 +124,7 @@ void Remesh::save(std::ostream& out) const {
 
 void Remesh::load(std::istream& in) {
     in >> refinements_ >> step_ >> last_step_ >> too_many_ >> allowed_;
-    if (!in) throw StrategyError("refinement.state", "refinement 'remesh': the saved state is damaged; start the run anew");
+    if (!in) throw StrategyError("refinement.state", "refinement 'remesh': the saved state is damaged; start the run again");
 }
 
 }  // namespace dsc::strategies

@@ -1,5 +1,6 @@
 #pragma once
-// Refinement `remesh`: keeps the interface's edges at their target length, its triangles round and its creases in place.
+// Refinement `remesh`: keeps the edges of the interface at their target length, its triangles nearly equilateral, and its
+// creases.
 
 #include <dsc/hooks/refinement_policy.hpp>
 #include <dsc/plugin/plugin.hpp>
@@ -11,7 +12,7 @@
 namespace dsc::strategies {
 
 /// Sweeps of splits, collapses, flips and tangential steps [Botsch2004], spread over the passes of a refinement. Many sweeps in the
-/// first refinement, two in early ones, flips alone in the last third of the run.
+/// first refinement, two in early ones, only flips in the last third of the run.
 class Remesh final : public hooks::RefinementPolicy {
 public:
     struct Params {
@@ -32,7 +33,7 @@ public:
     void load(std::istream& in) override;
 
 private:
-    /// What a pass asks for: each has flips too.
+    /// The kind of requests of a pass; each pass also requests flips.
     enum class Stage : std::uint8_t { sizes, collapses, moves, flips };
 
     void begin(const hooks::StepContext& step);
@@ -43,18 +44,18 @@ private:
 
     Params params_;
     // Saved.
-    std::uint64_t refinements_ = 0;  // begun so far
-    std::uint64_t step_ = 0;         // of the last one
-    std::uint64_t last_step_ = 0;    // of the run
-    std::uint64_t too_many_ = 0;     // refinements after which there were more vertices than allowed
-    double allowed_ = 0.0;           // vertices after the last one; 0: any number
+    std::uint64_t refinements_ = 0;  // number of refinements begun
+    std::uint64_t step_ = 0;         // step of the last refinement
+    std::uint64_t last_step_ = 0;    // last step of the run
+    std::uint64_t too_many_ = 0;     // number of refinements after which there were more vertices than allowed
+    double allowed_ = 0.0;           // allowed vertices after the last refinement; 0: no limit
 
-    // Of the refinement under way.
+    // State of the current refinement.
     std::vector<Stage> stages_;
     std::size_t next_stage_ = 0;
     double flatness_ = 0.0;
 
-    // Kept from call to call for their memory.
+    // Kept between calls to reuse their memory.
     remesh::EdgeMesh mesh_;
     remesh::Edits edits_;
     remesh::Sizing sizing_;

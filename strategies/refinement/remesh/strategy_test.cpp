@@ -1,4 +1,4 @@
-// The whole refinement, through the driver: what the interface is like afterwards.
+// The whole refinement, through the driver: requirements for the resulting interface.
 #include "strategy.hpp"
 
 #include <doctest/doctest.h>
@@ -33,7 +33,7 @@ const host::Host& plugins() {
     return host;
 }
 
-/// A surface that rests, in a run that has so many steps.
+/// A surface at rest, in a run with a given number of steps.
 struct Still final : hooks::VelocityField {
     void prepare(const hooks::StepContext&) override {}
     void evaluate(hooks::Range, std::span<Vec3> out) const override { std::fill(out.begin(), out.end(), Vec3::Zero()); }
@@ -42,9 +42,9 @@ struct Still final : hooks::VelocityField {
 struct Job {
     ConfigNode start = ConfigNode::map();
     ConfigNode remesh = ConfigNode::map();
-    unsigned steps_before = 0;      // without refinement
+    unsigned steps_before = 0;      // number of steps without refinement
     bool refine_at_once = true;
-    unsigned steps = 0;             // with a refinement after each
+    unsigned steps = 0;             // number of steps with a refinement after each
     const cloud::TargetCloud* cloud = nullptr;
 };
 
@@ -73,7 +73,7 @@ ConfigNode ball(int cells) {
     return ConfigNode::map({{"cells", cells}, {"shape", "sphere"}, {"radius", 0.9}, {"project", true}});
 }
 
-// A cylinder with a bore: genus 1, with four round creases.
+// A cylinder with a hole along its axis: genus 1, with four circular creases.
 ConfigNode washer(int cells) {
     const ConfigNode list = ConfigNode::list(
         {ConfigNode::map({{"shape", "cylinder"}, {"radius", 1.0}, {"half_length", 0.4}}),
@@ -91,7 +91,7 @@ std::vector<std::array<std::uint32_t, 2>> edges_of(const surface::TriangleMesh& 
     return {edges.begin(), edges.end()};
 }
 
-// The part of the edges whose length is within [0.6, 1.5] of l.
+// The fraction of the edges whose length is within [0.6, 1.5] of l.
 double well_sized(const surface::TriangleMesh& mesh, double l) {
     std::size_t good = 0;
     const auto edges = edges_of(mesh);
@@ -120,12 +120,12 @@ TEST_CASE("a sphere's edges get the wanted length, shorter or longer, and it sta
         CHECK(well_sized(result.surface, l) > 0.95);
         CHECK(genus_of(result) == 0);
         CHECK(result.totals.target_length == l);
-        // Regular triangles of this edge would have so many vertices.
+        // The number of vertices of regular triangles with this edge.
         const double vertices = 1.1547 * 4 * 3.14159265358979 * 0.81 / (l * l);
         CHECK(static_cast<double>(result.surface.points.size()) == doctest::Approx(vertices).epsilon(0.12));
         double mean = 0.0;
         for (const Vec3& p : result.surface.points) mean += std::abs(p.norm() - 0.9) / static_cast<double>(result.surface.points.size());
-        CHECK(mean < 0.005);  // chords of the start's edges, which are up to 0.2 long, go that far below the sphere
+        CHECK(mean < 0.005);  // chords of the initial edges, which are up to 0.2 long, lie this far below the sphere
     }
 }
 
@@ -144,7 +144,7 @@ TEST_CASE("a cube keeps its twelve edges where creases are kept") {
         const run::DriveResult result =
             drive({ConfigNode::map({{"cells", 24}, {"shape", "cube"}, {"half_width", 0.75}}), length(l), 4, true, 4, nullptr});
         CHECK(well_sized(result.surface, l) > 0.95);
-        // On every edge of the cube there are edges of the interface from corner to corner, in one line.
+        // Along every edge of the cube, edges of the interface form one line from corner to corner.
         std::map<std::array<int, 3>, double> along;
         for (const auto& [a, b] : edges_of(result.surface)) {
             const Vec3 &p = result.surface.points[a], &q = result.surface.points[b];
@@ -186,7 +186,7 @@ TEST_CASE("the number of threads does not matter") {
     }
 }
 
-TEST_CASE("a run that was stopped goes on to the same surface") {
+TEST_CASE("a run that was stopped continues to the same surface") {
     const Job job{ball(16), length(0.15), 0, true, 8, nullptr};
     std::map<std::uint64_t, std::string> states;
     run::DriveOptions options;
@@ -202,7 +202,7 @@ TEST_CASE("a run that was stopped goes on to the same surface") {
     }
 }
 
-TEST_CASE("a surface that is as it should be is left alone") {
+TEST_CASE("a surface that needs no change is not changed") {
     const auto policy = plugins().create<hooks::RefinementPolicy>({"remesh", length(0.15)}, "schedule.1.refine");
     CHECK(policy->owns_sizing());
     CHECK(policy->passes() == hooks::refinement_passes);
@@ -246,7 +246,7 @@ TEST_CASE("lengths are in the units of the input") {
     CHECK(requests.target_length == doctest::Approx(0.3));
 }
 
-TEST_CASE("damaged state is refused, saved state comes back") {
+TEST_CASE("damaged state is refused, saved state is restored") {
     const auto make = [] { return plugins().create<hooks::RefinementPolicy>({"remesh", length(0.25)}, "schedule.1.refine"); };
     const auto policy = make(), other = make();
     const auto view = sdk::view_of(sdk::icosphere(2, 1.0));

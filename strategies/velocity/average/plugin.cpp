@@ -4,5 +4,5 @@
 #include "strategy.hpp"
 
 DSC_PLUGIN("average", DSC_VERSION, "BSD-3-Clause", "Smoothing of the interface by averages") {
-    registrar.add<dsc::strategies::Average>("average", "towards the mean of the neighbouring vertices");
+    registrar.add<dsc::strategies::Average>("average", "moves vertices towards the mean of their neighbours");
 }

@@ -6,14 +6,14 @@ void Average::declare(config::ParamSchema<Params>& schema) {
     schema.real("part", &Params::part)
         .range(0, 1)
         .unit("1")
-        .doc("Part of the way to the mean of the neighbours that a vertex goes in a step.");
+        .doc("Fraction of the way to the mean of the neighbours that a vertex moves per step.");
 }
 
 Average::Average(const Params& params, const plugin::Setup&) : part_(params.part) {}
 
 void Average::prepare(const hooks::StepContext& context) { surface_ = &context.surface; }
 
-// Round a closed vertex every neighbour is in two faces, so the mean over the faces is that over the neighbours.
+// Around a closed vertex every neighbour is in two faces, so the mean over the faces is the mean over the neighbours.
 Vec3 Average::mean_of_neighbours(std::size_t vertex) const {
     Vec3 sum = Vec3::Zero();
     std::size_t count = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Velocity `average`: every interface vertex goes towards the mean of its neighbours.
+// Velocity `average`: every interface vertex moves towards the mean of its neighbours.
 
 #include <dsc/hooks/velocity_field.hpp>
 #include <dsc/plugin/plugin.hpp>

@@ -23,7 +23,7 @@ std::vector<Vec3> displacements(const dsc::surface::SurfaceView& view, double pa
 
 }  // namespace
 
-TEST_CASE("an octahedron's corner goes to the middle of the four round it") {
+TEST_CASE("the corner of an octahedron moves to the middle of its four neighbours") {
     dsc::surface::TriangleMesh mesh;
     mesh.points = {Vec3(1, 0, 0),  Vec3(0, 2, 0),  Vec3(-3, 0, 0),
                    Vec3(0, -4, 0), Vec3(0, 0, 10), Vec3(0, 0, -1)};
@@ -36,7 +36,7 @@ TEST_CASE("an octahedron's corner goes to the middle of the four round it") {
     CHECK((displacements(view, 0.3)[4] - 0.3 * Vec3(-0.5, -0.5, -10)).norm() < 1e-14);
 }
 
-TEST_CASE("a spike is worn down, a plane stays") {
+TEST_CASE("a spike becomes smaller, a plane stays") {
     auto mesh = dsc::sdk::square(8, 1.0);
     const std::size_t middle = 4 * 9 + 4;
     auto out = displacements(dsc::sdk::view_of(mesh), 0.5);
@@ -66,7 +66,7 @@ TEST_CASE("a sphere shrinks and stays round") {
     CHECK(least > 0.98 * most);
 }
 
-TEST_CASE("what cannot move stays, and blocks and threads make no difference") {
+TEST_CASE("vertices that cannot move stay, and blocks and threads make no difference") {
     auto view = dsc::sdk::view_of(dsc::sdk::icosphere(3, 1.0));
     view.movable[7] = 0;
     const auto out = displacements(view, 0.5);

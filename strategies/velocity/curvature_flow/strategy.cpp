@@ -10,9 +10,8 @@ void CurvatureFlow::declare(config::ParamSchema<Params>& schema) {
         .greater(0)
         .unit("length^2")
         .doc(
-            "Time of a step. The step is explicit: above about an eighth of the squared shortest edge "
-            "neighbouring "
-            "vertices overtake each other.");
+            "Time per step. The step is explicit: above about an eighth of the squared shortest edge, neighbouring vertices "
+            "overtake each other.");
     schema.strategy("curvature", &Params::curvature, "curvature")
         .doc("Estimator of the mean curvature normal, 1/r on a sphere of radius r.");
 }
@@ -26,7 +25,7 @@ void CurvatureFlow::prepare(const hooks::StepContext& context) {
     curvature_->prepare(context);
 }
 
-// The estimator writes the vectors into `out`; its scalars go to the stack, in pieces, so that nothing is allocated.
+// The estimator writes the vectors into `out`; its scalars are written to the stack, in pieces, so that nothing is allocated.
 void CurvatureFlow::evaluate(hooks::Range range, std::span<Vec3> out) const {
     constexpr std::size_t piece = 128;
     std::array<double, piece> scalar{};

@@ -1,5 +1,5 @@
 #pragma once
-// Velocity `curvature_flow`: the interface moves by its mean curvature, as a soap film does.
+// Velocity `curvature_flow`: the interface moves by its mean curvature, like a soap film.
 
 #include <dsc/hooks/curvature_estimator.hpp>
 #include <dsc/hooks/velocity_field.hpp>
@@ -7,7 +7,7 @@
 
 namespace dsc::strategies {
 
-/// Displacement -2 H N dt, H N the curvature vector of the nested estimator: an explicit step of mean curvature flow. A
+/// Displacement -2 H N dt, where H N is the curvature vector of the nested estimator: an explicit step of mean curvature flow. A
 /// sphere of radius r0 has the radius sqrt(r0^2 - 4 t) at time t [Huisken1984].
 class CurvatureFlow final : public hooks::VelocityField {
 public:

@@ -23,7 +23,7 @@ struct Bench {
     dsc::host::Host host;
 };
 
-/// Mean radius after so many steps up to half the start's radius of 1, without a kernel.
+/// Mean radius after this number of steps, down to half the initial radius of 1, without a kernel.
 double radius_error(const Bench& bench, unsigned level, double time_step) {
     const auto field = bench.make(ConfigNode::map({{"time_step", time_step}}));
     auto mesh = dsc::sdk::icosphere(level, 1.0);
@@ -40,7 +40,7 @@ double radius_error(const Bench& bench, unsigned level, double time_step) {
 
 }  // namespace
 
-TEST_CASE("a sphere's vertices go inwards by 2 dt / r") {
+TEST_CASE("the vertices of a sphere move inwards by 2 dt / r") {
     const Bench bench;
     const auto field = bench.make(ConfigNode::map({{"time_step", 0.002}}));
     const auto view = dsc::sdk::view_of(dsc::sdk::icosphere(4, 0.8));
@@ -57,7 +57,7 @@ TEST_CASE("down to half the radius a sphere follows sqrt(r^2 - 4 t), the better 
     CHECK(fine < 0.4 * coarse);
 }
 
-TEST_CASE("what cannot move stays, and blocks and threads make no difference") {
+TEST_CASE("vertices that cannot move stay, and blocks and threads make no difference") {
     const Bench bench;
     const auto field = bench.make(ConfigNode::map({}));
     auto view = dsc::sdk::view_of(dsc::sdk::icosphere(3, 1.0));

@@ -1,5 +1,5 @@
 #pragma once
-// Velocity fields in closed form, the same for every point in space and time.
+// Velocity fields in closed form, defined at every point in space and time.
 
 #include <dsc/geometry/vec.hpp>
 
@@ -7,7 +7,7 @@ namespace dsc::strategies {
 
 enum class FieldKind { translate, rotate, shear, part, enright };
 
-/// Which sizes count depends on the kind; r = x - centre, a the unit vector along `axis`. All fields are divergence-free.
+/// The kind decides which members are used; r = x - centre, a is the unit vector along `axis`. All fields are divergence-free.
 struct Field {
     FieldKind kind = FieldKind::translate;
     Vec3 centre = Vec3::Zero();
@@ -28,7 +28,7 @@ struct Field {
 ///             brings everything back at t = period
 Vec3 velocity(const Field& field, const Vec3& point, double time);
 
-/// Where a point that goes with the field from `time` on is after `step`, minus where it was: `parts` steps of the
+/// Displacement during `step` of a point that moves with the field from `time` on: `parts` steps of the
 /// classical Runge-Kutta method of order 4.
 Vec3 displacement(const Field& field, const Vec3& point, double time, double step, int parts);
 

@@ -4,5 +4,5 @@
 #include "strategy.hpp"
 
 DSC_PLUGIN("flow", DSC_VERSION, "BSD-3-Clause", "Advection of the interface by analytic velocity fields") {
-    registrar.add<dsc::strategies::Flow>("flow", "goes with an analytic velocity field");
+    registrar.add<dsc::strategies::Flow>("flow", "moves the interface with an analytic velocity field");
 }

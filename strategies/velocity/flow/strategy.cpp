@@ -11,13 +11,12 @@ void Flow::declare(config::ParamSchema<Params>& schema) {
                  {"part", FieldKind::part},
                  {"enright", FieldKind::enright}})
         .doc(
-            "'translate' along axis; 'rotate' about it; 'shear' along it, faster the farther across; 'part', "
-            "two "
-            "sides apart along axis, or together; 'enright', the deformation of the unit cube that comes "
-            "back.");
+            "Velocity field: 'translate' along axis; 'rotate' about axis; 'shear' along axis, with a speed that grows along "
+            "across; 'part', two sides move apart or together along axis; 'enright', a deformation of the unit cube that "
+            "returns to the start.");
     schema.vec3("centre", static_cast<Vec3 Params::*>(&Params::centre))
         .unit("length")
-        .doc("Where rotate, shear and part have no speed.");
+        .doc("Point where the speed of 'rotate', 'shear' and 'part' is 0.");
     schema.vec3("axis", static_cast<Vec3 Params::*>(&Params::axis))
         .unit("1")
         .doc("Direction of the field; its length does not matter.");
@@ -27,7 +26,7 @@ void Flow::declare(config::ParamSchema<Params>& schema) {
     schema.real("speed", static_cast<double Params::*>(&Params::speed))
         .unit("length/time, radians/time or 1/time")
         .doc(
-            "Of 'translate' and of either side of 'part' (negative: together), angle of 'rotate', growth of "
+            "Speed of 'translate' and of both sides of 'part' (negative: together), angle of 'rotate', growth of "
             "'shear'.");
     schema.real("width", static_cast<double Params::*>(&Params::width))
         .greater(0)
@@ -36,12 +35,12 @@ void Flow::declare(config::ParamSchema<Params>& schema) {
     schema.real("period", static_cast<double Params::*>(&Params::period))
         .greater(0)
         .unit("time")
-        .doc("When 'enright' has brought everything back; it turns at half of this.");
-    schema.real("time_step", &Params::time_step).greater(0).unit("time").doc("Time of a step.");
+        .doc("Time at which 'enright' has moved everything back; the motion reverses at half of this time.");
+    schema.real("time_step", &Params::time_step).greater(0).unit("time").doc("Time per step.");
     schema.integer("substeps", &Params::substeps)
         .range(1, 1000)
         .unit("1")
-        .doc("Runge-Kutta steps that a step is made of.");
+        .doc("Number of Runge-Kutta steps per step.");
     schema.check([](const Params& p) { return p.axis.norm() > 1e-9; }, "axis must not be the zero vector");
     schema.check(
         [](const Params& p) {

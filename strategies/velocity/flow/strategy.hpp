@@ -1,5 +1,5 @@
 #pragma once
-// Velocity `flow`: the interface goes with a velocity field in closed form.
+// Velocity `flow`: the interface moves with a velocity field in closed form.
 
 #include <dsc/hooks/velocity_field.hpp>
 #include <dsc/plugin/plugin.hpp>
@@ -8,8 +8,8 @@
 
 namespace dsc::strategies {
 
-/// A step covers the time from (n - 1) dt to n dt, n its number: time needs no state and a resumed run goes on where it
-/// was. A refinement between steps sees the step before it.
+/// Step n covers the time from (n - 1) dt to n dt: time needs no state, and a resumed run continues where it
+/// stopped. A refinement between steps gets the velocity of the step before it.
 class Flow final : public hooks::VelocityField {
 public:
     static constexpr hooks::Traits traits = {.rigid = false};

@@ -55,7 +55,7 @@ TEST_CASE("no field has a divergence") {
     }
 }
 
-TEST_CASE("what has a solution in closed form reaches it") {
+TEST_CASE("fields with a solution in closed form reach it") {
     const Vec3 x(0.6, -0.3, 0.8);
     Field field;
     field.speed = 0.5;
@@ -66,7 +66,7 @@ TEST_CASE("what has a solution in closed form reaches it") {
     field.axis = Vec3(0, 0, 5);
     field.speed = 1.5707963267948966;
     CHECK((displacement(field, x, 0, 1, 64) - (Vec3(0.3, 0.6, 0.8) - x)).norm() < 1e-8);
-    // part: on the axis sinh(s/w) grows by exp(speed t / w); the cross-section shrinks so that the volume stays.
+    // part: on the axis sinh(s/w) grows by exp(speed t / w); the cross-section shrinks so that the volume stays constant.
     field.kind = FieldKind::part;
     field.axis = Vec3(1, 0, 0);
     field.speed = 0.4;
@@ -112,7 +112,7 @@ TEST_CASE("enright: nothing crosses the cube's walls, and at t = T everything is
         CHECK((mesh.points[i] - start.points[i]).norm() < 2e-4);
 }
 
-TEST_CASE("time follows from the step's number: one that was loaded goes on at the right time") {
+TEST_CASE("time follows from the number of the step: a loaded velocity continues at the right time") {
     const Bench bench;
     const auto params = ConfigNode::map({{"field", "enright"}, {"time_step", 0.1}});
     const auto view = dsc::sdk::view_of(dsc::sdk::icosphere(1, 0.3));
@@ -143,7 +143,7 @@ TEST_CASE("sampling is the displacement of any point") {
     CHECK((out[0] - Vec3(0.5, 0, 0)).norm() < 1e-15);
 }
 
-TEST_CASE("directions that make no field are refused") {
+TEST_CASE("directions that do not define a field are refused") {
     const Bench bench;
     CHECK_THROWS_WITH_AS(bench.make(ConfigNode::map({{"axis", ConfigNode::list({0.0, 0.0, 0.0})}})),
                          doctest::Contains("axis must not be the zero vector"), dsc::ConfigError);

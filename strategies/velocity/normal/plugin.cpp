@@ -4,5 +4,5 @@
 #include "strategy.hpp"
 
 DSC_PLUGIN("normal", DSC_VERSION, "BSD-3-Clause", "Growth of the interface along its normals") {
-    registrar.add<dsc::strategies::Normal>("normal", "along the normal with constant speed");
+    registrar.add<dsc::strategies::Normal>("normal", "moves vertices along their normals with constant speed");
 }

@@ -5,7 +5,7 @@ namespace dsc::strategies {
 void Normal::declare(config::ParamSchema<Params>& schema) {
     schema.real("speed", &Params::speed)
         .unit("length")
-        .doc("How far a vertex goes outwards in a step; negative: inwards.");
+        .doc("Distance that a vertex moves outwards per step; negative: inwards.");
 }
 
 Normal::Normal(const Params& params, const plugin::Setup&) : speed_(params.speed) {}

@@ -6,7 +6,7 @@
 
 namespace dsc::strategies {
 
-/// Displacement speed * N, N the outward unit normal [Saul2015, ch. 4, NormalFunc].
+/// Displacement speed * N, where N is the outward unit normal [Saul2015, ch. 4, NormalFunc].
 class Normal final : public hooks::VelocityField {
 public:
     struct Params {

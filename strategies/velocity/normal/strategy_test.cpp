@@ -45,7 +45,7 @@ TEST_CASE("a vertex whose normals cancel and one that cannot move stay") {
     CHECK((out[1] - Vec3(0, 0, 0.1)).norm() < 1e-15);
 }
 
-TEST_CASE("sampling goes along the given normal") {
+TEST_CASE("samples are along the given normal") {
     const Bench bench;
     const auto field = bench.make(-0.25);
     REQUIRE(field->can_sample());

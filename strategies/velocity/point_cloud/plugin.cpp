@@ -5,5 +5,6 @@
 
 DSC_PLUGIN("point_cloud", DSC_VERSION, "BSD-3-Clause", "Attraction of the interface to a point cloud") {
     registrar.add<dsc::strategies::PointCloud>("point_cloud",
-                                               "to the nearest cloud point along the normal, less curvature");
+                                               "moves vertices along their normals towards the nearest cloud point, minus "
+                                               "curvature");
 }

@@ -8,10 +8,10 @@
 namespace dsc::strategies {
 namespace {
 
-/// A vertex whose nearest point lies less than this part of its distance outwards has stalled: it is not on its way to
-/// points that lie ahead of it.
+/// A vertex has stalled if its nearest point lies outwards by less than this fraction of its distance: the vertex does not move
+/// to points ahead of it.
 constexpr double stalled_below = 0.5;
-/// Vertices that are worked on together: so many fit on the stack, and nothing is allocated.
+/// Number of vertices that are processed together: they fit on the stack, so nothing is allocated.
 constexpr std::size_t piece = 128;
 
 }  // namespace
@@ -21,50 +21,49 @@ void PointCloud::Unsupported::declare(config::ParamSchema<Unsupported>& schema) 
         .at_least(0)
         .unit("point spacings")
         .doc(
-            "A vertex is unsupported when no point lies within this many spacings of the cloud there (the distance from "
-            "the nearest point to its sixth neighbour). Openings of the cloud wider than twice this are entered: "
-            "take more than the radius of holes in the data. 0: all is supported.");
+            "Distance without points from which a vertex is unsupported, in spacings of the cloud there (the distance from "
+            "the nearest point to its sixth neighbour). The surface enters openings of the cloud wider than twice this distance: "
+            "use more than the radius of holes in the data. 0: all vertices are supported.");
     schema.real("carve", &Unsupported::carve)
         .range(0, 1)
-        .unit("mean edges")
-        .doc("How far an unsupported vertex whose data term stalls goes inwards in a step, at least.");
+        .unit("target lengths (L)")
+        .doc("Least distance that an unsupported vertex whose data term stalls moves inwards per step.");
 }
 
 void PointCloud::Target::declare(config::ParamSchema<Target>& schema) {
     schema.integer("neighbours", &Target::neighbours)
         .range(1, 1000)
         .unit("points")
-        .doc("A vertex goes to the weighted mean of so many nearest points; 1: to the nearest one, as in the thesis.");
+        .doc("Number of nearest points; a vertex moves to their weighted mean. 1: to the nearest point, as in the thesis.");
     schema.real("width", &Target::width)
         .greater(0)
         .unit("point spacings")
-        .doc("Standard deviation of the Gaussian by whose values at their distances the points are weighed.");
+        .doc("Standard deviation of the Gaussian of the distance that gives the weights of the points.");
 }
 
 void PointCloud::declare(config::ParamSchema<Params>& schema) {
     schema.real("alpha", &Params::alpha)
         .range(0, 2)
         .unit("1")
-        .doc("Part of the way to the nearest point, seen along the normal, that a vertex goes in a step.");
+        .doc("Fraction of the normal distance to the nearest point that a vertex moves per step.");
     schema.real("beta", &Params::beta)
         .at_least(0)
         .unit("length/curvature")
         .doc(
-            "How far a vertex goes inwards in a step for a curvature of 1: length^2 for a mean curvature, "
-            "length for an "
+            "Distance that a vertex moves inwards per step for a curvature of 1: length^2 for a mean curvature, length for an "
             "angle. 0 switches the curvature off.");
     schema.strategy("curvature", &Params::curvature, "curvature")
         .optional()
-        .doc("Estimator of the curvature that beta weighs.");
+        .doc("Estimator of the curvature that beta multiplies.");
     schema.choice("curvature_at", &Params::curvature_at,
                   {{"everywhere", CurvatureAt::everywhere}, {"unsupported", CurvatureAt::unsupported}})
-        .doc("Where the curvature acts: everywhere, as in the thesis, or only where the surface is unsupported and the data "
-             "term stalls, so that webs and leftover clumps shrink and supported horns, ears and tips keep their shape.");
-    schema.object("target", &Params::target, Target::declare).doc("Which point of the cloud a vertex goes to.");
+        .doc("Places where the curvature acts: everywhere, as in the thesis, or only where the surface is unsupported and the "
+             "data term stalls, so that webs and leftover pieces shrink and supported horns, ears and tips keep their shape.");
+    schema.object("target", &Params::target, Target::declare).doc("Point of the cloud to which a vertex moves.");
     schema.object("unsupported", &Params::unsupported, Unsupported::declare)
-        .doc("What happens where no point speaks for the surface.");
+        .doc("Handling of surface regions without cloud support.");
     schema.check([](const Params& p) { return p.beta == 0 || !p.curvature.empty(); },
-                 "beta above 0 needs a curvature, for instance curvature: {type: implicit_fairing}");
+                 "beta above 0 needs a curvature, for example curvature: {type: implicit_fairing}");
     schema.check([](const Params& p) { return p.curvature_at == CurvatureAt::everywhere || p.unsupported.beyond > 0; },
                  "curvature_at: unsupported needs unsupported: {beyond: ...} above 0");
 }
@@ -81,7 +80,7 @@ void PointCloud::prepare(const hooks::StepContext& context) {
     if (context.cloud == nullptr) {
         throw ConfigError(
             "velocity.no_cloud",
-            "velocity 'point_cloud': the experiment has no cloud to go to; add input: {cloud: {file: ...}}");
+            "velocity 'point_cloud': the experiment has no cloud; add input: {cloud: {file: ...}}");
     }
     surface_ = &context.surface;
     cloud_ = context.cloud;
@@ -91,7 +90,7 @@ void PointCloud::prepare(const hooks::StepContext& context) {
 }
 
 Vec3 PointCloud::mean_target(const Vec3& point, const cloud::Neighbour& nearest) const {
-    thread_local std::vector<cloud::Neighbour> around;  // keeps its memory from call to call
+    thread_local std::vector<cloud::Neighbour> around;  // keeps its memory between calls
     cloud_->search().k_nearest(point, target_.neighbours, around);
     const double width = target_.width * cloud_->spacing(nearest.index);
     if (!(width > 0)) return (*cloud_)[nearest.index];

@@ -1,5 +1,5 @@
 #pragma once
-// Velocity `point_cloud`: every interface vertex goes along its normal towards the nearest point of the
+// Velocity `point_cloud`: every interface vertex moves along its normal towards the nearest point of the
 // cloud.
 
 #include <dsc/hooks/curvature_estimator.hpp>
@@ -8,12 +8,12 @@
 
 namespace dsc::strategies {
 
-/// Displacement (alpha N.(p - x) - beta * curvature) N: x the vertex, N its outward unit normal, p the point
-/// of the cloud nearest to x [Saul2015, eq. 1-4], or a mean of several near ones. The curvature acts everywhere or only
+/// Displacement (alpha N.(p - x) - beta * curvature) N, where x is the vertex, N its outward unit normal, p the point
+/// of the cloud nearest to x [Saul2015, eq. 1-4], or a mean of several near points. The curvature acts everywhere or only
 /// where no point supports the surface [Saul2015, ch. 7].
 class PointCloud final : public hooks::VelocityField {
 public:
-    /// Surface that no point speaks for: there the data term may stall, because the nearest point lies in the surface's
+    /// Unsupported surface: its data term may stall, because the nearest point lies in the surface's
     /// own plane (a lid over a tunnel, a web in a handle, a strut).
     struct Unsupported {
         double beyond = 0.0;
@@ -21,8 +21,8 @@ public:
 
         static void declare(config::ParamSchema<Unsupported>& schema);
     };
-    /// What p is: the nearest point, or the mean of the k nearest with the weights exp((d_1^2 - d_i^2) / (2 w^2)), d_i
-    /// their distances in ascending order and w the width.
+    /// The point p: the nearest point, or the mean of the k nearest with the weights exp((d_1^2 - d_i^2) / (2 w^2)), where d_i
+    /// are their distances in ascending order and w is the width.
     struct Target {
         unsigned neighbours = 1;
         double width = 0.5;
@@ -42,20 +42,20 @@ public:
 
     PointCloud(const Params& params, const plugin::Setup& setup);
 
-    /// Throws ConfigError "velocity.no_cloud" when the experiment has no cloud.
+    /// Throws ConfigError "velocity.no_cloud" if the experiment has no cloud.
     void prepare(const hooks::StepContext& context) override;
     void evaluate(hooks::Range range, std::span<Vec3> out) const override;
 
     bool can_sample() const override { return true; }
-    /// Attraction and carving: a curvature belongs to vertices and has no value between them.
+    /// Attraction and carving only: the curvature has values at vertices and none between them.
     void sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals,
                 std::span<Vec3> out) const override;
 
 private:
-    /// What the cloud says about a point of the surface.
+    /// Speed and support of a point of the surface, from the cloud.
     struct DataTerm {
         double speed = 0.0;      ///< along the normal
-        bool supported = true;  ///< a point is near, or the surface is on its way to one
+        bool supported = true;  ///< a point is near, or the surface moves towards one
     };
     DataTerm data_term(const Vec3& point, const Vec3& unit_normal, const cloud::Neighbour& nearest) const;
     Vec3 mean_target(const Vec3& point, const cloud::Neighbour& nearest) const;
@@ -70,8 +70,8 @@ private:
     std::unique_ptr<hooks::CurvatureEstimator> curvature_;
     const surface::SurfaceView* surface_ = nullptr;
     const cloud::TargetCloud* cloud_ = nullptr;
-    std::span<const cloud::Neighbour> nearest_;  // of the vertices; empty where the host has not looked
-    double carving_speed_ = 0.0;  // length a step
+    std::span<const cloud::Neighbour> nearest_;  // of the vertices; empty if the host has not searched
+    double carving_speed_ = 0.0;  // length per step
 };
 
 }  // namespace dsc::strategies

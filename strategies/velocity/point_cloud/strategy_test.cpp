@@ -56,7 +56,7 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("what the host has found is taken for the nearest points, and asked for where it has not looked") {
+TEST_CASE("the nearest points of the host are used, and searched for if the host has not done so") {
     const Bench bench(dsc::sdk::square(8, 0.5));
     dsc::cloud::Normalized slope;
     for (double x = -1; x <= 1; x += 0.1) {
@@ -72,7 +72,7 @@ TEST_CASE("what the host has found is taken for the nearest points, and asked fo
     CHECK(bench.displacements(*field, &cloud, 1, 64, nearest) != asked);
 }
 
-TEST_CASE("a plane goes the part alpha of the way to a parallel plane of points") {
+TEST_CASE("a plane moves the fraction alpha of the way to a parallel plane of points") {
     const Bench bench(dsc::sdk::square(8, 0.5));
     const auto cloud = plane_cloud(0.3, 1.0, 40);
     for (const double alpha : {0.2, 0.5, 1.0}) {
@@ -187,11 +187,11 @@ ConfigNode carving(double beyond, double carve) {
 
 }  // namespace
 
-TEST_CASE("a lid whose nearest points lie in its plane stands still, and is carved in where no point supports it") {
+TEST_CASE("a lid whose nearest points lie in its plane does not move, and is carved in where no point supports it") {
     const Bench bench(dsc::sdk::square(8, 0.5));
     const auto rim = ring_cloud(0.8, 0.0, 100);
     const double spacing = rim.spacing(0);
-    CHECK(spacing == doctest::Approx(2 * 0.8 * std::sin(3 * 3.14159265358979323846 / 100)));  // third on either side
+    CHECK(spacing == doctest::Approx(2 * 0.8 * std::sin(3 * 3.14159265358979323846 / 100)));  // the third point on each side
     for (const Vec3& d : bench.displacements(*bench.make(ConfigNode::map()), &rim)) CHECK(d == Vec3::Zero());
     const auto field = bench.make(carving(3.0, 0.2));
     const auto out = bench.displacements(*field, &rim);
@@ -205,12 +205,12 @@ TEST_CASE("a lid whose nearest points lie in its plane stands still, and is carv
     CHECK(carved < out.size());
 }
 
-TEST_CASE("surface on its way to points ahead of it is not carved, however far they are") {
+TEST_CASE("surface that moves towards points ahead of it is not carved, at any distance") {
     const Bench bench(dsc::sdk::square(8, 0.5));
     const auto ahead = plane_cloud(0.9, 1.0, 40);
     const auto field = bench.make(carving(1.0, 0.2));
     for (const Vec3& d : bench.displacements(*field, &ahead)) CHECK((d - Vec3(0, 0, 0.2 * 0.9)).norm() < 1e-12);
-    // Behind it: the data term leads inwards already, faster than carving would.
+    // Points behind it: the data term already leads inwards, faster than carving would.
     const auto behind = plane_cloud(-0.9, 1.0, 40);
     for (const Vec3& d : bench.displacements(*field, &behind)) CHECK((d - Vec3(0, 0, -0.2 * 0.9)).norm() < 1e-12);
 }
@@ -226,8 +226,8 @@ ConfigNode selective(double beyond, double carve, double beta) {
 
 }  // namespace
 
-TEST_CASE("a curvature at unsupported places leaves supported ones alone, to the bit") {
-    // A ball whose points are known below the equator only.
+TEST_CASE("a curvature at unsupported places does not change supported ones, to the bit") {
+    // A ball with points only below the equator.
     const double radius = 0.8, beta = 0.01;
     const Bench bench(dsc::sdk::icosphere(4, radius));
     dsc::cloud::Normalized half;
@@ -253,8 +253,8 @@ TEST_CASE("a curvature at unsupported places leaves supported ones alone, to the
 }
 
 TEST_CASE("surface tension holds a lid over a hole narrower than beta / carving, a wider one is entered") {
-    // A dent of radius r: the wall of a ball, seen from inside, its mean curvature -1 / r. The rim of the hole is a ring.
-    const double beta = 2e-3, carving = 0.2 * 0.1;  // 0.1 the target length: they balance at r = 0.1
+    // A dent of radius r: the wall of a ball seen from inside, with mean curvature -1 / r. The rim of the hole is a ring.
+    const double beta = 2e-3, carving = 0.2 * 0.1;  // the target length is 0.1: they balance at r = 0.1
     for (const double radius : {0.07, 0.09, 0.11, 0.2}) {
         dsc::surface::TriangleMesh dent = dsc::sdk::icosphere(4, radius);
         for (auto& face : dent.faces) std::swap(face[1], face[2]);
@@ -264,7 +264,7 @@ TEST_CASE("surface tension holds a lid over a hole narrower than beta / carving,
         std::size_t lid = 0;
         for (std::size_t i = 0; i < out.size(); ++i) {
             const double height = bench.view.positions[i].z() / radius;
-            if (height < 0.3 || height > 0.8) continue;  // near the rim there is support, at the pole the rim lies ahead
+            if (height < 0.3 || height > 0.8) continue;  // near the rim there is support, at the pole the rim is ahead
             ++lid;
             const double speed = out[i].dot(bench.view.normals[i]);
             CHECK(speed == doctest::Approx(beta / radius - carving).epsilon(0.02));
@@ -274,7 +274,7 @@ TEST_CASE("surface tension holds a lid over a hole narrower than beta / carving,
     }
 }
 
-TEST_CASE("several near points weigh by a Gaussian of their distances") {
+TEST_CASE("several near points are weighted by a Gaussian of their distances") {
     const Bench bench(dsc::sdk::square(1, 0.5));
     dsc::cloud::Normalized two;
     two.points = {Vec3(0.5, 0.5, 0.3), Vec3(0.5, 0.5, 0.7)};  // spacing 0.4
@@ -294,7 +294,7 @@ TEST_CASE("several near points weigh by a Gaussian of their distances") {
         CHECK(height(2, width) == doctest::Approx((0.3 + w * 0.7) / (1 + w)).epsilon(1e-12));
         CHECK(height(1, width) == doctest::Approx(0.3).epsilon(1e-12));
     }
-    CHECK(height(5, 0.5) == height(2, 0.5));  // more than there are
+    CHECK(height(5, 0.5) == height(2, 0.5));  // more points than there are
 }
 
 TEST_CASE("the mean of near points follows a noisy plane more closely than the nearest point does") {
@@ -315,12 +315,12 @@ TEST_CASE("the mean of near points follows a noisy plane more closely than the n
     CHECK(worst(mean) < 0.004);
 }
 
-TEST_CASE("an experiment without a cloud is told so") {
+TEST_CASE("an experiment without a cloud gets an error") {
     const Bench bench(dsc::sdk::square(1, 0.5));
     const auto field = bench.make(ConfigNode::map());
     CHECK_THROWS_WITH_AS(
         field->prepare(bench.context(nullptr)),
-        "velocity 'point_cloud': the experiment has no cloud to go to; add input: {cloud: {file: ...}}",
+        "velocity 'point_cloud': the experiment has no cloud; add input: {cloud: {file: ...}}",
         dsc::ConfigError);
 }
 
@@ -330,7 +330,7 @@ TEST_CASE("beta without an estimator is refused") {
                          doctest::Contains("beta above 0 needs a curvature"), dsc::ConfigError);
 }
 
-TEST_CASE("a curvature at unsupported places needs to know which are") {
+TEST_CASE("a curvature at unsupported places needs a limit of support") {
     const Bench bench(dsc::sdk::square(1, 0.5));
     CHECK_THROWS_WITH_AS(bench.make(ConfigNode::map({{"curvature_at", "unsupported"}})),
                          doctest::Contains("curvature_at: unsupported needs unsupported: {beyond: ...} above 0"),

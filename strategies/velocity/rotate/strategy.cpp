@@ -19,12 +19,12 @@ Eigen::Matrix3d change_by_rotation(const Vec3& axis, double radians) {
 }  // namespace
 
 void Rotate::declare(config::ParamSchema<Params>& schema) {
-    schema.vec3("centre", &Params::centre).unit("length").doc("A point on the axis.");
+    schema.vec3("centre", &Params::centre).unit("length").doc("Point on the axis.");
     schema.vec3("axis", &Params::axis).unit("1").doc("Direction of the axis; its length does not matter.");
     schema.real("degrees", &Params::degrees)
         .range(-180, 180)
         .unit("degrees")
-        .doc("Angle of a step, counter-clockwise seen against the axis.");
+        .doc("Angle per step, counter-clockwise when the axis points to the viewer.");
     schema.check([](const Params& p) { return p.axis.norm() > 1e-9; }, "axis must not be the zero vector");
 }
 

@@ -1,13 +1,13 @@
 #pragma once
-// Velocity `rotate`: turns the interface about an axis, rigidly.
+// Velocity `rotate`: rotates the interface about an axis as a rigid body.
 
 #include <dsc/hooks/velocity_field.hpp>
 #include <dsc/plugin/plugin.hpp>
 
 namespace dsc::strategies {
 
-/// Displacement (R - I)(x - c), R the rotation by a fixed angle a step: vertices go along the chord to exactly where
-/// the rotation takes them [Saul2015, ch. 4, RotateFunc].
+/// Displacement (R - I)(x - c), where R is the rotation by a fixed angle per step: vertices move along the chord to exactly the
+/// place where the rotation takes them [Saul2015, ch. 4, RotateFunc].
 class Rotate final : public hooks::VelocityField {
 public:
     static constexpr hooks::Traits traits = {.rigid = false};

@@ -47,7 +47,7 @@ TEST_CASE("360 steps of one degree about a tilted axis bring every vertex back")
         const auto out = dsc::sdk::displacements(*field, dsc::sdk::step_context(view));
         for (std::size_t i = 0; i < out.size(); ++i) mesh.points[i] += out[i];
         if (step == 179) {
-            // Half a turn mirrors what is perpendicular to the axis.
+            // Half a turn mirrors the part perpendicular to the axis.
             const Vec3 axis = Vec3(1, 2, 3).normalized();
             for (std::size_t i = 0; i < out.size(); ++i) {
                 const Vec3 r = start.points[i] - centre;

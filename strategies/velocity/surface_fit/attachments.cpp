@@ -7,7 +7,7 @@ namespace dsc::strategies::fit {
 namespace {
 
 constexpr std::size_t attachment_block = 1024;  // vertices
-constexpr double precedence = 10.0;             // weight of an attachment over that of a point near it: bending yields
+constexpr double precedence = 10.0;             // weight of an attachment over that of a nearby point: it dominates bending
 
 }  // namespace
 

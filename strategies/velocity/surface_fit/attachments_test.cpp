@@ -13,7 +13,7 @@ using namespace dsc::strategies::fit;
 
 namespace {
 
-/// A square's two triangles, and the points' nearest places on them.
+/// The two triangles of a square, and the nearest places of the points on them.
 struct Square {
     explicit Square(std::vector<Vec3> p) : points(std::move(p)) {
         dsc::surface::TriangleMesh mesh;
@@ -49,7 +49,7 @@ TEST_CASE("a vertex is attached to the nearest of the points at it, within its r
     CHECK(std::count(wide.begin(), wide.end(), 2U) == 1);
 }
 
-TEST_CASE("an attached vertex goes to its point, and the others stay") {
+TEST_CASE("an attached vertex moves to its point, and the others stay") {
     const Square square({Vec3(0.1, 0.05, 0.1)});
     const auto attached = square.attached(0.7);
     RowSystem system;

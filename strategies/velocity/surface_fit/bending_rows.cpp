@@ -6,14 +6,14 @@ namespace dsc::strategies::fit {
 namespace {
 
 constexpr std::size_t hinge_block = 1024;
-constexpr double least_height = 0.15;     // edge lengths: lower corners would weigh without bound
+constexpr double least_height = 0.15;     // edge lengths: lower corners would have unbounded weights
 constexpr double least_opening = 1e-6;    // length of the normals' sum below which a hinge is folded shut and has no normal
 
-/// A corner seen from an edge.
+/// The position of a corner relative to an edge.
 struct Apex {
-    double foot;    // where it stands on the edge: 0 at its begin, 1 at its end
-    double height;  // at least least_height edges
-    double part;    // of the true height in `height`
+    double foot;    // foot of the height on the edge: 0 at its beginning, 1 at its end
+    double height;  // at least least_height edge lengths
+    double part;    // true height over `height`
 };
 
 Apex apex_of(const Vec3& corner, const Vec3& begin, const Vec3& edge, double length) {

@@ -8,9 +8,9 @@ namespace {
 
 constexpr std::size_t point_block = 1024;
 constexpr double noise_reach = 6.0;      // least reach, in standard deviations
-constexpr double dropped_beyond = 3.0;   // reaches from which a point has no say
-constexpr double widest = 2.0;           // widths near by that a point's own width may have: lone points speak for no more area
-constexpr double on_surface = 1e-9;      // widths within which a point has no direction of its own
+constexpr double dropped_beyond = 3.0;   // reaches beyond which a point has no effect
+constexpr double widest = 2.0;           // limit of a point's width, in nearby widths: isolated points represent no more area
+constexpr double on_surface = 1e-9;      // widths within which the direction to a point is undefined
 
 double mixed(std::span<const double> values, const std::array<std::uint32_t, 3>& face, const std::array<double, 3>& weights) {
     return weights[0] * values[face[0]] + weights[1] * values[face[1]] + weights[2] * values[face[2]];
@@ -34,7 +34,7 @@ PointFit data_row(const DataTerm& term, std::size_t i, Row& row, double& wanted)
     const double ratio = distance / reach;
     const double own = term.point_widths[i] > 0.0 ? std::min(term.point_widths[i], widest * width) : width;
     const double root = own / (1.0 + ratio * ratio);
-    // Noise across a curved sheet moves the mean of its points outwards, by sigma^2 times the mean curvature.
+    // Noise across a curved sheet moves the mean of its points outwards by sigma^2 times the mean curvature.
     const double outwards = direction.dot(normal) < 0.0 ? -1.0 : 1.0;
     const double shift = term.curvature.empty() ? 0.0 : outwards * term.noise * term.noise * mixed(term.curvature, face, b);
     row.direction = root * direction;

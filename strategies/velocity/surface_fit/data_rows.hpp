@@ -1,5 +1,5 @@
 #pragma once
-// Rows that draw the surface to the points.
+// Rows that pull the surface to the points.
 
 #include <span>
 #include <vector>
@@ -10,27 +10,28 @@
 
 namespace dsc::strategies::fit {
 
-/// What the rows of the points are made of. Lengths in normalised units; spans per point or per vertex.
+/// The data for the rows of the points. Lengths are in normalised units; spans are per point or per vertex.
 struct DataTerm {
     const surface::SurfaceView& view;
     std::span<const Vec3> points;
     std::span<const surface::FacePoint> places;   ///< per point
     std::span<const double> point_widths;         ///< per point
     std::span<const double> widths;               ///< per vertex: of the points near it
-    std::span<const double> curvature;            ///< per vertex; empty: no noise to correct
+    std::span<const double> curvature;            ///< per vertex; empty: no correction for noise
     double noise = 0.0;
     double reach = 0.0;  ///< in widths; at least 6 times the noise
 };
 
-/// What became of a point.
+/// The result for a point.
 struct PointFit {
-    double weight = 0.0;  ///< area that it speaks for; 0: it lies too far off and has no row
+    double weight = 0.0;  ///< area that it represents; 0: it is too far away and has no row
     double distance = 0.0;
 };
 
-/// One row per point from `first` on, which exist already: the surface's nearest place, carried by the three vertices of its
-/// face, shall go all the way to the point, less the part that noise adds on a curved surface. The direction is the one
-/// to the point, not the face's normal: so a point beyond a crease draws the crease. `fits` gets one entry per point. [step]
+/// Writes one row per point from `first` on, which already exist: the surface's nearest place, a combination of the three
+/// vertices of its face, is to move all the way to the point, minus the part that noise adds on a curved surface. The direction
+/// is that to the point, not the face's normal, so that a point beyond a crease pulls the crease. `fits` gets one entry per
+/// point. [step]
 void data_rows(const DataTerm& term, std::size_t first, RowSystem& system, std::vector<PointFit>& fits, Workers* workers);
 
 }  // namespace dsc::strategies::fit

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t normal_block = 512;  // faces
 
-/// What a face's neighbours are weighed by.
+/// The factors in the weights of a face's neighbours.
 struct FilterFace {
     Vec3 centroid;
     double space;  // 1 / 2 length^2
@@ -15,7 +15,7 @@ struct FilterFace {
 
 bool has_corner(const std::array<std::uint32_t, 3>& face, std::uint32_t v) { return face[0] == v || face[1] == v || face[2] == v; }
 
-// Each face round a corner once: those of the second and third corner only where they do not have an earlier one.
+// Each face around the corners once: faces of the second and third corner only if they do not contain an earlier corner.
 Vec3 average_normal(const surface::SurfaceView& view, const std::vector<FilterFace>& faces, const std::vector<Vec3>& normals,
                     std::size_t f, double range) {
     const auto& corners = view.faces[f];

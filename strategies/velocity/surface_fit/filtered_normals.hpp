@@ -1,5 +1,5 @@
 #pragma once
-// Normals of faces, smoothed within smooth parts and not across creases.
+// Normals of faces, smoothed within smooth parts but not across creases.
 
 #include <span>
 #include <vector>
@@ -9,9 +9,10 @@
 
 namespace dsc::strategies::fit {
 
-/// Unit normals of the faces after `rounds` of bilateral averages over all faces that share a vertex, weighed by their area, by a
-/// Gaussian of the distance of their centroids, as wide as the mean of the face's `lengths` (per vertex), and by one of `range`
-/// of the distance of the unit normals. Normals that vary linearly, as on a surface of constant curvature, stay. `filtered` holds the answer. [step]
+/// Unit normals of the faces after `rounds` of bilateral averages over all faces that share a vertex. The weights are their
+/// area, a Gaussian of the distance of their centroids, as wide as the mean of the face's `lengths` (per vertex), and a
+/// Gaussian of width `range` of the distance of the unit normals. Normals that vary linearly, as on a surface of constant
+/// curvature, do not change. The result is in `filtered`. [step]
 void filter_normals(const surface::SurfaceView& view, unsigned rounds, double range, std::span<const double> lengths,
                     Workers* workers, std::vector<Vec3>& filtered);
 

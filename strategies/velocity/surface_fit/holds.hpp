@@ -1,5 +1,5 @@
 #pragma once
-// How firmly vertices stay where they are.
+// The resistance of vertices against motion.
 
 #include <span>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace dsc::strategies::fit {
 
-/// A hold per vertex: weight `across`, times its squared target length, along the direction in which the normals of its faces
+/// One hold per vertex: weight `across`, times its squared target length, along the direction in which the normals of its faces
 /// agree best (the first axis of the sum of area n n^T), and `along` in the other two. [step]
 void measure_holds(const surface::SurfaceView& view, std::span<const double> lengths, double along, double across, Workers* workers,
                    std::vector<Hold>& holds);

@@ -8,11 +8,11 @@ namespace dsc::strategies::fit {
 namespace {
 
 constexpr double filled_beyond = 1.0;      // point widths
-constexpr std::size_t alike_neighbours = 2;  // fewer: a vertex between points, not a hole
-constexpr std::size_t largest_part = 4;      // of the surface: a hole has at most a quarter of its vertices
+constexpr std::size_t alike_neighbours = 2;  // with fewer, it is a vertex between points, not a hole
+constexpr std::size_t largest_part = 4;      // a hole contains at most a quarter of the surface's vertices
 constexpr int no_unknown = -1;
 
-/// Numbers of the unknowns, by vertex.
+/// The number of each unknown, per vertex.
 class HoleVertices {
 public:
     HoleVertices(const SurfaceLinks& links, std::span<const double> gaps, std::span<const std::uint8_t> movable)
@@ -45,7 +45,7 @@ public:
 private:
     enum class State : std::uint8_t { outside, inside, seen };
 
-    // Takes the hole that a vertex belongs to, unless nothing surrounds it or it is larger than a hole: then nobody scanned that side.
+    // Collects the hole of a vertex, unless nothing surrounds it or it is larger than a hole: then that side was not scanned.
     void take_piece(std::uint32_t start) {
         std::vector<std::uint32_t> piece = {start};
         states_[start] = State::seen;

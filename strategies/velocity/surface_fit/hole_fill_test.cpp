@@ -39,7 +39,7 @@ TEST_CASE("a dented plane becomes flat over its hole, and nothing else moves") {
     }
 }
 
-TEST_CASE("a ball's cap that sank comes back to the ball") {
+TEST_CASE("a cap of a ball that sank returns to the ball") {
     const auto ball = dsc::sdk::icosphere(4, 1.0);
     const auto links = links_of(ball);
     std::vector<Vec3> positions = ball.points;
@@ -63,7 +63,7 @@ TEST_CASE("gaps between points are not holes, fixed vertices stay, and a piece f
     std::vector<Vec3> positions = mesh.points;
     const std::vector<std::uint8_t> movable(positions.size(), 1);
     std::vector<double> gaps(positions.size(), 0.3);
-    gaps[50] = 1.2;  // alone
+    gaps[50] = 1.2;  // a single vertex
     CHECK(fill_holes(links, gaps, movable, positions) == 0);
     std::fill(gaps.begin(), gaps.end(), 3.0);
     CHECK(fill_holes(links, gaps, movable, positions) == 0);
@@ -81,7 +81,7 @@ TEST_CASE("gaps between points are not holes, fixed vertices stay, and a piece f
     CHECK(positions != mesh.points);
 }
 
-TEST_CASE("a side that nobody has seen is no hole") {
+TEST_CASE("a side that was not scanned is not a hole") {
     auto mesh = dsc::sdk::icosphere(2, 1.0);
     const auto links = links_of(mesh);
     std::vector<Vec3> positions = mesh.points;

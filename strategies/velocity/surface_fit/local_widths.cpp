@@ -6,9 +6,9 @@ namespace dsc::strategies::fit {
 namespace {
 
 constexpr std::size_t width_block = 1024;  // vertices
-constexpr unsigned width_rounds = 3;       // of averages over rings
+constexpr unsigned width_rounds = 3;       // rounds of averages over rings
 
-/// Points that others coincide with have no width: then the cloud's counts, and where there is none a target length.
+/// Points that coincide with others have no width: then the median of the cloud is used, or a target length if there is none.
 double width_at(const hooks::StepContext& context, const cloud::Statistics& statistics, std::uint32_t point) {
     if (statistics.point_width[point] > 0.0) return statistics.point_width[point];
     if (statistics.width > 0.0) return statistics.width;

@@ -6,11 +6,11 @@
 namespace dsc::strategies::fit {
 namespace {
 
-constexpr unsigned ring_rounds = 3;           // of sums over rings: noise in the angles averages out
-constexpr double largest_angle = 0.5;         // radians: a crease is not curvature
+constexpr unsigned ring_rounds = 3;           // rounds of sums over rings: noise in the angles cancels
+constexpr double largest_angle = 0.5;         // radians: larger angles belong to creases, not to curvature
 constexpr std::size_t curvature_block = 1024;  // vertices
 
-/// What curvature is the ratio of.
+/// Numerator and denominator of the curvature.
 struct BentArea {
     double bend = 0.0;
     double area = 0.0;

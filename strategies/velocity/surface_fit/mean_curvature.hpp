@@ -10,7 +10,7 @@
 namespace dsc::strategies::fit {
 
 /// (k1 + k2) / 2 at each vertex, above 0 where the solid is convex: the sum of length times angle over the edges of a few rings,
-/// over their area, between -largest and largest. Angles above half a radian count as that. [step]
+/// divided by their area, limited to [-largest, largest]. Angles above half a radian count as half a radian. [step]
 void measure_curvature(const surface::SurfaceView& view, const SurfaceLinks& links, double largest, Workers* workers,
                        std::vector<double>& curvature);
 

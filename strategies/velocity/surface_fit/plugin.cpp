@@ -5,5 +5,6 @@
 
 DSC_PLUGIN("surface_fit", DSC_VERSION, "BSD-3-Clause", "Least-squares fit of the interface to a point cloud") {
     registrar.add<dsc::strategies::SurfaceFit>("surface_fit",
-                                               "to the place where a smooth surface with creases fits the cloud best");
+                                               "moves the whole surface to where a smooth surface with creases fits the cloud "
+                                               "best");
 }

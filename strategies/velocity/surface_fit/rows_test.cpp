@@ -21,7 +21,7 @@ using namespace dsc::strategies::fit;
 
 namespace {
 
-/// Two triangles that meet at this angle, above 0 where convex; the hinge lies anywhere.
+/// Two triangles that meet at this angle, above 0 if convex; the hinge lies anywhere.
 SurfaceView hinge_view(double angle, const Vec3& corner, const Vec3& other) {
     dsc::surface::TriangleMesh mesh;
     const Eigen::AngleAxisd fold(angle, Vec3::UnitX());
@@ -48,7 +48,7 @@ struct Bending {
     RowSystem system;
 };
 
-/// A tube of n quadrilaterals round, each of two triangles, open at both ends.
+/// A tube of rings of n quadrilaterals, each of two triangles, open at both ends.
 dsc::surface::TriangleMesh tube(unsigned n, unsigned rows, double radius) {
     dsc::surface::TriangleMesh mesh;
     const double step = 2 * std::numbers::pi / n;
@@ -65,7 +65,7 @@ dsc::surface::TriangleMesh tube(unsigned n, unsigned rows, double radius) {
     return mesh;
 }
 
-/// Mean change of the distance to the axis that bending alone brings about, in vertices that are not on a rim.
+/// Mean change of the distance to the axis by bending alone, over vertices that are not on a rim.
 double mean_shrinkage(const dsc::surface::TriangleMesh& mesh, bool filtered, bool round) {
     const SurfaceView view = dsc::sdk::view_of(mesh);
     const std::vector<double> lengths(view.vertex_count(), view.mean_edge);
@@ -118,7 +118,7 @@ TEST_CASE("a hinge that has the angle of the filtered normals rests, sliver or n
     }
 }
 
-TEST_CASE("balls and tubes do not shrink: bending goes for the angles of the filtered normals") {
+TEST_CASE("balls and tubes do not shrink: bending aims at the angles of the filtered normals") {
     const auto ball = dsc::sdk::icosphere(3, 1.0);
     const double flat_ball = mean_shrinkage(ball, false, true);
     CHECK(flat_ball > 0.05);
@@ -129,7 +129,7 @@ TEST_CASE("balls and tubes do not shrink: bending goes for the angles of the fil
     CHECK(std::abs(mean_shrinkage(pipe, true, false)) < 0.1 * flat_pipe);
 }
 
-TEST_CASE("the filter keeps the normals of a ball and the two sides of a crease, and wears noise down") {
+TEST_CASE("the filter keeps the normals of a ball and the two sides of a crease, and reduces noise") {
     const SurfaceView ball = dsc::sdk::view_of(dsc::sdk::icosphere(4, 1.0));
     std::vector<Vec3> filtered;
     filter_normals(ball, 4, 0.5, std::vector<double>(ball.vertex_count(), ball.mean_edge), nullptr, filtered);
@@ -210,7 +210,7 @@ TEST_CASE("data rows are met exactly where the surface lies in the plane of the 
     }
 }
 
-TEST_CASE("points beyond three reaches have no say, those of 6 sigma count a quarter") {
+TEST_CASE("points beyond three reaches have no effect, those at 6 sigma count a quarter") {
     const SurfaceView view = dsc::sdk::view_of(dsc::sdk::square(6, 1.0));
     const std::vector<Vec3> points = {Vec3(0, 0, 0.059), Vec3(0, 0, 0.061), Vec3(0, 0, -0.059), Vec3(0, 0, 0)};
     const Data clean(view, points, 0.02, 0.0, 1.0, false);
@@ -223,7 +223,7 @@ TEST_CASE("points beyond three reaches have no say, those of 6 sigma count a qua
     CHECK(noisy.fits[0].weight == doctest::Approx(0.0004 / 4));
 }
 
-TEST_CASE("the offset by which noise moves the mean of a ball's points is taken off") {
+TEST_CASE("the offset by which noise moves the mean of a ball's points is subtracted") {
     const double radius = 1.0, noise = 0.05;
     const SurfaceView view = dsc::sdk::view_of(dsc::sdk::icosphere(4, radius));
     dsc::RandomStream random(dsc::RandomKey{11, 1, 0, 0});
@@ -267,7 +267,7 @@ TEST_CASE("support is one where points cover the surface and none where they do 
     }
 }
 
-TEST_CASE("widths follow the points near by where spacing is uneven, gaps always do") {
+TEST_CASE("widths follow the nearby points if the spacing is uneven, gaps always do") {
     std::vector<Vec3> points;
     for (double x = -0.995; x < 0; x += 0.01) {
         for (double y = -0.495; y < 0.5; y += 0.01) points.emplace_back(x, y, 0);

@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t solver_vertices = 512;  // per block
 constexpr std::size_t solver_rows = 2048;     // per block
 
-/// Of a positive definite block; zero where it is none, as without rows: such a vertex stays.
+/// The inverse of a positive definite block; zero if it is not positive definite, for example without rows: such a vertex stays.
 Eigen::Matrix3d inverse_of(const Eigen::Matrix3d& block) {
     const Eigen::Matrix3d inverse = block.inverse();
     return inverse.allFinite() && block.determinant() > 0.0 ? inverse : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
@@ -23,7 +23,7 @@ double Solver::sum() const {
     return total;
 }
 
-// Right-hand side and preconditioner. Vertices without rows, which are those that do not move, have an inverse of zero.
+// Right-hand side and preconditioner. Vertices without rows do not move and have an inverse of zero.
 void Solver::begin(const RowSystem& system, Workers* workers) {
     const std::size_t count = system.vertex_count();
     for (std::vector<Vec3>* vector : {&residual_, &conditioned_, &direction_, &product_}) vector->assign(count, Vec3::Zero());

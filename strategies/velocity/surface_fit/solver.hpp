@@ -9,15 +9,15 @@ namespace dsc::strategies::fit {
 
 struct SolverOptions {
     std::size_t most_iterations = 80;
-    double tolerance = 1e-3;  ///< of the preconditioned residual's length, over that at the start
+    double tolerance = 1e-3;  ///< of the preconditioned residual's length, relative to that at the start
 };
 
 struct SolverReport {
     std::size_t iterations = 0;
-    double residual = 0.0;  ///< what is left, over what there was at the start
+    double residual = 0.0;  ///< final residual over the initial one
 };
 
-/// Keeps its memory from one call to the next.
+/// Keeps its memory between calls.
 class Solver {
 public:
     /// Minimises from zero displacements on [Hestenes1952], preconditioned by the 3 x 3 blocks of the diagonal; `displacements`
@@ -31,7 +31,7 @@ private:
     double descend(double step, Workers* workers, std::vector<Vec3>& displacements);
     double sum() const;
 
-    std::vector<Eigen::Matrix3d> inverse_;  // of the diagonal's blocks
+    std::vector<Eigen::Matrix3d> inverse_;  // of the blocks of the diagonal
     std::vector<Vec3> residual_;
     std::vector<Vec3> conditioned_;
     std::vector<Vec3> direction_;

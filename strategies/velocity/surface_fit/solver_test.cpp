@@ -75,7 +75,7 @@ TEST_CASE("the solver finds the minimum that a dense factorisation finds") {
     }
 }
 
-TEST_CASE("the solver stops when it is good enough or has worked enough, and then has come nearer") {
+TEST_CASE("the solver stops at its tolerance or its limit of iterations, and is then closer to the solution") {
     std::vector<std::uint8_t> movable;
     const RowSystem system = random_system(400, 2500, movable);
     Solver solver;

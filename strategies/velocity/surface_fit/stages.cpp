@@ -6,10 +6,10 @@
 namespace dsc::strategies::fit {
 namespace {
 
-constexpr double random_regularity = 1.1;  // points at random have 1, with widths that are estimated up to 1.05
-constexpr double start_bending = 1.5;    // widths: carries a staircase to the surface
-constexpr double settling_part = 0.6;    // part of the iterations in which the bending length falls to its last value
-constexpr double start_part = 1.0 / 3.0;  // part of the iterations in which points reach twice as far
+constexpr double random_regularity = 1.1;  // random points have 1, with estimated widths up to 1.05
+constexpr double start_bending = 1.5;    // widths: enough to move a staircase to the surface
+constexpr double settling_part = 0.6;    // fraction of the iterations in which the bending length decreases to its last value
+constexpr double start_part = 1.0 / 3.0;  // fraction of the iterations in which points reach twice as far
 
 }  // namespace
 
@@ -37,7 +37,7 @@ Stage stage_of(const Scales& scales, std::size_t iteration, std::size_t iteratio
     stage.normal = 1e-3;
     stage.filter_rounds = s > 0.1 ? 4 : 1;
     stage.filter_range = std::min(0.8, 0.35 + s);
-    // Not through points with noise; and no vertex is held while a wide bending length has yet to move it.
+    // Not with noisy points; and no vertex is held while a large bending length still has to move it.
     stage.attach = !scales.even && scales.regular && s < cloud::noise_floor && it >= settling_part * all;
     return stage;
 }

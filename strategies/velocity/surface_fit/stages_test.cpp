@@ -20,7 +20,7 @@ dsc::cloud::Statistics statistics(double ratio, double spread) {
 
 }  // namespace
 
-TEST_CASE("little noise counts as none where spacing is even, and in full where it is not or is told") {
+TEST_CASE("little noise counts as none if the spacing is even, and in full if it is uneven or the noise is given") {
     CHECK(scales_of(statistics(0.1, 1.5), 0).ratio == 0.0);
     CHECK(scales_of(statistics(0.21, 1.5), 0).ratio == doctest::Approx(0.15));
     CHECK(scales_of(statistics(0.3, 1.5), 0).ratio == doctest::Approx(0.3));
@@ -28,7 +28,7 @@ TEST_CASE("little noise counts as none where spacing is even, and in full where 
     CHECK(scales_of(statistics(0.1, 3.5), 0).ratio == doctest::Approx(0.1));
     CHECK(scales_of(statistics(0.7, 1.5), 0.1).ratio == doctest::Approx(0.1));
     CHECK(scales_of(statistics(0.7, 1.5), 0.1).noise == doctest::Approx(0.002));
-    CHECK(scales_of(statistics(0.1, 1.5), 0).noise == doctest::Approx(0.002));  // what is corrected for is not cut
+    CHECK(scales_of(statistics(0.1, 1.5), 0).noise == doctest::Approx(0.002));  // the noise that is corrected for is not reduced
     CHECK(scales_of(statistics(0.1, 2.9), 0).even);
     CHECK_FALSE(scales_of(statistics(0.1, 3.0), 0).even);
 }
@@ -61,7 +61,7 @@ TEST_CASE("reach, holds and filter follow the iteration and the noise") {
     CHECK(fill_iteration(24) == 7);
 }
 
-TEST_CASE("vertices go to points only where spacing is uneven, without noise, once the bending length has its last value") {
+TEST_CASE("vertices move to points only if the spacing is uneven, without noise, once the bending length has its last value") {
     const Scales uneven = scales_of(statistics(0.1, 3.5), 0);
     CHECK_FALSE(stage_of(uneven, 8, 14, 1.0).attach);
     CHECK(stage_of(uneven, 9, 14, 1.0).attach);

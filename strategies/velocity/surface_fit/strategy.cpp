@@ -19,16 +19,16 @@ namespace dsc::strategies {
 namespace {
 
 constexpr std::uint64_t few_iterations = 14;
-constexpr std::uint64_t many_iterations = 24;    // holes take longer
+constexpr std::uint64_t many_iterations = 24;    // used if there are holes
 constexpr double unsupported_beyond = 2.0;       // point widths
-constexpr double many_unsupported = 0.005;       // part of the vertices from which holes matter
-constexpr std::uint64_t fill_repeats = 2;        // the kernel goes on in the second where it did not arrive in the first
+constexpr double many_unsupported = 0.005;       // fraction of unsupported vertices from which the cloud has holes
+constexpr std::uint64_t fill_repeats = 2;        // in the second, the kernel continues motions that did not arrive in the first
 constexpr double longest_way = 0.7;              // target lengths per step
-constexpr double attached_within = 0.7;          // target lengths: as far as a vertex may go in one step
-constexpr double largest_curvature = 0.5;        // over a point width
-constexpr double start_part = 1.0 / 3.0;         // of the iterations in which creases are only about to form
-constexpr double settled_part = 0.6;             // of the iterations: then the bending length has its last value
-constexpr double quiet_way = 0.005;              // point widths, mean
+constexpr double attached_within = 0.7;          // target lengths: as far as a vertex may move per step
+constexpr double largest_curvature = 0.5;        // divided by a point width
+constexpr double start_part = 1.0 / 3.0;         // fraction of the iterations in which creases are not yet kept
+constexpr double settled_part = 0.6;             // fraction of the iterations after which the bending length has its last value
+constexpr double quiet_way = 0.005;              // mean, in point widths
 constexpr std::uint64_t quiet_iterations = 2;
 
 }  // namespace
@@ -37,29 +37,31 @@ void SurfaceFit::declare(config::ParamSchema<Params>& schema) {
     schema.integer("iterations", &Params::iterations)
         .range(0, 1000)
         .unit("steps")
-        .doc("Steps of the whole motion: the bending length falls in the first 60 % of them. 0: 14, or 24 where the cloud has holes.");
+        .doc("Number of steps of the whole motion; the bending length decreases in the first 60 % of them. 0: 14, or 24 if "
+             "the cloud has holes.");
     schema.real("smoothing", &Params::smoothing)
         .range(0, 100)
         .open_low()
         .unit("1")
-        .doc("Factor of the length over which the surface is smooth at the end; that length follows from the noise.");
+        .doc("Factor of the final bending length, over which the surface is smooth; the length itself follows from the noise.");
     schema.real("crease_angle", &Params::crease_angle)
         .greater(0)
         .unit("radians")
-        .doc("Edges with a sharper angle than this between their faces resist bending less and less: they become creases.");
+        .doc("Angle between the faces of an edge above which the edge resists bending less and becomes a crease.");
     schema.real("noise", &Params::noise)
         .range(0, 100)
         .unit("point widths")
-        .doc("Standard deviation of the points across the surface, in roots of the area per point. 0: it is measured.");
+        .doc("Standard deviation of the points across the surface; a point width is the root of the area per point. 0: it is "
+             "measured.");
     schema.boolean("fill_holes", &Params::fill_holes)
-        .doc("Continue the surrounding surface over holes in the cloud, once, when 2/7 of the steps are done.");
+        .doc("Continue the surrounding surface over holes in the cloud, once, after 2/7 of the steps.");
 }
 
 SurfaceFit::SurfaceFit(const Params& params, const plugin::Setup&) : params_(params) {}
 
 void SurfaceFit::advance(const hooks::StepContext& context) {
     measure(context);
-    // Steps count upwards: an earlier one belongs to another motion.
+    // The numbers of steps increase: a smaller number belongs to another motion.
     if (context.step < progress_.first_step + progress_.done) progress_ = {};
     if (progress_.iterations == 0) {
         progress_.first_step = context.step;
@@ -77,7 +79,7 @@ void SurfaceFit::advance(const hooks::StepContext& context) {
     ++progress_.done;
 }
 
-// Over holes, which settle last, the surface shall have come to rest as well.
+// The surface over holes, which settles last, must also have come to rest.
 bool SurfaceFit::quiet() const {
     double way = 0.0, way_in_holes = 0.0;
     std::size_t in_holes = 0;
@@ -98,12 +100,12 @@ void SurfaceFit::prepare(const hooks::StepContext& context) {
     solve(context, progress_.done > 0 ? progress_.done - 1 : 0);
 }
 
-// Everything that the rows need of surface and cloud.
+// Prepares all data of surface and cloud for the rows.
 void SurfaceFit::measure(const hooks::StepContext& context) {
     if (context.cloud == nullptr) {
         throw ConfigError(
             "velocity.no_cloud",
-            "velocity 'surface_fit': the experiment has no cloud to go to; add input: {cloud: {file: ...}}");
+            "velocity 'surface_fit': the experiment has no cloud; add input: {cloud: {file: ...}}");
     }
     const surface::SurfaceView& view = context.surface;
     scales_ = fit::scales_of(context.cloud->statistics(context.workers), params_.noise);
@@ -150,7 +152,8 @@ void SurfaceFit::build_system(const hooks::StepContext& context, const fit::Stag
     fit::gather_rows(system_, view.movable);
 }
 
-// Where spacing is uneven, round triangles do not have an edge along every ridge that lines of points mark, unless vertices go to points.
+// If the spacing is uneven, nearly equilateral triangles have an edge along every ridge that lines of points mark only if
+// vertices move to points.
 void SurfaceFit::attach(const hooks::StepContext& context, std::size_t first) {
     const std::span<const Vec3> points = context.cloud->points().first(places_.size());
     fit::attach_vertices(context.surface, points, places_, lengths_, attached_within, attached_);
@@ -167,7 +170,7 @@ void SurfaceFit::bound_displacements(const hooks::StepContext& context) {
     }
 }
 
-// Over the surface as the solution would move it.
+// For the surface as the solution would move it.
 void SurfaceFit::fill(const hooks::StepContext& context) {
     const surface::SurfaceView& view = context.surface;
     std::vector<Vec3> places = view.positions;

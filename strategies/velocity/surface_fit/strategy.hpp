@@ -1,5 +1,5 @@
 #pragma once
-// Velocity `surface_fit`: the whole interface goes to where a smooth surface with creases fits the cloud best.
+// Velocity `surface_fit`: the whole interface moves to where a smooth surface with creases fits the cloud best.
 
 #include <dsc/hooks/velocity_field.hpp>
 #include <dsc/plugin/plugin.hpp>
@@ -12,9 +12,9 @@
 
 namespace dsc::strategies {
 
-/// In each step one least-squares problem over all vertices, linearised about the surface as it is: points draw the nearest
-/// place of the surface to them, robustly; hinges resist bending away from the angle of the filtered normals, the less the
-/// sharper they are; vertices are held along the surface. Its bending length falls from step to step.
+/// Solves one least-squares problem over all vertices per step, linearised about the current surface: points pull the nearest
+/// place of the surface towards them, robustly; hinges resist bending away from the angle of the filtered normals, the less the
+/// sharper they are; vertices are held along the surface. The bending length decreases from step to step.
 class SurfaceFit final : public hooks::VelocityField {
 public:
     struct Params {
@@ -30,32 +30,32 @@ public:
 
     bool needs_faces_of_points() const override { return true; }
 
-    /// Solves. Throws ConfigError "velocity.no_cloud" when the experiment has no cloud.
+    /// Solves the problem. Throws ConfigError "velocity.no_cloud" if the experiment has no cloud.
     void advance(const hooks::StepContext& context) override;
-    /// Solves only where advance() has not, without counting an iteration.
+    /// Solves only if advance() has not, without counting an iteration.
     void prepare(const hooks::StepContext& context) override;
     void evaluate(hooks::Range range, std::span<Vec3> out) const override;
 
-    /// `support`: share of the area round a vertex that points speak for; `gap`: distance to the nearest point, in its
+    /// `support`: share of the area around a vertex for which there are points; `gap`: distance to the nearest point, in its
     /// widths; `residual`: root mean square distance of the points, in normalised units.
     void publish(hooks::Attributes& out) const override;
 
     bool finished() const override;
     std::uint64_t planned_steps() const override;
-    /// Creases are kept once the surface has left its start behind, in the last two thirds of the iterations.
+    /// Creases are kept in the last two thirds of the iterations, when the surface has moved away from its start.
     std::optional<mesh::CreaseRule> keep_creases() const override;
 
     void save(std::ostream& out) const override;
     void load(std::istream& in) override;
 
 private:
-    /// What is known from one step to the next.
+    /// The state that is kept between steps.
     struct Progress {
         std::uint64_t first_step = 0;  ///< number of the step of iteration 0
-        std::uint64_t iterations = 0;  ///< all that there will be; 0 before the first
+        std::uint64_t iterations = 0;  ///< total number of iterations; 0 before the first
         std::uint64_t done = 0;
         std::uint64_t filled = 0;      ///< iterations that have filled holes
-        std::uint64_t quiet = 0;       ///< iterations in a row, up to the last one, that moved next to nothing at the last bending length
+        std::uint64_t quiet = 0;       ///< last iterations in a row with hardly any motion at the last bending length
     };
 
     void measure(const hooks::StepContext& context);
@@ -68,10 +68,10 @@ private:
 
     Params params_;
     Progress progress_;
-    // Of the step under way; kept for their memory.
+    // Data of the current step; kept to reuse their memory.
     fit::Scales scales_;
     fit::SurfaceLinks links_;
-    std::vector<surface::FacePoint> own_places_;  // where the host brings none
+    std::vector<surface::FacePoint> own_places_;  // used if the host provides none
     std::span<const surface::FacePoint> places_;
     std::vector<double> gaps_;
     std::vector<double> widths_;

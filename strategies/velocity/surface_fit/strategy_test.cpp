@@ -35,7 +35,7 @@ std::vector<Vec3> step(dsc::hooks::VelocityField& field, const SurfaceView& view
     return dsc::sdk::displacements(field, context);
 }
 
-/// So many steps without a kernel, from step `first` on.
+/// Runs this number of steps without a kernel, from step `first` on.
 void deform(dsc::hooks::VelocityField& field, TriangleMesh& mesh, const TargetCloud& cloud, std::uint64_t first, std::uint64_t steps) {
     for (std::uint64_t i = 0; i < steps; ++i) {
         const std::vector<Vec3> out = step(field, dsc::sdk::view_of(mesh), cloud, first + i);
@@ -43,7 +43,7 @@ void deform(dsc::hooks::VelocityField& field, TriangleMesh& mesh, const TargetCl
     }
 }
 
-/// Points of a ball, evenly in its area.
+/// Points of a ball, evenly spread over its area.
 std::vector<Vec3> ball_points(std::size_t count, double radius) {
     std::vector<Vec3> points;
     for (std::size_t i = 0; i < count; ++i) {
@@ -61,7 +61,7 @@ TriangleMesh rough_ball(unsigned level, double radius, double roughness) {
     });
 }
 
-/// Points of the cube [-half, half]^3, in a lattice that leaves its edges out.
+/// Points of the cube [-half, half]^3, in a lattice that leaves out its edges.
 std::vector<Vec3> cube_points(int n, double half) {
     std::vector<Vec3> points;
     for (int axis = 0; axis < 3; ++axis) {
@@ -114,18 +114,18 @@ TEST_CASE("a rough ball settles on the ball of its points, from inside and from 
         dsc::surface::nearest_faces(view, cloud.points(), places);
         double sum = 0.0;
         for (const auto& place : places) sum += place.distance;
-        CHECK(sum / 4000 < 5e-4);  // a face of this size lies 2e-3 below a ball that its corners lie on
+        CHECK(sum / 4000 < 5e-4);  // a face of this size lies 2e-3 below the ball on which its corners lie
         CHECK(field->finished());
     }
 }
 
-TEST_CASE("the edges of a cube come out sharp, and only with hinges that give way") {
+TEST_CASE("the edges of a cube become sharp, and only with hinges that resist less when sharp") {
     const Bench bench;
     const double half = 0.6;
     const TargetCloud cloud = cloud_of(cube_points(24, half));
     const auto mean_error = [&](double crease_angle) {
         TriangleMesh mesh = dsc::sdk::moved(dsc::sdk::icosphere(4, 1.0), [&](const Vec3& p) {
-            // A cube with edges as round as a ball of 0.2.
+            // A cube with edges rounded like a ball of radius 0.2.
             const Vec3 core = (p / p.cwiseAbs().maxCoeff()) * (half - 0.2);
             return Vec3(core + 0.2 * p);
         });
@@ -142,7 +142,7 @@ TEST_CASE("the edges of a cube come out sharp, and only with hinges that give wa
         return sum / area;
     };
     const double kept = mean_error(0.3);
-    CHECK(kept < 0.1 * 2 * half / 24);  // a tenth of the distance of the points
+    CHECK(kept < 0.1 * 2 * half / 24);  // a tenth of the distance between the points
     CHECK(kept < 0.8 * mean_error(100.0));
 }
 
@@ -187,7 +187,7 @@ TEST_CASE("the displacements have the same bits with any number of threads") {
     }
 }
 
-TEST_CASE("saved and read, the fit goes on where it was") {
+TEST_CASE("after saving and reading, the fit continues where it was") {
     const Bench bench;
     const TargetCloud cloud = cloud_of(ball_points(800, 0.9));
     TriangleMesh mesh = rough_ball(3, 0.86, 0.03);
@@ -207,7 +207,7 @@ TEST_CASE("saved and read, the fit goes on where it was") {
     CHECK_THROWS_AS(resumed->load(damaged), dsc::IoError);
 }
 
-TEST_CASE("the number of steps is fixed in the first: 14, 24 with holes, or as told") {
+TEST_CASE("the number of steps is fixed in the first: 14, 24 with holes, or as set") {
     const Bench bench;
     const auto all = ball_points(2000, 0.9);
     std::vector<Vec3> holed;
@@ -243,7 +243,7 @@ TEST_CASE("a hole is filled with the surface round it, beyond the usual length o
         if (p.z() < 0.78) points.push_back(p);
     }
     const TargetCloud cloud = cloud_of(points);
-    // The top of the ball hangs down by more than it rose.
+    // The top of the ball is moved down by more than it rose.
     const TriangleMesh start = dsc::sdk::moved(dsc::sdk::icosphere(4, 0.9), [](const Vec3& p) {
         return Vec3(p.x(), p.y(), p.z() < 0.85 ? p.z() : 0.85 - 2 * (p.z() - 0.85));
     });
@@ -259,7 +259,7 @@ TEST_CASE("a hole is filled with the surface round it, beyond the usual length o
     CHECK(worst_after(true) < 0.02);
 }
 
-TEST_CASE("vertices that cannot move stay, others go no further than 0.7 target lengths") {
+TEST_CASE("vertices that cannot move stay, others move at most 0.7 target lengths") {
     const Bench bench;
     const TargetCloud cloud = cloud_of(ball_points(2000, 0.9));
     SurfaceView view = dsc::sdk::view_of(dsc::sdk::icosphere(3, 0.8));
@@ -284,7 +284,7 @@ TEST_CASE("vertices that cannot move stay, others go no further than 0.7 target 
     CHECK(attributes[1].values[5] == near.distance / cloud.point_width(near.index));
 }
 
-TEST_CASE("the host need not bring the nearest faces, an empty surface has no displacements, and a cloud is needed") {
+TEST_CASE("the host need not provide the nearest faces, an empty surface has no displacements, and a cloud is needed") {
     const Bench bench;
     const TargetCloud cloud = cloud_of(ball_points(500, 0.9));
     const SurfaceView view = dsc::sdk::view_of(dsc::sdk::icosphere(2, 0.85));
@@ -299,5 +299,6 @@ TEST_CASE("the host need not bring the nearest faces, an empty surface has no di
     CHECK(field->planned_steps() == 0);
     CHECK(step(*field, dsc::sdk::view_of({}), cloud, 1).empty());
     CHECK_THROWS_WITH_AS(bench.make()->advance(dsc::sdk::step_context(view)),
-                         "velocity 'surface_fit': the experiment has no cloud to go to; add input: {cloud: {file: ...}}", dsc::ConfigError);
+                         "velocity 'surface_fit': the experiment has no cloud; add input: {cloud: {file: "
+                         "...}}", dsc::ConfigError);
 }

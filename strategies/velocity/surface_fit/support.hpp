@@ -1,5 +1,5 @@
 #pragma once
-// What the points say about each vertex, for files and reports.
+// Support and residual of each vertex, for files and reports.
 
 #include <span>
 #include <vector>
@@ -12,12 +12,12 @@ namespace dsc::strategies::fit {
 
 /// One value per vertex.
 struct Support {
-    std::vector<double> share;     ///< of the area of the vertex that points speak for; at most 1
-    std::vector<double> residual;  ///< root mean square distance of these points from the surface; 0 without one
+    std::vector<double> share;     ///< fraction of the vertex' area for which there are points; at most 1
+    std::vector<double> residual;  ///< root mean square distance of these points from the surface; 0 without points
 };
 
-/// Over the points whose nearest place lies in a face of the vertex, each by the vertex's part in that place: so it does not
-/// matter to which face the host gives a point that lies nearest to an edge. [step]
+/// Sums over the points whose nearest place lies in a face of the vertex, weighted by the vertex' part in that place, so that
+/// it does not matter to which face the host assigns a point that is nearest to an edge. [step]
 void measure_support(const surface::SurfaceView& view, std::span<const surface::FacePoint> places, std::span<const PointFit> fits,
                      Support& support);
 

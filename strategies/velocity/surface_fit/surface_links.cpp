@@ -5,7 +5,7 @@
 namespace dsc::strategies::fit {
 namespace {
 
-/// Whether a face has the edge in the direction from -> to.
+/// Whether a face contains the edge in the direction from -> to.
 bool runs(const std::array<std::uint32_t, 3>& face, std::uint32_t from, std::uint32_t to) {
     return (face[0] == from && face[1] == to) || (face[1] == from && face[2] == to) || (face[2] == from && face[0] == to);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Which vertices and faces of a view belong together: what the rows and sums of the fit run over.
+// The hinges and neighbours of a view, over which the rows and sums of the fit run.
 
 #include <array>
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace dsc::strategies::fit {
 
-/// An edge with two faces. The first has the edge in the direction 0 -> 1 and the corner 2, the second has 1 -> 0 and 3.
+/// An edge with two faces. The first contains the edge in the direction 0 -> 1 and the corner 2, the second 1 -> 0 and 3.
 struct Hinge {
     std::array<std::uint32_t, 4> vertices;
     std::array<std::uint32_t, 2> faces;
 };
 
 struct SurfaceLinks {
-    std::vector<Hinge> hinges;               ///< of edges where two faces meet that are oriented alike, in the order of the edges
+    std::vector<Hinge> hinges;               ///< of edges with two faces that are oriented alike, in the order of the edges
     std::vector<std::uint32_t> offsets;      ///< neighbours of vertex v: neighbours[offsets[v] .. offsets[v + 1])
     std::vector<std::uint32_t> neighbours;
 
@@ -26,7 +26,7 @@ struct SurfaceLinks {
     }
 };
 
-/// Fills `links`, reusing its memory. [step]
+/// Fills `links` and reuses its memory. [step]
 void build_links(const surface::SurfaceView& view, SurfaceLinks& links);
 
 /// The sine of half the angle between two unit normals of a hinge, above 0 where the solid is convex. `edge` leads from

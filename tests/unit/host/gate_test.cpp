@@ -19,8 +19,7 @@ TEST_CASE("a file that is not there") {
     const auto [code, text] = refusal("/nowhere/libdsc_x.so");
     CHECK(code == "plugin.open");
     CHECK(text ==
-          "/nowhere/libdsc_x.so: cannot be opened (No such file or directory); check the name and the "
-          "permissions");
+          "/nowhere/libdsc_x.so: cannot be opened (No such file or directory); check its name and permissions");
 }
 
 TEST_CASE("a folder where a file is due") {
@@ -28,7 +27,7 @@ TEST_CASE("a folder where a file is due") {
     const auto [code, text] = refusal(folder.path());
     CHECK(code == "plugin.open");
     CHECK(text ==
-          folder.path().string() + ": is a folder, not a library; name the file libdsc_NAME.so in it");
+          folder.path().string() + ": is a folder, not a library; give the file libdsc_NAME.so in it");
 }
 
 TEST_CASE("files that are no libraries") {
@@ -38,7 +37,7 @@ TEST_CASE("files that are no libraries") {
         const fs::path file = folder.write("libdsc_text.so", bytes);
         const auto [code, text] = refusal(file);
         CHECK(code == "plugin.not_elf");
-        CHECK(text == file.string() + ": is not a shared library; name a plugin's file, libdsc_NAME.so");
+        CHECK(text == file.string() + ": is not a shared library; give the file of a plugin, libdsc_NAME.so");
     }
     // A program is ELF too, but nothing to load.
     std::string header = support::read(fixture("good")).substr(0, 64);
@@ -64,9 +63,8 @@ TEST_CASE("a library without an entry") {
     const auto [code, text] = refusal(fixture("bad_no_entry"));
     CHECK(code == "plugin.no_entry");
     CHECK(text == fixture("bad_no_entry").string() +
-                      ": is a library without the symbol dsc_plugin_entry; a plugin has one DSC_PLUGIN(...) "
-                      "{ ... } in one "
-                      "of its sources");
+                      ": is a library without the symbol dsc_plugin_entry; write one DSC_PLUGIN(...) { ... } "
+                      "in one source file of the plugin");
 }
 
 TEST_CASE("an entry that is none") {
@@ -74,8 +72,7 @@ TEST_CASE("an entry that is none") {
         const auto [code, text] = refusal(fixture(name));
         CHECK(code == "plugin.magic");
         CHECK(text == fixture(name).string() +
-                          ": has a symbol dsc_plugin_entry that is no entry of a dsc plugin; a plugin's "
-                          "entry is made by "
+                          ": has a symbol dsc_plugin_entry that is not a valid plugin entry; write the entry with "
                           "DSC_PLUGIN(...) { ... }, never by hand");
     }
 }
@@ -84,19 +81,19 @@ TEST_CASE("an entry of another size") {
     const auto [code, text] = refusal(fixture("bad_size"));
     CHECK(code == "plugin.size");
     CHECK(text == fixture("bad_size").string() + ": has an entry of " +
-                      std::to_string(sizeof(dsc::plugin::PluginEntry) - 8) + " bytes where " + size +
-                      " are due; rebuild it against dsc's headers of this version");
+                      std::to_string(sizeof(dsc::plugin::PluginEntry) - 8) + " bytes instead of the expected " + size +
+                      " bytes; rebuild it with the headers of this dsc");
 }
 
 TEST_CASE("other versions of the ABI") {
     CHECK(refusal(fixture("bad_abi_old")).code == "plugin.abi");
     CHECK(refusal(fixture("bad_abi_old")).text == fixture("bad_abi_old").string() +
                                                       ": was built for ABI 1.0, this dsc has ABI 2.0; "
-                                                      "rebuild it against dsc's headers of this version");
+                                                      "rebuild it with the headers of this dsc");
     CHECK(refusal(fixture("bad_abi_new")).code == "plugin.abi");
     CHECK(refusal(fixture("bad_abi_new")).text ==
           fixture("bad_abi_new").string() +
-              ": needs ABI 2.1, this dsc has ABI 2.0; install a newer dsc or rebuild it against this one");
+              ": needs ABI 2.1, this dsc has ABI 2.0; install a newer dsc, or rebuild the plugin with the headers of this one");
 }
 
 namespace {
@@ -108,9 +105,9 @@ std::string fingerprint_text(const std::string& name, const std::string& key, co
     const std::string own = ours.substr(begin, ours.find(';', begin) - begin);
     std::string plugin = ours;
     plugin.replace(begin, own.size(), theirs);
-    return fixture(name).string() + ": was built in another way than this dsc: " + key + " is '" + theirs +
-           "' there and '" + own +
-           "' here; build it with dsc_add_plugin and the compiler options of this dsc (-march and -mavx "
+    return fixture(name).string() + ": was built differently from this dsc: " + key + " is '" + theirs +
+           "' in the plugin and '" + own +
+           "' in dsc; build it with dsc_add_plugin and the compiler options of this dsc (-march and -mavx "
            "change " +
            "align)\n  plugin: " + plugin + "\n  dsc:    " + ours;
 }
@@ -134,7 +131,7 @@ TEST_CASE("a library whose needs cannot be met") {
     CHECK(text == fixture("bad_symbol").string() + ": does not load: " + fixture("bad_symbol").string() +
                       ": undefined symbol: dsc_test_missing_function; a symbol or library that it needs is "
                       "missing; link "
-                      "with -Wl,-z,defs to see it when building");
+                      "with -Wl,-z,defs to find it at build time");
 }
 
 TEST_CASE("plugins that register something wrong") {
@@ -144,9 +141,9 @@ TEST_CASE("plugins that register something wrong") {
         CHECK(text == fixture(name).string() + ": " + cause + "; report this to the plugin's authors");
     };
     expect("bad_no_enroll", "has no enroll function");
-    expect("bad_name", "names itself 'Bad Name', which is not of the form [a-z][a-z0-9_]*");
+    expect("bad_name", "has the name 'Bad Name', which is not of the form [a-z][a-z0-9_]*");
     expect("bad_throws", "plugin 'bad_throws' failed to register: the licence server is away");
-    expect("bad_throws_int", "plugin 'bad_throws_int' failed to register: it threw no std::exception");
+    expect("bad_throws_int", "plugin 'bad_throws_int' failed to register: it threw something that is not a std::exception");
     expect("bad_empty", "plugin 'bad_empty' registers no strategy");
     expect("bad_id",
            "plugin 'bad_id' failed to register: the id of velocity 'Stand-Still' is not of the form "
@@ -166,20 +163,20 @@ TEST_CASE("libraries that others may write are refused") {
     fs::permissions(file, fs::perms::others_write, fs::perm_options::add);
     CHECK(refusal(file).code == "plugin.writable");
     CHECK(refusal(file).text == file.string() +
-                                    ": may be written by everyone, and loading a plugin runs it; take the "
-                                    "permission away (chmod o-w) or move the "
-                                    "plugin to a folder of your own");
+                                    ": can be written by everyone, and loading a plugin runs its code; remove this "
+                                    "permission (chmod o-w) or move the "
+                                    "plugin to your own folder");
     fs::permissions(file, fs::perms::others_write, fs::perm_options::remove);
 
     fs::permissions(folder.path(), fs::perms::all);
     CHECK(refusal(file).code == "plugin.writable");
-    CHECK(refusal(file).text.find(folder.path().string() + ": may be written by everyone") == 0);
+    CHECK(refusal(file).text.find(folder.path().string() + ": can be written by everyone") == 0);
     // As in the system's folder for temporary files: nobody else can replace the named file, but anyone can
     // add one.
     fs::permissions(folder.path(), fs::perms::all | fs::perms::sticky_bit);
     CHECK(refusal(file).text.empty());
     dsc::host::Host host;
     const std::vector<dsc::host::SearchEntry> entries = {{folder.path(), "--plugin", true}};
-    CHECK_THROWS_WITH_AS(host.load_all(entries), doctest::Contains("may be written by everyone"),
+    CHECK_THROWS_WITH_AS(host.load_all(entries), doctest::Contains("can be written by everyone"),
                          dsc::PluginError);
 }

@@ -111,9 +111,9 @@ TEST_CASE("a duplicate id is refused, both files are named and nothing stays beh
     Host host;
     host.load(fixture("good"));
     const std::string text = message([&] { host.load(fixture("bad_duplicate")); });
-    CHECK(text == fixture("bad_duplicate").string() + ": velocity 'upwards' is already there, from " +
+    CHECK(text == fixture("bad_duplicate").string() + ": velocity 'upwards' already exists, from " +
                       fixture("good").string() +
-                      "; load only one of the two files, or give one strategy another id");
+                      "; load only one of the two files, or give one strategy a different id");
     CHECK(host.plugins().size() == 1);
     CHECK_FALSE(host.find(Kind::velocity, "bad_duplicate_first"));
 }
@@ -186,7 +186,7 @@ TEST_CASE("in a folder only libdsc_NAME.so counts, and a named folder may hold n
     Host strict;
     CHECK(message([&] { strict.load_all(entries); }) ==
           "--plugin: " + (folder.path() / "libdsc_bad.so").string() +
-              ": is not a shared library; name a plugin's file, libdsc_NAME.so");
+              ": is not a shared library; give the file of a plugin, libdsc_NAME.so");
     Host collecting;
     collecting.load_all(entries, dsc::host::OnFault::collect);
     CHECK(collecting.plugins().size() == 1);
@@ -206,7 +206,7 @@ TEST_CASE("in a folder that the user did not name a bad library is a warning") {
     CHECK(host.plugins().size() == 1);
     REQUIRE(log.lines.size() == 1);
     CHECK(log.lines[0] ==
-          "user folder: " + bad.string() + ": is not a shared library; name a plugin's file, libdsc_NAME.so");
+          "user folder: " + bad.string() + ": is not a shared library; give the file of a plugin, libdsc_NAME.so");
 }
 
 TEST_CASE("an earlier place stands in front of a later one, but two answers to one name are an error") {
@@ -223,14 +223,15 @@ TEST_CASE("an earlier place stands in front of a later one, but two answers to o
         REQUIRE(host.plugins().size() == 1);
         CHECK(host.plugins()[0].file == front);
         CHECK(log.lines ==
-              std::vector<std::string>{front.string() + " stands in front of " + behind.string()});
+              std::vector<std::string>{"using " + front.string() + "; " + behind.string() +
+                                       " is ignored (same file name, later on the search path)"});
     }
     theirs.copy("bad_duplicate");
     Host host;
     CHECK(message([&] { host.load_all(entries); }) ==
           "user folder: " + (theirs.path() / "libdsc_bad_duplicate.so").string() +
-              ": velocity 'upwards' is already there, from " + front.string() +
-              "; load only one of the two files, or give one strategy another id");
+              ": velocity 'upwards' already exists, from " + front.string() +
+              "; load only one of the two files, or give one strategy a different id");
 }
 
 TEST_CASE("loading the same places again changes nothing and says nothing") {

@@ -34,12 +34,12 @@ TEST_CASE("a library that crashes, ends the program or hangs when it is loaded d
 #ifndef __SANITIZE_ADDRESS__
     CHECK(faults[0]->message ==
           files[0].string() +
-              ": crashes when it is loaded: the process that tried it was ended by signal 11 "
+              ": crashes when it is loaded: the child process was ended by signal 11 "
               "(Segmentation fault); report this to the plugin's authors");
 #endif
     CHECK_FALSE(faults[1].has_value());
     REQUIRE(faults[2].has_value());
-    CHECK(faults[2]->message.find("ended itself with exit code 0") != std::string::npos);
+    CHECK(faults[2]->message.find("exited with exit code 0") != std::string::npos);
     REQUIRE(faults[3].has_value());
     CHECK(faults[3]->code == "plugin.hang");
     CHECK(faults[3]->message.find("did not load within 1 s") != std::string::npos);
@@ -68,7 +68,7 @@ TEST_CASE("the doctor goes the way of a load and stops where it ends") {
     for (const Case& c :
          {Case{"bad_no_entry", "library", "without the symbol dsc_plugin_entry"},
           Case{"bad_abi_old", "build", "was built for ABI"},
-          Case{"bad_debug_stl", "build", "dbgstl is '1' there and '0' here"},
+          Case{"bad_debug_stl", "build", "dbgstl is '1' in the plugin and '0' in dsc"},
           Case{"bad_symbol", "load", "undefined symbol"}, Case{"bad_crash", "load", "crashes when"},
           Case{"bad_throws", "register", "failed to register"},
           Case{"bad_schema", "register", "failed to register"}}) {
@@ -92,5 +92,5 @@ TEST_CASE("the doctor finds a plugin that has the same ids") {
     const std::vector<dsc::host::SearchEntry> search = {{fixture("bad_duplicate"), "--plugin", true}};
     const auto examinations = dsc::host::examine(fixture("good"), search);
     CHECK(failed_step(examinations).step == "names");
-    CHECK(failed_step(examinations).text.find("is already there") != std::string::npos);
+    CHECK(failed_step(examinations).text.find("already exists") != std::string::npos);
 }

@@ -66,8 +66,8 @@ TEST_CASE("the current folder is nobody's plugin folder") {
     options.environment = environment({{"DSC_PLUGIN_PATH", "/a:."}});
     CHECK_THROWS_WITH_AS(
         search_path(options),
-        "DSC_PLUGIN_PATH: '.' is relative, and what it means would depend on the current folder; write it "
-        "from the root",
+        "DSC_PLUGIN_PATH: '.' is relative, so its meaning would depend on the current folder; write an "
+        "absolute path",
         dsc::PluginError);
 }
 

@@ -1,4 +1,4 @@
-// Curvature `@NAME@`: the mean curvature of the circles that touch the surface at a vertex and go through its neighbours.
+// Curvature `@NAME@`: the mean curvature of the circles that touch the surface at a vertex and pass through its neighbours.
 #include <algorithm>
 #include <dsc/hooks/curvature_estimator.hpp>
 #include <dsc/plugin/plugin.hpp>
@@ -9,7 +9,7 @@ using dsc::Vec3;
 
 class @CLASS@ final : public dsc::hooks::CurvatureEstimator {
 public:
-    /// What an experiment may set; the values here are the defaults.
+    /// The parameters that an experiment may set; the values here are the defaults.
     struct Params {
         double smallest_circle = 0.5;
     };
@@ -17,19 +17,19 @@ public:
         schema.real("smallest_circle", &Params::smallest_circle)
             .range(0, 100)
             .open_low()
-            .unit("mean edges")
-            .doc("Circles of a smaller radius count as circles of this radius.");
+            .unit("current mean edges")
+            .doc("Least radius of the circles; a smaller circle counts as a circle of this radius.");
     }
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
 
-    // Once a step. The context lives until the next call.
+    // Called once per step. The context is valid until the next call.
     void prepare(const dsc::hooks::StepContext& context) override {
         surface_ = &context.surface;
         limit_ = 1 / (params_.smallest_circle * surface_->mean_edge);
     }
 
-    // Several threads call this at once, each for a range of its own: it reads, and writes nothing but its two outputs.
+    // Several threads call this at the same time, each for its own range: it only reads, and writes only its two outputs.
     void evaluate(dsc::hooks::Range range, std::span<double> scalar, std::span<Vec3> vector) const override {
         for (std::size_t i = 0; i < range.size(); ++i) {
             const std::size_t v = range.begin + i;
@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    // Round a closed vertex every neighbour is in two faces, so the mean over the faces is that over the neighbours.
+    // Around a closed vertex every neighbour is in two faces, so the mean over the faces is the mean over the neighbours.
     double at(std::size_t vertex) const {
         double sum = 0;
         std::size_t count = 0;

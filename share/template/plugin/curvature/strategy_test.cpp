@@ -1,4 +1,4 @@
-// What the curvature must be, on surfaces with a known truth. The strategy comes through the plugin's door, as in a run.
+// Tests of the curvature on surfaces with known values. The strategy is loaded from the plugin, as in a run.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ TEST_CASE("a sphere of radius r has the curvature 1/r, outwards") {
     }
 }
 
-TEST_CASE("a plane has none, a pit has a negative one") {
+TEST_CASE("a plane has no curvature, a pit has a negative one") {
     auto mesh = dsc::sdk::square(4, 1.0);
     const std::size_t middle = 2 * 5 + 2;
     CHECK(evaluate(dsc::sdk::view_of(mesh)).scalar[middle] == doctest::Approx(0.0));

@@ -1,4 +1,4 @@
-// Filter `@NAME@`: removes the floor that a scanned object stands on, and what hangs above it.
+// Filter `@NAME@`: removes the floor under a scanned object, and points above the object.
 #include <dsc/cloud/filter.hpp>
 #include <dsc/hooks/cloud_filter.hpp>
 #include <dsc/plugin/plugin.hpp>
@@ -11,7 +11,7 @@ using dsc::cloud::Filtered;
 
 class @CLASS@ final : public dsc::hooks::CloudFilter {
 public:
-    /// What an experiment may set; the values here are the defaults.
+    /// The parameters that an experiment may set; the values here are the defaults.
     struct Params {
         double floor = 0.02;
         double ceiling = 1.0;
@@ -20,17 +20,17 @@ public:
         schema.real("floor", &Params::floor)
             .range(0, 1)
             .unit("1")
-            .doc("Points up to this part of the height of the cloud's box are removed.");
+            .doc("Fraction of the height of the cloud's bounding box up to which points are removed.");
         schema.real("ceiling", &Params::ceiling)
             .range(0, 1)
             .unit("1")
-            .doc("Points above this part of the height of the cloud's box are removed.");
+            .doc("Fraction of the height of the cloud's bounding box above which points are removed.");
         schema.check([](const Params& p) { return p.floor < p.ceiling; }, "'floor' must lie below 'ceiling'");
     }
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
 
-    // Once per run, before the cloud is normalised: lengths are in the units of the file.
+    // Called once per run, before the cloud is normalised: lengths are in the units of the file.
     Filtered apply(const Cloud& cloud, const dsc::hooks::FilterContext&) override {
         const dsc::Box3 box = dsc::bounding_box(cloud.points);
         const double height = box.size().z();
@@ -49,7 +49,7 @@ public:
         }
         if (kept.empty())
             throw dsc::GeometryError("@NAME@.nothing_left", cloud.source + ": filter @NAME@ removes all points; widen the range");
-        // pick() takes the points with their colours and whatever earlier filters gave them.
+        // pick() keeps the colours of the points and all attributes from earlier filters.
         Filtered result{dsc::cloud::pick(cloud, kept), {}};
         result.report.kept = kept.size();
         result.report.removed = cloud.points.size() - kept.size();
@@ -65,5 +65,5 @@ private:
 }  // namespace
 
 DSC_PLUGIN("@NAME@", "0.1.0", "BSD-3-Clause", "Filter @NAME@") {
-    registrar.add<@CLASS@>("@NAME@", "removes the floor under a scanned object and what hangs above it");
+    registrar.add<@CLASS@>("@NAME@", "removes the floor under a scanned object and points above the object");
 }

@@ -1,4 +1,4 @@
-// What the filter must leave, of a cloud with a known truth. The strategy comes through the plugin's door, as in a run.
+// Tests of the filter on a cloud with a known result. The strategy is loaded from the plugin, as in a run.
 #include <doctest/doctest.h>
 
 #include <dsc/base/error.hpp>
@@ -18,7 +18,7 @@ Filtered filtered(const Cloud& cloud, double floor, double ceiling) {
     return host.create<dsc::hooks::CloudFilter>({"@NAME@", params}, "input.cloud.filters.0")->apply(cloud, {});
 }
 
-// Eleven points above each other, the height of each as its confidence.
+// Eleven points above each other; the confidence of each is its height.
 Cloud pole() {
     Cloud cloud;
     for (int i = 0; i <= 10; ++i) {
@@ -30,7 +30,7 @@ Cloud pole() {
 
 }  // namespace
 
-TEST_CASE("what lies at the floor and above the ceiling goes, and is counted") {
+TEST_CASE("points at the floor and above the ceiling are removed and counted") {
     const Filtered result = filtered(pole(), 0.25, 0.85);
     REQUIRE(result.cloud.points.size() == 6);
     CHECK(result.cloud.points.front() == Vec3(3, 4, 106));
@@ -40,13 +40,13 @@ TEST_CASE("what lies at the floor and above the ceiling goes, and is counted") {
     CHECK(result.report.reasons[1].count == 2);
 }
 
-TEST_CASE("points keep what earlier filters gave them") {
+TEST_CASE("points keep the attributes from earlier filters") {
     const Filtered result = filtered(pole(), 0.25, 0.85);
     REQUIRE(result.cloud.confidence.size() == 6);
     for (std::size_t i = 0; i < 6; ++i) CHECK(result.cloud.confidence[i] == pole().confidence[i + 3]);
 }
 
-TEST_CASE("a cloud of which nothing would be left is an error") {
+TEST_CASE("a filter that would remove all points is an error") {
     CHECK_THROWS_AS(filtered(pole(), 0.01, 0.02), dsc::GeometryError);
     CHECK_THROWS_AS(filtered(pole(), 0.8, 0.2), dsc::ConfigError);
 }

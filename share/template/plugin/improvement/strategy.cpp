@@ -1,4 +1,4 @@
-// Improvement `@NAME@`: a poor tet loses an edge or a face and its free vertices move; a hopeless one is collapsed.
+// Improvement `@NAME@`: removes an edge or a face of a poor tet and moves its free vertices; collapses a hopeless tet.
 #include <dsc/hooks/improvement.hpp>
 #include <dsc/plugin/plugin.hpp>
 
@@ -9,7 +9,7 @@ using dsc::mesh::Request;
 
 class @CLASS@ final : public dsc::hooks::Improvement {
 public:
-    /// What an experiment may set; the values here are the defaults.
+    /// The parameters that an experiment may set; the values here are the defaults.
     struct Params {
         double poor = 0.3;
         double hopeless = 0.05;
@@ -18,18 +18,19 @@ public:
         schema.real("poor", &Params::poor)
             .range(0, 1)
             .unit("1")
-            .doc("Tets below this volume-length quality are repaired.");
+            .doc("Volume-length quality below which tets are repaired.");
         schema.real("hopeless", &Params::hopeless)
             .range(0, 1)
             .unit("1")
-            .doc("Tets below this quality are collapsed, at the price of the interface's shape within the kernel's bounds.");
+            .doc("Quality below which tets are collapsed, even if this changes the shape of the interface within the kernel's "
+                 "bounds.");
         schema.check([](const Params& p) { return p.hopeless <= p.poor; }, "hopeless must not be above poor");
     }
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
 
-    // Once a repair round. `round.dirty` has the tets to look at, worst first; the kernel takes the requests in their order
-    // and carries out those that keep the mesh valid and make it no worse.
+    // Called once per repair round. `round.dirty` contains the tets to examine, worst first; the kernel takes the requests in
+    // their order and carries out those that keep the mesh valid and do not make it worse.
     void propose(const dsc::hooks::StepContext&, const dsc::mesh::RepairRound& round,
                  std::vector<Request>& out) override {
         const dsc::mesh::Complex& complex = round.complex;
@@ -49,7 +50,7 @@ public:
         }
     }
 
-    // The topology of the interface stays as it is.
+    // The topology of the interface does not change.
     dsc::mesh::TopologyLimits topology_limits() const override {
         dsc::mesh::TopologyLimits limits;
         limits.thickness = 0.0;
@@ -57,7 +58,7 @@ public:
     }
 
 private:
-    // For the tet as it is now: skipped if another operation has changed it, or mended it, by the time of its turn.
+    // For the current tet: the request is skipped if another operation has changed or repaired the tet before.
     static Request request(const dsc::mesh::Complex& complex, dsc::mesh::TetId tet, Operation operation, double below) {
         Request request;
         request.operation = operation;
@@ -73,5 +74,5 @@ private:
 }  // namespace
 
 DSC_PLUGIN("@NAME@", "0.1.0", "BSD-3-Clause", "Improvement @NAME@") {
-    registrar.add<@CLASS@>("@NAME@", "poor tets lose an edge or a face, hopeless ones are collapsed");
+    registrar.add<@CLASS@>("@NAME@", "removes an edge or a face of poor tets, and collapses hopeless tets");
 }

@@ -1,4 +1,4 @@
-// What the improvement must ask for, on a mesh with a known fault. The strategy comes through the plugin's door, as in a run.
+// Tests of the requests on a mesh with a known fault. The strategy is loaded from the plugin, as in a run.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 using dsc::Vec3;
 using dsc::config::ConfigNode;
 
-// A ball in a box of 8 x 8 x 8 cells whose plane x = 0 is moved by `shift` cells: near 1 the tets right of it are flat.
+// A ball in a box of 8 x 8 x 8 cells whose plane x = 0 is moved by `shift` cells: near 1 the tets to its right are flat.
 dsc::mesh::Complex ball(double shift) {
     dsc::mesh::LatticeOptions options;
     options.cells = 8;
@@ -59,9 +59,9 @@ std::size_t tets_below(const dsc::mesh::Complex& complex, double quality) {
 
 }  // namespace
 
-TEST_CASE("good tets are left alone") { CHECK(proposals(ball(0.0), 0.3, 0.05).empty()); }
+TEST_CASE("good tets are not changed") { CHECK(proposals(ball(0.0), 0.3, 0.05).empty()); }
 
-TEST_CASE("each poor tet is to lose an edge or a face, each hopeless one to collapse") {
+TEST_CASE("an edge or a face of each poor tet is to be removed, each hopeless tet is to be collapsed") {
     const auto complex = ball(0.98);
     const auto requests = proposals(complex, 0.3, 0.1);
     CHECK(tets_below(complex, 0.1) > 0);
@@ -83,6 +83,6 @@ TEST_CASE("only free vertices are smoothed") {
     }
 }
 
-TEST_CASE("a threshold above the other is refused") {
+TEST_CASE("thresholds in the wrong order are refused") {
     CHECK_THROWS_AS(proposals(ball(0.0), 0.1, 0.2), dsc::ConfigError);
 }

@@ -1,4 +1,4 @@
-// Initial mesh `@NAME@`: a torus round the z axis in a box of tets.
+// Initial mesh `@NAME@`: a torus around the z axis in a box of tets.
 #include <array>
 #include <cmath>
 #include <dsc/hooks/initial_mesh.hpp>
@@ -11,26 +11,26 @@ using dsc::Vec3;
 
 class @CLASS@ final : public dsc::hooks::InitialMesh {
 public:
-    /// What an experiment may set; the values here are the defaults.
+    /// The parameters that an experiment may set; the values here are the defaults.
     struct Params {
         int cells = 24;
         double ring = 0.8;
         double tube = 0.35;
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
-        schema.integer("cells", &Params::cells).range(4, 100).unit("1").doc("Cells along each edge of the box.");
+        schema.integer("cells", &Params::cells).range(4, 100).unit("1").doc("Number of cells along each edge of the box.");
         schema.real("ring", &Params::ring)
             .range(0, 1.4)
             .unit("length")
             .doc("Radius of the circle that the tube follows.");
         schema.real("tube", &Params::tube).range(0, 1.4).open_low().unit("length").doc("Radius of the tube.");
-        schema.check([](const Params& p) { return p.tube < p.ring; }, "tube must be less than ring, or there is no hole");
+        schema.check([](const Params& p) { return p.tube < p.ring; }, "tube must be less than ring, otherwise there is no hole");
         schema.check([](const Params& p) { return p.ring + p.tube <= 1.4; }, "ring + tube must be at most 1.4, to stay in the box");
     }
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
 
-    // Once, before the first step: plain arrays, which the kernel checks and adopts.
+    // Called once, before the first step: returns plain arrays, which the kernel checks and adopts.
     dsc::mesh::TetMesh build(const dsc::hooks::InitialMeshContext& context) override {
         const auto cells = static_cast<unsigned>(params_.cells);
         dsc::mesh::TetMesh mesh;
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    static constexpr double half = 1.5;  // of the box' edge
+    static constexpr double half = 1.5;  // of the edge of the box
 
     static void add_points(dsc::mesh::TetMesh& mesh, unsigned cells) {
         const auto coordinate = [cells](unsigned i) { return half * (2.0 * i / cells - 1.0); };
@@ -58,8 +58,8 @@ private:
         }
     }
 
-    // Six tets, one for each way along the cell's edges from its lowest to its highest corner. All cells are cut in the
-    // same way, so neighbours agree on the diagonal of the face between them.
+    // Six tets, one for each path along the edges of the cell from its lowest to its highest corner. All cells are cut in the
+    // same way, so neighbours have the same diagonal on the face between them.
     void add_cell(dsc::mesh::TetMesh& mesh, unsigned cells, const std::array<unsigned, 3>& lowest) const {
         constexpr std::array<std::array<std::size_t, 3>, 6> ways = {
             {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
@@ -71,7 +71,7 @@ private:
                 ++corner[ways[w][c]];
                 tet[c + 1] = index(corner, cells);
             }
-            if (w >= 3) std::swap(tet[2], tet[3]);  // the last three are mirror images: turn them the right way round
+            if (w >= 3) std::swap(tet[2], tet[3]);  // the last three are mirror images: make them positive
             Vec3 centre = Vec3::Zero();
             for (const std::uint32_t v : tet) centre += 0.25 * mesh.points[v];
             mesh.tets.push_back(tet);
@@ -93,5 +93,5 @@ private:
 }  // namespace
 
 DSC_PLUGIN("@NAME@", "0.1.0", "BSD-3-Clause", "Initial mesh @NAME@") {
-    registrar.add<@CLASS@>("@NAME@", "a torus round the z axis in a box of tets");
+    registrar.add<@CLASS@>("@NAME@", "a torus around the z axis in a box of tets");
 }

@@ -1,4 +1,4 @@
-// What the mesh must be. The strategy comes through the plugin's door, as in a run.
+// Tests of the mesh. The strategy is loaded from the plugin, as in a run.
 #include <doctest/doctest.h>
 
 #include <dsc/base/error.hpp>

@@ -1,4 +1,4 @@
-// Observer `@NAME@`: how round the surface is, and how many of its faces are narrow.
+// Observer `@NAME@`: the sphericity of the surface, and the fraction of narrow faces.
 #include <algorithm>
 #include <cmath>
 #include <dsc/geometry/corner.hpp>
@@ -16,7 +16,7 @@ using dsc::surface::SurfaceView;
 
 class @CLASS@ final : public dsc::hooks::Observer {
 public:
-    /// What an experiment may set; the values here are the defaults.
+    /// The parameters that an experiment may set; the values here are the defaults.
     struct Params {
         double narrow = 15.0;
     };
@@ -24,28 +24,28 @@ public:
         schema.real("narrow", &Params::narrow)
             .range(0, 60)
             .unit("degrees")
-            .doc("Faces with an angle below this one count as narrow.");
+            .doc("Angle below which a face counts as narrow.");
     }
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
 
     void begin(const dsc::hooks::StepContext& context) override { least_sphericity_ = sphericity(context.surface); }
 
-    // After each step: a row of metrics.csv. The names are the same in every step.
+    // Called after each step, for a row of metrics.csv. The names are the same in every step.
     dsc::hooks::Figures step(const dsc::hooks::StepContext& context, const dsc::hooks::StepFigures&) override {
         const double now = sphericity(context.surface);
         least_sphericity_ = std::min(least_sphericity_, now);
         return {{"sphericity", now}, {"narrow_faces", narrow_faces(context.surface)}};
     }
 
-    // After the last step: for summary.json.
+    // Called after the last step, for summary.json.
     dsc::hooks::Figures end(const dsc::hooks::StepContext& context) override {
         return {{"sphericity", sphericity(context.surface)},
                 {"narrow_faces", narrow_faces(context.surface)},
                 {"least_sphericity", least_sphericity_}};
     }
 
-    // What a resumed run needs to go on as if it had never stopped: all that is remembered from step to step.
+    // Writes everything that is kept between steps, so that a resumed run continues as if it had never stopped.
     void save(std::ostream& out) const override {
         out.precision(std::numeric_limits<double>::max_digits10);
         out << "1 " << least_sphericity_ << " end\n";
@@ -55,12 +55,12 @@ public:
         double least = 0;
         std::string mark;
         if (!(in >> version >> least >> mark) || version != 1 || mark != "end")
-            throw dsc::StrategyError("@NAME@.state", "the saved state of observer '@NAME@' is damaged; start the run afresh");
+            throw dsc::StrategyError("@NAME@.state", "the saved state of observer '@NAME@' is damaged; start the run again");
         least_sphericity_ = least;
     }
 
 private:
-    // In mean edges, so that no size of the surface is too large or too small for the sums. The volume is that of the tets
+    // In mean edges, so that the sums work for a surface of any size. The volume is that of the tets
     // between the first vertex and the faces.
     static double sphericity(const SurfaceView& surface) {
         const auto at = [&](std::uint32_t v) {
@@ -100,5 +100,5 @@ private:
 }  // namespace
 
 DSC_PLUGIN("@NAME@", "0.1.0", "BSD-3-Clause", "Observer @NAME@") {
-    registrar.add<@CLASS@>("@NAME@", "sphericity of the surface and its part of narrow faces");
+    registrar.add<@CLASS@>("@NAME@", "sphericity of the surface and its fraction of narrow faces");
 }

@@ -1,4 +1,4 @@
-// What the figures must be, on surfaces with a known truth. The strategy comes through the plugin's door, as in a run.
+// Tests of the figures on surfaces with known values. The strategy is loaded from the plugin, as in a run.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -62,7 +62,7 @@ TEST_CASE("narrow faces are those with a small angle") {
     CHECK(step(*bench.make(50.0), dsc::sdk::square(3, 1.0)).at("narrow_faces") == 1.0);
 }
 
-TEST_CASE("a saved observer goes on as if it had never stopped, a damaged state is refused") {
+TEST_CASE("a saved observer continues as if it had never stopped, a damaged state is refused") {
     const Bench bench;
     const auto first = bench.make();
     step(*first, stretched(3.0));

@@ -13,7 +13,7 @@ using dsc::surface::SurfaceView;
 
 class @CLASS@ final : public dsc::hooks::RefinementPolicy {
 public:
-    /// What an experiment may set; the values here are the defaults.
+    /// The parameters that an experiment may set; the values here are the defaults.
     struct Params {
         double bend = 20.0;
         double shortest = 0.5;
@@ -22,16 +22,16 @@ public:
         schema.real("bend", &Params::bend)
             .range(0, 180)
             .unit("degrees")
-            .doc("Edges are split where the normals of their two faces differ by more than this angle.");
+            .doc("Angle between the normals of the two faces of an edge above which the edge is split.");
         schema.real("shortest", &Params::shortest)
             .range(0, 100)
-            .unit("mean edges")
-            .doc("Shorter edges are not split.");
+            .unit("current mean edges")
+            .doc("Length below which edges are not split.");
     }
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
 
-    // Between two steps. What is asked for here the kernel carries out where it can; the rest is counted.
+    // Called between two steps. The kernel carries out the requests where it can, and counts the others.
     void refine(const dsc::hooks::RefinementContext& context, dsc::hooks::RefinementRequests& out) override {
         const SurfaceView& surface = context.step.surface;
         const double flat = std::cos(params_.bend * std::numbers::pi / 180);
@@ -41,7 +41,7 @@ public:
             const auto& [a, b, face] = sides[i];
             const auto& [next_a, next_b, next_face] = sides[i + 1];
             if (a != next_a || b != next_b) continue;
-            ++i;  // both sides of the edge are dealt with
+            ++i;  // both sides of the edge are done
             if (surface.face_normals[face].dot(surface.face_normals[next_face]) >= flat) continue;
             if ((surface.positions[a] - surface.positions[b]).norm() < shortest) continue;
             out.split_edges.push_back({a, b});
@@ -51,7 +51,7 @@ public:
 private:
     using Side = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // lower vertex, higher vertex, face
 
-    // Every edge as its faces see it, sorted: the two sides of an edge come to stand side by side.
+    // Every edge once per face, sorted, so that the two sides of an edge follow each other.
     static std::vector<Side> sides_of(const SurfaceView& surface) {
         std::vector<Side> sides;
         for (std::uint32_t face = 0; face < surface.face_count(); ++face) {

@@ -1,4 +1,4 @@
-// What the refinement must ask for, on surfaces with a known truth. The strategy comes through the plugin's door, as in a run.
+// Tests of the requests on surfaces with known values. The strategy is loaded from the plugin, as in a run.
 #include <doctest/doctest.h>
 
 #include <dsc/host/host.hpp>
@@ -23,7 +23,7 @@ std::vector<std::array<std::uint32_t, 2>> split_edges(const dsc::surface::Surfac
     return requests.split_edges;
 }
 
-// A square of 4 x 4 cells folded along x = 0, where its vertices 2, 7, 12, 17 and 22 are.
+// A square of 4 x 4 cells, folded along the line x = 0 of its vertices 2, 7, 12, 17 and 22.
 dsc::surface::SurfaceView folded() {
     return dsc::sdk::view_of(dsc::sdk::moved(dsc::sdk::square(4, 1.0), [](const Vec3& p) {
         return Vec3(p.x(), p.y(), p.x() > 0 ? 0.5 * p.x() : 0.0);
@@ -39,13 +39,13 @@ TEST_CASE("the edges of a fold are split, those of flat parts are not") {
     CHECK(split_edges(dsc::sdk::view_of(dsc::sdk::square(4, 1.0)), 1.0).empty());
 }
 
-TEST_CASE("short edges are left alone") {
+TEST_CASE("short edges are not split") {
     const auto view = folded();
     CHECK(split_edges(view, 20.0, 0.49 / view.mean_edge).size() == 4);  // the fold's edges are 0.5 long
     CHECK(split_edges(view, 20.0, 0.51 / view.mean_edge).empty());
 }
 
-TEST_CASE("a sphere bends everywhere, each edge is named once") {
+TEST_CASE("a sphere bends everywhere, each edge is requested once") {
     const auto view = dsc::sdk::view_of(dsc::sdk::icosphere(1, 1.0));
     CHECK(split_edges(view, 5.0).size() == 3 * view.face_count() / 2);
 }

@@ -1,4 +1,4 @@
-// What the velocity must do, on surfaces with a known truth. The strategy comes through the plugin's door, as in a run.
+// Tests of the velocity on surfaces with known values. The strategy is loaded from the plugin, as in a run.
 #include <doctest/doctest.h>
 
 #include <dsc/host/host.hpp>
@@ -21,7 +21,7 @@ std::vector<Vec3> displacements(const dsc::surface::SurfaceView& view, double in
 
 }  // namespace
 
-TEST_CASE("without tension every vertex goes the same length outwards") {
+TEST_CASE("without tension every vertex moves the same distance outwards") {
     const auto view = dsc::sdk::view_of(dsc::sdk::icosphere(3, 0.8));
     const auto out = displacements(view, 0.2, 0.0);
     for (std::size_t v = 0; v < out.size(); ++v) {

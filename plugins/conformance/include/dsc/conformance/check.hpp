@@ -1,6 +1,6 @@
 #pragma once
-// `dsc plugin check`: whether a plugin keeps what a plugin promises. Every test runs in a process of its own, so that
-// whatever a plugin does ends that process and becomes a line of the report.
+// `dsc plugin check`: runs the conformance tests on a plugin. Every test runs in its own process, so that
+// a plugin can at worst end that process, and the report states this.
 
 #include <chrono>
 #include <cstdint>
@@ -15,28 +15,28 @@
 
 namespace dsc::conformance {
 
-/// How much is asked; each level includes those before it.
+/// How much is tested; each level includes the levels before it.
 enum class Level : std::uint8_t { smoke, standard, strict };
 std::string_view name(Level level);
 std::optional<Level> find_level(std::string_view name);
 
 enum class Status : std::uint8_t { pass, warn, skip, fail, crash, timeout };
 std::string_view name(Status status);
-/// Fail, crash or timeout.
+/// Whether the status is fail, crash or timeout.
 bool is_failure(Status status);
 
-/// A test as it is listed.
+/// A test as shown in the list.
 struct TestInfo {
     std::string id;  ///< "det.threads"
     Level level = Level::smoke;
-    bool of_library = false;  ///< once a library; otherwise once a strategy
-    std::string doc;          ///< what is asked, one sentence
+    bool of_library = false;  ///< runs once per library; otherwise once per strategy
+    std::string doc;          ///< what is required, one sentence
 };
 
 /// All tests in the order in which they run. [setup]
 std::vector<TestInfo> tests();
 
-/// What became of one test.
+/// The outcome of one test.
 struct Outcome {
     std::string test;
     std::string strategy;  ///< "velocity 'rotate'", empty for a test of the library
@@ -53,20 +53,20 @@ struct StrategyName {
 
 struct CheckOptions {
     Level level = Level::standard;
-    std::uint64_t seed = 1;                  ///< of all that is random in the tests
-    unsigned fuzz = 20;                      ///< random parameter sets
-    std::chrono::milliseconds limit{30000};  ///< of one test; ten times as much under a sanitizer
-    std::vector<std::string> only;           ///< ids of tests; empty: all of the level
-    std::vector<StrategyName> strategies;    ///< empty: all of the library
-    std::filesystem::path notes;  ///< empty: libdsc_NAME.check.yaml beside the plugin, where there is one
-    std::vector<host::SearchEntry> search;           ///< plugins for strategies that nest others
-    bool in_process = false;                         ///< no process of its own, for a debugger
-    std::function<void(const Outcome&)> on_outcome;  ///< as soon as it is known
+    std::uint64_t seed = 1;                  ///< random seed of the tests
+    unsigned fuzz = 20;                      ///< number of random parameter sets
+    std::chrono::milliseconds limit{30000};  ///< time limit per test; ten times as much under a sanitizer
+    std::vector<std::string> only;           ///< ids of tests; empty: all tests of the level
+    std::vector<StrategyName> strategies;    ///< empty: all strategies of the library
+    std::filesystem::path notes;  ///< empty: libdsc_NAME.check.yaml beside the plugin, if it exists
+    std::vector<host::SearchEntry> search;           ///< where to find plugins for nested strategies
+    bool in_process = false;                         ///< all tests run in this process, for debugging
+    std::function<void(const Outcome&)> on_outcome;  ///< called as soon as an outcome is known
 };
 
 struct Report {
     std::filesystem::path file;
-    std::string plugin;  ///< name and version; empty where the library does not load
+    std::string plugin;  ///< name and version; empty if the library does not load
     Level level = Level::standard;
     std::uint64_t seed = 1;
     std::vector<Outcome> outcomes;
@@ -75,19 +75,19 @@ struct Report {
     std::size_t count(Status status) const;
 };
 
-/// Checks the plugin in `file`. Notes give parameters that have no default and waive
+/// Checks the plugin in `file`. The notes contain values for parameters without a default, and waive
 /// tests with a reason (share/doc/write-a-strategy.md). Throws PluginError "plugin.open", UsageError for an unknown test or
-/// strategy, ConfigError for faulty notes; what the plugin does becomes outcomes. [setup]
+/// strategy, ConfigError for faulty notes; everything that the plugin does becomes an outcome. [setup]
 Report check(const std::filesystem::path& file, const CheckOptions& options);
 
-/// A table with a line a test, and a last line of sums. [setup]
+/// A table with one line per test, and a last line with sums. [setup]
 std::string text(const Report& report);
-/// One line of it, and the last one.
+/// One line of the table, and its last line.
 std::string text(const Outcome& outcome);
 std::string sums(const Report& report);
 /// [setup]
 std::string json(const Report& report);
-/// JUnit's XML, which build servers read. [setup]
+/// JUnit XML, which build servers read. [setup]
 std::string junit(const Report& report);
 
 }  // namespace dsc::conformance

@@ -1,5 +1,5 @@
 #pragma once
-// Step by step, what stands between a file and being a working plugin.
+// Finds out step by step why a file is not a working plugin.
 
 #include <dsc/host/search_path.hpp>
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace dsc::host {
 
-/// One step of the way in. `text` says what was found; where the step failed, cause and remedy.
+/// One step of loading. `text` states what was found, or the cause and the remedy if the step failed.
 struct Examination {
     enum class Result { ok, note, failed, not_reached };
     std::string step;
@@ -17,7 +17,7 @@ struct Examination {
     std::string text;
 };
 
-/// Goes the way of Host::load, in its order, and stops at the first step that fails: the file, who may write it, the
+/// Repeats the steps of Host::load in the same order, and stops at the first step that fails: the file, who may write it, the
 /// entry, the build, loading, registering, and that no plugin on `search` has one of its ids. [setup]
 std::vector<Examination> examine(const std::filesystem::path& file, std::span<const SearchEntry> search);
 

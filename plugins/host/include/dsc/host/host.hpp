@@ -14,7 +14,7 @@
 
 namespace dsc::host {
 
-/// What load_all does with a library that is refused.
+/// The reaction of load_all to a library that is refused.
 enum class OnFault {
     stop_if_required,  ///< throws for entries that the user named, logs a warning for the others
     collect,           ///< never throws; see faults()
@@ -29,32 +29,32 @@ public:
     Host(const Host&) = delete;
     Host& operator=(const Host&) = delete;
 
-    /// Loads one library. A file that is loaded already is passed over. All or nothing: a refused library
+    /// Loads one library. A file that is already loaded is skipped. All or nothing: a refused library
     /// leaves no strategy behind. Throws PluginError naming file, reason and remedy:
     ///
     /// | code | reason |
     /// | --- | --- |
     /// | plugin.open | the file does not exist or cannot be read |
     /// | plugin.writable | others may write the file or its folder |
-    /// | plugin.not_elf | no shared library for this machine, or a damaged one |
+    /// | plugin.not_elf | not a shared library for this machine, or a damaged one |
     /// | plugin.no_entry | a library without the entry of a dsc plugin |
     /// | plugin.magic, plugin.size, plugin.abi | an entry of another layout or version |
-    /// | plugin.fingerprint | built in another way; both fingerprints are printed |
-    /// | plugin.crash, plugin.hang | it crashes or does not end when it is loaded |
+    /// | plugin.fingerprint | built by another compiler, standard library or options; both fingerprints are printed |
+    /// | plugin.crash, plugin.hang | it crashes or does not load in time |
     /// | plugin.load | the dynamic linker refused it |
-    /// | plugin.enroll | enroll threw, registered nothing or something malformed |
+    /// | plugin.enroll | enroll threw, or registered nothing or something malformed |
     /// | plugin.duplicate | a strategy's id is taken; both files are named |
     ///
-    /// Up to plugin.fingerprint nothing of the library has run: all that is read from the file itself. Then it is tried in
-    /// a child process (scan.hpp), and only a library that survives that is loaded into this one.
+    /// Up to plugin.fingerprint no code of the library has run: the host reads only the file. Then it is loaded in
+    /// a child process (scan.hpp), and only a library that loads there without a fault is loaded into this process.
     void load(const std::filesystem::path& file);
 
-    /// Loads the entries in order. In folders every libdsc_*.so is loaded, by name; a name that an earlier
-    /// entry had is passed over, so that an own build may stand in front of an installed one.
-    /// May be called again with more entries: what is there or was refused already is passed over.
+    /// Loads the entries in order. In folders every libdsc_*.so is loaded, in the order of the names; a name that an earlier
+    /// entry had is skipped, so that a user's own build is used instead of an installed one.
+    /// May be called again with more entries: libraries that are loaded or were refused already are skipped.
     void load_all(std::span<const SearchEntry> entries, OnFault on_fault = OnFault::stop_if_required);
 
-    /// Libraries that load_all passed over.
+    /// Libraries that load_all refused.
     const std::vector<Fault>& faults() const noexcept { return faults_; }
 
     std::optional<plugin::StrategyInfo> find(plugin::Kind kind, const std::string& id) const override;
@@ -72,7 +72,7 @@ private:
 
     std::vector<std::unique_ptr<Loaded>> loaded_;
     std::map<std::pair<plugin::Kind, std::string>, plugin::StrategyInfo> strategies_;
-    std::map<std::filesystem::path, std::optional<Fault>> rehearsed_;  ///< by real path; nothing: it survived
+    std::map<std::filesystem::path, std::optional<Fault>> rehearsed_;  ///< by real path; nothing: it loaded without a fault
     std::vector<Fault> faults_;
 };
 

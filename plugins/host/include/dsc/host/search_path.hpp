@@ -1,5 +1,5 @@
 #pragma once
-// Where plugins are looked for.
+// The search path for plugins.
 
 #include <dsc/config/yaml.hpp>
 #include <filesystem>
@@ -11,7 +11,7 @@ namespace dsc::host {
 /// A library or a folder of libraries.
 struct SearchEntry {
     std::filesystem::path path;
-    /// Who named it: "--plugin", "plugins:", "DSC_PLUGIN_PATH", "user folder" or "installed folder".
+    /// Where it was named: "--plugin", "plugins:", "DSC_PLUGIN_PATH", "user folder" or "installed folder".
     std::string origin;
     bool required = false;  ///< named by the user: a fault in it is an error, not a warning
 };
@@ -24,7 +24,7 @@ struct SearchOptions {
 
 /// In order: --plugin, `plugins:`, DSC_PLUGIN_PATH (absolute names joined by colons),
 /// $XDG_DATA_HOME/dsc/plugins (or ~/.local/share/dsc/plugins), the folder dsc/plugins beside the running core
-/// library. The current folder is never among them unless the user names it. Folders of the user and of the
+/// library. The current folder is used only if the user names it. Folders of the user and of the
 /// installation that do not exist are left out. Throws PluginError "plugin.search_path" for a relative name
 /// in DSC_PLUGIN_PATH. [setup]
 std::vector<SearchEntry> search_path(const SearchOptions& options);

@@ -1,5 +1,5 @@
 #pragma once
-// What a filter is tried with, for tests.
+// Clouds and calls for tests of filters.
 
 #include <dsc/hooks/cloud_filter.hpp>
 #include <dsc/config/node.hpp>
@@ -7,7 +7,7 @@
 
 namespace dsc::sdk {
 
-/// What the filter `id` of the plugin `library` makes of the cloud. Throws as Host::load, Catalogue::create and the filter.
+/// Applies the filter `id` of the plugin `library` to the cloud. Throws as Host::load, Catalogue::create and the filter.
 cloud::Filtered filtered(const std::string& library, const std::string& id, const cloud::Cloud& cloud,
                          const config::ConfigNode& params = config::ConfigNode::map());
 
