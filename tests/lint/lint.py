@@ -272,6 +272,31 @@ def linked_pages(tree):
                     yield path, number, f"{target} does not exist"
 
 
+# Turns of phrase that a reader has to read twice, and what to write instead.
+TURNS = [
+    (r"\bmend(?:s|ed|ing)?\b", "fix"),
+    (r"\bspeaks? for\b", "supports"),
+    (r"\bso many\b", "this many, or the number"),
+    (r"\bstands? in\b", "is in, is written in"),
+    (r"\b(?:comes?|came) about\b", "is made"),
+    (r"\bdress rehearsal\b|\bobituary\b|\bended itself\b", "a plain word"),
+    (r"\b(?:once|twice|one|ones|times|row|value|number|entry|line) an? (?:step|round|vertex|tet|point|face|edge|label|module|format|run)\b", "per"),
+    (r"(?<!there )(?<!There )\b(?:is|are|was|were) no (?:plugin|number|strategy|file|count|name|format|point|tet|vertex|error)\b", "is not a"),
+]
+
+
+def plain_english(tree):
+    """Pages, comments and messages keep away from turns that were hard to read."""
+    turns = [(re.compile(turn), better) for turn, better in TURNS]
+    for path, number, line in tree.lines(SOURCE | {".md", ".yaml", ".html", ".js"}):
+        if path.startswith(("tests/", "share/doc/strategies/")) or path == "share/doc/glossary.md":  # it names the words to avoid
+            continue
+        for turn, better in turns:
+            found = turn.search(line)
+            if found:
+                yield path, number, f"'{found.group(0)}'; better: {better}"
+
+
 def error_codes(tree):
     """Every code of an error is in share/doc/errors.md, and no other."""
     code = re.compile(r'"([a-z][a-z0-9_]*\.[a-z][a-z0-9_]*)"')
@@ -298,7 +323,7 @@ def error_codes(tree):
 RULES = [
     third_party_walls, core_direction, declared_direction, strategy_direction, plugin_direction, nobody_uses_the_app,
     banned_headers, libraries_do_not_print, header_guards, short_files, file_local_names, open_ends, machine_paths, top_level, readme_commands,
-    paper_keys, linked_pages, error_codes,
+    paper_keys, linked_pages, plain_english, error_codes,
 ]
 
 

@@ -96,6 +96,11 @@ PLANTED = {
         (NORMAL, "constexpr const char* code = \"strategy.gone\";"),
         ("share/doc/errors.md", "| `io.known` | a code |\n| `io.gone` | nothing throws it |"),
     ],
+    "plain_english": [
+        ("share/doc/page.md", "Mend the vertex: you must mend it."),
+        ("core/src/mesh/adopt.cpp", "// The list has one row a step."),
+        (NORMAL, "fail(\"it is no plugin\");"),
+    ],
     "linked_pages": [("share/doc/page.md", "[gone](gone.md)"), ("README.md", "share/setup.sh run test ![x](share/x.png)")],
 }
 
