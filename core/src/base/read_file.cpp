@@ -1,3 +1,4 @@
+// Reads a complete file into memory.
 #include <dsc/base/read_file.hpp>
 
 #include <fcntl.h>

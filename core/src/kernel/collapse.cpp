@@ -1,4 +1,4 @@
-// Edge collapse, with or without the interface.
+// Edge collapse, with and without the interface (method.md, section 4.7).
 #include <cmath>
 #include <optional>
 
@@ -12,7 +12,7 @@ namespace {
 
 using mesh::CollapseMode;
 
-// The edge as a collapse sees it: `removed` goes, `kept` stays at (1 - weight) kept + weight removed.
+// The edge to collapse: `removed` goes, `kept` stays at (1 - weight) kept + weight removed.
 struct Plan {
     VertexId kept = mesh::none, removed = mesh::none;
     double weight = 0.0;
