@@ -1,3 +1,4 @@
+// The list of active runs of this process.
 #include "running.hpp"
 
 #include <algorithm>

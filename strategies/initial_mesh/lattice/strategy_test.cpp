@@ -304,7 +304,7 @@ TEST_CASE("bad parameters are refused with their cause") {
     refused(ConfigNode::map({{"layers", 1}}), "layers");
     refused(ConfigNode::map({{"finest", "kuhn"}}), "finest");
     refused(ConfigNode::map({{"cell", 0.001}}),
-            "twice the box must contain at least 4 and at most 1024 finest cells in a row");
+            "cell must fit at least 4 and at most 1024 times into twice the box");
     refused(ConfigNode::map({{"half_width", 1.6}}),
             "a shape reaches the faces of the box; make the shape smaller or `box` larger");
     refused(ConfigNode::map({{"growth", 1.0}, {"cells", 400}}),

@@ -90,7 +90,7 @@ TEST_CASE("given normals that contradict the points are refused") {
     for (std::size_t i = 0; i < cloud.normals.size(); ++i) cloud.normals[i] = solid.normals[i].unitOrthogonal();
     check_refused(cloud, "at 100 % of the flat places they are not perpendicular to the surface");
     for (std::size_t i = 0; i < cloud.normals.size(); ++i) cloud.normals[i] = random_direction(random);
-    check_refused(cloud, "they do not stand on the surface");
+    check_refused(cloud, "they are not perpendicular to the surface");
     cloud = cloud_of(solid);
     for (std::size_t i = 0; i < 600; ++i) cloud.normals[i].setZero();
     check_refused(cloud, "20 % of the points have none");

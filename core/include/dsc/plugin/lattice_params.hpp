@@ -51,8 +51,8 @@ void declare_lattice(config::ParamSchema<Params>& schema, const std::string& whe
             const double cells = p.wanted_cells();
             return cells >= mesh::least_lattice_cells && cells <= mesh::most_lattice_cells;
         },
-        "twice the box must contain at least " + std::to_string(mesh::least_lattice_cells) + " and at most " +
-            std::to_string(mesh::most_lattice_cells) + " finest cells in a row");
+        "cell must fit at least " + std::to_string(mesh::least_lattice_cells) + " and at most " +
+            std::to_string(mesh::most_lattice_cells) + " times into twice the box");
 }
 
 }  // namespace dsc::plugin
