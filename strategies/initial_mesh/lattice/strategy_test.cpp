@@ -308,7 +308,7 @@ TEST_CASE("bad parameters are refused with their cause") {
     refused(ConfigNode::map({{"half_width", 1.6}}),
             "a shape reaches the faces of the box; make the shape smaller or `box` larger");
     refused(ConfigNode::map({{"growth", 1.0}, {"cells", 400}}),
-            "64000000 cells; the limit is 12000000");
+            "64000000 cells, but the limit is 12000000");
     const ConfigNode flat =
         ConfigNode::map({{"shape", "cylinder"}, {"axis", ConfigNode::list({0.0, 0.0, 0.0})}});
     refused(ConfigNode::map({{"shapes", ConfigNode::list({flat})}}), "axis must not be the zero vector");
