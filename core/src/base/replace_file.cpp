@@ -119,7 +119,7 @@ private:
     bool kept_ = false;
 };
 
-/// Makes the new name durable. A failure is not an error, as the file exists.
+/// Makes the new name durable. A failure is not an error, because the file exists.
 void sync_folder(const fs::path& folder) {
     const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return;

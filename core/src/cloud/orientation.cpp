@@ -138,7 +138,7 @@ public:
         }
     }
 
-    /// Turns the vectors towards the normals of the planes; `agreement` is |cosine| between the two.
+    /// Turns the vectors towards the normals of the planes; `agreement` is the absolute cosine between the two.
     void refine_directions() {
         agreement.resize(vectors.size());
         for (std::size_t i = 0; i < vectors.size(); ++i) {

@@ -26,7 +26,7 @@ void add_quad(ShapeMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c
 class Sphere final : public Shape {
 public:
     Vec3 sample(RandomStream& random) const override {
-        // Equal heights cut equal areas off a sphere.
+        // Equal heights correspond to equal areas of a sphere.
         const double z = random.uniform(-1.0, 1.0);
         const double angle = random.uniform(0.0, 2.0 * pi);
         const double r = std::sqrt(1.0 - z * z);

@@ -29,7 +29,7 @@ struct Deformer::State {
     Workers* workers;  // null: one thread
 
     std::vector<TetId> step_changes;
-    std::vector<bool> noted;  // per tet: it is in step_changes
+    std::vector<bool> noted;  // per tet: whether it is in step_changes
     std::vector<mesh::Request> requests, last_requests;
     std::vector<mesh::Outcome> outcomes;
     std::vector<VertexId> smoothed;  // vertices of a batch of requests

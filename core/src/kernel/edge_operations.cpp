@@ -90,7 +90,7 @@ Refusal flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, f
     c.ring(t, a, b, bench.ring);
     if (!bench.ring.closed) return Refusal::box;
     const std::size_t n = bench.ring.tets.size();
-    // Rotate the ring so that it starts at an interface face, then find the other one.
+    // Rotates the ring so that it starts at an interface face, then finds the other interface face.
     const auto label = [&](std::size_t i) { return c.label(bench.ring.tets[i % n]); };
     std::size_t changes = 0;
     std::size_t start = 0;

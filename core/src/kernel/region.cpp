@@ -95,7 +95,7 @@ void smallest_group(mesh::LocalStar& star, mesh::Label from, std::vector<TetId>&
     }
 }
 
-// The shortest face-connected chain of `from` tets that joins two groups of `to` at the vertex.
+// The shortest face-connected chain of `from` tets that joins two groups of label `to` at the vertex.
 void shortest_chain(mesh::LocalStar& star, mesh::Label from, mesh::Label to, std::vector<TetId>& out) {
     out.clear();
     star.groups();

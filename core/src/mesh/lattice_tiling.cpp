@@ -128,7 +128,7 @@ private:
         }
     }
 
-    // Whether a smaller cell has its corner in the middle of the edge between two faces of the cell.
+    // Whether a smaller cell has a corner in the middle of the edge between two faces of the cell.
     bool halved(unsigned level, const Cell& cell, bool finer, std::size_t axis, int side, std::size_t out,
                 int way) const {
         if (level == 0) return false;

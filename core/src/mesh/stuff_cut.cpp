@@ -121,7 +121,7 @@ private:
         out_.mesh.labels.push_back(label);
     }
 
-    // A face of three snapped vertices, and whether the tet that has it is inside.
+    // A face of three snapped vertices, and whether the tet that contains it is inside.
     struct FlatFace {
         Face face;
         bool inside;

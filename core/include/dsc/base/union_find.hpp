@@ -11,7 +11,7 @@ namespace dsc {
 /// Disjoint sets. The root of a set is its smallest index, so it does not depend on the order of the unions.
 class UnionFind {
 public:
-    /// Each index is a set of its own. [parallel]
+    /// Each index is a separate set at first. [parallel]
     explicit UnionFind(std::size_t count) : parent_(count) {
         for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<std::uint32_t>(i);
     }

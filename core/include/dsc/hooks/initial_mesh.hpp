@@ -1,5 +1,5 @@
 #pragma once
-// Hook `initial_mesh`: the labelled box that a run starts from.
+// Hook `initial_mesh`: makes the labelled box with which a run starts.
 
 #include <string>
 
@@ -39,7 +39,7 @@ public:
     virtual Figures figures() const { return {}; }
     /// Warnings about that mesh, for the terminal, summary.json and the report. [setup]
     virtual Warnings warnings() const { return {}; }
-    /// CPU seconds of the parts of build(), for summary.json; they differ from run to run. [setup]
+    /// CPU seconds of the parts of build(), for summary.json; they differ between runs. [setup]
     virtual Figures seconds() const { return {}; }
 };
 

@@ -34,8 +34,8 @@ std::string_view name(Operation operation);
 
 /// How an edge collapse may treat the interface.
 enum class CollapseMode : std::uint8_t {
-    safe,      ///< quality must not fall below the requested bound, interface only where it is flat
-    bounded,   ///< interface within the edit bounds, any quality above the floor
+    safe,      ///< quality must not fall below the requested bound; the interface only where it is flat
+    bounded,   ///< the interface within the edit bounds; any quality above the floor
 };
 
 /// One request. It names a tet and the kernel chooses the simplex, or it names the simplex too. The kernel skips it if the

@@ -1,5 +1,5 @@
 #pragma once
-// Simple solids that label the tets of a generated mesh.
+// Simple solids that define the labels of a generated mesh.
 
 #include <array>
 #include <cstdint>

@@ -62,7 +62,7 @@ struct DriveResult {
     StepMetrics last;
 };
 
-/// Number of steps that the schedule asks for.
+/// Number of steps in the schedule.
 std::uint64_t planned_steps(const Experiment& experiment);
 
 /// Runs the schedule. `cloud` may be null. A series of steps ends early if it converged or stalled; then the schedule continues

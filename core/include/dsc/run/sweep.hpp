@@ -20,7 +20,7 @@ struct SweepPoint {
 
 /// A sweep file with all combinations of its axes.
 struct Sweep {
-    std::string base;        ///< the experiment that all points start from
+    std::string base;        ///< the experiment on which all points are based
     config::ConfigNode set;  ///< dotted path to value, for all points
     std::vector<SweepPoint> points;
     std::size_t repeated = 0;  ///< points left out because they equal an earlier one

@@ -70,11 +70,11 @@ struct EvaluateOptions {
     Workers* workers = nullptr;  ///< the figures do not depend on them
 };
 
-/// Distances are fractions of the diagonal of the truth's box; multiply by 100 for per cent.
+/// Distances are fractions of the diagonal of the box of the true surface; multiply by 100 for per cent.
 struct Evaluation {
-    double diagonal = 0.0;            ///< of the truth, in its units
-    double accuracy = 0.0;            ///< mean distance from the reconstruction's samples to the truth
-    double completeness = 0.0;        ///< mean distance from the truth's samples to the reconstruction
+    double diagonal = 0.0;            ///< of the true surface, in its units
+    double accuracy = 0.0;            ///< mean distance from the reconstruction's samples to the true surface
+    double completeness = 0.0;        ///< mean distance from the true surface's samples to the reconstruction
     double chamfer = 0.0;             ///< mean of accuracy and completeness
     double hausdorff = 0.0;           ///< largest distance of a sample, in both directions
     double hausdorff99 = 0.0;         ///< the larger 99 % quantile of both directions
