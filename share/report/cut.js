@@ -1,15 +1,16 @@
-// The cut through a tetrahedral mesh: where the plane meets each tet stands a triangle or a quadrilateral.
+// The cut through a tetrahedral mesh: a triangle or a quadrilateral per tet that the plane meets.
 var dscCut = (function () {
   'use strict';
 
-  // Where a side from vertex a to vertex b meets the plane; da and db are the distances of its ends.
+  // The point where the side from vertex a to vertex b meets the plane; da and db are the distances of its ends.
   function crossing(points, a, da, b, db, out) {
     var part = da / (da - db);
     for (var k = 0; k < 3; ++k) out.push(points[3 * a + k] + part * (points[3 * b + k] - points[3 * a + k]));
   }
 
-  // mesh: {points: x y z ..., cells: four indices a tet, ...}. axis 0 to 2. chosen(tet): whether the tet is drawn; colour(tet)
-  // gives red, green, blue from 0 to 1. Returns arrays of coordinates: triangles with their colours, and the sides as lines.
+  // mesh: {points: x y z ..., cells: four indices per tet, ...}. axis: 0 to 2. chosen(tet): whether the tet is drawn.
+  // colour(tet): red, green, blue from 0 to 1. Returns arrays of coordinates: triangles with their colours, and the sides as
+  // lines.
   function slice(mesh, axis, position, chosen, colour) {
     var triangles = [], colours = [], lines = [], corners = [];
     for (var t = 0; t < mesh.cells.length / 4; ++t) {

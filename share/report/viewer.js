@@ -1,10 +1,10 @@
-// Brings every element of class "viewer" to life: the surface at each kept step, the cloud, and the cut through the tets. One
-// WebGL context draws for all of them; each shows its own copy, so a page may have as many as it likes, and they print.
+// Fills every element of class "viewer" with the surface at each kept step, the cloud, and the cut through the tets. One WebGL
+// context draws all viewers; each viewer shows its own copy, so a page may have any number of them, and they can be printed.
 (function () {
   'use strict';
 
   var LABELS = [[0.78, 0.85, 0.90], [0.93, 0.66, 0.38], [0.47, 0.71, 0.58], [0.57, 0.54, 0.79], [0.80, 0.49, 0.60], [0.62, 0.52, 0.40]];
-  // From good to bad, told apart by those who cannot tell red from green, too.
+  // Colour scale from good to bad. People who cannot distinguish red and green can also read it.
   var DISTANCE = [[0.13, 0.35, 0.55], [0.16, 0.60, 0.62], [0.55, 0.75, 0.38], [0.96, 0.76, 0.20], [0.85, 0.28, 0.16]];
   var QUALITY = DISTANCE.slice().reverse();
   var AXES = ['x', 'y', 'z'];
@@ -33,7 +33,7 @@
     return packed.wide ? new Uint32Array(buffer) : new Uint16Array(buffer);
   }
 
-  // Coordinates about `place.centre`, in parts of `place.size`: far from the origin a float would have no digits left.
+  // Coordinates relative to `place.centre`, in units of `place.size`: far from the origin a float would lose its digits.
   function coordinates(packed, place) {
     var whole = new Uint16Array(bytes(packed.data).buffer), out = new Float32Array(whole.length);
     for (var i = 0; i < whole.length; ++i) {
@@ -53,7 +53,7 @@
     return {centre: centre, size: 0.5 * Math.sqrt(square) || 1};
   }
 
-  // Three digits, and no more zeros than are needed.
+  // Three digits, without unnecessary zeros.
   function figure(value) {
     return String(Number(value.toPrecision(3)));
   }
@@ -130,7 +130,7 @@
     if (data.cloud) labelled(first, 'cloud', this.showCloud, true);
     this.attribute = make('select', {className: 'attribute'});
     make('option', {value: '', textContent: 'none'}, this.attribute);
-    // The last frame is the result; the others have no attribute that it has not.
+    // The last frame is the result; the other frames have no attribute that the result does not have.
     var result = data.frames[data.frames.length - 1], attributes = result && result.attributes || [];
     attributes.forEach(function (a) { make('option', {value: a.name, textContent: a.name}, view.attribute); });
     if (attributes.length) labelled(first, 'colour surface by', this.attribute);
@@ -153,7 +153,7 @@
     this.cutLegend = make('span', {className: 'legend'}, second);
     this.legend(this.cutLegend, QUALITY, '0', '1', 'quality of the tets');
     [this.showSurface, this.showEdges, this.showCloud].forEach(function (control) { control.addEventListener('change', redraw); });
-    // Who looks at the volume's cut looks at the result.
+    // A change of the cut's controls switches the cut on.
     [this.cut, this.axis, this.position, this.colour, this.outside].forEach(function (control) {
       control.addEventListener('input', function () {
         if (control !== view.cut) view.cut.checked = true;
@@ -173,7 +173,7 @@
   View.prototype.home = function () {
     var z = this.data.up === 'z', from = z ? [0.85, -1.55, 0.75] : [0.85, 0.75, 1.55];
     this.camera.up.set(0, z ? 0 : 1, z ? 1 : 0);
-    // OrbitControls takes the upward axis when it is made; a new one is the way to tell it.
+    // OrbitControls reads the up axis only in its constructor, so a new one is made.
     var view = this;
     if (this.controls) this.controls.dispose();
     this.controls = new THREE.OrbitControls(this.camera, this.canvas);
@@ -183,8 +183,8 @@
     this.controls.update();
   };
 
-  // A normal for each corner of each face, as `dsc render` has them: the area-weighted mean over the faces at the corner's point
-  // that are within 40 degrees of the face. Smooth over gentle edges, sharp at creases.
+  // A normal for each corner of each face, as in `dsc render`: the area-weighted mean over the faces at the corner's point that
+  // are within 40 degrees of the face. So it is smooth over gentle edges and sharp at creases.
   function cornerNormals(points, faces) {
     var crease = 0.766, count = faces.length / 3, weighted = new Float32Array(3 * count), unit = new Float32Array(3 * count);
     var first = new Uint32Array(points.length / 3 + 1), around = new Uint32Array(faces.length), normals = new Float32Array(3 * faces.length);
@@ -252,7 +252,8 @@
     return group;
   };
 
-  // Colours the outside of a frame by the chosen attribute and says what the colours mean; a step may lack it.
+  // Colours the outside of a frame by the chosen attribute and shows the meaning of the colours. A step may not have the
+  // attribute.
   View.prototype.colourBy = function (index) {
     var name = this.attribute.value, group = this.frames[index], key = index + ' ' + name;
     var found = (this.data.frames[index].attributes || []).filter(function (a) { return a.name === name; })[0];
@@ -302,7 +303,7 @@
     return this.tetMesh;
   };
 
-  // The plane follows the slider, and opens towards the eye.
+  // The plane follows the slider; the side towards the camera is cut away.
   View.prototype.cutAt = function (axis) {
     var mesh = this.tets(), part = this.position.value / 1000;
     var at = mesh.low[axis] + part * (mesh.high[axis] - mesh.low[axis]) + 1e-5;
@@ -355,7 +356,7 @@
     if (this.showCloud.checked) this.cloud();
     if (this.cloudPoints) this.cloudPoints.visible = this.showCloud.checked;
     this.cloudLegend.style.display = this.showCloud.checked ? '' : 'none';
-    // Between the first step and the last one there are surfaces and no tets.
+    // Intermediate steps have surfaces but no tets.
     var cut = Boolean(this.data.tets) && this.cut.checked && last;
     if (cut) this.cutAt(AXES.indexOf(this.axis.value));
     else this.plane.set(new THREE.Vector3(1, 0, 0), 1e6);
@@ -386,7 +387,7 @@
     try {
       renderer();
     } catch (error) {
-      make('p', {className: 'sorry', textContent: 'This browser has no WebGL; the picture stands in for the view to turn.'}, root);
+      make('p', {className: 'sorry', textContent: 'This browser has no WebGL; a fixed picture replaces the view that can be rotated.'}, root);
       return;
     }
     if (standIn) standIn.remove();

@@ -37,16 +37,16 @@ const std::vector<BadCloud> bad_clouds = {
      "cut off, write it "
      "again\n"},
     {"truncated.ply", ply("0 0 0\n1 0 0\n", 5), 6,
-     "truncated.ply: the header promises 5 points, the file holds 2; the file is cut off, write it again\n"},
+     "truncated.ply: the header announces 5 points, the file contains 2; the file is cut off, write it again\n"},
     {"truncated.pcd", pcd("0 0 0\n1 0 0\n", 5), 6,
-     "truncated.pcd: the header promises 5 points, the file holds 2; the file is cut off, write it again\n"},
+     "truncated.pcd: the header announces 5 points, the file contains 2; the file is cut off, write it again\n"},
     {"nan.obj", "v 0 0 0\nv nan 0 0\n", 6,
      "nan.obj:2: 'nan' is not a finite number; remove the point or write its true coordinates\n"},
     {"infinite.xyz", "0 0 0\n1 inf 0\n", 6,
      "infinite.xyz:2: 'inf' is not a finite number; remove the point or write its true coordinates\n"},
     {"empty.xyz", "", 6, "empty.xyz: the file is empty; write the cloud again\n"},
     {"none.xyz", "# nothing\n", 6,
-     "none.xyz: the file has no points; a cloud in text has a line 'x y z' for each point\n"},
+     "none.xyz: the file has no points; a text cloud has one line 'x y z' per point\n"},
     {"one.xyz", "1 2 3\n", 5, "one.xyz: the cloud has 1 point" + four_needed},
     {"three.xyz", "0 0 0\n1 0 0\n0 1 0\n", 5, "three.xyz: the cloud has 3 points" + four_needed},
     {"flat.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n", 5,
@@ -57,11 +57,11 @@ const std::vector<BadCloud> bad_clouds = {
     {"all_nan.ply", ply("nan 0 0\n0 inf 0\n", 2), 6, ""},
     {"all_nan.pcd", pcd("nan nan nan\nnan 0 0\n", 2), 6, ""},
     {"scan.las", "LASF", 6,
-     "scan.las: las files are not read here; convert it first: pdal translate scan.las scan.ply\n"},
+     "scan.las: las files are not supported; convert it first: pdal translate scan.las scan.ply\n"},
     {"scan.laz", "LASF", 6,
-     "scan.laz: laz files are not read here; convert it first: pdal translate scan.laz scan.ply\n"},
+     "scan.laz: laz files are not supported; convert it first: pdal translate scan.laz scan.ply\n"},
     {"scan.e57", "ASTM", 6,
-     "scan.e57: e57 files are not read here; convert it first: pdal translate scan.e57 scan.ply, or save it "
+     "scan.e57: e57 files are not supported; convert it first: pdal translate scan.e57 scan.ply, or save it "
      "as PLY with "
      "CloudCompare\n"},
 };

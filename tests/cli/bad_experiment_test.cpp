@@ -59,7 +59,7 @@ TEST_CASE("an experiment that does not exist") {
     const Result result = cli.dsc({"run", "none.yaml"});
     CHECK(result.code == 6);
     CHECK(result.err ==
-          "error: none.yaml: cannot read the configuration: there is no such file; name a readable YAML "
+          "error: none.yaml: cannot read the configuration: the file does not exist; name a readable YAML "
           "file\n");
 }
 

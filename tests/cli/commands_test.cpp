@@ -174,7 +174,7 @@ TEST_CASE("report: folders that are no run's are refused, nothing is written") {
     const Cli cli;
     const Result missing = cli.dsc({"report", "nowhere"});
     CHECK(missing.code == 6);
-    CHECK(missing.err == "error: nowhere: is no folder; name the folder of a run that has ended (dsc run CONFIG -o DIR)\n");
+    CHECK(missing.err == "error: nowhere: is not a folder; name the folder of a run that has ended (dsc run CONFIG -o DIR)\n");
     cli.write("notes/status.json", "{}");
     CHECK(cli.dsc({"report", "notes"}).code == 6);
     CHECK(cli.dsc({"report", "notes", "nowhere"}).code == 6);

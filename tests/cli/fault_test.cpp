@@ -50,7 +50,7 @@ TEST_CASE("a strategy that writes behind its output") {
     const Cli cli;
     const Result result = run(cli, "outside");
     CHECK(result.code == 4);
-    CHECK(result.err.find(", a.yaml:4:11): evaluate at step 1 wrote outside of the ") != std::string::npos);
+    CHECK(result.err.find(", a.yaml:4:11): evaluate at step 1 wrote outside the ") != std::string::npos);
     CHECK(result.err.find(" entries of its output, for the block that begins with vertex 0 (birth id ") != std::string::npos);
     CHECK(cli.read("out/status.json").find("\"error_code\": \"strategy.outside\"") != std::string::npos);
 }

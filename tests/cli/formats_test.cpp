@@ -57,7 +57,7 @@ TEST_CASE("a cloud goes through every format and comes back, colours and all") {
 
     CHECK(json::parse(cli.dsc({"info", "cloud.csv", "--columns", "2,3,4", "--json"}).out)["coloured"] == false);
     CHECK(cli.dsc({"info", "cloud.csv", "--columns", "east,north,height"}).err ==
-          "error: cloud.csv:1: no column is called 'height'; choose of 'id', 'east', 'north', 'up', 'red', 'green', "
+          "error: cloud.csv:1: no column has the name 'height'; choose of 'id', 'east', 'north', 'up', 'red', 'green', "
           "'blue' or a number from 1\n");
     CHECK(cli.dsc({"reconstruct", "cloud.csv", "--columns", "east,north"}).err ==
           "error: cloud.csv: 2 columns chosen; choose 3 (x, y, z) or 6 (x, y, z, red, green, blue)\n");
@@ -109,7 +109,7 @@ TEST_CASE("a run carries the colours to the surface and writes every format; all
         CHECK(cli.read("v." + extension) == cli.read("out/result/volume." + extension));
         const Result read = cli.dsc({"info", "v." + extension});
         CHECK(read.code == 6);
-        CHECK(read.err.find("files are written here and not read; convert it with meshio") != std::string::npos);
+        CHECK(read.err.find("files can be written but not read; convert it with meshio") != std::string::npos);
     }
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("info lists every property of a cloud with its use, and judges normals
     cli.write("sphere.csv", sphere);
     const json judged = json::parse(cli.dsc({"info", "sphere.csv", "--json"}).out);
     CHECK(judged["properties"]["nx"] == "normal");
-    CHECK(judged["normals"].get<std::string>().find("The normals of the file are not used, since at ") == 0);
+    CHECK(judged["normals"].get<std::string>().find("The normals of the file are not used, because at ") == 0);
     CHECK_FALSE(judged.contains("viewpoint"));
     // A run says the same in the terminal and in summary.json.
     cli.write("a.yaml", "dsc: 1\ninput: {cloud: {file: sphere.csv, filters: [{type: orient}]}, normalize: {}}\ninitial_mesh: {type: grid, "

@@ -139,15 +139,15 @@ class Resume(unittest.TestCase):
         files[-1].write_bytes(content)
         command = [word for word in self.command("damaged", "--resume", "--progress", "never") if word != "-q"]
         said = subprocess.run(command, cwd=self.scratch, capture_output=True, text=True, check=True).stderr
-        self.assertIn(f"{files[-1].relative_to(self.scratch)} is of no use: it is damaged", said)
-        self.assertIn("going on after step " + str(int(files[-2].stem.split("_")[1])), said)
+        self.assertIn(f"{files[-1].relative_to(self.scratch)} cannot be used: it is damaged", said)
+        self.assertIn("continuing after step " + str(int(files[-2].stem.split("_")[1])), said)
         self.assertEqual(digest(self.scratch / "damaged"), self.whole)
 
     def test_another_experiment_is_refused_and_left_alone(self):
         self.run_dsc("other", "schedule=[{steps: 4}]", "output.checkpoint={every: 1, keep: 2}")
         before = {path: path.read_bytes() for path in (self.scratch / "other").rglob("*") if path.is_file()}
         done = self.run_dsc("other", "schedule=[{steps: 5}]", "output.checkpoint={every: 1, keep: 2}", "--resume", expect=2)
-        self.assertIn("other holds the run of another experiment: schedule.0.steps is 4 there and 5 here", done.stderr)
+        self.assertIn("other contains the run of another experiment: schedule.0.steps is 4 there and 5 here", done.stderr)
         self.assertEqual(before, {path: path.read_bytes() for path in (self.scratch / "other").rglob("*") if path.is_file()})
         self.run_dsc("other", "schedule=[{steps: 5}]")
         rows = (self.scratch / "other/metrics.csv").read_text().splitlines()
@@ -162,7 +162,7 @@ class Resume(unittest.TestCase):
         self.stop("short", signal.SIGTERM)
         (self.scratch / "short/metrics.csv").write_text("step\n")
         done = self.run_dsc("short", "--resume", expect=2)
-        self.assertIn("metrics.csv is shorter than it was then", done.stderr)
+        self.assertIn("metrics.csv is shorter than at the checkpoint", done.stderr)
         self.assertTrue((self.scratch / "short/result").is_dir())
 
     def test_a_full_disk_ends_cleanly(self):

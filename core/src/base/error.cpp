@@ -1,9 +1,10 @@
+// The exceptions of the library.
 #include <dsc/base/error.hpp>
 
 namespace dsc {
 
-// Out-of-line destructors give every class one home for its type information, so that a type thrown by a plugin is
-// the type that the host catches.
+// Out-of-line destructors place the type information of every class in this library, so that the host can catch a type that a
+// plugin throws.
 Error::~Error() = default;
 UsageError::~UsageError() = default;
 ConfigError::~ConfigError() = default;

@@ -1,3 +1,4 @@
+// The sink of the library's messages.
 #include <dsc/base/log.hpp>
 
 #include <mutex>

@@ -1,3 +1,4 @@
+// Counter-based random numbers: Philox-4x32-10 [Salmon2011].
 #include <dsc/base/random.hpp>
 
 #include <Random123/philox.h>
@@ -27,8 +28,8 @@ std::uint64_t stream_id(std::string_view name) {
     return hash;
 }
 
-// Seed and instance make the key; step and element are mixed through one Philox round so that all 256 bits count and
-// a 32-bit word of the counter stays free for the position in the stream.
+// Seed and instance make the key. Step and element are mixed by one Philox round, so that all 256 bits have an influence and
+// one 32-bit word of the counter remains for the position in the stream.
 RandomStream::RandomStream(const RandomKey& key) {
     const auto mixed = philox({low(key.step), high(key.step), low(key.instance), high(key.instance)},
                               {low(key.seed), high(key.seed)});

@@ -1,3 +1,4 @@
+// Reads a complete file into memory.
 #include <dsc/base/read_file.hpp>
 
 #include <fcntl.h>
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
     fail(file, "io.unreadable", "cannot be read: " + std::generic_category().message(error), "check its permissions and the disk");
 }
 
-/// Devices and pipes are refused: some of them never end.
+/// Devices and pipes are refused, because some of them never end.
 void require_regular(const fs::path& file) {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);

@@ -1,3 +1,4 @@
+// Replaces a file so that it is complete or unchanged.
 #include <dsc/base/replace_file.hpp>
 
 #include <dsc/base/error.hpp>
@@ -59,16 +60,16 @@ int write_flushed(int descriptor, std::string_view content) {
         if (count < 0) return errno;
         content.remove_prefix(static_cast<std::size_t>(count));
     }
-    // Some file systems do not have fsync. The file is written there as well.
+    // Some file systems do not support fsync. The file is written there as well.
     return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOSYS || errno == ENOTSUP ? 0 : errno;
 }
 
-/// Closes the descriptor and removes the file unless told that it stays.
+/// Closes the descriptor and removes the file unless the file shall stay.
 class TemporaryFile {
 public:
     explicit TemporaryFile(const fs::path& beside) {
         static std::atomic<unsigned> number{0};
-        // Process and counter make the name unique among ourselves; O_EXCL makes it so among all.
+        // Process and counter make the name unique within this program; O_EXCL makes it unique in the folder.
         for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
             path_ = beside.parent_path() / temporary_name(beside, number++);
             descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -84,14 +85,14 @@ public:
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-    /// Of the opening: 0, or its errno.
+    /// 0, or the errno of opening the file.
     int failure() const { return failure_; }
     const fs::path& path() const { return path_; }
 
     int write(std::string_view content) { return write_flushed(descriptor_, content); }
 
-    /// Mode and owner of the file that it replaces, as far as the system lets us. A file whose owner changes must not lend
-    /// the new one's rights.
+    /// Copies mode and owner of the file that is replaced, as far as the system allows. If the owner changes, the new owner
+    /// must not get more rights.
     void take_attributes(const FileFacts& of) {
         const bool owner_kept = ::fchown(descriptor_, of.st_uid, of.st_gid) == 0;
         const bool group_kept = owner_kept || ::fchown(descriptor_, static_cast<::uid_t>(-1), of.st_gid) == 0;
@@ -118,7 +119,7 @@ private:
     bool kept_ = false;
 };
 
-/// Makes the new name durable. A failure is not an error, as the file exists.
+/// Makes the new name durable. A failure is not an error, because the file exists.
 void sync_folder(const fs::path& folder) {
     const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return;
@@ -126,7 +127,7 @@ void sync_folder(const fs::path& folder) {
     ::close(descriptor);
 }
 
-/// The file that a name stands for, and what is there now.
+/// The file that a name refers to, and what exists there now.
 struct Place {
     fs::path file;
     std::optional<FileFacts> facts;
@@ -153,7 +154,7 @@ Place place_of(const fs::path& file) {
     return place;
 }
 
-/// Whether a file that cannot be replaced for this reason may still be written.
+/// Whether a file that cannot be replaced for this reason may still be writable.
 bool worth_writing_in_place(int error) {
     return error == EACCES || error == EPERM || error == EBUSY || error == EXDEV || error == EROFS;
 }

@@ -1,3 +1,4 @@
+// The saved state of an object as bytes.
 #include <dsc/base/error.hpp>
 #include <dsc/base/state.hpp>
 

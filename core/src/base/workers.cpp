@@ -1,3 +1,4 @@
+// A pool of worker threads that process fixed blocks.
 #include <dsc/base/workers.hpp>
 
 #include <algorithm>
@@ -47,7 +48,7 @@ struct Workers::Pool {
         }
     }
 
-    // Runs blocks until none is left; called and left with the lock held.
+    // Runs blocks until none is left; the caller holds the lock at the beginning and at the end.
     void take_blocks(std::unique_lock<std::mutex>& lock) {
         while (next < count) {
             const std::size_t begin = next;

@@ -1,3 +1,4 @@
+// Normals, colours and greys from the columns of a file.
 #include "attributes.hpp"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace dsc::cloud {
 namespace {
 
 constexpr double unit_squared_tolerance = 1e-6;
-constexpr double written_unit_tolerance = 0.01;  // of the length; two digits are the least that programs write
+constexpr double written_unit_tolerance = 0.01;  // of the length; programs write at least two digits
 constexpr double intensity_tail = 0.01;
 
 std::string in_lower_case(std::string_view name) {
@@ -55,7 +56,7 @@ std::vector<std::string> all_in_lower_case(std::span<const std::string> names) {
     return out;
 }
 
-/// The value of this rank from below, counted from 0.
+/// The value with this rank from the smallest, counted from 0.
 double ranked(std::vector<double> values, std::size_t rank) {
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
     return values[rank];
@@ -93,7 +94,7 @@ std::vector<FoundProperty> found_properties(std::span<const std::string> names, 
 Vec3 direction_of(const Vec3& normal) {
     if (!normal.allFinite()) return Vec3::Zero();
     if (std::abs(normal.squaredNorm() - 1.0) < unit_squared_tolerance) return normal;
-    const double largest = normal.cwiseAbs().maxCoeff();  // first, so that squares neither vanish nor overflow
+    const double largest = normal.cwiseAbs().maxCoeff();  // first, so that squares neither underflow nor overflow
     return largest > 0.0 ? Vec3((normal / largest).normalized()) : Vec3(Vec3::Zero());
 }
 

@@ -1,3 +1,4 @@
+// Sorts the points of a scaled cloud into the cells of a grid.
 #include "cells.hpp"
 
 #include <algorithm>

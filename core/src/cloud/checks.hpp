@@ -1,5 +1,5 @@
 #pragma once
-// What several files of this module refuse in the same words.
+// Checks that several files of this module share.
 
 #include <span>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace dsc::cloud {
 
-/// The name of a cloud for a message; "cloud" if it has none.
+/// The name of a cloud for a message; "cloud" if it has no name.
 std::string named(std::string_view name);
 
 /// Box of the points. Throws GeometryError "cloud.non_finite" for NaN, infinity and coordinates above 1e100.

@@ -1,3 +1,4 @@
+// The columns of a text cloud: separators, headers, and the choice of columns.
 #include "columns.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace dsc::cloud {
 
 namespace {
 
-/// Position of the first `wanted` outside of double quotes.
+/// Position of the first `wanted` outside double quotes.
 std::size_t find_outside_quotes(std::string_view text, char wanted) {
     bool quoted = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -40,7 +41,7 @@ std::string lower(std::string_view text) {
     return out;
 }
 
-/// The column of that name: as it is written, else in any case.
+/// The column with that name: first by the exact spelling, then without regard to case.
 std::optional<std::size_t> find_name(const std::vector<std::string>& header, const std::string& name) {
     auto found = std::find(header.begin(), header.end(), name);
     if (found == header.end())
@@ -61,7 +62,8 @@ std::optional<std::array<std::size_t, 3>> find_names(const std::vector<std::stri
     return columns;
 }
 
-/// A name without its case, its unit in brackets and all characters but letters and digits: "X [m]" is x, "Points:0" points0.
+/// A name in lower case, without its unit in brackets and without characters other than letters and digits: "X [m]" is x,
+/// "Points:0" is points0.
 std::string plain_name(const std::string& name) {
     std::string plain;
     for (const char c : lower(name.substr(0, name.find_first_of("[(")))) {
@@ -70,14 +72,14 @@ std::string plain_name(const std::string& name) {
     return plain;
 }
 
-/// What programs call a coordinate in a header. Degrees are none: a longitude is not a length.
+/// Usual names of coordinates in headers. Degrees are not included, because a longitude is not a length.
 constexpr std::array<std::array<std::string_view, 11>, 3> usual_names = {
     {{"x", "xcoord", "xcoordinate", "coordx", "posx", "positionx", "pointx", "points0", "xm", "easting", "east"},
      {"y", "ycoord", "ycoordinate", "coordy", "posy", "positiony", "pointy", "points1", "ym", "northing", "north"},
      {"z", "zcoord", "zcoordinate", "coordz", "posz", "positionz", "pointz", "points2", "zm", "elevation", "elev"}}};
 constexpr std::array<std::string_view, 4> usual_heights = {"height", "altitude", "alt", "up"};
 
-/// The three columns by their usual names; of several the one whose name stands first above.
+/// The three columns by their usual names; of several, the one whose name comes first in the list above.
 std::optional<std::array<std::size_t, 3>> find_usual(const std::vector<std::string>& header) {
     std::vector<std::string> plain;
     for (const std::string& name : header) plain.push_back(plain_name(name));
@@ -162,7 +164,7 @@ void ColumnChoice::take(const std::vector<std::size_t>& columns) {
         const auto end = columns.begin() + static_cast<std::ptrdiff_t>(i);
         if (std::find(columns.begin(), end, columns[i]) != end)
             throw IoError("io.columns", file_, "", "column " + in_quotes(options_.columns[i]) + " is chosen twice",
-                          "choose another one for each coordinate and colour");
+                          "choose a different column for each coordinate and colour");
     }
     std::copy_n(columns.begin(), 3, coordinates_.begin());
     if (columns.size() == 6) std::copy_n(columns.begin() + 3, 3, colours_.emplace().begin());
@@ -199,14 +201,14 @@ void ColumnChoice::require_names(const std::vector<std::string>& header, std::si
     });
     if (!chosen()) {
         throw IoError("io.columns", file_, std::to_string(line),
-                      numbers ? "the first line holds words, and they do not tell which columns are x, y and z"
-                              : "the header " + listed(header) + " does not tell which columns are x, y and z",
+                      numbers ? "the first line contains words, but they do not say which columns are x, y and z"
+                              : "the header " + listed(header) + " does not say which columns are x, y and z",
                       "choose three columns by their names or by their numbers from 1");
     }
     std::string missing;
     resolve(header, missing);
-    throw IoError("io.columns", file_, std::to_string(line), "no column is called " + in_quotes(missing),
-                  numbers ? "the file seems to have no header, choose columns by their numbers from 1"
+    throw IoError("io.columns", file_, std::to_string(line), "no column has the name " + in_quotes(missing),
+                  numbers ? "the file seems to have no header; choose columns by their numbers from 1"
                           : "choose of " + listed(header) + " or a number from 1");
 }
 

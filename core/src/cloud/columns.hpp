@@ -1,5 +1,5 @@
 #pragma once
-// The columns of a text cloud: how a line is divided, and which columns hold what.
+// The columns of a text cloud: how a line is divided, and what the columns contain.
 
 #include <array>
 #include <cstddef>
@@ -14,46 +14,46 @@
 
 namespace dsc::cloud {
 
-/// How the columns of a line are divided: ';', ',', with `tabs` '\t', or ' ' for blanks and tabs. A line with a
-/// semicolon keeps its commas, one with a comma its blanks, so that decimal commas are refused and not read as
-/// two columns. What stands in double quotes does not count.
+/// How the columns of a line are divided: ';', ',', with `tabs` '\t', or ' ' for blanks and tabs. Commas do not divide a line
+/// with a semicolon, and blanks do not divide a line with a comma, so that decimal commas are refused and not read as two
+/// columns. Text in double quotes is ignored.
 char separator_of(std::string_view line, bool tabs);
 
-/// The columns of a line, without their quotes. A separator at the end of the line opens no column.
+/// The columns of a line, without their quotes. A separator at the end of the line starts no column.
 void split_columns(std::string_view line, char separator, std::vector<std::string>& columns);
 
-/// Which columns, counted from 0, are read: as the caller chose, as a header calls them, or the first three.
+/// Decides which columns, counted from 0, are read: those that the caller chose, those that a header names, or the first three.
 class ColumnChoice {
 public:
-    /// Throws IoError "io.columns" for a column 0 and for one that is chosen twice.
+    /// Throws IoError "io.columns" for a column 0 and for a column that is chosen twice.
     ColumnChoice(const std::string& file, const ReadOptions& options);
 
-    /// Whether the caller chose.
+    /// Whether the caller chose columns.
     bool chosen() const { return !options_.columns.empty(); }
-    /// Whether the caller chose by names that have not been found yet.
+    /// Whether the caller chose by names that were not found yet.
     bool wants_names() const { return wants_names_; }
-    /// Whether names of a header decided.
+    /// Whether the names of a header decided.
     bool named() const { return named_; }
     const std::array<std::size_t, 3>& coordinates() const { return coordinates_; }
     const std::optional<std::array<std::size_t, 3>>& colours() const { return colours_; }
     const std::optional<std::array<std::size_t, 3>>& normals() const { return normals_; }
     const std::optional<std::size_t>& intensity() const { return intensity_; }
 
-    /// Whether the words hold all names that are needed: the chosen ones, else x, y and z.
+    /// Whether the words contain all necessary names: the chosen ones, else x, y and z.
     bool knows(const std::vector<std::string>& words) const;
-    /// Takes the columns of these names, if they hold what is needed. Of a comment only x, y and z themselves count, of a
-    /// header the usual names for them, too.
+    /// Uses the columns with these names if they contain what is needed. In a comment only x, y and z themselves are
+    /// recognised, in a header also the usual names for them.
     void take_names(const std::vector<std::string>& names, bool comment);
-    /// Throws IoError "io.columns" if a chosen name is not in the header of that line, or without a choice none of the usual
-    /// names of a coordinate is.
+    /// Throws IoError "io.columns" if the header in that line lacks a chosen name or, without a choice, all usual names of a
+    /// coordinate.
     void require_names(const std::vector<std::string>& header, std::size_t line) const;
 
-    /// For a message about a line that ends before column `last`.
+    /// Part of a message about a line that ends before column `last`.
     std::string of_needed(std::size_t last) const;
 
 private:
     void take(const std::vector<std::size_t>& columns);
-    /// The chosen columns; `missing` gets the first that is not there.
+    /// The chosen columns; `missing` receives the first name that was not found.
     std::optional<std::vector<std::size_t>> resolve(const std::vector<std::string>& header,
                                                     std::string& missing) const;
 

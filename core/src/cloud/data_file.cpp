@@ -1,3 +1,4 @@
+// Finds the data files of the project.
 #include <dsc/cloud/data_file.hpp>
 
 #include <cstdlib>
@@ -40,7 +41,7 @@ fs::path data_file(std::string_view name) {
     }
     throw IoError(
         "io.data_file", name, "", "this data file of the project is not at " + tried,
-        "set the environment variable DSC_SHARE to the folder that holds data/" + std::string(name));
+        "set the environment variable DSC_SHARE to the folder that contains data/" + std::string(name));
 }
 
 }  // namespace dsc::cloud

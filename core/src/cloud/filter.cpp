@@ -1,3 +1,4 @@
+// The simple filters: duplicates, clusters, grid, statistics and radius.
 #include <dsc/cloud/filter.hpp>
 
 #include <algorithm>
@@ -19,8 +20,7 @@ namespace dsc::cloud {
 
 namespace {
 
-/// The points moved to the origin and scaled to a diagonal of 1, for PCL's floats. All zero if all points are
-/// equal.
+/// The points moved to the origin and scaled to a diagonal of 1, for PCL's floats. All zero if all points are equal.
 std::vector<Vec3> recentred(const Cloud& cloud, const Box3& box) {
     const double diagonal = box.diagonal();
     std::vector<Vec3> points;
@@ -44,7 +44,7 @@ void mark_exact_duplicates(const std::vector<Vec3>& points, std::vector<bool>& k
         if (points[order[n]] == points[order[n - 1]]) keep[order[n]] = false;
 }
 
-/// Drops the neighbours that come after point i.
+/// Removes the neighbours that come after point i.
 void drop_later(const std::vector<Neighbour>& neighbours, std::size_t i, std::vector<bool>& keep) {
     for (const Neighbour& n : neighbours)
         if (n.index > i) keep[n.index] = false;
@@ -60,7 +60,7 @@ void mark_close(const std::vector<Vec3>& points, double distance, std::vector<bo
     }
 }
 
-/// False for points that repeat an earlier one or lie within the distance of an earlier one that stays.
+/// False for points that repeat an earlier point or lie within the distance of an earlier point that stays.
 std::vector<bool> first_of_each(const std::vector<Vec3>& points, double distance) {
     std::vector<bool> keep(points.size(), true);
     mark_exact_duplicates(points, keep);
@@ -76,7 +76,7 @@ Filtered remove_duplicates(const Cloud& cloud, const DuplicatesOptions& options)
     require_option(options.tolerance >= 0.0 && options.tolerance <= 1.0, cloud, filter,
                    "tolerance is " + short_number(options.tolerance) + "; it must lie in [0, 1]");
     if (!options.sort) return take(cloud, filter, first_of_each(cloud.points, options.tolerance * box.diagonal()));
-    // The points are in an order of their own before the first of each is looked for, so it is the same one always.
+    // The points are ordered before the first of each is chosen, so the choice does not depend on the order of the input.
     const std::vector<std::size_t> order = lexicographic_order(cloud);
     std::vector<Vec3> points;
     points.reserve(order.size());
@@ -88,8 +88,8 @@ Filtered remove_duplicates(const Cloud& cloud, const DuplicatesOptions& options)
     return take(cloud, filter, kept);
 }
 
-// The distance at which points that are spread evenly over a surface would lie comes from so many neighbours that a
-// cluster is few among them: each of k points in a disc of radius r has the area pi r^2 / k.
+// The distance that evenly spread points would have is computed from enough neighbours that a cluster is a small part of them:
+// each of k points in a disc of radius r has the area pi r^2 / k.
 Filtered remove_clusters(const Cloud& cloud, const ClustersOptions& options) {
     constexpr std::size_t around = 24;
     const std::string filter = "clusters";
@@ -103,7 +103,7 @@ Filtered remove_clusters(const Cloud& cloud, const ClustersOptions& options) {
     for (std::size_t i = 0; i < keep.size(); ++i) {
         if (!keep[i]) continue;
         search.k_nearest(cloud.points[i], around + 1, found);
-        if (found.size() <= around) break;  // too few points to say what is even
+        if (found.size() <= around) break;  // too few points for a statement
         search.neighbours_within(cloud.points[i], options.closer * even * found.back().distance, found);
         drop_later(found, i, keep);
     }
@@ -136,7 +136,7 @@ Filtered voxel_grid(const Cloud& cloud, const VoxelGridOptions& options) {
     std::vector<bool> keep(cloud.points.size(), false);
     for (std::size_t begin = 0; begin < entries.size();) {
         std::size_t end = begin;
-        Vec3 sum = Vec3::Zero();  // relative to the box, so that far coordinates lose nothing
+        Vec3 sum = Vec3::Zero();  // relative to the box, so that large coordinates keep their digits
         for (; end < entries.size() && entries[end].cell == entries[begin].cell; ++end)
             sum += cloud.points[entries[end].index] - box.low;
         const Vec3 centroid = sum / static_cast<double>(end - begin);
@@ -145,7 +145,7 @@ Filtered voxel_grid(const Cloud& cloud, const VoxelGridOptions& options) {
         for (std::size_t n = begin; n < end; ++n) {
             const double distance = (cloud.points[entries[n].index] - box.low - centroid).squaredNorm();
             if (distance >= least * (1.0 - 1e-9))
-                continue;  // two points are always as far: the first, not rounding, decides
+                continue;  // two points always have the same distance: the first is taken, so that rounding does not decide
             least = distance;
             best = n;
         }
@@ -162,7 +162,7 @@ Filtered remove_statistical_outliers(const Cloud& cloud, const StatisticalOutlie
                    "neighbours is " + std::to_string(options.neighbours) + "; it must lie in [1, 1000]");
     require_option(options.deviations >= 0.0 && std::isfinite(options.deviations), cloud, filter,
                    "deviations is " + short_number(options.deviations) + "; it must be at least 0");
-    // PCL reads beyond its buffer when a cloud has no more points than neighbours are asked for.
+    // PCL reads beyond its buffer if a cloud has no more points than requested neighbours.
     const std::size_t neighbours = std::min(options.neighbours, cloud.points.size() - 1);
     if (neighbours == 0) return take(cloud, filter, std::vector<bool>(cloud.points.size(), true));
     return take(cloud, filter, statistical_inliers(recentred(cloud, box), neighbours, options.deviations));

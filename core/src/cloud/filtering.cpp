@@ -1,3 +1,4 @@
+// Checks and selections that all filters share.
 #include "filtering.hpp"
 
 #include <cstddef>

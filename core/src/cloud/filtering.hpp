@@ -1,5 +1,5 @@
 #pragma once
-// What all filters do alike: refuse what they cannot work on, take the points that stay, count the others.
+// Common parts of all filters: check the input, select the points that stay, count the others.
 
 #include <string>
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace dsc::cloud {
 
-/// Box of the cloud; refuses a cloud that no filter can work on.
+/// Box of the cloud; throws if no filter can process the cloud.
 Box3 checked_box(const Cloud& cloud, const std::string& filter);
 
 /// Throws GeometryError "cloud.option" with the cause unless `valid`.
 void require_option(bool valid, const Cloud& cloud, const std::string& filter, const std::string& cause);
 
-/// The points that stay with their attributes: by flag in the order of the cloud, or by index in the order of the indices. Throws GeometryError "cloud.filtered_out" if
-/// there are none.
+/// The points that stay, with their attributes: by flag in the order of the cloud, or by index in the order of the indices.
+/// Throws GeometryError "cloud.filtered_out" if none stays.
 Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<bool>& keep);
 Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<std::size_t>& kept);
 

@@ -1,3 +1,4 @@
+// Orients a cloud by the normals of its file or by the position of its scanner.
 #include <dsc/cloud/given_normals.hpp>
 
 #include <algorithm>
@@ -18,21 +19,21 @@ namespace dsc::cloud {
 
 namespace {
 
-constexpr double least_present = 0.9;     // share of points with a normal
-constexpr double least_standing = 0.8;    // share of flat places where the normal stands on the plane
-constexpr double least_agreeing = 0.95;   // share of pairs of one sign: real files have some wrong signs at rims
-constexpr double seen_agreeing = 0.99;    // the same of normals towards a true place of a scanner, which are wrong at no rim
-constexpr double sides_agreeing = 0.998;  // so few contradict that the sides are held
-constexpr double least_kept = 0.9;        // share of signs that the winding field leaves as they are
-constexpr double most_dropped = 0.2;      // share of samples that held sides may leave inside or outside
-constexpr double most_behind = 0.05;      // share of neighbours in the view that lie far behind each other
-constexpr double far_behind = 10.0;       // that distance, in widths; a slanted surface has the reciprocal of its cosine
+constexpr double least_present = 0.9;     // fraction of points with a normal
+constexpr double least_standing = 0.8;    // fraction of flat places where the normal is perpendicular to the plane
+constexpr double least_agreeing = 0.95;   // fraction of pairs with the same sign: real files have some wrong signs at rims
+constexpr double seen_agreeing = 0.99;    // the same for normals towards a true scanner position, which are right even at rims
+constexpr double sides_agreeing = 0.998;  // above this fraction the signs are kept fixed
+constexpr double least_kept = 0.9;        // fraction of signs that the winding field leaves unchanged
+constexpr double most_dropped = 0.2;      // fraction of samples that fixed signs may leave inside or outside
+constexpr double most_behind = 0.05;      // fraction of neighbours in the view that lie far behind each other
+constexpr double far_behind = 10.0;       // that distance, in widths; for a slanted surface it is the reciprocal of the cosine
 constexpr double inwards = -0.1;          // mean winding number below which normals point into the solid
 constexpr double closed = 0.3;            // mean winding number above which a short iteration is enough
 constexpr double flat_cosine = 0.9;       // of the planes round a flat place
 constexpr double standing_cosine = 0.7;
 constexpr double one_piece_cosine = 0.8;  // between the planes of two neighbours on one piece of surface
-constexpr double one_piece_offset = 0.3;  // how far a neighbour lies off the plane, of its distance: the two sides of a sheet are apart
+constexpr double one_piece_offset = 0.3;  // largest offset of a neighbour from the plane, over its distance
 constexpr std::size_t pair_neighbours = 6;
 constexpr std::size_t view_neighbours = 4;
 constexpr double judged_smoothing = 0.5;
@@ -43,7 +44,7 @@ double share_of(std::size_t part, std::size_t all) {
 
 std::string percent(double share) { return short_number(std::round(1000.0 * share) / 10.0) + " %"; }
 
-/// Places where the planes of a quarter of the neighbours at most are turned: not on creases, corners or in thick noise.
+/// Places where at most a quarter of the neighbours have a turned plane: not on creases, at corners or in thick noise.
 std::vector<std::uint8_t> flat_places(const ScaledSamples& samples) {
     std::vector<std::uint8_t> flat(samples.size());
     std::vector<double> cosines;
@@ -57,10 +58,10 @@ std::vector<std::uint8_t> flat_places(const ScaledSamples& samples) {
     return flat;
 }
 
-/// How normals of the samples agree with the planes and with each other, at the flat places.
+/// Agreement of the samples' normals with the planes and with each other, at the flat places.
 struct Agreement {
-    double standing = 1.0;  ///< share of places where the normal stands on the plane
-    double agreeing = 1.0;  ///< share of neighbours on one piece of surface whose normals have one sign
+    double standing = 1.0;  ///< fraction of places where the normal is perpendicular to the plane
+    double agreeing = 1.0;  ///< fraction of neighbours on one piece of surface whose normals have the same sign
 };
 
 Agreement agreement_of(const ScaledSamples& samples, const std::vector<Vec3>& normals) {
@@ -85,8 +86,8 @@ Agreement agreement_of(const ScaledSamples& samples, const std::vector<Vec3>& no
     return {share_of(standing, places), share_of(agreeing, pairs)};
 }
 
-/// The mean of w at the samples: 1/2 round a closed solid with normals that point outwards, -1/2 with the opposite ones, near 0
-/// where they bound nothing.
+/// The mean of w at the samples: 1/2 for a closed solid with normals that point outwards, -1/2 with inward normals, near 0 if
+/// they bound nothing.
 double mean_winding(const ScaledSamples& samples, const std::vector<Vec3>& normals, Workers* workers) {
     std::vector<double> areas(samples.widths), w(samples.size());
     std::vector<Vec3> vectors(normals);
@@ -107,7 +108,7 @@ void turn(std::vector<Vec3>& normals) {
     for (Vec3& normal : normals) normal = -normal;
 }
 
-/// Share of points whose normal is on the side that was given.
+/// Fraction of points whose normal still has the given sign.
 double kept_share(const ScaledSamples& samples, const std::vector<Vec3>& given, const OrientedPoints& found) {
     std::size_t kept = 0, all = 0;
     for (std::size_t i = 0; i < found.normals.size(); ++i) {
@@ -137,8 +138,8 @@ std::vector<Vec3> normals_towards(const ScaledSamples& samples, const Vec3& plac
     return out;
 }
 
-/// Share of the samples' neighbours in the view from a place that lie far from them: seen from elsewhere, a solid has its back behind
-/// its front.
+/// Fraction of the samples' neighbours, in the view from a place, that lie far from them: if the scanner was elsewhere, the
+/// back of a solid appears behind its front.
 double behind_share(const ScaledSamples& samples, const Vec3& place) {
     std::vector<Vec3> directions;
     directions.reserve(samples.size());
@@ -163,13 +164,13 @@ double behind_share(const ScaledSamples& samples, const Vec3& place) {
 
 double dropped_share(const OrientedPoints& found) { return share_of(found.dropped, found.dropped + found.orientation.samples.size()); }
 
-/// The way of the copy that closes a cloud of one layer (Orientation::backing), along `away`; zero for a cloud that needs none.
-/// `place`: where it may have been recorded from, in scaled units.
+/// The displacement of the copy that closes a cloud of one layer (Orientation::backing), along `away`; zero for a cloud that
+/// needs none. `place`: possible position of the scanner, in scaled units.
 Vec3 backing_along(const Vec3& away, const ScaledSamples& samples, const Vec3& place, const OrientOptions& options) {
     return options.backing ? *options.backing : backing_of(samples, place, Vec3(away.normalized()));
 }
 
-/// The sum of the view's directions from a place: a copy along it lies behind all that is seen from there.
+/// The sum of the view directions from a place: a copy moved along it lies behind everything that is visible from there.
 Vec3 view_from(const ScaledSamples& samples, const Vec3& place) {
     Vec3 sum = Vec3::Zero();
     for (const Vec3& p : samples.positions) sum += (p - place).normalized();
@@ -182,7 +183,7 @@ Vec3 sum_of(const std::vector<Vec3>& vectors) {
     return sum;
 }
 
-/// orient_samples_from, with a copy of the points and the opposite normals there unless `backing` is zero.
+/// orient_samples_from, with a moved copy of the points with opposite normals unless `backing` is zero.
 OrientedPoints orient_with_backing(const ScaledSamples& samples, std::span<const Vec3> points, const std::vector<Vec3>& given,
                                    const Vec3& backing, const StartOptions& options, Workers* workers, const CancelToken* cancel) {
     if (backing.isZero(0.0)) return orient_samples_from(samples, points, given, options, workers, cancel);
@@ -205,7 +206,7 @@ GivenOrientation orient_by_file_normals(const Cloud& cloud, const OrientOptions&
     if (cloud.normals.size() != cloud.points.size()) return out;
     require_volume(cloud.points, cloud.source);
     const auto refuse = [&](const std::string& why) {
-        out.note = "The normals of the file are not used, since " + why + ".";
+        out.note = "The normals of the file are not used, because " + why + ".";
         return out;
     };
     const auto without = std::count_if(cloud.normals.begin(), cloud.normals.end(), [](const Vec3& n) { return n.isZero(0.0); });
@@ -219,9 +220,9 @@ GivenOrientation orient_by_file_normals(const Cloud& cloud, const OrientOptions&
     out.figures.emplace_back("normals_standing", agreement.standing);
     out.figures.emplace_back("normals_agreeing", agreement.agreeing);
     if (agreement.standing < least_standing)
-        return refuse("at " + percent(1.0 - agreement.standing) + " of the flat places they do not stand on the surface");
+        return refuse("at " + percent(1.0 - agreement.standing) + " of the flat places they are not perpendicular to the surface");
     if (agreement.agreeing < least_agreeing)
-        return refuse(percent(1.0 - agreement.agreeing) + " of the neighbouring ones point to opposite sides");
+        return refuse(percent(1.0 - agreement.agreeing) + " of neighbouring normals point to opposite sides");
 
     const double winding = mean_winding(samples, given, workers);
     out.figures.emplace_back("normals_winding", winding);
@@ -263,7 +264,7 @@ GivenOrientation orient_by_sensor(const Cloud& cloud, const OrientOptions& optio
     const Vec3 place = (at - samples.centre) / samples.diagonal;
     const std::string viewpoint = "viewpoint " + short_number(at.x()) + " " + short_number(at.y()) + " " + short_number(at.z());
     const auto refuse = [&](const std::string& why) {
-        if (stated) out.note = "The " + viewpoint + " of the file is not used, since " + why + ".";
+        if (stated) out.note = "The " + viewpoint + " of the file is not used, because " + why + ".";
         return out;
     };
     const double behind = behind_share(samples, place);
@@ -273,7 +274,7 @@ GivenOrientation orient_by_sensor(const Cloud& cloud, const OrientOptions& optio
     const Agreement agreement = agreement_of(samples, given);
     out.figures.emplace_back("viewpoint_agreeing", agreement.agreeing);
     if (agreement.agreeing < seen_agreeing)
-        return refuse(percent(1.0 - agreement.agreeing) + " of the neighbouring points show it opposite sides");
+        return refuse(percent(1.0 - agreement.agreeing) + " of neighbouring points show opposite sides to it");
     const double winding = mean_winding(samples, given, workers);
     out.figures.emplace_back("viewpoint_winding", winding);
     if (!stated && winding <= 0.0) return out;

@@ -1,5 +1,5 @@
 #pragma once
-// What the checks of PCD and PLY headers share.
+// Common parts of the checks of PCD and PLY headers.
 
 #include <cstddef>
 #include <limits>
@@ -8,16 +8,16 @@
 
 namespace dsc::cloud {
 
-/// Takes the next line off `rest`; only LF ends it, because binary data follow a header. A CR before it is
-/// dropped. False at the end and for a line without LF.
+/// Removes the next line from `rest`. Only LF ends it, because binary data may follow a header; a CR before it is dropped.
+/// False at the end and for a line without LF.
 bool next_header_line(std::string_view& rest, std::string_view& line);
 
 [[noreturn]] void header_error(const std::string& file, std::size_t line, const std::string& cause);
 
-/// "the header promises N points, the file holds M".
+/// "the header announces N points, the file contains M".
 [[noreturn]] void truncated(const std::string& file, const std::string& promised, std::size_t held);
 
-/// A count of a header that may still be multiplied by sizes; PCL counts points in 31 bits.
+/// The largest count of a header that can still be multiplied by sizes; PCL counts points in 31 bits.
 inline constexpr std::size_t most_points = std::numeric_limits<int>::max();
 
 }  // namespace dsc::cloud

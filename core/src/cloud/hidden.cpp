@@ -1,4 +1,4 @@
-// Filter `hidden`: from many directions, discs in place of the surface are drawn into a buffer of depths.
+// Filter `hidden`: discs that represent the surface are drawn into depth buffers from many directions.
 #include <dsc/cloud/filter.hpp>
 
 #include <Eigen/Eigenvalues>
@@ -16,15 +16,15 @@ namespace dsc::cloud {
 
 namespace {
 
-/// A disc in place of the surface round a point.
+/// A disc that represents the surface at a point.
 struct Disc {
     Vec3 centre;
     Vec3 normal;  ///< unit, of either sign
     double radius = 0.0;
-    double margin = 0.0;  ///< what lies less than this behind the disc is not hidden by it
+    double margin = 0.0;  ///< the disc does not hide points that are less than this behind it
 };
 
-/// Normal of the plane that fits the points best.
+/// Normal of the best-fitting plane of the points.
 Vec3 plane_normal(std::span<const Vec3> points, std::span<const Neighbour> members) {
     Vec3 mean = Vec3::Zero();
     for (const Neighbour& n : members) mean += points[n.index] / static_cast<double>(members.size());
@@ -42,7 +42,7 @@ double median_radius(const std::vector<Disc>& discs) {
     return *middle;
 }
 
-/// The disc of every point, round the middle of the cloud's box as origin.
+/// The disc of every point; the origin is the centre of the cloud's box.
 std::vector<Disc> discs_of(const Cloud& cloud, const Vec3& origin, const HiddenOptions& options) {
     constexpr std::size_t members = 9;  // the point and eight others
     Normalized recentred;
@@ -57,7 +57,7 @@ std::vector<Disc> discs_of(const Cloud& cloud, const Vec3& origin, const HiddenO
         const double spacing = target.spacing(i);
         discs.push_back({target[i], plane_normal(target.points(), near), options.radius * spacing, options.depth * spacing});
     }
-    // Points alone in the wide stand for no surface of that width.
+    // Isolated points do not represent a surface of that width.
     constexpr double widest = 4.0;
     const double limit = widest * median_radius(discs);
     for (Disc& disc : discs) disc.radius = std::min(disc.radius, limit);
@@ -73,10 +73,10 @@ Vec3 direction(std::size_t i, std::size_t count) {
     return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-/// What a viewer at infinity sees: the largest depth (towards the viewer) of each pixel.
+/// What a viewer at infinity sees: the largest depth (towards the viewer) per pixel.
 class DepthBuffer {
 public:
-    /// `half_width`: of the square that is looked at. `pixel`: wanted edge of a pixel; fine ones become coarser.
+    /// `half_width`: of the visible square. `pixel`: wanted edge of a pixel; too small pixels are enlarged.
     DepthBuffer(double half_width, double pixel) : half_width_(half_width) {
         constexpr double most = 1024;
         const double wanted = pixel > 0.0 ? std::ceil(2.0 * half_width / pixel) : 1.0;
@@ -87,9 +87,9 @@ public:
 
     void clear() { std::fill(depth_.begin(), depth_.end(), -std::numeric_limits<double>::infinity()); }
 
-    /// `centre` and `normal` as the viewer sees them: x and y across, z towards the viewer.
+    /// `centre` and `normal` in the viewer's coordinates: x and y across, z towards the viewer.
     void draw(const Disc& disc, const Vec3& centre, const Vec3& normal) {
-        constexpr double edge_on = 0.05;  // hides next to nothing, and its depth in a pixel means little
+        constexpr double edge_on = 0.05;  // such a disc hides almost nothing, and its depth in a pixel is inaccurate
         if (std::abs(normal.z()) < edge_on) return;
         const std::size_t x_end = past(centre.x() + disc.radius), y_end = past(centre.y() + disc.radius);
         for (std::size_t j = pixel_of(centre.y() - disc.radius); j < y_end; ++j) {
@@ -119,12 +119,12 @@ private:
     std::vector<double> depth_;
 };
 
-/// How many of the views see each point.
+/// Number of views that see each point.
 std::vector<std::size_t> count_views(const std::vector<Disc>& discs, std::size_t views, const CancelToken* cancel) {
     std::vector<std::size_t> counts(discs.size(), 0);
     double half_width = 0.0;
     for (const Disc& disc : discs) half_width = std::max(half_width, disc.centre.norm());
-    if (!(half_width > 0.0)) return std::vector<std::size_t>(discs.size(), views);  // all in one place
+    if (!(half_width > 0.0)) return std::vector<std::size_t>(discs.size(), views);  // all points are in one place
     DepthBuffer buffer(half_width, 0.25 * median_radius(discs));
     std::vector<Vec3> centres(discs.size());
     for (std::size_t view = 0; view < views; ++view) {

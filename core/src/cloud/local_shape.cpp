@@ -1,3 +1,4 @@
+// Normals and noise from the neighbours of points.
 #include "local_shape.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -1,3 +1,4 @@
+// The nearest neighbours of all points of a cloud.
 #include "neighbours.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::size_t search_block = 512;
 
-/// The lowest 21 bits of a number, two zeros between each.
+/// The lowest 21 bits of a number, with two zeros between neighbouring bits.
 std::uint64_t spread_bits(std::uint64_t bits) {
     bits = (bits | bits << 32U) & 0x001F00000000FFFFU;
     bits = (bits | bits << 16U) & 0x001F0000FF0000FFU;
@@ -55,7 +56,7 @@ Neighbours find_neighbours(std::span<const Vec3> points, std::size_t wanted, Wor
         for (std::size_t q = begin; q < end; ++q) {
             search.k_nearest(ordered[q], out.each + 1, found);
             const std::size_t i = order[q];
-            // The point itself comes first unless others lie on it; then it may even be missing among those found.
+            // The point itself comes first unless others coincide with it; then it may even be missing in the result.
             std::size_t count = 0;
             for (const Neighbour& n : found) {
                 if (n.index == q || count == out.each) continue;

@@ -1,3 +1,4 @@
+// Winding number normal consistency [Lin2024]: descent steps and turns.
 #include "normal_consistency.hpp"
 
 #include <algorithm>
@@ -9,21 +10,21 @@ namespace dsc::cloud {
 
 namespace {
 
-/// Factor of the widths in iteration t. Rounded to float: libraries differ in the last bit of pow.
+/// Factor of the widths in iteration t. Rounded to float, because libraries differ in the last bit of pow.
 double smoothing_at(const ConsistencySchedule& schedule, std::size_t t) {
     if (schedule.iterations <= 1) return schedule.last;
     const double share = static_cast<double>(t) / static_cast<double>(schedule.iterations - 1);
     return static_cast<double>(static_cast<float>(schedule.first * std::pow(schedule.last / schedule.first, share)));
 }
 
-/// What an iteration works on, allocated once.
+/// Working arrays of an iteration, allocated once.
 struct Buffers {
     explicit Buffers(std::size_t count) : w(count), r(count), direction(count) {}
     std::vector<double> w, r;
     std::vector<Vec3> direction;
 };
 
-/// mu += s g with g = A^T r and the s that makes |r - s A g| least. Returns the root mean square of r.
+/// mu += s g with g = A^T r and the s that minimises |r - s A g|. Returns the root mean square of r.
 double descend(WindingField& field, std::vector<Vec3>& vectors, Buffers& buffers, Workers* workers) {
     field.winding(buffers.w, workers);
     const double residual = winding_residual(buffers.w);

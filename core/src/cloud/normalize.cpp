@@ -1,3 +1,4 @@
+// Converts a cloud to normalised units, and refuses clouds that bound no volume.
 #include <dsc/cloud/normalize.hpp>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace dsc::cloud {
 
 namespace {
 
-/// Index of the point for which `measure` is largest, the first of equals.
+/// Index of the point with the largest `measure`; of equal ones the first.
 template <class Measure>
 std::size_t largest(std::span<const Vec3> points, const Measure& measure) {
     std::size_t best = 0;
@@ -46,7 +47,7 @@ std::string named(std::string_view name) { return name.empty() ? "cloud" : std::
 Box3 require_finite(std::span<const Vec3> points, std::string_view name) {
     Box3 box;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        // Beyond this, squares and volumes of coordinates leave the range of doubles.
+        // Beyond this, squares and volumes of coordinates are outside the range of doubles.
         if (!(points[i].array().abs() <= 1e100).all())
             throw GeometryError("cloud.non_finite",
                                 named(name) + ": point " + std::to_string(i) +
@@ -68,8 +69,8 @@ void require_volume(std::span<const Vec3> points, std::string_view name) {
                                       " (extent " + short_number(size.x()) + " x " + short_number(size.y()) +
                                       " x " + short_number(size.z()) + "); " + std::string(volume_remedy));
     };
-    // Below 1e-100 the squares of differences vanish. Flat means below the tolerance or below what rounding
-    // the coordinates far from the origin may have added.
+    // Below 1e-100 the squares of differences underflow. Flat means: below the tolerance, or below the rounding of coordinates
+    // far from the origin.
     const double diagonal = box.diagonal();
     if (diagonal < 1e-100) refuse("cloud.equal", "are equal");
     const double magnitude = std::max(box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff());
@@ -91,7 +92,7 @@ void require_volume(std::span<const Vec3> points, std::string_view name) {
 
 namespace {
 
-// Directions stay, since the transform turns nothing; areas grow with the square of its scale.
+// Directions do not change, because the transform has no rotation; areas grow with the square of its scale.
 void set_attributes(const Cloud& cloud, Normalized& result) {
     const Transform& transform = result.transform;
     const double area_scale = transform.scale * transform.scale;

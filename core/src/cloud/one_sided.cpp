@@ -1,3 +1,4 @@
+// Recognises clouds recorded from one side, and closes them with a copy.
 #include "one_sided.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -16,20 +17,20 @@ namespace {
 constexpr std::size_t least_samples = 100;
 constexpr double footprint_cell = 2.0;  // widths: few cells of the footprint are empty by chance
 constexpr double layer_cell = 4.0;      // widths
-constexpr double layer_gap = 6.0;       // widths: steeper than any slope within a cell that is sampled evenly
-constexpr double least_area_ratio = 0.6;    // of walls that are seen along themselves less
-constexpr double most_area_ratio = 1.3;     // 1 for one layer; solids have 2, somewhat less where they are sampled sparsely
-constexpr double most_layered_share = 0.1;  // edges of roofs and of objects in front of others
+constexpr double layer_gap = 6.0;       // widths: larger than any evenly sampled slope within a cell
+constexpr double least_area_ratio = 0.6;    // less for walls that are parallel to the view
+constexpr double most_area_ratio = 1.3;     // 1 for one layer; 2 for solids, somewhat less if sampled sparsely
+constexpr double most_layered_share = 0.1;  // edges of roofs, and objects in front of others
 constexpr double rim_gap = 165.0 / 180.0 * std::numbers::pi;  // angle without neighbours: 180 degrees at a straight border
-constexpr double least_rim = 0.25;          // of the border of a disc of the footprint's area, which is the shortest
+constexpr double least_rim = 0.25;          // of the shortest possible border, the circumference of a disc of equal area
 constexpr double least_depth = 20.0;       // widths
-constexpr double depth_of_extent = 0.2;    // roots of the footprint
+constexpr double depth_of_extent = 0.2;    // square roots of the footprint
 constexpr double most_depth = 0.25;        // of the longest side of the box: the copy stays in the box of the simulation
 constexpr double copy_narrowing = 0.15;     // of the distance from the centre
-constexpr double along_view = 0.7;         // cosine: a camera at the origin looks along the direction, terrain lies across the z axis
+constexpr double along_view = 0.7;         // cosine: a camera at the origin looks along it; terrain is across the z axis
 constexpr double farthest_camera = 10.0;   // diagonals from the cloud's centre
 
-/// Two unit vectors across a third one.
+/// Two unit vectors perpendicular to a third one.
 std::pair<Vec3, Vec3> across(const Vec3& direction) {
     Eigen::Index least = 0;
     direction.cwiseAbs().minCoeff(&least);
@@ -38,11 +39,11 @@ std::pair<Vec3, Vec3> across(const Vec3& direction) {
 }
 
 struct InCell {
-    std::int64_t u, v;  // cell of the plane across the direction
+    std::int64_t u, v;  // cell in the plane perpendicular to the direction
     double depth;       // along it
 };
 
-/// Samples by the cells that lines along `direction` pass, nearest first in each.
+/// Samples by the cells that lines along `direction` cross, nearest first in each cell.
 std::vector<InCell> project(const ScaledSamples& samples, const Vec3& direction, double cell) {
     const auto [a, b] = across(direction);
     std::vector<InCell> out;
@@ -90,7 +91,7 @@ double seen_area(const ScaledSamples& samples, const Vec3& direction) {
     return sum;
 }
 
-/// Whether the neighbours leave a half of the tangent plane empty: the sample lies at a border.
+/// Whether the neighbours leave half of the tangent plane empty: the sample lies at a border.
 bool at_rim(const ScaledSamples& samples, std::size_t s, std::vector<double>& angles) {
     const auto [a, b] = across(samples.normals[s]);
     angles.clear();
@@ -104,7 +105,7 @@ bool at_rim(const ScaledSamples& samples, std::size_t s, std::vector<double>& an
     return gap > rim_gap;
 }
 
-/// The length of all borders, about; a solid has none.
+/// Approximate length of all borders; a solid has none.
 double rim_length(const ScaledSamples& samples) {
     double length = 0.0;
     std::vector<double> angles;
@@ -112,7 +113,7 @@ double rim_length(const ScaledSamples& samples) {
     return length;
 }
 
-/// The principal axes, the axes, diagonals and edge directions of a cube, and the way from the origin.
+/// The principal axes; the axes, diagonals and edge directions of a cube; and the direction from the origin.
 std::vector<Vec3> candidates(const ScaledSamples& samples, const Vec3& mean, const Vec3& origin) {
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     for (const Vec3& p : samples.positions) spread += (p - mean) * (p - mean).transpose();
@@ -122,15 +123,15 @@ std::vector<Vec3> candidates(const ScaledSamples& samples, const Vec3& mean, con
     for (int x = -1; x <= 1; ++x)
         for (int y = -1; y <= 1; ++y)
             for (int z = 0; z <= 1; ++z) {
-                const bool half = z > 0 || y > 0 || (y == 0 && x > 0);  // of two opposite ones
+                const bool half = z > 0 || y > 0 || (y == 0 && x > 0);  // one of each pair of opposite directions
                 if (half) all.push_back(Vec3(x, y, z).normalized());
             }
     if ((mean - origin).norm() > 0.0) all.push_back((mean - origin).normalized());
     return all;
 }
 
-/// Which of the two ways along `direction` leads away from the recorder: from a camera at the origin; else downwards, as from the
-/// air; else to where the border lies, since objects bulge towards the viewer.
+/// Which of the two directions along `direction` leads away from the recorder: away from a camera at the origin; else
+/// downwards, for a recording from the air; else towards the border, because objects bulge towards the viewer.
 Vec3 turned_away(const ScaledSamples& samples, const Vec3& direction, const Vec3& mean, const Vec3& origin) {
     const Vec3 way = mean - origin;
     const double along = way.norm() > 0.0 ? way.normalized().dot(direction) : 0.0;

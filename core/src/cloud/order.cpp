@@ -1,3 +1,4 @@
+// An order of points by coordinates and attributes.
 #include "order.hpp"
 
 #include <algorithm>
@@ -9,10 +10,10 @@ namespace dsc::cloud {
 
 namespace {
 
-// -1, 0 or 1, with -0 equal to 0.
+// -1, 0 or 1; -0 equals 0.
 int by_value(double a, double b) { return a < b ? -1 : (b < a ? 1 : 0); }
 
-// An integer that grows with the number; a total order of all doubles, -0 before 0.
+// An integer that grows with the number: a total order of all doubles, with -0 before 0.
 std::uint64_t rank(double value) {
     constexpr std::uint64_t sign = std::uint64_t{1} << 63U;
     std::uint64_t bits = 0;
@@ -39,7 +40,7 @@ public:
     }
 
 private:
-    // Of points with equal coordinates.
+    // Compares points with equal coordinates.
     int attributes(std::size_t i, std::size_t j) const {
         if (whole(cloud_.colours) && cloud_.colours[i] != cloud_.colours[j])
             return cloud_.colours[i] < cloud_.colours[j] ? -1 : 1;

@@ -1,5 +1,5 @@
 #pragma once
-// The fine stage of an orientation alone, from normals of the samples instead of a coarse stage.
+// The fine stage of an orientation, started from normals of the samples instead of a coarse stage.
 
 #include <cstddef>
 #include <span>
@@ -12,10 +12,11 @@ namespace dsc::cloud {
 
 struct StartOptions {
     std::size_t iterations = 12;
-    bool hold_sides = false;  ///< no normal turns from the side where it is given
+    bool hold_sides = false;  ///< no normal turns away from its given side
 };
 
-/// `given`: a unit vector or zero per sample. The noise of the given directions is gone in the result. Throws CancelledError. [setup]
+/// `given`: a unit vector or zero per sample. The result does not contain the noise of the given directions. Throws
+/// CancelledError. [setup]
 OrientedPoints orient_samples_from(const ScaledSamples& samples, std::span<const Vec3> points, std::span<const Vec3> given,
                                    const StartOptions& options, Workers* workers, const CancelToken* cancel);
 

@@ -1,3 +1,4 @@
+// Orients a cloud from its points alone, in a coarse and a fine stage [Lin2024].
 #include <dsc/cloud/orientation.hpp>
 
 #include <algorithm>
@@ -22,13 +23,13 @@ namespace dsc::cloud {
 namespace {
 
 constexpr double most_representatives = 8000.0;
-constexpr std::size_t few_samples = 10000;  // up to here every sample is a representative
+constexpr std::size_t few_samples = 10000;  // up to this number every sample is a representative
 constexpr double coarse_first = 6.0, coarse_last = 1.0;
 constexpr double fine_first = 2.0, fine_last = 0.5, fine_last_noisy = 1.1;
 constexpr double field_smoothing = 0.5;    // of the finished field
-constexpr double normal_smoothing = 0.7;   // where normals between the samples are read from it
-constexpr double far_from_surface = 0.45;  // |w - 1/2| of what lies inside or outside
-constexpr double off_and_apart = 0.3;        // the same where the point lies apart from its neighbours as well
+constexpr double normal_smoothing = 0.7;   // for reading normals between the samples
+constexpr double far_from_surface = 0.45;  // |w - 1/2| of samples inside or outside
+constexpr double off_and_apart = 0.3;        // the same if the point is also far from its neighbours
 constexpr double apart_factor = 1.25;
 constexpr std::size_t width_neighbours = 12;
 constexpr double unit_tolerance = 1e-6;
@@ -48,7 +49,7 @@ Vec3 direction_or(const Vec3& v, const Vec3& other) {
 struct Representatives {
     std::vector<Vec3> positions;
     std::vector<double> widths, weights;
-    double edge = 0.0;  ///< of the cells that they are means of; 0 if they are the samples
+    double edge = 0.0;  ///< of the cells whose means they are; 0 if they are the samples
 };
 
 Representatives representatives_of(const ScaledSamples& samples, bool all, Workers* workers) {
@@ -69,7 +70,7 @@ Representatives representatives_of(const ScaledSamples& samples, bool all, Worke
     return out;
 }
 
-/// Both stages; what they find for the samples.
+/// Both stages, and their results for the samples.
 class Orienter {
 public:
     Orienter(const ScaledSamples& samples, Workers* workers, const CancelToken* cancel)
@@ -95,8 +96,8 @@ public:
             vectors[i] = direction_or(vectors[i], samples_.normals[i]) * (samples_.widths[i] * samples_.widths[i]);
     }
 
-    /// In place of the coarse stage: the planes' normals, towards where the cloud was recorded from and, in its copy, which holds
-    /// the points from `first_copy` on, away from there.
+    /// Instead of the coarse stage: the planes' normals, turned towards the place of recording. In the copy, which consists of
+    /// the points from `first_copy` on, they are turned away from it.
     void face_recorder(const Vec3& away, std::size_t first_copy) {
         std::vector<std::uint8_t> copied(samples_.size(), 0);
         for (std::size_t i = first_copy; i < samples_.of_point.size(); ++i) copied[samples_.of_point[i]] = 1;
@@ -114,15 +115,15 @@ public:
         measure_winding();
     }
 
-    /// Vectors along unit normals of the samples, or zero, as long as the samples' areas.
+    /// Sets vectors along unit normals of the samples, or zero; their lengths are the samples' areas.
     void start_from(std::span<const Vec3> given) {
         for (std::size_t s = 0; s < vectors.size(); ++s) vectors[s] = given[s] * (samples_.widths[s] * samples_.widths[s]);
     }
 
-    /// Holds every vector on the side where it is now.
+    /// Fixes every vector to its present side.
     void hold_sides() { sides_ = vectors; }
 
-    /// w at the samples, of vectors that are there already.
+    /// w at the samples, from the present vectors.
     void measure_winding() {
         set_smoothing(field_, samples_.widths, field_smoothing);
         field_.set_vectors(vectors);
@@ -137,7 +138,7 @@ public:
         }
     }
 
-    /// Turns the vectors towards the normals of the planes; `agreement` is |cosine| between the two.
+    /// Turns the vectors towards the normals of the planes; `agreement` is the absolute cosine between the two.
     void refine_directions() {
         agreement.resize(vectors.size());
         for (std::size_t i = 0; i < vectors.size(); ++i) {
@@ -199,7 +200,7 @@ Orientation orientation_of(const ScaledSamples& samples, std::span<const Vec3> p
     return out;
 }
 
-/// Normals, areas and confidence of the given points; `normals` in their order.
+/// Normals, areas and confidence of the given points; `normals` in the order of the points.
 OrientedPoints spread(const ScaledSamples& samples, std::vector<Vec3> normals, const Orienter& found) {
     OrientedPoints out;
     out.normals = std::move(normals);
@@ -219,7 +220,7 @@ OrientedPoints spread(const ScaledSamples& samples, std::vector<Vec3> normals, c
     return out;
 }
 
-/// Normals of the given points, scaled to the samples' units where they are not the samples themselves.
+/// Normals of the given points, scaled to the samples' units if they are not the samples themselves.
 std::vector<Vec3> point_normals(const ScaledSamples& samples, std::span<const Vec3> points, Orienter& found) {
     std::vector<Vec3> out(points.size());
     if (samples.clustered) {
@@ -230,7 +231,7 @@ std::vector<Vec3> point_normals(const ScaledSamples& samples, std::span<const Ve
     return out;
 }
 
-/// The fine stage, and what it finds for the points.
+/// The fine stage and its results for the points.
 OrientedPoints finished(const ScaledSamples& samples, std::span<const Vec3> points, Orienter& orienter, std::size_t iterations) {
     orienter.fine(iterations);
     orienter.drop_outliers();
@@ -240,7 +241,8 @@ OrientedPoints finished(const ScaledSamples& samples, std::span<const Vec3> poin
     return out;
 }
 
-/// Orients the points together with a copy of them. The result has the samples of both and the other entries of the points alone.
+/// Orients the points together with a copy of them. The result contains the samples of both; all other entries are for the
+/// points only.
 OrientedPoints orient_backed(std::span<const Vec3> points, const Vec3& backing, const OrientOptions& options, Workers* workers,
                              const CancelToken* cancel) {
     const std::vector<Vec3> all = with_copy(points, backing);
@@ -271,7 +273,7 @@ OrientedPoints orient_samples_from(const ScaledSamples& samples, std::span<const
     orienter.start_from(given);
     if (options.hold_sides) orienter.hold_sides();
     OrientedPoints out = finished(samples, points, orienter, options.iterations);
-    out.orientation.all_points = true;  // a coarse stage would forget where this began
+    out.orientation.all_points = true;  // a coarse stage would lose the initial directions
     return out;
 }
 
@@ -283,7 +285,7 @@ OrientedPoints orient_by_normals(std::span<const Vec3> points, std::span<const V
                                                  counted(points.size(), "point") + "; let the filter orient estimate them");
     std::vector<Vec3> unit(normals.size());
     for (std::size_t i = 0; i < normals.size(); ++i) {
-        const bool already = std::abs(normals[i].squaredNorm() - 1.0) < unit_tolerance;  // then every bit stays
+        const bool already = std::abs(normals[i].squaredNorm() - 1.0) < unit_tolerance;  // then every bit is kept
         unit[i] = already ? normals[i] : direction_or(normals[i], Vec3::Zero());
         if (unit[i].isZero(0.0))
             throw GeometryError("cloud.normals", named(name) + ": the normal of point " + std::to_string(i) +
@@ -304,7 +306,7 @@ OrientedPoints orient_by_normals(std::span<const Vec3> points, std::span<const V
     orienter.residual = winding_residual(orienter.w);
     OrientedPoints out = spread(samples, std::move(unit), orienter);
     out.orientation = orientation_of(samples, points, orienter);
-    out.orientation.all_points = true;  // a finer stage would not change normals that are given
+    out.orientation.all_points = true;  // a finer stage would not change given normals
     return out;
 }
 

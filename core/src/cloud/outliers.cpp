@@ -1,3 +1,4 @@
+// Removes points far from all others, in rounds if the cloud is dirty.
 #include <dsc/cloud/filter.hpp>
 
 #include <algorithm>
@@ -14,11 +15,11 @@ namespace dsc::cloud {
 
 namespace {
 
-constexpr double surely_apart = 2.0;   // how many times as far apart as most points are those that show that a cloud is dirty
-constexpr double apart_enough = 1.5;   // the same once that is known
-constexpr std::size_t few_strays = 8;  // so few do not show it
+constexpr double surely_apart = 2.0;   // points this many times as far apart as most points show that a cloud is dirty
+constexpr double apart_enough = 1.5;   // the same once the cloud is known to be dirty
+constexpr std::size_t few_strays = 8;  // so few points do not show it
 constexpr int most_rounds = 8;
-constexpr double little = 0.0005;      // a round that removes this part of the points or less is the last
+constexpr double little = 0.0005;      // a round that removes this fraction of the points or less is the last
 
 enum Reason : unsigned char { stays, isolated, distant, strewn, off_surface, clump, reason_count };
 
@@ -31,7 +32,7 @@ std::size_t set_in(const Flags& flags) {
     return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), static_cast<unsigned char>(1)));
 }
 
-/// Finds the reason of every point that goes, round by round.
+/// Finds the reason of every removed point, round by round.
 class Cleaner {
 public:
     Cleaner(std::span<const Vec3> points, const OutliersOptions& options, Workers* workers)
@@ -57,7 +58,7 @@ private:
         return points > few_strays && static_cast<double>(points) > options_.dirty * static_cast<double>(reasons.size());
     }
 
-    /// Whether those that are marked, and those surely strewn, are more than a clean cloud has.
+    /// Whether the marked points, together with the surely strewn ones, are more than a clean cloud has.
     bool is_dirty(double median) const {
         const std::vector<double>& reach = left_.neighbours().reach;
         const auto far_apart = [&](double r) { return r > surely_apart * median; };
@@ -91,7 +92,7 @@ private:
         mark(off_surface_points(left_, workers_), off_surface);
     }
 
-    /// Removes those marked since the last time; whether they are worth another round.
+    /// Removes the points marked since the last call; returns whether another round is worthwhile.
     bool drop() {
         const std::size_t before = left_.count();
         Flags gone(reasons.size(), 0);

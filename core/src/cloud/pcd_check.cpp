@@ -1,3 +1,4 @@
+// Checks a PCD file before PCL reads it.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -28,7 +29,7 @@ void header_error(const std::string& file, std::size_t line, const std::string& 
 
 void truncated(const std::string& file, const std::string& promised, std::size_t held) {
     throw IoError("io.truncated", file, "",
-                  "the header promises " + promised + ", the file holds " + std::to_string(held),
+                  "the header announces " + promised + ", the file contains " + std::to_string(held),
                   "the file is cut off, write it again");
 }
 
@@ -77,7 +78,7 @@ public:
             }
         }
         throw IoError("io.truncated", file_, "", "the PCD header has no line DATA",
-                      "the file is cut off or no PCD file, write it again");
+                      "the file is truncated or not a PCD file; write it again");
     }
 
 private:
@@ -90,15 +91,15 @@ private:
         return value;
     }
 
-    /// PCL resizes its buffers as it meets these lines, so their order and number matter.
+    /// PCL resizes its buffers when it reads these lines, so their order and number matter.
     void entry(std::string_view key, const std::vector<std::string_view>& values) {
         static constexpr std::array<std::string_view, 10> order{
             "VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
         const std::string_view name = key == "COLUMNS" ? "FIELDS" : key;
         const auto place = std::find(order.begin(), order.end(), name);
-        if (place == order.end()) fail(in_quotes(key) + " is no entry of a PCD header");
+        if (place == order.end()) fail(in_quotes(key) + " is not an entry of a PCD header");
         const auto rank = place - order.begin() + 1;
-        if (rank <= rank_) fail(in_quotes(key) + " stands twice or in the wrong order");
+        if (rank <= rank_) fail(in_quotes(key) + " occurs twice or in the wrong order");
         rank_ = rank;
 
         if (name == "FIELDS") {
@@ -126,7 +127,7 @@ private:
         }
     }
 
-    /// The first three numbers are the sensor's place; a word that is not a number counts as a missing place.
+    /// The first three numbers are the sensor's position; if a word is not a number, the position is missing.
     void viewpoint(const std::vector<std::string_view>& values) {
         Vec3 place;
         for (int k = 0; k < 3; ++k)
@@ -139,7 +140,7 @@ private:
             field.size = count(value, 8);
             if (field.size != 1 && field.size != 2 && field.size != 4 && field.size != 8)
                 fail("field " + in_quotes(field.name) + " has size " + std::string(value) +
-                     "; known are 1, 2, 4 and 8");
+                     "; supported are 1, 2, 4 and 8");
         } else if (name == "TYPE") {
             field.type = value.front();
             if (value.size() != 1 || std::string_view("FIU").find(field.type) == std::string_view::npos ||
@@ -162,9 +163,9 @@ private:
             const auto named = [&](const Field& field) { return field.name == axis; };
             const auto found = std::find_if(header_.fields.begin(), header_.fields.end(), named);
             if (std::count_if(header_.fields.begin(), header_.fields.end(), named) != 1 || found->count != 1)
-                fail("a point needs the fields x, y and z, each once; " + in_quotes(axis) + " is not");
+                fail("a point needs the fields x, y and z exactly once; " + in_quotes(axis) + " does not occur exactly once");
         }
-        // Of a picture of depths the scanner's own place is the origin; elsewhere 0 0 0 is what is written by default.
+        // In a depth image the scanner's own position is the origin; elsewhere 0 0 0 is the default that programs write.
         if (header_.sensor && has_height_ && height_ > 1) header_.sensor->stated = true;
         header_.body = rest_;
         header_.lines = line_;
@@ -205,7 +206,7 @@ void check_ascii_rows(const std::string& file, const PcdHeader& header) {
         }
         if (column < columns)
             throw IoError("io.truncated", file, std::to_string(number),
-                          "the point has " + counted(column, "value") + ", the header asks for " +
+                          "the point has " + counted(column, "value") + ", the header requires " +
                               std::to_string(columns),
                           "the file may be cut off, write it again");
         ++points;
@@ -226,10 +227,10 @@ void check_compressed(const std::string& file, const PcdHeader& header) {
                       "the compressed data have " + std::to_string(header.body.size() - sizeof sizes) +
                           " of " + std::to_string(sizes[0]) + " bytes",
                       "the file is cut off, write it again");
-    // Three bytes of LZF stand for 264 at most, so a small file cannot ask for much memory.
+    // Three bytes of LZF represent at most 264, so a small file cannot request much memory.
     if (sizes[1] != wanted || wanted / 100 > sizes[0])
         throw IoError("io.syntax", file, "",
-                      "the compressed data are said to have " + std::to_string(sizes[1]) +
+                      "the compressed data claim to have " + std::to_string(sizes[1]) +
                           " bytes, the header's " + counted(header.points, "point") + " need " +
                           std::to_string(wanted),
                       "the file is damaged, write it again");
@@ -250,7 +251,7 @@ FileCheck check_pcd(const std::string& file, std::string_view bytes) {
     } else {
         header_error(file, header.lines,
                      in_quotes(header.data) +
-                         " is no kind of PCD data; known are ascii, binary and binary_compressed");
+                         " is not a kind of PCD data; supported are ascii, binary and binary_compressed");
     }
     FileCheck check{header.points};
     for (const Field& field : header.fields)

@@ -1,4 +1,4 @@
-// PCD and PLY files through PCL's PCLPointCloud2, which keeps fields of type double as they are.
+// Reads PCD and PLY files with PCL's PCLPointCloud2, which keeps fields of type double.
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
@@ -64,14 +64,14 @@ Getter getter(std::uint8_t type) {
     }
 }
 
-/// A number of every point.
+/// A number of every point, from one field.
 struct Numbers {
     Getter get = nullptr;
     std::size_t offset = 0;
     bool whole = false;
 };
 
-/// Numbers of these fields; nothing where one of them is not a single number.
+/// The numbers of these fields; empty if one of them is not a single number.
 template <std::size_t n>
 std::optional<std::array<Numbers, n>> numbers_of(const pcl::PCLPointCloud2& blob, const std::array<std::size_t, n>& fields) {
     std::array<Numbers, n> out;
@@ -134,7 +134,7 @@ private:
 
 [[noreturn]] void refused(const std::string& file, std::string_view format) {
     throw IoError("io.syntax", file, "", "PCL's " + std::string(format) + " reader does not accept the file",
-                  "save the cloud again, for instance as PLY with x, y and z alone");
+                  "save the cloud again, for instance as PLY with x, y and z only");
 }
 
 Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const FileCheck& check,
@@ -149,7 +149,7 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
         get[k] = getter(field->datatype);
         if (!get[k])
             throw IoError("io.format", file, "",
-                          "field " + in_quotes(field->name) + " has a type that is not read",
+                          "field " + in_quotes(field->name) + " has a type that is not supported",
                           "save the coordinates as float or double");
         data[k] = blob.data.data() + field->offset;
     }
@@ -174,7 +174,8 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
     return cloud;
 }
 
-/// Runs a PCL reader in silence; what it throws or refuses becomes one error of ours. `read` fills the cloud and returns what PCL does.
+/// Runs a PCL reader without its output; exceptions and refusals become one IoError. `read` fills the cloud and returns PCL's
+/// result.
 template <class Read>
 Cloud read_with(const std::string& file, const FileCheck& check, ReadReport& report, Read&& read) {
     pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
@@ -189,7 +190,7 @@ Cloud read_with(const std::string& file, const FileCheck& check, ReadReport& rep
     return extract(file, blob, check, report);
 }
 
-/// Bytes under a path that PCL can open; they stay in memory.
+/// Bytes at a path that PCL can open; they stay in memory.
 class MemoryFile {
 public:
     MemoryFile(const std::string& file, std::string_view bytes) : descriptor_(::memfd_create("dsc", MFD_CLOEXEC)) {
@@ -214,7 +215,7 @@ private:
     int descriptor_;
 };
 
-/// PCL would take the number of points from some comments: they get another keyword of the same length.
+/// PCL would read the number of points from some comments: they get another keyword of the same length.
 void hide_grid_comments(std::string& bytes, const FileCheck& check) {
     constexpr std::string_view comment = "comment ";  // as long as "obj_info"
     for (const std::size_t at : check.grid_comments) bytes.replace(at, comment.size(), comment);

@@ -1,3 +1,4 @@
+// Calls PCL's filters.
 #include "pcl_filters.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Checks a PLY cloud before PCL reads it.
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -82,7 +83,7 @@ public:
                 if (what == "num_cols" || what == "num_rows")
                     header_.grid_comments.push_back(static_cast<std::size_t>(line.data() - begin_) + line.find(key));
             } else {
-                fail(in_quotes(key) + " is no entry of a PLY header");
+                fail(in_quotes(key) + " is not an entry of a PLY header");
             }
         }
         throw IoError("io.truncated", file_, "", "the PLY header has no line 'end_header'",
@@ -92,11 +93,11 @@ public:
 private:
     [[noreturn]] void fail(const std::string& cause) const { header_error(file_, line_, cause); }
 
-    /// Range images have fewer points than places; PCL fills the rest with NaN. Only an element makes one: a comment of the
-    /// size of a grid does not.
+    /// Range images have fewer points than grid positions; PCL fills the rest with NaN. Only an element makes a range image; a
+    /// comment with the size of a grid does not.
     [[noreturn]] void grid() const {
-        throw IoError("io.format", file_, std::to_string(line_), "PLY files with a range grid are not read",
-                      "save the points alone, for instance with MeshLab or CloudCompare");
+        throw IoError("io.format", file_, std::to_string(line_), "PLY files with a range grid are not supported",
+                      "save only the points, for instance with MeshLab or CloudCompare");
     }
 
     void read_format(std::string_view rest) {
@@ -109,7 +110,7 @@ private:
             header_.format = Format::big;
         else
             fail(in_quotes(name) +
-                 " is no PLY format; known are ascii, binary_little_endian and binary_big_endian");
+                 " is not a PLY format; supported are ascii, binary_little_endian and binary_big_endian");
     }
 
     void read_element(std::string_view rest) {
@@ -120,32 +121,32 @@ private:
         if (!parse_count(count, element.count) || element.count > most_points)
             fail(in_quotes(count) + " is not a count between 0 and " + std::to_string(most_points));
         for (const Element& other : header_.elements)
-            if (other.name == element.name) fail("element " + in_quotes(element.name) + " stands twice");
+            if (other.name == element.name) fail("element " + in_quotes(element.name) + " occurs twice");
         header_.elements.push_back(element);
     }
 
     std::string_view read_type(std::string_view word) const {
         for (const Type& type : types)
             if (word == type.name || word == type.alias) return type.name;
-        fail(in_quotes(word) + " is no PLY type");
+        fail(in_quotes(word) + " is not a PLY type");
     }
 
     void read_property(std::string_view rest) {
-        if (header_.elements.empty()) fail("a property stands before the first element");
+        if (header_.elements.empty()) fail("a property comes before the first element");
         Element& element = header_.elements.back();
         Property property;
         std::string_view word = next_word(rest);
         if (word == "list") {
             property.count_type = read_type(next_word(rest));
             if (property.count_type.substr(0, 5) == "float")
-                fail("the length of a list is not a whole number");
+                fail("the length of a list is not an integer");
             word = next_word(rest);
         }
         property.type = read_type(word);
         property.name = next_word(rest);
         if (property.name.empty()) fail("a property has no name");
         for (const Property& other : element.properties)
-            if (other.name == property.name) fail("property " + in_quotes(property.name) + " stands twice");
+            if (other.name == property.name) fail("property " + in_quotes(property.name) + " occurs twice");
         element.properties.push_back(property);
     }
 
@@ -156,13 +157,13 @@ private:
     PlyHeader header_;
 };
 
-/// What PCL's reader would take into the wrong place of a point without a word.
+/// Finds properties that PCL's reader would silently read into the wrong place of a point.
 void check_vertex(const std::string& file, const Element& vertex) {
     const auto refuse = [&](const std::string& cause) {
-        throw IoError("io.format", file, "", cause, "save the points with x, y and z alone");
+        throw IoError("io.format", file, "", cause, "save the points with only x, y and z");
     };
     std::size_t axes = 0;
-    std::vector<std::size_t> bytes;  // places of red, green, blue; their order is checked by name
+    std::vector<std::size_t> bytes;  // positions of red, green, blue; their order is checked by name
     for (std::size_t i = 0; i < vertex.properties.size(); ++i) {
         const Property& p = vertex.properties[i];
         if (!p.count_type.empty()) refuse("the points have a list, " + in_quotes(p.name));
@@ -182,7 +183,7 @@ void check_vertex(const std::string& file, const Element& vertex) {
     }
     if (!bytes.empty() && bytes.size() != 3)
         refuse("the colours of the points are not red, green, blue in a row");
-    if (axes != 3) refuse("the points have not each of x, y and z");
+    if (axes != 3) refuse("the points do not have each of x, y and z");
 }
 
 [[noreturn]] void cut(const std::string& file, const Element& element, std::size_t held) {

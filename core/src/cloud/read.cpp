@@ -1,3 +1,4 @@
+// Reads point clouds: chooses the format and checks the columns.
 #include <dsc/cloud/read.hpp>
 
 #include <algorithm>
@@ -29,15 +30,15 @@ std::string lower_extension(const std::filesystem::path& path) {
     const std::string file = path.string();
     const std::string stem = path.stem().string();
     if (extension == ".las" || extension == ".laz")
-        throw IoError("io.format", file, "", extension.substr(1) + " files are not read here",
+        throw IoError("io.format", file, "", extension.substr(1) + " files are not supported",
                       "convert it first: pdal translate " + path.filename().string() + " " + stem + ".ply");
     if (extension == ".e57")
-        throw IoError("io.format", file, "", "e57 files are not read here",
+        throw IoError("io.format", file, "", "e57 files are not supported",
                       "convert it first: pdal translate " + path.filename().string() + " " + stem +
                           ".ply, or save it as PLY with CloudCompare");
     throw IoError("io.format", file, "",
                   extension.empty() ? "the file's name has no extension"
-                                    : in_quotes(extension) + " is no known cloud format",
+                                    : in_quotes(extension) + " is not a supported cloud format",
                   "accepted are " + std::string(readable));
 }
 
@@ -50,8 +51,8 @@ void require_columns(const std::string& file, bool table, const ReadOptions& opt
     const std::size_t count = options.columns.size();
     if (count == 0) return;
     if (!table)
-        throw IoError("io.columns", file, "", "columns can be chosen in text clouds only",
-                      "leave the choice of columns out, or convert the cloud to .csv");
+        throw IoError("io.columns", file, "", "columns can be chosen only for text clouds",
+                      "remove the choice of columns, or convert the cloud to .csv");
     if (count != 3 && count != 6)
         throw IoError("io.columns", file, "", counted(count, "column") + " chosen",
                       "choose 3 (x, y, z) or 6 (x, y, z, red, green, blue)");

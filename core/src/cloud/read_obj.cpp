@@ -1,4 +1,4 @@
-// OBJ, and the numbers of all clouds in text. Our own readers because PCL's round every coordinate to float.
+// OBJ clouds, and the numbers of all text clouds. Own readers, because PCL's readers round every coordinate to float.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,7 +50,7 @@ void no_points(const std::string& file, std::string_view remedy) {
 
 namespace {
 
-/// Normals of an OBJ: lines `vn`, and which point each belongs to.
+/// Normals of an OBJ: the lines `vn`, and the point to which each belongs.
 class ObjNormals {
 public:
     void add(const std::string& file, std::size_t line, std::string_view rest) {
@@ -63,8 +63,8 @@ public:
         normals_.push_back(direction_of(normal));
     }
 
-    /// The corners of a face that name a point and a normal: "7//3", "7/1/3"; negative numbers count from the last backwards.
-    /// What is none of these belongs to no point: faces are not what a cloud is read for.
+    /// The corners of a face that name a point and a normal: "7//3", "7/1/3"; negative numbers count backwards from the last.
+    /// Anything else is ignored, because faces are not needed for a cloud.
     void add_corners(std::string_view rest, std::size_t points) {
         for (std::string_view word = next_word(rest); !word.empty() && word.front() != '#'; word = next_word(rest)) {
             const std::size_t first = word.find('/');
@@ -78,8 +78,8 @@ public:
 
     bool any() const { return !normals_.empty(); }
 
-    /// Of every point: the mean of those that corners give it, or its own where there are as many as points. One that all corners
-    /// repeat keeps its bits.
+    /// Per point: the mean of the normals from its corners; or its own normal if there are as many normals as points. A normal
+    /// that all corners repeat keeps its bits.
     std::vector<Vec3> of_points(std::size_t points) const {
         std::vector<Vec3> out;
         if (corners_.empty()) return normals_.size() == points ? normals_ : out;
@@ -113,7 +113,7 @@ private:
 Cloud read_obj(const std::string& file, std::string_view text, std::vector<std::string>& names) {
     Cloud cloud;
     std::vector<Vec3> colours;
-    std::size_t previous = 0;  // numbers of the v line before
+    std::size_t previous = 0;  // number of values in the previous v line
     ObjNormals normals;
     Lines lines(text);
     for (std::string_view line; lines.next(line);) {
@@ -135,14 +135,14 @@ Cloud read_obj(const std::string& file, std::string_view text, std::vector<std::
             throw IoError(
                 "io.syntax", file, std::to_string(lines.number()),
                 "the vertex has " + counted(count, "number") +
-                    (cut && count >= 3 ? ", the one before has more" : ""),
+                    (cut && count >= 3 ? ", the previous one has more" : ""),
                 "a 'v' line is 'v x y z' or 'v x y z r g b'; the file may be cut off, write it again");
         cloud.points.emplace_back(values[0], values[1], values[2]);
         if (count == 6) colours.emplace_back(values[3], values[4], values[5]);
         previous = count;
     }
     if (cloud.points.empty()) no_points(file, "a cloud in OBJ has a line 'v x y z' for each point");
-    // Fractions or bytes, which only the largest number tells.
+    // Fractions or bytes: only the largest number can decide.
     if (colours.size() == cloud.points.size()) cloud.colours = colours_from(colours, false);
     cloud.normals = normals.of_points(cloud.points.size());
     keep_whole_normals(cloud);

@@ -1,4 +1,4 @@
-// XYZ, CSV and the like: a point a line. Our own reader because PCL's round every coordinate to float.
+// XYZ, CSV and similar formats: one point per line. Own reader, because PCL's reader rounds every coordinate to float.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -45,14 +45,14 @@ public:
             point();
         }
         check_announced();
-        if (cloud_.points.empty()) no_points(file_, "a cloud in text has a line 'x y z' for each point");
+        if (cloud_.points.empty()) no_points(file_, "a text cloud has one line 'x y z' per point");
         finish_colours();
         finish_normals();
         names_ = find_names();
         return std::move(cloud_);
     }
 
-    /// What the columns are called, by a header or by what they were taken for; empty where they have no names.
+    /// The names of the columns, from a header or by what they were taken for; empty if they have no names.
     const std::vector<std::string>& names() const { return names_; }
 
 private:
@@ -74,12 +74,12 @@ private:
         return out;
     }
 
-    /// Three columns without names, and in how many lines they may be colours or normals.
+    /// Three columns without names, and in how many lines they can be colours or normals.
     struct Guess {
         std::vector<Vec3> values;
         std::size_t bytes = 0, units = 0;
         double largest = 0.0;
-        /// Unit normals along the axes are whole numbers, too, so a colour has a number above 1.
+        /// Unit normals along the axes are also integers, so a colour must have a number above 1.
         bool colour(std::size_t points) const { return bytes == points && largest > 1.0; }
         bool normal(std::size_t points) const { return units == points; }
     };
@@ -93,9 +93,9 @@ private:
         return line.substr(0, 2) == "//" ? 2 : 0;
     }
 
-    /// Decimal commas between blanks, tabs or commas, which would be taken for columns; a semicolon and quotes keep a number
-    /// whole, and it is refused as such. Of columns that are divided by commas as well there are twice as many as it seems:
-    /// a fraction that begins with 0 tells them from whole numbers.
+    /// Decimal commas between blanks, tabs or commas would be read as separators. With a semicolon or quotes a number stays in
+    /// one piece and is refused. In columns that are also divided by commas, there are twice as many columns as it seems; a
+    /// fraction that begins with 0 distinguishes them from integers.
     void refuse_decimal_commas(std::string_view line) const {
         if (line.find(',') == std::string_view::npos || line.find_first_of(";\"") != std::string_view::npos) return;
         std::string_view rest = line, decimal;
@@ -132,7 +132,7 @@ private:
         }
     }
 
-    /// The names of the columns may stand in a comment above the points.
+    /// The names of the columns may be in a comment above the points.
     void comment(std::string_view text) {
         if (!cloud_.points.empty()) return;
         text = trim(text);
@@ -140,8 +140,8 @@ private:
         if (choice_.knows(words_)) comment_ = words_;
     }
 
-    /// Before the first point: settles what the columns are called. True for a header, which is no point. Words are
-    /// names of columns only where there are as many as columns: prose may speak of x y z, too.
+    /// Before the first point: decides the names of the columns. True for a header, which is not a point. Words are names of
+    /// columns only if there are as many words as columns, because other text may also contain x y z.
     bool take_names() {
         const std::vector<std::string>& above = header_.empty() ? comment_ : header_;
         if (!above.empty() && above.size() == words_.size()) choice_.take_names(above, header_.empty());
@@ -158,7 +158,7 @@ private:
         return false;
     }
 
-    /// Between blanks the unit of a column is a word of its own, and no name: X [m] Y [m] Z [m].
+    /// Between blanks, the unit of a column is a separate word and not a name: X [m] Y [m] Z [m].
     void drop_units() {
         const auto is_unit = [](const std::string& word) {
             return word.size() > 1 && ((word.front() == '[' && word.back() == ']') || (word.front() == '(' && word.back() == ')'));
@@ -166,7 +166,7 @@ private:
         header_.erase(std::remove_if(header_.begin(), header_.end(), is_unit), header_.end());
     }
 
-    /// Of chosen columns, the separator of the first line holds for all: a text among them may have others.
+    /// If columns were chosen, the separator of the first line is used for all lines, because text columns may contain others.
     char separator_for(std::string_view line) {
         if (!choice_.chosen()) return separator_of(line, false);
         if (!separator_) separator_ = separator_of(line, true);
@@ -188,7 +188,7 @@ private:
         const std::size_t got = cloud_.points.size() - block_.first;
         if (!block_.any || got == block_.count) return;
         throw IoError(got < block_.count ? "io.truncated" : "io.syntax", file_, std::to_string(block_.line),
-                      "the count line promises " + counted(block_.count, "point") + ", the file has " +
+                      "the count line announces " + counted(block_.count, "point") + ", the file has " +
                           std::to_string(got),
                       got < block_.count ? "the file is cut off, write it again" : "correct the count");
     }
@@ -198,7 +198,7 @@ private:
     }
 
     bool is_header() const {
-        if (choice_.wants_names()) return true;  // there must be one
+        if (choice_.wants_names()) return true;  // the names must exist
         double value = 0.0;
         const std::string_view first = word(choice_.coordinates()[0]);
         return parse_number(first, value) == Number::not_a_number && !has_decimal_comma(first);
@@ -210,8 +210,8 @@ private:
         const std::size_t last = *std::max_element(columns.begin(), columns.end());
         if (words_.size() <= last || cut)
             syntax("the line has " + counted(words_.size(), "column") +
-                       (words_.size() <= last ? choice_.of_needed(last) : ", the one before has more"),
-                   "a point needs x, y and z, divided by blanks, commas or semicolons; the file may be cut off");
+                       (words_.size() <= last ? choice_.of_needed(last) : ", the previous one has more"),
+                   "a point needs x, y and z, separated by blanks, commas or semicolons; the file may be cut off");
         Vec3 point;
         for (int k = 0; k < 3; ++k) {
             const std::size_t column = columns[static_cast<std::size_t>(k)];
@@ -229,7 +229,7 @@ private:
             guess();
     }
 
-    /// Of columns that are called so, or chosen; only chosen ones must hold a colour in every line.
+    /// For columns with names, or chosen ones; only chosen columns must contain a colour in every line.
     void named_colour(const std::array<std::size_t, 3>& columns) {
         Vec3 colour;
         for (int k = 0; k < 3; ++k) {
@@ -239,14 +239,14 @@ private:
                 continue;
             }
             if (choice_.chosen())
-                syntax("colour " + in_quotes(text) + " is no number from 0 up",
+                syntax("colour " + in_quotes(text) + " is not a number of at least 0",
                        "choose three columns of coordinates only, or correct the line");
             return;
         }
         colours_.push_back(colour);
     }
 
-    /// Zero, no direction, where a line lacks it.
+    /// Zero, without a direction, if a line has no normal.
     void named_normal(const std::array<std::size_t, 3>& columns) {
         Vec3 normal = Vec3::Zero();
         bool whole = true;
@@ -303,14 +303,14 @@ private:
     Cloud cloud_;
     Announced block_;
     std::vector<std::string> words_;    ///< of the line
-    std::vector<std::string> comment_;  ///< the last that has the names
-    std::vector<std::string> header_;   ///< empty where there is none
+    std::vector<std::string> comment_;  ///< the last one that contains the names
+    std::vector<std::string> header_;   ///< empty if there is no header
     std::optional<char> separator_;   ///< of chosen columns
     std::vector<Vec3> colours_;
     std::vector<double> intensities_;
     std::array<Guess, 2> guesses_;
     std::vector<std::string> names_;
-    std::size_t previous_ = 0;  ///< columns of the point before
+    std::size_t previous_ = 0;  ///< number of columns of the previous point
     bool whole_ = true;  ///< no colour has a fraction
 };
 

@@ -1,3 +1,4 @@
+// Keeps neighbours up to date while points are removed.
 #include "remaining.hpp"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ void Remaining::remove(const std::vector<unsigned char>& gone, Workers* workers)
     order_ = std::move(left);
     count_ = order_.size();
     std::vector<Vec3> ordered(count_);
-    std::vector<std::uint32_t> stale;  // places in the order
+    std::vector<std::uint32_t> stale;  // positions in the order
     for (std::size_t n = 0; n < count_; ++n) {
         ordered[n] = points_[order_[n]];
         const auto around = neighbours_.of(order_[n]);

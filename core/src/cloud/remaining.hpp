@@ -1,5 +1,5 @@
 #pragma once
-// Points of which some go: the nearest neighbours of the others among the others.
+// Points of which some are removed: the nearest neighbours of the remaining points among the remaining points.
 
 #include <cstddef>
 #include <span>
@@ -12,24 +12,24 @@
 
 namespace dsc::cloud {
 
-/// How many neighbours per point it keeps.
+/// Number of neighbours that are kept per point.
 inline constexpr std::size_t remaining_neighbours = 16;
 
 class Remaining {
 public:
-    /// All points are there. Throws GeometryError as NearestSearch. The points must outlive it. [setup]
+    /// At first all points remain. Throws GeometryError as NearestSearch. The points must outlive this object. [setup]
     Remaining(std::span<const Vec3> points, Workers* workers);
 
-    /// Removes the points whose flag is set, and looks for new neighbours where one has gone. At least 17 points must be
-    /// left. [setup]
+    /// Removes the points whose flag is set, and searches new neighbours for points that lost one. At least 17 points must
+    /// remain. [setup]
     void remove(const std::vector<unsigned char>& gone, Workers* workers);
 
     std::span<const Vec3> points() const { return points_; }
     std::size_t count() const { return count_; }
     bool has(std::size_t i) const { return present_[i] != 0; }
-    /// Rows of points that have gone are those of the round before they went.
+    /// Rows of removed points keep their state from before the removal.
     const Neighbours& neighbours() const { return neighbours_; }
-    /// Median of the reach of the points that are there.
+    /// Median of the reach of the remaining points.
     double median_reach() const;
 
 private:

@@ -1,3 +1,4 @@
+// Prepares a cloud for its orientation: unique points, cells, neighbours, planes.
 #include "samples.hpp"
 
 #include <algorithm>
@@ -18,8 +19,8 @@ constexpr std::size_t neighbours_each = 16;
 constexpr double wanted_cells = 20000.0;
 constexpr double first_cell_edge = 0.01;
 constexpr int cell_rounds = 4;
-constexpr double noisy_cells = 0.4;    // noise of the means, in widths, above which cells are made larger
-constexpr double noise_per_cell = 3.0;  // that larger edge, in noise scales
+constexpr double noisy_cells = 0.4;    // noise of the means, in widths, above which larger cells are used
+constexpr double noise_per_cell = 3.0;  // edge of these larger cells, in noise scales
 
 /// Samples without repeated points, in lexicographic order.
 void make_unique(std::span<const Vec3> points, ScaledSamples& out) {
@@ -52,7 +53,7 @@ void measure(ScaledSamples& samples, Workers* workers) {
     samples.noise = quadric_noise(samples.positions, samples.neighbours, workers);
 }
 
-/// The edge of cells of which about 20,000 hold points.
+/// The edge of cells with which about 20,000 cells contain points.
 double cell_edge(std::span<const Vec3> positions) {
     double edge = first_cell_edge;
     for (int round = 0; round < cell_rounds; ++round)
@@ -60,7 +61,7 @@ double cell_edge(std::span<const Vec3> positions) {
     return edge;
 }
 
-/// Replaces the samples, different points, by the means of their cells.
+/// Replaces the samples, which are different points, by the means of their cells.
 void cluster(const ScaledSamples& unique, double edge, ScaledSamples& out) {
     const Cells cells = cells_of(unique.positions, edge);
     out.positions = means_of(cells, unique.positions);
@@ -82,7 +83,7 @@ ScaledSamples clustered_samples(const ScaledSamples& unique, Workers* workers) {
     const double edge = cell_edge(unique.positions);
     cluster(unique, edge, out);
     measure(out, workers);
-    // Means that are still noisy: cells wide enough to average it.
+    // The means are still noisy: use cells that are large enough to average the noise.
     const double wider = noise_per_cell * out.noise;
     if (out.noise > noisy_cells * out.width && wider > edge) {
         cluster(unique, wider, out);

@@ -1,5 +1,5 @@
 #pragma once
-// A cloud made ready for its orientation: without repeated points, in units of its size, by cells where it is large.
+// A cloud prepared for its orientation: without repeated points, scaled by its size, and reduced to cells if it is large.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,13 +14,13 @@
 
 namespace dsc::cloud {
 
-/// The samples that an orientation works on, in scaled units: the box's centre at the origin, its diagonal 1.
+/// The samples of an orientation, in scaled units: the box is centred at the origin and has a diagonal of 1.
 struct ScaledSamples {
     Vec3 centre = Vec3::Zero();
     double diagonal = 1.0;
-    std::vector<std::uint32_t> first_point;  ///< of each sample, among the given points; the only one that differs unless clustered
+    std::vector<std::uint32_t> first_point;  ///< the first given point of each sample; unless clustered, all are equal
     std::vector<std::uint32_t> of_point;     ///< sample of each given point
-    std::vector<std::uint32_t> counts;       ///< given points of each sample
+    std::vector<std::uint32_t> counts;       ///< number of given points per sample
     bool clustered = false;                  ///< samples are means of cells, not points
 
     std::vector<Vec3> positions;

@@ -1,5 +1,5 @@
-// NearestSearch on nanoflann's kd-tree. It is a template and works on doubles, so nothing is rounded, and a query allocates
-// nothing; our result sets give it the order by distance and index that its own do not keep.
+// NearestSearch with nanoflann's kd-tree. The tree is a template and works on doubles, so nothing is rounded, and a query
+// allocates nothing. The result sets here add the order by distance and index, which nanoflann's own sets do not keep.
 #include <dsc/cloud/search.hpp>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace dsc::cloud {
 
 namespace {
 
-/// The points as the tree reads them.
+/// The points in the form that the tree reads.
 struct Points {
     std::vector<Vec3> points;
 
@@ -30,16 +30,15 @@ struct Points {
 };
 using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3, std::uint32_t>;
 
-/// The tree drops what is not nearer than this. A little more than the squared distance itself: points just
-/// as far must still be seen for their index, and the tree's running sums of squares may be off by a few
-/// roundings.
+/// The tree drops points that are not nearer than this. It is slightly more than the squared distance: points at the same
+/// distance must still be compared by index, and the tree's running sums of squares may be off by a few roundings.
 double widened(double squared) { return squared * (1.0 + 1e-9) + std::numeric_limits<double>::min(); }
 
 bool before(const Neighbour& a, const Neighbour& b) {
     return a.distance < b.distance || (a.distance == b.distance && a.index < b.index);
 }
 
-/// Keeps the best one. `distance` holds squares while the tree is walked, in all three sets.
+/// Keeps the best point. In all three sets, `distance` contains squares during the search.
 class Best {
 public:
     using DistanceType = double;
@@ -98,7 +97,7 @@ public:
         if (!(std::sqrt(squared) <= radius_)) return true;
         any = true;
         if (out_) out_->push_back({index, squared});
-        return out_ != nullptr;  // the first one is enough where nobody wants them all
+        return out_ != nullptr;  // one point is enough if the caller does not want all of them
     }
     double worstDist() const { return worst_; }
 
@@ -136,7 +135,7 @@ NearestSearch::NearestSearch(std::span<const Vec3> points) {
     if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         throw GeometryError("cloud.large",
                             "nearest-point search: " + std::to_string(points.size()) +
-                                " points; at most 2147483647 are possible, thin the cloud first");
+                                " points; the limit is 2147483647; thin the cloud first");
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!points[i].allFinite())
             throw GeometryError("cloud.non_finite", "nearest-point search: point " + std::to_string(i) +

@@ -1,3 +1,4 @@
+// Samples and meshes of the built-in shapes.
 #include <algorithm>
 #include <cmath>
 #include <dsc/base/error.hpp>
@@ -30,7 +31,7 @@ std::unique_ptr<Shape> make_shape(std::string_view name) {
         if (shape.name == name) return shape.make();
     std::string accepted;
     for (const std::string_view known : names) accepted.append(accepted.empty() ? "" : ", ").append(known);
-    throw UsageError("shape.unknown", "no built-in shape " + in_quotes(name) + "; accepted are " + accepted);
+    throw UsageError("shape.unknown", "unknown built-in shape " + in_quotes(name) + "; accepted are " + accepted);
 }
 
 void require_fraction(bool valid, std::string_view what, double value, std::string_view range) {
@@ -44,7 +45,7 @@ void require_fraction(bool valid, std::string_view what, double value, std::stri
 std::span<const std::string_view> shape_names() { return names; }
 
 Cloud sample_shape(std::string_view name, std::size_t n, std::uint64_t seed, double noise, double outliers) {
-    if (n == 0) throw UsageError("shape.option", "0 points asked for; a cloud has at least 1");
+    if (n == 0) throw UsageError("shape.option", "0 points requested; a cloud has at least 1");
     require_fraction(noise >= 0.0 && noise <= 1.0, "noise", noise, "[0, 1]");
     require_fraction(outliers >= 0.0 && outliers <= 1.0, "outliers", outliers, "[0, 1]");
     const std::unique_ptr<Shape> shape = make_shape(name);
@@ -59,7 +60,7 @@ Cloud sample_shape(std::string_view name, std::size_t n, std::uint64_t seed, dou
     cloud.source = name;
     cloud.points.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
-        // A stream of its own for each point: with or without noise, the first n of more points are the same.
+        // Each point has its own random stream: with or without noise, a larger sample begins with the same points.
         RandomStream random({seed, stream_id("sample_shape"), stream_id(name), i});
         Vec3& p = cloud.points[i];
         if (i < on_shape) {

@@ -1,3 +1,4 @@
+// Widths, spread, regularity and noise of a cloud.
 #include <dsc/cloud/statistics.hpp>
 
 #include <Eigen/Eigenvalues>
@@ -16,11 +17,11 @@ namespace dsc::cloud {
 
 namespace {
 
-constexpr std::size_t statistics_block = 512;    // points per block; fixed, so that threads change nothing
+constexpr std::size_t statistics_block = 512;    // points per block; constant, so that the result does not depend on the threads
 constexpr std::size_t point_neighbours = 12;     // of point_width
 constexpr std::size_t label_neighbours = 8;      // of label_width and outlier_score
 constexpr std::size_t noise_probes = 2000;       // places where the noise is measured
-constexpr double noise_quantile = 0.3;           // of the probes: most of them, not those at creases
+constexpr double noise_quantile = 0.3;           // of the probes: most of them, but not those at creases
 constexpr std::size_t quadric_coefficients = 6;  // of a quadric
 
 /// A neighbourhood in which the noise is measured, and the 0.3-quantile of chi^2 / m with m = points - 6.
@@ -30,7 +31,7 @@ struct Neighbourhood {
 };
 constexpr std::array<Neighbourhood, 3> neighbourhoods = {{{12, 0.638}, {18, 0.753}, {24, 0.802}}};
 
-/// The value that a share `at` of the values lies below: of sorted values the one at the rounded-down position.
+/// The value below which a fraction `at` of the values lies: the sorted value at the rounded-down position.
 double quantile(std::vector<double> values, double at) {
     if (values.empty()) return 0.0;
     const auto n = static_cast<std::ptrdiff_t>(at * static_cast<double>(values.size() - 1));
@@ -38,8 +39,8 @@ double quantile(std::vector<double> values, double at) {
     return values[static_cast<std::size_t>(n)];
 }
 
-/// Mean square of the distances between points and the quadric z(x, y) that fits them best, in their plane's frame:
-/// the sum of squares over the degrees of freedom. Distances are in units of `reach`.
+/// Mean square distance between points and their best-fitting quadric z(x, y), in the frame of their plane: the sum of squares
+/// over the degrees of freedom. Distances are in units of `reach`.
 double quadric_residual(std::span<const Vec3> points, std::span<const Neighbour> members, double reach) {
     const auto count = static_cast<Eigen::Index>(members.size());
     Eigen::MatrixX3d local(count, 3);
@@ -60,7 +61,7 @@ double quadric_residual(std::span<const Vec3> points, std::span<const Neighbour>
     return (terms * fit - z).squaredNorm() / static_cast<double>(members.size() - quadric_coefficients);
 }
 
-/// Noise as one size of neighbourhood sees it; infinite where it cannot.
+/// Noise as estimated with one size of neighbourhood; infinite if it cannot be estimated.
 double noise_of(const NearestSearch& search, const Neighbourhood& size, Workers* workers) {
     const std::span<const Vec3> points = search.points();
     if (points.size() < size.points) return INFINITY;
@@ -77,10 +78,10 @@ double noise_of(const NearestSearch& search, const Neighbourhood& size, Workers*
     return std::sqrt(quantile(std::move(squares), noise_quantile) / size.chi_square);
 }
 
-/// Distances to the neighbours that widths are made of, as many as there are.
+/// Distances to the neighbours from which widths are computed, as many as there are.
 struct Reaches {
     std::vector<double> nearest, point, label;
-    std::vector<std::uint32_t> neighbours;  ///< label_neighbours of each point, itself where there are fewer
+    std::vector<std::uint32_t> neighbours;  ///< label_neighbours per point; the point itself where there are fewer
 };
 
 Reaches measure_reaches(const NearestSearch& search, Workers* workers) {
@@ -90,14 +91,14 @@ Reaches measure_reaches(const NearestSearch& search, Workers* workers) {
     out.point.resize(points.size());
     out.label.resize(points.size());
     out.neighbours.resize(points.size() * label_neighbours);
-    // Points that follow each other are near each other, so that the searches find what they need in the caches.
+    // Consecutive points are close to each other, so the searches use the caches well.
     const std::vector<std::uint32_t> order = spatial_order(points);
     for_blocks(workers, points.size(), statistics_block, [&](std::size_t begin, std::size_t end) {
         std::vector<Neighbour> found;
         for (std::size_t q = begin; q < end; ++q) {
             const std::size_t i = order[q];
             search.k_nearest(points[i], point_neighbours + 1, found);
-            // The point itself comes first, or another one in its place, which is as far away.
+            // The point itself comes first, or a coinciding point at the same distance.
             out.nearest[i] = found[std::min<std::size_t>(1, found.size() - 1)].distance;
             out.point[i] = found.back().distance;
             out.label[i] = found[std::min(label_neighbours, found.size() - 1)].distance;

@@ -1,3 +1,4 @@
+// Flags strewn points, points off the surface, and clumps.
 #include "stray.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -10,14 +11,14 @@ namespace dsc::cloud {
 
 namespace {
 
-// Uniform points in a ball have a roundness of 0.3, points of a surface with much noise 0.1; at creases single ones reach 0.3.
+// Uniform points in a ball have a roundness of 0.3, points of a very noisy surface 0.1; at creases single points reach 0.3.
 constexpr double round_enough = 0.22;
 constexpr double clump_roundness = 0.2;
-constexpr double clump_share = 0.02;     // of all points, the largest clump
-constexpr std::size_t few_points = 8;    // a group of so few is no part of a surface
+constexpr double clump_share = 0.02;     // largest clump, as a fraction of all points
+constexpr std::size_t few_points = 8;    // a group of so few points is not part of a surface
 
-constexpr double closer = 1.3;           // how many times as close together a neighbour is that shows the surface
-constexpr std::size_t least_closer = 6;  // such neighbours, for a plane
+constexpr double closer = 1.3;           // a neighbour that is this many times closer shows the surface
+constexpr std::size_t least_closer = 6;  // least number of such neighbours, for a plane
 constexpr double least_reach = 1.3;      // of a point off the surface: in reaches of most points,
 constexpr double reach_beside = 1.6;     // and in reaches of those neighbours
 constexpr double height = 0.5;           // its distance from their plane, in its own reach,
@@ -37,13 +38,13 @@ Eigen::Matrix3d spread_of(const Near& near, std::size_t count, Vec3& mean) {
     return spread;
 }
 
-/// Least by largest spread of points and their neighbours, found where it is asked for.
+/// Smallest over largest spread of points and their neighbours, computed on demand.
 class Roundness {
 public:
     Roundness(const Remaining& cloud, Workers* workers)
         : cloud_(cloud), workers_(workers), value_(cloud.points().size(), unknown) {}
 
-    /// Makes known the roundness of these points and, with `around`, of their neighbours.
+    /// Computes the roundness of these points and, with `around`, of their neighbours.
     void find(const std::vector<std::uint32_t>& points, bool around) {
         std::vector<std::uint32_t> wanted;
         const auto want = [&](std::uint32_t i) {
@@ -92,7 +93,7 @@ private:
     std::vector<double> value_;
 };
 
-/// Indices of the points that are there and farther apart than this.
+/// Indices of the remaining points that are farther apart than this.
 std::vector<std::uint32_t> apart(const Remaining& cloud, double reach) {
     std::vector<std::uint32_t> out;
     for (std::size_t i = 0; i < cloud.points().size(); ++i)
@@ -122,7 +123,7 @@ bool lies_off_surface(const Remaining& cloud, std::size_t i) {
     return off > height * reach && off > height_in_noise * noise;
 }
 
-/// Groups of points that are each other's neighbours: of each point the first found of its group.
+/// Groups of points that are mutual neighbours; each point refers to the first point of its group.
 class Groups {
 public:
     explicit Groups(const Remaining& cloud) : first_(cloud.points().size()) {

@@ -1,4 +1,4 @@
-// Sphere, torus and the box with a tunnel.
+// The shapes sphere, torus and box with a tunnel.
 #include "surfaces.hpp"
 
 #include <cmath>
@@ -26,7 +26,7 @@ void add_quad(ShapeMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c
 class Sphere final : public Shape {
 public:
     Vec3 sample(RandomStream& random) const override {
-        // Equal heights cut equal areas off a sphere.
+        // Equal heights correspond to equal areas of a sphere.
         const double z = random.uniform(-1.0, 1.0);
         const double angle = random.uniform(0.0, 2.0 * pi);
         const double r = std::sqrt(1.0 - z * z);
@@ -38,7 +38,7 @@ public:
         ShapeMesh mesh;
         for (const double s : {1.0, -1.0})
             for (int axis = 0; axis < 3; ++axis) add(mesh, s * Vec3::Unit(axis));
-        // Octahedron: x y z at 0 1 2, their opposites at 3 4 5; eight faces outwards.
+        // Octahedron: x y z are 0 1 2, their opposites 3 4 5; eight faces, oriented outwards.
         for (std::uint32_t corner = 0; corner < 8; ++corner) {
             const std::uint32_t x = corner & 1U ? 3 : 0, y = corner & 2U ? 4 : 1, z = corner & 4U ? 5 : 2;
             const bool mirrored = ((corner & 1U) + ((corner >> 1U) & 1U) + ((corner >> 2U) & 1U)) % 2 == 1;
@@ -76,7 +76,7 @@ public:
         return {r * std::cos(around), r * std::sin(around), minor * std::sin(tube)};
     }
     Vec3 sample(RandomStream& random) const override {
-        // The area of a ring grows with its radius: accept in this proportion.
+        // The area of a ring grows with its radius: points are accepted in this proportion.
         double tube;
         do {
             tube = random.uniform(0.0, 2.0 * pi);
@@ -134,7 +134,7 @@ public:
         return {-half, half};
     }
     ShapeMesh mesh() const override {
-        constexpr std::uint32_t sides = 256;  // a multiple of 8: the corners of the box are among the rays
+        constexpr std::uint32_t sides = 256;  // a multiple of 8, so that rays go through the corners of the box
         ShapeMesh mesh;
         for (std::uint32_t i = 0; i < sides; ++i) {
             const double angle = 2.0 * pi * i / sides;

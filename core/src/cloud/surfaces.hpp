@@ -1,5 +1,5 @@
 #pragma once
-// The built-in shapes, each behind the same small interface.
+// The built-in shapes behind a common interface.
 
 #include <memory>
 #include <string_view>

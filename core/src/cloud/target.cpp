@@ -1,3 +1,4 @@
+// The cloud as strategies see it; spacings are computed on demand.
 #include <dsc/cloud/target.hpp>
 
 #include <mutex>
@@ -23,10 +24,10 @@ std::vector<T> one_per_point(const std::vector<T>& values, const Normalized& nor
 }
 
 constexpr std::size_t wanted = 6;
-constexpr std::size_t searched = 16, searched_again = 128;  // more where many points coincide
+constexpr std::size_t searched = 16, searched_again = 128;  // more if many points coincide
 
-// Distance to the sixth of the neighbours, to the last one if there are fewer, and how many there are; points in one
-// place count once, and not at all in the place of p. Equal points are equally far: only those need a comparison.
+// Distance to the sixth neighbour (to the last one if there are fewer), and the number of neighbours. Coinciding points count
+// once, and points that coincide with p do not count. Equal points have equal distances, so only those are compared.
 std::pair<double, std::size_t> sixth(std::span<const Vec3> points, std::span<const Neighbour> around) {
     double last = 0.0;
     std::size_t distinct = 0;

@@ -45,7 +45,7 @@ std::vector<Patch> load_patches() {
             good = parse_number(next_word(rest), values[k]) == Number::ok;
         if (!good)
             throw IoError("io.syntax", path.string(), std::to_string(lines.number()),
-                          "the line has not " + counted(count, "number"),
+                          "the line does not have " + counted(count, "number"),
                           "restore the file from the source tree");
     };
     double count = 0.0;
@@ -62,14 +62,14 @@ std::vector<Patch> load_patches() {
     return patches;
 }
 
-/// The patches that a scan sees only where they leave the body: handle and spout.
+/// The patches of which a scan sees only the part outside the body: handle and spout.
 bool enters_body(std::size_t patch) { return patch >= 12 && patch < 20; }
 
-/// Body and bottom, which are rotated profiles: every cross-section is the same quarter arc, scaled by the
-/// radius at its height. The arc is the cubic Bezier curve with a tangent of 0.56, not quite a circle.
+/// Body and bottom, which are rotated profiles: every cross-section is the same quarter arc, scaled by the radius at its
+/// height. The arc is a cubic Bezier curve with a tangent of 0.56, which is not exactly a circle.
 class Body {
 public:
-    /// `patches`: their first columns are the profile.
+    /// `patches`: their first columns define the profile.
     explicit Body(const std::vector<Patch>& patches)
         : upper_(column(patches[4])), lower_(column(patches[8])), bottom_(column(patches[28])) {}
 
@@ -141,8 +141,8 @@ public:
             for (const Vec3& p : face) box_.extend(p);
     }
 
-    /// `p` lies on the body's wall. A ray that leaves the body along x then meets the tube an odd number of
-    /// times from inside and an even number from outside; it never leaves through the tube's ends.
+    /// `p` lies on the body's wall. The ray along x that leaves the body meets the tube an odd number of times if p is inside
+    /// the tube, and an even number of times if it is outside; it never passes through the open ends of the tube.
     bool encloses(const Vec3& p) const {
         if (!box_.contains(p)) return false;
         return std::count_if(faces_.begin(), faces_.end(), [&](const auto& face) { return meets(p, face); }) % 2 == 1;
@@ -152,7 +152,7 @@ private:
     static constexpr std::size_t cells = 16;  // per side of a patch
 
     bool meets(const Vec3& p, const std::array<Vec3, 3>& face) const {
-        std::array<double, 3> part;  // twice the areas that p's image makes with the edges of the face's image
+        std::array<double, 3> part;  // twice the areas of p's image with the edges of the face's image
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 a = face[k] - p, b = face[(k + 1) % 3] - p;
             part[(k + 2) % 3] = a.y() * b.z() - a.z() * b.y();
@@ -198,8 +198,8 @@ public:
 
     Vec3 sample(RandomStream& random) const override {
         for (;;) {
-            // A cell of the patches by its area, then a place in it: the cells are small enough for their
-            // area to be even, and the point lies on the patch itself, not on a chord.
+            // Chooses a cell of the patches by its area, then a place in it. The cells are small enough to have an even area
+            // density, and the point lies on the patch itself, not on a chord.
             const double pick = random.uniform(0.0, area_below_.back());
             const auto found = std::upper_bound(area_below_.begin(), area_below_.end(), pick);
             const auto triangle =
@@ -248,7 +248,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t cells = 32;  // a side of a patch
+    static constexpr std::size_t cells = 32;  // per side of a patch
 
     bool hidden(std::size_t patch, const Vec3& p) const {
         if (enters_body(patch)) return body_.contains(p);
@@ -259,7 +259,7 @@ private:
     Body body_;
     Tube handle_, spout_;
     Box3 box_;
-    std::vector<double> area_below_;  ///< summed areas of the triangles of all cells
+    std::vector<double> area_below_;  ///< cumulative areas of the triangles of all cells
 };
 
 }  // namespace

@@ -1,3 +1,4 @@
+// Lines, columns and numbers of text clouds.
 #include "text.hpp"
 
 #include <algorithm>
@@ -46,7 +47,7 @@ Number parse_number(std::string_view word, double& value) {
     const auto [stop, error] = std::from_chars(word.data(), end, value);
     if (stop != end || error == std::errc::invalid_argument) return Number::not_a_number;
     if (error == std::errc::result_out_of_range) {
-        // from_chars does not say which way; a negative exponent tells.
+        // from_chars does not say whether the number is too large or too small; a negative exponent means too small.
         const std::size_t exponent = word.find_first_of("eE");
         if (exponent == std::string_view::npos || word.find('-', exponent) == std::string_view::npos)
             return Number::not_finite;
@@ -67,7 +68,7 @@ bool has_decimal_comma(std::string_view word) {
     const auto commas = std::count(digits.begin(), digits.end(), ',');
     if (commas == 1 && digits.find('.') == std::string::npos) {
         digits[digits.find(',')] = '.';
-    } else {  // separators of thousands
+    } else {  // thousands separators
         for (std::size_t at = word.find(','); at != std::string_view::npos; at = word.find(',', at + 1)) {
             if (word.find_first_of(",.", at + 1) != at + 4 && at + 4 != word.size()) return false;
         }

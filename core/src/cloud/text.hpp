@@ -1,5 +1,5 @@
 #pragma once
-// Reading text: lines, columns, numbers; and putting pieces of a file into messages.
+// Reading text (lines, columns, numbers), and pieces of a file for messages.
 
 #include <cstddef>
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace dsc::cloud {
 
-/// Walks over the lines of a text that ends its lines with LF, CR LF or CR; the ends are not part of a line.
+/// Iterates over the lines of a text with line ends LF, CR LF or CR; the ends are not part of a line.
 class Lines {
 public:
     explicit Lines(std::string_view text);
     /// False at the end of the text.
     bool next(std::string_view& line);
-    /// Of the last line, from 1.
+    /// Number of the last line, from 1.
     std::size_t number() const { return number_; }
-    /// Whether the last line had an end, which a file that was cut off mostly lacks.
+    /// Whether the last line had a line end; a truncated file usually has none.
     bool terminated() const { return terminated_; }
 
 private:
@@ -28,19 +28,19 @@ inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c ==
 
 std::string_view trim(std::string_view text);
 
-/// Takes the next run of non-blank characters off `rest`; empty at the end.
+/// Removes the next run of non-blank characters from `rest`; empty at the end.
 std::string_view next_word(std::string_view& rest);
 
 enum class Number { ok, not_a_number, not_finite };
 
-/// Reads the whole of `word` as a number; locale-independent, a leading + is allowed, what is too small
-/// becomes 0. "nan", "inf" and what is too large are not_finite.
+/// Reads the whole of `word` as a number, independent of the locale. A leading + is allowed, and numbers that are too small
+/// become 0. "nan", "inf" and numbers that are too large are not_finite.
 Number parse_number(std::string_view word, double& value);
 
-/// Whether the word is a number but for commas inside of it: "1,5", "-2,5e3", "1,234.5".
+/// Whether the word is a number apart from commas inside it: "1,5", "-2,5e3", "1,234.5".
 bool has_decimal_comma(std::string_view word);
 
-/// Reads the whole of `word` as a decimal count.
+/// Reads the whole of `word` as a decimal integer of at least 0.
 bool parse_count(std::string_view word, std::size_t& value);
 
 /// 'word' for a message: at most 40 characters, with ? for unprintable ones.

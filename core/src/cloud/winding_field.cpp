@@ -1,4 +1,4 @@
-// Sums over clusters [Barill2018], of order 0, for groups of neighbouring targets.
+// The winding field: sums over clusters [Barill2018] of order 0, for groups of neighbouring targets.
 #include <dsc/cloud/winding_field.hpp>
 
 #include <algorithm>
@@ -22,11 +22,11 @@ constexpr std::size_t source_leaf = 16;
 constexpr std::size_t target_leaf = 48;
 constexpr std::size_t leaves_per_block = 16;
 
-// Below this, in units of the box, a smoothing length counts as this long: it keeps the sums finite where a target lies on a
-// source, and is shorter than the resolution of the coordinates.
+// Least smoothing length, in units of the box: it keeps the sums finite where a target coincides with a source, and is below
+// the resolution of the coordinates.
 constexpr float least_half_square = 1e-15F;
 
-/// How positions become floats.
+/// The conversion of positions to floats.
 struct Frame {
     Vec3 centre = Vec3::Zero();
     double scale = 1.0;
@@ -44,7 +44,7 @@ struct Frame {
 void require_points(std::span<const Vec3> points) {
     if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         throw GeometryError("cloud.large", "winding field: " + std::to_string(points.size()) +
-                                               " points; at most 2147483647 are possible, thin the cloud first");
+                                               " points; the limit is 2147483647; thin the cloud first");
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!points[i].allFinite())
             throw GeometryError("cloud.non_finite",
@@ -59,7 +59,7 @@ std::vector<std::array<float, 3>> placed(const Frame& frame, std::span<const Vec
 
 Frame frame_of(std::span<const Vec3> positions) {
     if (positions.empty())
-        throw GeometryError("cloud.empty", "winding field: no positions; a field needs at least one");
+        throw GeometryError("cloud.empty", "winding field: no positions; at least one is needed");
     require_points(positions);
     const Box3 box = bounding_box(positions);
     const double diagonal = box.diagonal();
@@ -67,7 +67,7 @@ Frame frame_of(std::span<const Vec3> positions) {
 }
 
 ClusterTree tree_of(const Frame& frame, std::span<const Vec3> positions, std::span<const double> weights) {
-    // Weights count in relation to the largest, so that they fit into floats.
+    // Weights are divided by the largest weight, so that they fit into floats.
     double largest = 0.0;
     for (const double weight : weights) largest = std::max(largest, weight);
     std::vector<float> relative(weights.size(), 1.0F);
@@ -77,7 +77,7 @@ ClusterTree tree_of(const Frame& frame, std::span<const Vec3> positions, std::sp
     return {placed(frame, positions), relative, source_leaf};
 }
 
-/// What a group of targets takes its sums over: clusters, and ranges of single points.
+/// The sources of a group of targets: clusters, and ranges of single points.
 struct Interactions {
     std::vector<std::uint32_t> clusters;
     std::vector<std::array<std::uint32_t, 2>> ranges;
@@ -109,7 +109,7 @@ void collect(const ClusterTree& tree, const ClusterNode& targets, float opening,
     }
 }
 
-/// Strengths of all sources in the tree's order, and their sums per cluster.
+/// Strengths of all sources in the order of the tree, and their sums per cluster.
 struct Strengths {
     std::array<std::vector<float>, 3> points;
     std::vector<std::array<float, 3>> clusters;
@@ -144,7 +144,7 @@ struct WindingField::State {
           vectors(tree),
           scalars(tree) {}
 
-    /// The sources of a group, gathered.
+    /// Collects the sources of a group.
     void gather(const Interactions& found, const Strengths& strengths, WindingSources& sources) const {
         std::size_t count = found.clusters.size();
         for (const auto& range : found.ranges) count += range[1] - range[0];
@@ -236,8 +236,8 @@ struct WindingField::State {
     std::vector<float> half_squares;          ///< per position, in the tree's order
     std::vector<float> cluster_half_squares;  ///< their means per cluster
     Strengths vectors;
-    Strengths scalars;                ///< what `adjoint` was given, in the first component
-    std::vector<Interactions> lists;  ///< per leaf, empty before they are needed
+    Strengths scalars;                ///< the argument of `adjoint`, in the first component
+    std::vector<Interactions> lists;  ///< per leaf; empty until needed
 };
 
 WindingField::WindingField(std::span<const Vec3> positions, std::span<const double> weights, double opening)

@@ -1,4 +1,5 @@
-// Compiled with -fno-math-errno, which lets the compiler take eight square roots at once; nothing else depends on it.
+// The inner loops of the winding field. Compiled with -fno-math-errno, so that eight square roots are computed at once; nothing
+// else depends on this flag.
 #include "winding_kernels.hpp"
 
 #include <cmath>
@@ -14,7 +15,7 @@ namespace dsc::cloud {
 
 namespace {
 
-// A vector type of g++ and clang. The functions that pass it are always inlined, so its calling convention does not matter.
+// A vector type of g++ and clang. The functions that pass it are always inlined, so its calling convention has no effect.
 using Lanes = float __attribute__((vector_size(winding_lanes * sizeof(float))));
 
 DSC_INLINE Lanes load(const float* from) {
@@ -33,7 +34,7 @@ DSC_INLINE float add_up(Lanes sum) {
     return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
 }
 
-/// What all three sums begin with, for the sources k..k+7.
+/// The common terms of all three sums, for the sources k..k+7.
 struct Terms {
     Lanes dx, dy, dz;
     Lanes inverse_square, inverse_cube;  ///< 1 / rho^2, 1 / rho^3
@@ -85,7 +86,7 @@ DSC_INLINE std::array<float, 3> gradient_loop(const WindingSources& sources, con
 }
 
 #ifdef DSC_HAS_WIDE_LOOPS
-// Not target_clones: their resolver runs before the sanitizers are ready.
+// Not target_clones, because their resolver runs before the sanitizers are ready.
 DSC_WIDE float wide_winding(const WindingSources& s, const WindingTarget& t) { return winding_loop(s, t); }
 DSC_WIDE std::array<float, 3> wide_adjoint(const WindingSources& s, const WindingTarget& t) { return adjoint_loop(s, t); }
 DSC_WIDE std::array<float, 3> wide_gradient(const WindingSources& s, const WindingTarget& t) { return gradient_loop(s, t); }
@@ -101,7 +102,7 @@ bool wide() {
 void WindingSources::resize(std::size_t count) {
     count_ = (count + winding_lanes - 1) / winding_lanes * winding_lanes;
     if (count_ > stride_) {
-        // Not a power of two: columns that begin at the same place of the cache would drive each other out.
+        // Not a power of two, because columns that begin at the same cache position would displace each other.
         stride_ = 2 * count_ + 3 * winding_lanes;
         values_.assign(winding_quantities * stride_, 0.0F);
     }

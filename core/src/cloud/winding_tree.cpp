@@ -1,3 +1,4 @@
+// A kd-tree of clusters.
 #include "winding_tree.hpp"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ void ClusterTree::divide(std::vector<Entry>& entries, std::size_t begin, std::si
     const auto self = static_cast<std::uint32_t>(nodes_.size());
     nodes_.push_back({static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)});
     if (end - begin <= leaf_size) {
-        // The library's own order within the halves is of no account.
+        // The order within the halves that the library leaves is arbitrary, so they are sorted.
         std::sort(first, last, [](const Entry& a, const Entry& b) { return a.index < b.index; });
         leaves_.push_back(self);
         return;
@@ -53,7 +54,8 @@ void ClusterTree::divide(std::vector<Entry>& entries, std::size_t begin, std::si
 }
 
 void ClusterTree::measure(std::span<const float> weights) {
-    // Leaves from their points, other nodes from their children, which come later; so from the last to the first.
+    // Leaves from their points, other nodes from their children, which come later in the list; therefore from the last to the
+    // first.
     std::vector<std::array<double, 4>> sums(nodes_.size(), std::array<double, 4>{});
     for (std::size_t n = nodes_.size(); n-- > 0;) {
         ClusterNode& node = nodes_[n];

@@ -1,5 +1,5 @@
 #pragma once
-// A kd-tree of clusters over points in float: what the winding field takes together.
+// A kd-tree of clusters over points in float, for the winding field.
 
 #include <array>
 #include <cstddef>
@@ -29,7 +29,7 @@ public:
     const std::vector<ClusterNode>& nodes() const { return nodes_; }
     /// Indices of `nodes()` without children, in the order of their points.
     const std::vector<std::uint32_t>& leaves() const { return leaves_; }
-    /// Index that the n-th point in the tree's order had at the beginning.
+    /// Original index of the n-th point in the tree's order.
     const std::vector<std::uint32_t>& order() const { return order_; }
     /// Coordinates along one axis, in the tree's order.
     const std::vector<float>& coordinates(std::size_t axis) const { return coordinates_[axis]; }
@@ -48,7 +48,7 @@ private:
     std::array<std::vector<float>, 3> coordinates_;
 };
 
-/// Whether a cluster is small enough, seen from all points of a group of targets, to count as one source.
+/// Whether a cluster, as seen from all points of a group of targets, is small enough to be used as one source.
 inline bool far_enough(const ClusterNode& cluster, const ClusterNode& targets, float distance, float opening) {
     return cluster.size() > 3 && cluster.radius < opening * (distance - targets.radius);
 }

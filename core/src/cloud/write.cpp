@@ -1,3 +1,4 @@
+// Writes point clouds.
 #include <dsc/cloud/write.hpp>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ namespace {
 void append(std::string& text, double value) {
     char digits[32];
     const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
-    static_cast<void>(error);  // 32 characters hold every double
+    static_cast<void>(error);  // 32 characters are enough for every double
     text.append(digits, end);
 }
 
@@ -34,7 +35,7 @@ void append_point(std::string& text, const Vec3& p) {
     append(text, p.z());
 }
 
-/// What is written besides the points.
+/// The attributes that are written besides the points.
 struct Whole {
     bool colours = false;
     bool normals = false;
@@ -80,7 +81,7 @@ std::string xyz_text(const Cloud& cloud, const Whole& whole) {
     return text;
 }
 
-/// Comma-separated values under the names of the columns.
+/// Comma-separated values with the names of the columns.
 std::string csv_text(const Cloud& cloud, const Whole& whole) {
     std::string text = std::string("x,y,z") + (whole.colours ? ",red,green,blue" : "") + (whole.normals ? ",nx,ny,nz" : "") + "\n";
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
@@ -102,7 +103,7 @@ void append_raw(std::string& bytes, const Vec3& p) {
     bytes.append(raw, sizeof raw);
 }
 
-/// Binary doubles, colours packed as PCL does it: 0x00rrggbb in the four bytes of a "float".
+/// Binary doubles; colours are packed as PCL does it: 0x00rrggbb in the four bytes of a "float".
 std::string pcd_bytes(const Cloud& cloud, const Whole& whole) {
     const std::string count = std::to_string(cloud.points.size());
     const std::string normals = whole.normals ? " normal_x normal_y normal_z" : "";
@@ -165,7 +166,7 @@ void write_cloud(const fs::path& path, const Cloud& cloud) {
     else
         throw IoError("io.format", path.string(), "",
                       extension.empty() ? "the file's name has no extension"
-                                        : "clouds are not written as " + in_quotes(extension),
+                                        : "clouds cannot be written as " + in_quotes(extension),
                       "accepted are " + std::string(cloud_extensions()));
 }
 

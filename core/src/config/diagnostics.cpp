@@ -1,3 +1,4 @@
+// Collects the faults of a configuration and formats them as text.
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/config/diagnostics.hpp>
@@ -9,13 +10,13 @@
 namespace dsc::config {
 namespace {
 
-/// The part of a line round a column, for lines that no terminal shows whole.
+/// The part of a line around a column, for lines that are too long for a terminal.
 struct Excerpt {
     std::string text;
     std::size_t column = 0;  ///< 0-based, in characters of `text`
 };
 
-/// Byte offset of the character with this index, the size beyond the end.
+/// Byte offset of the character with this index; the size of the text after its end.
 std::size_t byte_offset(std::string_view text, std::size_t character) {
     std::size_t offset = 0;
     for (std::size_t seen = 0; offset < text.size(); ++offset) {
@@ -57,7 +58,7 @@ std::string caret_lines(const SourcePosition& position, const std::string& hint)
     return out + "\n";
 }
 
-/// Files in the order of their first fault, then by line and column; the command line keeps its order.
+/// Order: files by their first fault, then by line and column; faults of the command line keep their order.
 std::vector<std::size_t> sorted(const std::vector<Diagnostic>& all, Severity severity) {
     std::vector<const SourceText*> sources;
     const auto rank = [&](const Diagnostic& d) {

@@ -1,3 +1,4 @@
+// Checks and converts the value of one field.
 #include "config/field_value.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 namespace dsc::config {
 namespace {
 
-/// One value under judgement.
+/// Checks one value.
 class Judge {
 public:
     Judge(const Field& field, const SourcePosition& fallback, Diagnostics& diagnostics)
@@ -64,8 +65,8 @@ public:
         return node;
     }
 
-    /// Relative to the folder of the file that names it, or to the working folder for the command line and
-    /// for code.
+    /// The name is relative to the folder of the file that contains it; for the command line and for code, to the working
+    /// folder.
     ConfigNode file(const ConfigNode& node, const std::string& path) {
         namespace fs = std::filesystem;
         if (!node.is_string()) return wrong_type(node, path, "the name of a file", "");
@@ -101,7 +102,7 @@ private:
         return node.position().known() ? node.position() : fallback_;
     }
 
-    /// What to do about text where a number or a boolean is due.
+    /// Remedy for text where a number or a boolean is expected.
     static std::string text_hint(const ConfigNode& node, std::string (*hint)(std::string_view)) {
         if (!node.is_string()) return {};
         return holds_variable(node.position()) ? "a variable gives text; write the value itself, or override it with KEY=VALUE"
@@ -160,7 +161,7 @@ private:
         if (std::find(accepted.begin(), accepted.end(), extension) != accepted.end()) return;
         diagnostics_.error("config.file", place(node),
                            "'" + path + "': " + quoted_text(file.string()) +
-                               " is no file that can be used here; its name must end in " +
+                               " cannot be used here; the file's name must end in " +
                                join(accepted, " or "));
     }
 

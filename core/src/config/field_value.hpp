@@ -1,5 +1,5 @@
 #pragma once
-// The value of one field without a schema of its own: scalars and lists of scalars.
+// The value of one field that is not a map: scalars and lists of scalars.
 
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/config/node.hpp>
@@ -8,11 +8,11 @@
 
 namespace dsc::config {
 
-/// True for the types that resolve_value() knows.
+/// True for the types that resolve_value() supports.
 bool is_plain_field(FieldType type);
 
-/// Checks a given value and brings it into the field's type. `path` names it in messages, `fallback` is the
-/// place for a value that has none.
+/// Checks a given value and converts it to the field's type. Messages call it `path`; `fallback` is the place of a value
+/// without its own place.
 ConfigNode resolve_value(const Field& field, const ConfigNode& node, const std::string& path,
                          const SourcePosition& fallback, Diagnostics& diagnostics);
 
@@ -20,7 +20,7 @@ ConfigNode resolve_value(const Field& field, const ConfigNode& node, const std::
 std::string number_text(const ConfigNode& node);
 std::string bound_text(const Field& field, double bound);
 
-/// "the string 'fast'", "2.5", "a list": a given value as it reads in a message.
+/// A given value as messages show it: "the string 'fast'", "2.5", "a list".
 std::string value_text(const ConfigNode& node);
 
 }  // namespace dsc::config

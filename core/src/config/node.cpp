@@ -1,3 +1,4 @@
+// The immutable tree of configuration values.
 #include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/config/diagnostics.hpp>
@@ -11,7 +12,7 @@
 
 namespace dsc::config {
 
-/// Paths share their beginnings, or a hostile file could make them larger than itself by far.
+/// Paths share their beginnings; otherwise a hostile file could make them much larger than itself.
 struct ConfigNode::PathPart {
     std::shared_ptr<const PathPart> parent;
     std::string key;
@@ -250,7 +251,7 @@ ConfigNode ConfigNode::without(std::string_view key) const {
 }
 
 ConfigNode ConfigNode::with_item(std::size_t index, ConfigNode value) const {
-    at(index);  // refuses what is no list or too short
+    at(index);  // throws if this is not a list or is too short
     auto data = std::make_shared<Data>(*data_);
     std::get<Data::Items>(data->value)[index] = value.rebased(data->path, std::to_string(index));
     return ConfigNode(std::move(data));

@@ -1,5 +1,5 @@
 #pragma once
-// How the YAML reader builds trees: without paths first, which one pass over the finished tree adds.
+// Builds trees for the YAML reader: first without paths; one pass over the finished tree adds them.
 
 #include <dsc/config/node.hpp>
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace dsc::config {
 
-/// Lists and maps whose children are taken as they are: no paths, no check of keys.
+/// Lists and maps with unchanged children: no paths, no check of keys.
 struct NodeFactory {
     static ConfigNode list(std::vector<ConfigNode> items, SourcePosition position);
     static ConfigNode map(std::vector<ConfigEntry> entries, SourcePosition position);
-    /// The tree with the paths of all its nodes, this one the root.
+    /// The tree with the paths of all its nodes; `node` is the root.
     static ConfigNode rooted(const ConfigNode& node);
 };
 

@@ -1,3 +1,4 @@
+// Applies the overrides of the command line and the values of a sweep to a tree.
 #include <algorithm>
 #include <charconv>
 #include <dsc/base/error.hpp>
@@ -18,7 +19,7 @@ bool is_key_character(char c) {
     return c == '_' || c == '-' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-/// The parts of `a.0.b`; empty where it is no dotted path.
+/// The parts of `a.0.b`; empty if it is not a dotted path.
 std::vector<std::string> split(std::string_view path) {
     std::vector<std::string> parts;
     while (true) {
@@ -34,7 +35,7 @@ std::vector<std::string> split(std::string_view path) {
 /// Puts a value into a tree.
 class Placement {
 public:
-    /// `what` leads every message, `key` is the place of the path.
+    /// `what` is the beginning of every message, `key` is the place of the path.
     Placement(std::string what, SourcePosition key) : what_(std::move(what)), key_(std::move(key)) {}
 
     [[noreturn]] void refuse(const std::string& message, const std::string& hint) const {
@@ -52,7 +53,7 @@ public:
         }
         if (!node.is_map() && !node.is_null()) {
             refuse(
-                "'" + path + "' is " + std::string(type_name(node.type())) + ", it has no key '" + part + "'",
+                "'" + path + "' is " + std::string(type_name(node.type())) + "; it has no key '" + part + "'",
                 "");
         }
         const ConfigNode* old = node.find(part);
@@ -65,7 +66,7 @@ private:
         const char* end = part.data() + part.size();
         const auto parsed = std::from_chars(part.data(), end, index);
         if (parsed.ec != std::errc() || parsed.ptr != end || index >= list.size()) {
-            refuse("'" + path + "' is a list of " + std::to_string(list.size()) + ", it has no item '" + part + "'",
+            refuse("'" + path + "' is a list of " + std::to_string(list.size()) + "; it has no item '" + part + "'",
                    list.size() == 0 ? "write " + path + "=[...]"
                                     : "items are numbered from 0 to " + std::to_string(list.size() - 1));
         }
@@ -76,7 +77,7 @@ private:
     SourcePosition key_;
 };
 
-/// One override on its way into the tree.
+/// Applies one override.
 class Override {
 public:
     Override(const std::string& text, const YamlOptions& options)
@@ -92,14 +93,14 @@ public:
         if (equals == std::string::npos) placement.refuse("no '=' in it", "write path.to.key=value");
         if (text[0] == '+' || text[0] == '~') {
             placement.refuse(std::string("it starts with '") + text[0] + "'",
-                             "write path.to.key=value; any key of the schema may be given");
+                             "write path.to.key=value; every key of the schema is allowed");
         }
         const std::vector<std::string> parts = split(std::string_view(text).substr(0, equals));
         if (parts.empty()) {
-            placement.refuse(quoted_text(text.substr(0, equals)) + " is no dotted path", "write path.to.key=value");
+            placement.refuse(quoted_text(text.substr(0, equals)) + " is not a dotted path", "write path.to.key=value");
         }
         if (parts.size() > options_.max_depth) placement.refuse("its path is too long", "");
-        if (first_non_text(text)) placement.refuse("it holds bytes that are no text", "");
+        if (first_non_text(text)) placement.refuse("it contains bytes that are not text", "");
         if (text.find_first_of("\r\n") != std::string::npos) placement.refuse("it has more than one line", "");
         const ConfigNode value = parse_value(source_, equals + 1, options_);
         const bool lost = value.is_null() && !is_null_text(text.substr(equals + 1));
@@ -123,7 +124,7 @@ ConfigNode apply_overrides(const ConfigNode& root, std::span<const std::string> 
         try {
             tree = Override(text, options).apply(tree);
         } catch (const ConfigError& error) {
-            // Each ends with a summary of its own; the one at the end counts them all.
+            // Each message ends with its own summary; the summary at the end counts all faults.
             const std::string_view message = error.what();
             faults += message.substr(0, message.rfind('\n') + 1);
             ++count;
@@ -140,7 +141,7 @@ ConfigNode with_value(const ConfigNode& root, const std::string& path, const Con
                       const SourcePosition& key) {
     const Placement placement("", key);
     const std::vector<std::string> parts = split(path);
-    if (parts.empty()) placement.refuse(quoted_text(path) + " is no dotted path", "write path.to.key: value");
+    if (parts.empty()) placement.refuse(quoted_text(path) + " is not a dotted path", "write path.to.key: value");
     if (parts.size() > YamlOptions{}.max_depth) placement.refuse("its path is too long", "");
     return placement.set(root, parts, value);
 }

@@ -1,3 +1,4 @@
+// The parts of ParamSchema that do not depend on the struct.
 #include <dsc/base/error.hpp>
 #include <dsc/config/params.hpp>
 #include <dsc/config/spelling.hpp>

@@ -1,3 +1,4 @@
+// Reads plain scalars by the rules of JSON.
 #include "config/scalar.hpp"
 
 #include <charconv>

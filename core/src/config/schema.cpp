@@ -1,3 +1,4 @@
+// The fields of a map: their texts, and the check of a declaration.
 #include <algorithm>
 #include <dsc/config/field_text.hpp>
 #include <dsc/config/schema.hpp>
@@ -73,7 +74,7 @@ std::string held_text(const Field& field) {
     return out;
 }
 
-/// "1 to 4 items"; empty where any number will do.
+/// "1 to 4 items"; empty if any number is allowed.
 std::string size_text(const Field& field) {
     const std::size_t least = field.min_size.value_or(0);
     const std::size_t most = field.max_size.value_or(std::numeric_limits<std::size_t>::max());
@@ -82,7 +83,7 @@ std::string size_text(const Field& field) {
     return least == 0 ? "at most " + items_text(most) : std::to_string(least) + " to " + items_text(most);
 }
 
-/// ", 1 to 4 items, (0, 1]": the bounds of the size and of the value.
+/// ", 1 to 4 items, (0, 1]": the bounds of size and value.
 std::string limits_text(const Field& field) {
     std::string out;
     if (const std::string size = size_text(field); !size.empty()) out += ", " + size;
@@ -93,22 +94,22 @@ std::string limits_text(const Field& field) {
 /// The faults of one field, without its place.
 std::vector<std::string> field_problems(const Field& field) {
     std::vector<std::string> faults;
-    if (!is_name(field.name)) faults.emplace_back("has a name that is no identifier");
+    if (!is_name(field.name)) faults.emplace_back("has a name that is not an identifier");
     if (field.doc.empty()) faults.emplace_back("has no doc");
     const bool bounded = field.minimum || field.maximum;
-    if (bounded && !is_numeric_type(field.type)) faults.emplace_back("has a range but is no number");
+    if (bounded && !is_numeric_type(field.type)) faults.emplace_back("has a range but is not a number");
     if (field.minimum && field.maximum && field.minimum->value > field.maximum->value) {
         faults.emplace_back("has an empty range");
     }
     if ((field.min_size || field.max_size) && !is_list_type(field.type)) {
-        faults.emplace_back("has a size but is no list");
+        faults.emplace_back("has a size but is not a list");
     }
     if (field.type == FieldType::choice && field.choices.empty()) faults.emplace_back("has no choices");
     if (!field.choices.empty() && field.type != FieldType::choice && field.type != FieldType::string_list) {
-        faults.emplace_back("has choices but is no choice");
+        faults.emplace_back("has choices but is not a choice");
     }
     if (!field.extensions.empty() && field.type != FieldType::file) {
-        faults.emplace_back("has extensions but is no file");
+        faults.emplace_back("has extensions but is not a file");
     }
     if (has_object(field.type) && !field.object) faults.emplace_back("has no schema");
     if (has_kind(field.type) && field.kind.empty()) faults.emplace_back("names no kind of strategy");
@@ -224,7 +225,7 @@ std::vector<std::string> Schema::problems(bool of_strategy) const {
         const std::string subject = "parameter '" + field.name + "' ";
         if (!seen.insert(field.name).second) out.push_back(subject + "is declared twice");
         if (of_strategy && field.name == "type")
-            out.push_back(subject + "has the name that picks the strategy");
+            out.push_back(subject + "has the name 'type', which selects the strategy");
         for (const std::string& fault : field_problems(field)) out.push_back(subject + fault);
         if (!field.object) continue;
         for (const std::string& inner : field.object->problems())
@@ -232,7 +233,7 @@ std::vector<std::string> Schema::problems(bool of_strategy) const {
     }
     for (const Deprecation& d : deprecations_) {
         if (!find(d.new_name))
-            out.push_back("'" + d.old_name + "' stands for '" + d.new_name + "', which is no parameter");
+            out.push_back("'" + d.old_name + "' is an old name of '" + d.new_name + "', which is not a parameter");
         if (find(d.old_name)) out.push_back("'" + d.old_name + "' is both a parameter and an old name");
     }
     for (const CrossCheck& c : checks_) {

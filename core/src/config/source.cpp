@@ -1,3 +1,4 @@
+// Texts and places of configuration values.
 #include <dsc/config/source.hpp>
 
 #include "config/text.hpp"

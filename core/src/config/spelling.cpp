@@ -1,3 +1,4 @@
+// Finds the accepted word nearest to a mistyped one.
 #include <algorithm>
 #include <dsc/config/spelling.hpp>
 
@@ -22,7 +23,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::optional<std::string> closest(std::string_view word, const std::vector<std::string>& candidates) {
-    // A word of hostile length is nobody's misspelling; the table would grow with it.
+    // A very long word is not a misspelling, and the table would grow with it.
     constexpr std::size_t longest = 200;
     if (word.size() > longest) return std::nullopt;
     const std::size_t limit = std::max<std::size_t>(2, word.size() / 3);

@@ -1,3 +1,4 @@
+// Small helpers on UTF-8 text.
 #include "config/text.hpp"
 
 namespace dsc::config {
@@ -7,7 +8,7 @@ unsigned char byte_at(std::string_view text, std::size_t index) {
     return static_cast<unsigned char>(text[index]);
 }
 
-/// Length of the well-formed character at `begin`, 0 where there is none.
+/// Length of the well-formed character at `begin`; 0 if there is none.
 std::size_t character_length(std::string_view text, std::size_t begin) {
     const unsigned lead = byte_at(text, begin);
     if (lead < 0x80U) return 1;

@@ -1,4 +1,4 @@
-// Validation of a tree against schemas: finds all faults, writes out all defaults.
+// Validates a tree against schemas: finds all faults and writes out all defaults.
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/config/schema.hpp>
@@ -13,7 +13,7 @@
 namespace dsc::config {
 namespace {
 
-/// Where a key is accepted, told as "curvature 'implicit_fairing'".
+/// Where a key is accepted, for example "curvature 'implicit_fairing'".
 struct Accepted {
     std::string key;
     std::string place;
@@ -24,7 +24,7 @@ public:
     Validator(const StrategyLookup& lookup, Diagnostics& diagnostics)
         : lookup_(lookup), diagnostics_(diagnostics) {}
 
-    /// Learns all keys that are accepted anywhere, for hints at unknown ones.
+    /// Collects all keys that are accepted anywhere, for hints about unknown keys.
     void learn(const Schema& schema, const std::string& owner, const std::string& path = "") {
         for (const Field& field : schema.fields()) {
             accepted_.push_back({field.name, path.empty() ? owner : "'" + path + "' of " + owner});
@@ -39,13 +39,13 @@ public:
         }
     }
 
-    /// What a map is validated as.
+    /// The map to validate.
     struct Map {
         const Schema& schema;
         std::string path;
         std::string owner;                 ///< "velocity 'point_cloud'"
         SourcePosition fallback;           ///< place of a map that has none
-        const ConfigNode* type = nullptr;  ///< the strategy's id, which is no field of the schema
+        const ConfigNode* type = nullptr;  ///< the strategy's id, which is not a field of the schema
     };
 
     ConfigNode resolve_map(const ConfigNode& node, const Map& map) {
@@ -107,7 +107,7 @@ public:
         }
         if (schema->find("type")) {
             throw PluginError("plugin.schema", kind + " '" + id +
-                                                   "' declares a parameter 'type', the name that picks "
+                                                   "' declares a parameter 'type', which selects "
                                                    "the strategy; it must be renamed");
         }
         return resolve_map(node, {*schema, path, kind + " '" + id + "'", position, type});
@@ -122,7 +122,7 @@ private:
                            : "known " + kind + " strategies: " + join(ids);
     }
 
-    /// What an id is that was used for another kind.
+    /// The kind to which an id belongs if it was used for another kind.
     std::string kind_hint(const std::string& id) const {
         for (const std::string& kind : known_kinds_) {
             if (lookup_.find_schema(kind, id)) return quoted_text(id) + " is of the kind " + kind;
@@ -278,7 +278,7 @@ private:
         }
     }
 
-    /// Of the values that were given, the one whose key a message names first; nullptr where it names none.
+    /// Of the given values, the one whose key a message names first; nullptr if the message names none.
     static const ConfigNode* first_named(const std::string& message, const ConfigNode& map) {
         const ConfigNode* first = nullptr;
         std::size_t first_at = std::string::npos;

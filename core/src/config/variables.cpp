@@ -1,4 +1,4 @@
-// ${NAME} in strings.
+// Replaces ${NAME} in strings.
 #include "config/variables.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::string expand_variables(std::string_view text, const SourcePosition& positi
             });
         if (end == std::string_view::npos || !is_name) {
             diagnostics.error("config.variable", position, "'${' does not start the name of a variable",
-                              "write ${NAME}, or $${ for the characters themselves");
+                              "write ${NAME}, or $${ for a literal '${'");
             return std::string(text);
         }
         const std::optional<std::string> value = environment(name);
@@ -48,7 +48,7 @@ std::string expand_variables(std::string_view text, const SourcePosition& positi
                               "set it: export " + name + "=...", std::move(notes));
         } else if (first_non_text(*value)) {
             diagnostics.error("config.variable", position,
-                              "the environment variable '" + name + "' holds bytes that are no text");
+                              "the environment variable '" + name + "' contains bytes that are not text");
         } else {
             out += *value;
         }

@@ -9,11 +9,11 @@
 
 namespace dsc::config {
 
-/// `text` with its ${NAME} replaced; faults go to `diagnostics` at `position`.
+/// `text` with its ${NAME} replaced; faults are added to `diagnostics` at `position`.
 std::string expand_variables(std::string_view text, const SourcePosition& position,
                              const Environment& environment, Diagnostics& diagnostics);
 
-/// Whether the text at a position, as it is written there, holds a variable.
+/// Whether the original text at a position contains a variable.
 bool holds_variable(const SourcePosition& position);
 
 }  // namespace dsc::config

@@ -1,3 +1,4 @@
+// Reads a configuration with its includes.
 #include <algorithm>
 #include <cstdlib>
 #include <dsc/base/byte_order_mark.hpp>
@@ -20,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads a file and its includes; what they have in common.
+/// Reads a file and its includes; contains their common data.
 class Loader {
 public:
     explicit Loader(const YamlOptions& options) : options_(options), nodes_left_(options.max_nodes) {}
@@ -98,7 +99,7 @@ private:
         if (node.is_map()) return node;
         if (!node.is_null()) {
             diagnostics_.error("config.include", target.position(),
-                               quoted_text(file.string()) + " holds " + std::string(type_name(node.type())) +
+                               quoted_text(file.string()) + " contains " + std::string(type_name(node.type())) +
                                    ", not a map of keys and values");
         }
         return ConfigNode::map();
@@ -109,13 +110,13 @@ public:
         fail("config.too_large", position, "the configuration is larger than " + std::to_string(options.max_bytes) + " bytes");
     }
 
-    /// nullptr with the cause where the file cannot be read. Throws ConfigError "config.too_large".
+    /// nullptr and the cause if the file cannot be read. Throws ConfigError "config.too_large".
     static std::shared_ptr<const SourceText> read_text(const fs::path& file, const YamlOptions& options,
                                                        std::string& cause) {
         std::error_code error;
         const fs::file_status status = fs::status(file, error);
         if (!fs::exists(status)) {
-            cause = "there is no such file";
+            cause = "the file does not exist";
             return nullptr;
         }
         if (fs::is_directory(status)) {
@@ -123,7 +124,7 @@ public:
             return nullptr;
         }
         std::ifstream stream(file, std::ios::binary);
-        // One byte beyond the limit tells a file that is too large, also where the size is unknown (a pipe).
+        // One byte more than the limit shows that a file is too large, also if the size is unknown (a pipe).
         std::string text(options.max_bytes + 1, '\0');
         if (stream) stream.read(text.data(), static_cast<std::streamsize>(text.size()));
         if (!stream.is_open() || stream.bad()) {

@@ -1,3 +1,4 @@
+// Turns the events of the YAML library into a tree with places.
 #include "config/yaml_reader.hpp"
 
 #include <yaml-cpp/eventhandler.h>
@@ -20,7 +21,7 @@
 namespace dsc::config {
 namespace {
 
-/// Turns the library's marks (0-based, in bytes) into positions (1-based, in characters).
+/// Converts the library's marks (0-based, in bytes) to positions (1-based, in characters).
 class Places {
 public:
     Places(std::shared_ptr<const SourceText> source, std::size_t begin)
@@ -47,7 +48,7 @@ public:
     }
     SourcePosition at(const YAML::Mark& mark) const { return at(offset(mark), 1); }
 
-    /// The place of a scalar: behind its anchor, underlined to its end on this line.
+    /// The place of a scalar: after its anchor, underlined to its end on this line.
     SourcePosition scalar(const YAML::Mark& mark, std::string_view value) const {
         const std::string_view text = source_->text;
         std::size_t begin = offset(mark);
@@ -66,7 +67,7 @@ public:
         }
         const std::size_t close = closing_quote(begin);
         if (close >= text.size()) {
-            // The library accepts this where the file ends with a newline.
+            // The library accepts this if the file ends with a newline.
             fail("config.yaml", at(begin, 1), "malformed YAML: the quote that starts here is not closed");
         }
         const std::size_t end = std::min(close + 1, line_end);
@@ -81,7 +82,7 @@ public:
     }
 
 private:
-    /// Places come in order, so on a long line only what lies between two of them is counted.
+    /// Places come in order, so on a long line only the part between two of them is counted.
     int column(std::size_t line_start, std::size_t offset) const {
         const bool goes_on = last_.line_start == line_start && last_.offset <= offset;
         const std::size_t from = goes_on ? last_.offset : line_start;
@@ -91,7 +92,7 @@ private:
         return last_.column;
     }
 
-    /// Where the quoted scalar that starts at `begin` ends, the size of the text if it does not.
+    /// End of the quoted scalar that starts at `begin`; the size of the text if it has no end.
     std::size_t closing_quote(std::size_t begin) const {
         const std::string_view text = source_->text;
         const char quote = text[begin];
@@ -128,10 +129,10 @@ public:
 
     ConfigNode take() { return std::move(root_); }
     const Places& places() const { return places_; }
-    /// A document from here on is one too many.
+    /// After this call, a further document is an error.
     void expect_no_more() { only_document_read_ = true; }
 
-    /// What usually causes a fault of the syntax at this place.
+    /// The most common cause of a syntax fault at this place.
     std::string syntax_hint(const SourcePosition& position) const {
         const std::string_view line = job_.source->line(position.line);
         const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());
@@ -144,10 +145,10 @@ public:
         const std::size_t colon = line.find(": ");
         if (colon != std::string_view::npos && line.find(": ", colon + 1) != std::string_view::npos &&
             line.find_first_of("\"'{[") == std::string_view::npos) {
-            return "text with ': ' in it belongs in quotes";
+            return "put text that contains ': ' in quotes";
         }
         if (frames_.empty() || !is_flow(frames_.back())) {
-            // Below a value of its own line nothing can be nested.
+            // After a value on the same line as its key, nothing can be nested.
             const std::string_view before = job_.source->line(position.line - 1);
             const bool has_value = before.find(": ") != std::string_view::npos && before.back() != ':';
             if (has_value && first < line.size() && first > before.find_first_not_of(' '))
@@ -175,7 +176,7 @@ public:
             fail("config.yaml", places_.at(mark), "malformed YAML: a key is empty or null",
                  "write it in quotes");
         }
-        // An empty value is marked where the next token stands; its key is the better place.
+        // An empty value is marked at the next token; the place of its key is better.
         const bool in_map = !frames_.empty() && frames_.back().is_map;
         count(mark);
         finish(ConfigNode().placed(in_map ? frames_.back().key_position : places_.at(mark)), anchor, 1);
@@ -229,7 +230,7 @@ public:
 private:
     struct Frame {
         bool is_map = false;
-        bool is_key = false;  ///< stands where a key must be, an error already noted
+        bool is_key = false;  ///< is at the place of a key; an error was already reported
         SourcePosition position;
         YAML::anchor_t anchor = 0;
         std::size_t nodes = 1;  ///< in this subtree, aliases expanded
@@ -238,7 +239,7 @@ private:
         std::vector<ConfigEntry> entries;
         std::unordered_map<std::string, SourcePosition> seen;
         bool has_key = false;
-        bool drop_value = false;  ///< of a key that was refused
+        bool drop_value = false;  ///< value of a key that was refused
         std::string key;
         SourcePosition key_position;
     };
@@ -258,7 +259,7 @@ private:
     void refuse_tag(const std::string& tag, const SourcePosition& position) {
         if (tag.empty() || tag == "?" || tag == "!") return;
         fail("config.yaml", position, "the YAML tag " + quoted_text(tag) + " is not supported",
-             "write the value alone; quotes make a string");
+             "write the value without a tag; quotes make a string");
     }
 
     void take_key(const std::string& key, bool quoted, const SourcePosition& position) {
@@ -304,14 +305,14 @@ private:
               YAML::EmitterStyle::value style, bool is_map) {
         const SourcePosition position = places_.at(mark);
         refuse_tag(tag, position);
-        // These two are only noted: where the text is broken further on, that is the better message.
+        // These two are only recorded: if the text has a syntax fault later, that message is better.
         if (expects_key()) {
             job_.diagnostics->error("config.yaml", position, "malformed YAML: a list or map cannot be a key",
-                                    "text with braces or brackets belongs in quotes");
+                                    "put text with braces or brackets in quotes");
         } else if (job_.flow_only && frames_.empty() && style == YAML::EmitterStyle::Block) {
             job_.diagnostics->error("config.yaml", position,
                                     "malformed YAML: expected a scalar, [list] or {map}",
-                                    "text with ': ' or '- ' belongs in quotes");
+                                    "put text with ': ' or '- ' in quotes");
         }
         count(mark);
         if (frames_.size() >= job_.options->max_depth) too_deep(mark);
@@ -366,7 +367,7 @@ private:
     const ReadJob& job_;
     Places places_;
     std::vector<Frame> frames_;
-    std::unordered_map<YAML::anchor_t, Anchored> anchors_;  // looked up only, never walked
+    std::unordered_map<YAML::anchor_t, Anchored> anchors_;  // used for look-ups only; never iterated
     ConfigNode root_;
     bool only_document_read_ = false;
 };
@@ -379,8 +380,8 @@ void refuse_non_text(const ReadJob& job, const Places& places) {
     constexpr const char* digits = "0123456789abcdef";
     const auto byte = static_cast<unsigned char>(text[offset]);
     fail("config.yaml", places.at(offset, 1),
-         std::string("malformed YAML: the byte 0x") + digits[byte >> 4U] + digits[byte & 15U] + " is no text",
-         "a configuration is a text file in UTF-8");
+         std::string("malformed YAML: the byte 0x") + digits[byte >> 4U] + digits[byte & 15U] + " is not text",
+         "a configuration must be a text file in UTF-8");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// ConfigNode to YAML text that reads back as the same tree.
+// Writes a ConfigNode as YAML text that reads back as the same tree.
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-/// Words that some YAML reader takes for something else than a string.
+/// Words that some YAML readers do not read as a string.
 bool is_special_word(std::string_view text) {
     static constexpr std::array words = {"true", "false", "null", "yes", "no", "on", "off", "y", "n"};
     std::string lower;
@@ -63,7 +63,7 @@ std::string key_text(const std::string& key) {
     return is_plain_string(key) ? key : double_quoted(key);
 }
 
-/// Characters that would be read as a variable are written with the escape.
+/// Characters that would be read as a variable are escaped.
 std::string string_text(const ConfigNode& node) {
     std::string escaped;
     const std::string& text = node.as_string();
@@ -116,8 +116,7 @@ std::string inline_text(const ConfigNode& node) {
     return out + "]";
 }
 
-/// Appends the node with `indent` blanks; `lead` tells whether the first line is already indented ("- "
-/// before it).
+/// Appends the node with `indent` blanks; `lead` says whether the first line is already indented ("- " before it).
 void write(const ConfigNode& node, std::size_t indent, bool lead, std::string& out) {
     if (is_inline(node)) {
         out += std::string(lead ? 0 : indent, ' ') + inline_text(node) + "\n";
@@ -178,7 +177,7 @@ std::string flow_text(const ConfigNode& node) {
 
 std::string to_yaml(const ConfigNode& node) {
     if (node.find("include")) {
-        throw ConfigError("config.include", "'include' is no key of a configuration that can be read back");
+        throw ConfigError("config.include", "a configuration with the key 'include' cannot be read back");
     }
     std::string out;
     write(node, 0, false, out);

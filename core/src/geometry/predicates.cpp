@@ -1,3 +1,4 @@
+// Exact predicates: a floating filter, then integer arithmetic [Shewchuk1997].
 #include <dsc/geometry/predicates.hpp>
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -12,8 +13,8 @@ using Integer = boost::multiprecision::cpp_int;
 
 thread_local std::uint64_t fallbacks = 0;
 
-// A double is mantissa * 2^exponent; with the smallest exponent of all coordinates as the common unit each becomes an
-// integer, and the sign of the determinant is that of the integer determinant.
+// A double is mantissa * 2^exponent. With the smallest exponent of all coordinates as the common unit, each coordinate becomes
+// an integer, and the determinant has the sign of the integer determinant.
 template <std::size_t N>
 std::array<Integer, N> to_integers(const std::array<double, N>& values) {
     std::array<int, N> exponents{};
@@ -46,8 +47,8 @@ int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 
 }  // namespace
 
-// Static filter in the manner of Shewchuk's stage A [Shewchuk1997]: the permanent times (7 + 56 eps) eps bounds the
-// error of the determinant that is evaluated from rounded differences.
+// Static filter similar to Shewchuk's stage A [Shewchuk1997]: the permanent times (7 + 56 eps) eps bounds the error of the
+// determinant evaluated from rounded differences.
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const double bx = b.x() - a.x(), by = b.y() - a.y(), bz = b.z() - a.z();
     const double cx = c.x() - a.x(), cy = c.y() - a.y(), cz = c.z() - a.z();

@@ -1,3 +1,4 @@
+// Sizes, closest points and distances of triangles and segments.
 #include <dsc/geometry/quality.hpp>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The one home of the hooks' virtual tables: a type made by a plugin is the type that the host knows.
+// The virtual tables of the hooks are all in this file, so that a type made by a plugin is the type that the host knows.
 #include <dsc/base/error.hpp>
 #include <dsc/hooks/attributes.hpp>
 #include <dsc/hooks/cloud_filter.hpp>
@@ -29,7 +29,8 @@ VelocityField::~VelocityField() = default;
 void VelocityField::advance(const StepContext&) {}
 void VelocityField::publish(Attributes&) const {}
 void VelocityField::sample(std::span<const Vec3>, std::span<const Vec3>, std::span<Vec3>) const {
-    throw StrategyError("strategy.no_sampling", "this velocity field has no value away from the vertices (can_sample() is false)");
+    throw StrategyError("strategy.no_sampling", "this velocity field has no value at points other than the vertices "
+                                                "(can_sample() is false)");
 }
 
 CurvatureEstimator::~CurvatureEstimator() = default;

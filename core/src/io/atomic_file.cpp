@@ -1,3 +1,4 @@
+// Complete files, and the temporary files of killed processes.
 #include <dsc/io/atomic_file.hpp>
 
 #include <dsc/base/replace_file.hpp>

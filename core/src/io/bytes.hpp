@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of binary files in a stated byte order.
+// Numbers of binary files in a given byte order.
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace dsc::io {
 
-/// The number at the start of `bytes`, which must hold it.
+/// The number at the start of `bytes`, which must be long enough.
 template <class T>
 T load_number(const char* bytes, std::endian order) {
     std::array<char, sizeof(T)> raw;
@@ -20,7 +20,7 @@ T load_number(const char* bytes, std::endian order) {
     return std::bit_cast<T>(raw);
 }
 
-/// Appends the number, little end first.
+/// Appends the number in little-endian order.
 template <class T>
 void append_bytes(std::string& out, T value) {
     auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);

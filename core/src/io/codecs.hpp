@@ -1,5 +1,5 @@
 #pragma once
-// One pair of functions a format: bytes to mesh and back. `file` is for messages only.
+// One pair of functions per format, from bytes to mesh and back. `file` is used only in messages.
 
 #include <string>
 #include <string_view>
@@ -13,7 +13,7 @@ namespace dsc::io {
 
 surface::TriangleMesh decode_obj(std::string_view content, std::string_view file);
 surface::TriangleMesh decode_off(std::string_view content, std::string_view file);
-/// `further`: what the vertices have beside place, normal and colour; may be null.
+/// `further`: the data of the vertices other than position, normal and colour; may be null.
 surface::TriangleMesh decode_ply(std::string_view content, std::string_view file, std::vector<DataArray>* further);
 surface::TriangleMesh decode_stl(std::string_view content, std::string_view file);
 mesh::TetMesh decode_dsc(std::string_view content, std::string_view file);
@@ -29,7 +29,7 @@ std::string encode_dsc(const mesh::TetMesh& mesh);
 std::string encode_medit(const mesh::TetMesh& mesh);
 /// Throws GeometryError "volume.label" for a label below 0 or without a tag.
 std::string encode_msh(const mesh::TetMesh& mesh);
-/// Throws IoError "io.write" when VTK reports a failure.
+/// Throws IoError "io.write" if VTK reports a failure.
 std::string encode_vtu(const mesh::TetMesh& mesh, const VolumeData& data, std::string_view file);
 
 /// Appends the fan of triangles of a polygon.

@@ -1,4 +1,4 @@
-// The method's own text format: "v x y z" and "t i j k l label" in any order, indices from 0.
+// The .dsc text format of the original method: "v x y z" and "t i j k l label" in any order, indices from 0.
 #include <limits>
 
 #include "io/codecs.hpp"
@@ -25,7 +25,7 @@ mesh::Label read_label(Tokens& tokens) {
     const std::int64_t label = tokens.integer();
     if (label < 0 || label > std::numeric_limits<mesh::Label>::max()) {
         fail("io.syntax", tokens.place(), "label " + std::to_string(label) + " is out of range",
-             "labels are 0 (outside) and up");
+             "labels are 0 (outside) or larger");
     }
     return static_cast<mesh::Label>(label);
 }
@@ -35,7 +35,7 @@ mesh::Label read_label(Tokens& tokens) {
 mesh::TetMesh decode_dsc(std::string_view content, std::string_view file) {
     mesh::TetMesh mesh;
     Tokens tokens(content, file);
-    // The largest index decides whether all are in range; vertices may follow the tets that name them.
+    // The largest index decides whether all are in range, because vertices may follow the tets that use them.
     LargestIndex largest;
     for (std::string_view tag = tokens.next(); !tag.empty(); tag = tokens.next()) {
         if (tag == "v") {

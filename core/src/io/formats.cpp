@@ -1,3 +1,4 @@
+// The table of file formats.
 #include <dsc/io/formats.hpp>
 
 #include <algorithm>

@@ -1,11 +1,11 @@
-// MEDIT .mesh, as mmg and others read it: labels are the references of the tets. Indices count from 1.
+// MEDIT .mesh, as mmg and other programs read it: labels are the references of the tets. Indices count from 1.
 #include "io/codecs.hpp"
 #include "io/text.hpp"
 
 namespace dsc::io {
 
 std::string encode_medit(const mesh::TetMesh& mesh) {
-    // Version 2: the reals are doubles.
+    // Version 2 means that the reals are doubles.
     std::string out = "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n";
     out.reserve(62 * mesh.points.size() + 32 * mesh.tets.size() + 128);
     append_number(out, std::uint64_t{mesh.points.size()});

@@ -1,5 +1,5 @@
-// Gmsh MSH 4.1 as text. A label is a volume of its own and the physical group "label_N", both with the tag N + 1, because
-// tags count from 1. The number of an element is that of its tet plus 1, so the order of the tets can be told.
+// Gmsh MSH 4.1 as text. Each label is a separate volume and the physical group "label_N", both with the tag N + 1, because tags
+// count from 1. The number of an element is that of its tet plus 1, so a reader can restore the order of the tets.
 #include <dsc/base/error.hpp>
 
 #include <limits>
@@ -11,7 +11,7 @@
 namespace dsc::io {
 namespace {
 
-/// The tets of each label, in their order.
+/// The tets per label, in their order.
 std::map<mesh::Label, std::vector<std::size_t>> by_label(const mesh::TetMesh& mesh) {
     std::map<mesh::Label, std::vector<std::size_t>> groups;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) groups[mesh.labels[t]].push_back(t);
@@ -19,7 +19,7 @@ std::map<mesh::Label, std::vector<std::size_t>> by_label(const mesh::TetMesh& me
         if (label >= 0 && label < std::numeric_limits<mesh::Label>::max()) continue;
         throw GeometryError("volume.label", "volume: tet " + std::to_string(tets.front()) + " has the label " +
                                                 std::to_string(label) +
-                                                "; .msh holds labels from 0 to 2147483646, write a .vtu or .dsc");
+                                                "; .msh can store labels from 0 to 2147483646, write a .vtu or .dsc");
     }
     return groups;
 }
@@ -33,7 +33,7 @@ void append_point(std::string& out, const Vec3& p, char end) {
     }
 }
 
-/// "1 COUNT 1 COUNT" or "BLOCKS COUNT 1 COUNT": blocks, things, their least and greatest number.
+/// "1 COUNT 1 COUNT" or "BLOCKS COUNT 1 COUNT": blocks, elements, their least and greatest number.
 void append_counts(std::string& out, std::size_t blocks, std::size_t count) {
     out += std::to_string(blocks) + ' ' + std::to_string(count) + " 1 " + std::to_string(count) + '\n';
 }
@@ -65,7 +65,8 @@ std::string encode_msh(const mesh::TetMesh& mesh) {
         out += "1 " + tag_of(label) + " 0\n";
     }
     out += "$EndEntities\n$Nodes\n";
-    // All nodes in one block, in the order of the points. It belongs to the first volume, as every node must to some.
+    // All nodes in one block, in the order of the points. The block belongs to the first volume, because every node must belong
+    // to one.
     append_counts(out, 1, mesh.points.size());
     out += "3 " + (groups.empty() ? "1" : tag_of(groups.begin()->first)) + " 0 " + std::to_string(mesh.points.size()) + '\n';
     for (std::size_t i = 1; i <= mesh.points.size(); ++i) {

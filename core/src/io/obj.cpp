@@ -1,4 +1,4 @@
-// Wavefront OBJ: vertices and polygons; everything else that the format knows is skipped.
+// Wavefront OBJ: reads vertices and polygons, skips everything else that the format defines.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +25,7 @@ struct LateCorner {
     std::int64_t index;
 };
 
-/// Fractions or bytes, which only the largest number tells.
+/// Fractions or bytes: only the largest number can decide.
 std::vector<std::array<std::uint8_t, 3>> colours_in_bytes(const std::vector<Vec3>& colours) {
     double largest = 0.0;
     for (const Vec3& c : colours) largest = std::max(largest, c.maxCoeff());
@@ -67,16 +67,17 @@ public:
     }
 
 private:
-    /// Lines, points, curves and free-form surfaces are geometry that a mesh of triangles cannot hold: said once each.
+    /// Lines, points, curves and free-form surfaces are geometry that a triangle mesh cannot represent. One warning per
+    /// keyword.
     void note_geometry(std::string_view keyword) {
         constexpr std::array<std::string_view, 5> geometry = {"l", "p", "curv", "curv2", "surf"};
         const auto found = std::find(geometry.begin(), geometry.end(), keyword);
         if (found == geometry.end() || std::exchange(noted_[static_cast<std::size_t>(found - geometry.begin())], true)) return;
         log(LogLevel::warning, std::string(lines_.place().file) + ":" + std::to_string(lines_.place().line) + ": lines " +
-                                   in_quotes(keyword) + " are not read; of the geometry of an OBJ file vertices and faces are");
+                                   in_quotes(keyword) + " are not read; only the vertices and faces of an OBJ file are read");
     }
 
-    /// Code of a line with too few numbers: cut at the end of the file, wrong elsewhere.
+    /// Code for a line with too few numbers: truncated at the end of the file, malformed elsewhere.
     const char* short_line() const { return lines_.cut() ? "io.truncated" : "io.syntax"; }
     const std::string& short_remedy() const { return lines_.cut() ? copy_again : export_again; }
 
@@ -97,8 +98,8 @@ private:
         if (colours_.size() + 1 == mesh_.points.size()) colour(fields);
     }
 
-    /// Three further numbers and no more are a colour; a single one is a weight. The first vertex without a colour
-    /// ends it: a surface has all colours or none.
+    /// Exactly three further numbers are a colour; a single one is a weight. After the first vertex without a colour no colours
+    /// are read: a surface has all colours or none.
     void colour(Fields& fields) {
         Vec3 rgb;
         for (int k = 0; k < 3; ++k) {
@@ -120,7 +121,7 @@ private:
         append_fan(mesh_, polygon_);
     }
 
-    /// "7", "7/1", "7//3", "7/1/3"; counts from 1, negative from the last vertex backwards.
+    /// "7", "7/1", "7//3", "7/1/3"; indices count from 1; negative ones count backwards from the last vertex.
     std::uint32_t corner(std::string_view field) {
         const std::size_t slash = field.find('/');
         if (slash != std::string_view::npos &&
@@ -157,8 +158,8 @@ private:
     std::array<bool, 5> noted_{};
     surface::TriangleMesh mesh_;
     std::vector<std::uint32_t> polygon_;
-    std::vector<Vec3> colours_;     ///< of the vertices so far, as long as each had one
-    std::vector<LateCorner> later_;  ///< corners that name a vertex which had not come yet
+    std::vector<Vec3> colours_;     ///< of the vertices so far, as long as every vertex had one
+    std::vector<LateCorner> later_;  ///< corners that name a vertex which had not been read yet
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Geomview OFF: a header, the counts, a line a vertex, a line a polygon; colours and normals are skipped.
+// Geomview OFF: a header, the counts, one line per vertex, one line per polygon; colours and normals are skipped.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -29,7 +29,7 @@ public:
     }
 
 private:
-    /// The next line that holds more than blanks and comments.
+    /// The next line that is not only blanks and comments.
     bool content_line(std::string_view& line) {
         while (lines_.next(line)) {
             line = line.substr(0, line.find('#'));
@@ -51,7 +51,7 @@ private:
         Fields fields = require_line("the word OFF");
         const std::string_view word = fields.next();
         if (std::find(known.begin(), known.end(), word) == known.end()) {
-            fail("io.syntax", lines_.place(), "starts with " + in_quotes(word) + ", not with OFF",
+            fail("io.syntax", lines_.place(), "the file starts with " + in_quotes(word) + ", not with OFF",
                  "check that the file is an OFF file");
         }
         std::string_view field = fields.next();
@@ -66,8 +66,7 @@ private:
         faces_ = count(fields.next(), "faces");
     }
 
-    /// Every vertex and every face takes at least six bytes, so a count that lies cannot make us reserve
-    /// memory.
+    /// Every vertex and every face takes at least six bytes, so a false count cannot make the program reserve too much memory.
     std::size_t count(std::string_view field, const char* what) {
         if (field.empty()) {
             fail("io.syntax", lines_.place(), std::string("the number of ") + what + " is missing",

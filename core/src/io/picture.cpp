@@ -1,3 +1,4 @@
+// Shaded pictures: rays, colours, ambient occlusion.
 #include <dsc/io/picture.hpp>
 
 #include <dsc/base/error.hpp>
@@ -28,7 +29,7 @@ constexpr std::array<std::pair<std::string_view, View>, 7> view_names = {{{"fron
                                                                           {"iso", View::iso}}};
 constexpr int largest_size = 16384;
 constexpr float margin = 0.05F;          // of the frame, on each side
-constexpr unsigned occlusion_rays = 8;   // a pixel; 4 x 4 pixels share theirs
+constexpr unsigned occlusion_rays = 8;   // per pixel; 4 x 4 pixels share theirs
 
 /// Rows: right, up, towards the viewer, in the mesh's coordinates.
 Eigen::Matrix3d view_axes(View view, UpAxis up) {
@@ -67,11 +68,10 @@ Eigen::Matrix3d view_axes(View view, UpAxis up) {
     return axes * turn;
 }
 
-/// The points in pixels: x to the right and y upwards from the middle of the frame, z towards the viewer, z
-/// <= 0.
+/// The points in pixels: x to the right and y upwards from the middle of the frame, z towards the viewer, z <= 0.
 std::vector<Vec3f> project(const surface::TriangleMesh& mesh, const RenderOptions& options) {
     const Eigen::Matrix3d axes = view_axes(options.view, options.up);
-    // Everything is centred in doubles before it becomes float.
+    // Everything is centred in doubles before the conversion to float.
     const Vec3 middle = surface::used_box(mesh).centre();
     Box3 box;
     for (const auto& face : mesh.faces) {
@@ -97,13 +97,13 @@ const Colour ground_light(0.24F, 0.21F, 0.19F);
 const Colour key_light(1.02F, 0.97F, 0.90F);
 const Colour head_light(0.14F, 0.15F, 0.16F);
 
-/// A quiet gradient, lighter above.
+/// A soft gradient, lighter at the top.
 Colour background(float height) {
     const Colour low(0.80F, 0.83F, 0.87F), high(0.97F, 0.98F, 0.99F);
     return low + height * (high - low);
 }
 
-/// The ramp of the report's viewer: from good to bad, told apart by those who cannot tell red from green, too.
+/// The colour scale of the report's viewer, from good to bad. People who cannot distinguish red and green can also read it.
 Colour ramp(float part) {
     constexpr std::array<std::array<float, 3>, 5> stops = {
         {{0.13F, 0.35F, 0.55F}, {0.16F, 0.60F, 0.62F}, {0.55F, 0.75F, 0.38F}, {0.96F, 0.76F, 0.20F}, {0.85F, 0.28F, 0.16F}}};
@@ -117,7 +117,7 @@ Colour ramp(float part) {
     return out;
 }
 
-/// Where each value is on the ramp, NaN where it is not finite.
+/// Position of each value on the scale; NaN if it is not finite.
 std::vector<float> ramp_parts(std::span<const double> values) {
     const ColourBounds bounds = colour_bounds(values);
     std::vector<float> parts;
@@ -133,7 +133,7 @@ Colour shade(const Vec3f& normal, const Colour& material, float open) {
     const Vec3f half = (key + Vec3f(0, 0, 1)).normalized();
     const float lit = std::max(0.0F, (normal.dot(key) + 0.12F) / 1.12F);
     const Colour ambient = ground_light + (0.5F + 0.5F * normal.y()) * (sky_light - ground_light);
-    // Crevices see less of the key light too; part of the effect stands in for its soft shadow.
+    // Crevices also get less of the key light; this partly replaces its soft shadow.
     const Colour light = open * ambient + (0.3F + 0.7F * open) * lit * key_light +
                          (0.4F + 0.6F * open) * std::max(0.0F, normal.z()) * head_light;
     const float gloss = 0.10F * std::pow(std::max(0.0F, normal.dot(half)), 36.0F) * open;
@@ -152,16 +152,16 @@ float radical_inverse(unsigned i) {
     return value;
 }
 
-/// What a ray through one pixel met.
+/// What a ray through one pixel hits.
 struct Surfel {
     Vec3f point = Vec3f::Zero();
-    Vec3f normal = Vec3f::Zero();  ///< for shading, towards the viewer's side
+    Vec3f normal = Vec3f::Zero();  ///< for shading, towards the viewer
     Vec3f flat = Vec3f::Zero();    ///< of the face, towards the viewer
     std::uint32_t face = 0;
     bool front = true;
     bool hit = false;
     float open = 1.0F;
-    float part = std::numeric_limits<float>::quiet_NaN();  ///< on the ramp
+    float part = std::numeric_limits<float>::quiet_NaN();  ///< position on the colour scale
 };
 
 class Painter {
@@ -184,7 +184,7 @@ public:
         }
     }
 
-    /// First pass: occlusion at the middle of every pixel, each with other directions than its neighbours.
+    /// First pass: occlusion at the middle of every pixel; each pixel uses other directions than its neighbours.
     void measure_row(int y) {
         if (centres_.empty()) return;
         for (int x = 0; x < options_.width; ++x) {
@@ -196,15 +196,14 @@ public:
 
     /// Second pass.
     void paint_row(int y, Image& image) const {
-        // A turned grid of 2 x 2 samples: near-vertical and near-horizontal lines get four steps instead of
-        // two.
+        // A rotated grid of 2 x 2 samples: near-vertical and near-horizontal lines get four steps instead of two.
         constexpr std::array<std::array<float, 2>, 4> offsets = {
             {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};
         auto out = image.pixels.begin() + 3 * static_cast<std::ptrdiff_t>(y) * image.width;
         for (int x = 0; x < image.width; ++x) {
             Colour sum = Colour::Zero();
             for (const auto& offset : offsets) {
-                // Clamped before the mean, so that an edge before the light background stays smooth.
+                // Clamped before the mean, so that an edge against the light background stays smooth.
                 sum += sample(x, y, offset[0], offset[1]).min(1.0F);
             }
             for (int k = 0; k < 3; ++k) *out++ = to_srgb(0.25F * sum[k]);
@@ -219,7 +218,7 @@ private:
                static_cast<std::size_t>(x);
     }
 
-    /// 4 x 4 neighbouring pixels have 16 different numbers, spread so that near ones differ much.
+    /// 4 x 4 neighbouring pixels have 16 different numbers, distributed so that neighbours differ much.
     static unsigned tile_of(int x, int y) {
         constexpr std::array<unsigned, 16> order = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
         return order[static_cast<unsigned>(y % 4) * 4 + static_cast<unsigned>(x % 4)];
@@ -258,8 +257,7 @@ private:
         return colour + line_strength(x, y, points_[a], points_[b], points_[c]) * (line_colour - colour);
     }
 
-    /// Mean occlusion of the 16 pixels around that lie on the same piece of surface: together they hold all
-    /// directions.
+    /// Mean occlusion of the 16 pixels around that lie on the same piece of surface; together they use all directions.
     float gathered(const Surfel& seen, int px, int py) const {
         float sum = 0.0F, weights = 0.0F;
         for (int y = std::max(0, py - 2); y < std::min(options_.height, py + 2); ++y) {
@@ -277,7 +275,7 @@ private:
         return weights > 0.05F ? sum / weights : openness(seen, tile_of(px, py));
     }
 
-    /// Share of the hemisphere that is free nearby, cosine-weighted.
+    /// Fraction of the hemisphere that is free nearby, cosine-weighted.
     float openness(const Surfel& at, unsigned tile) const {
         const Vec3f& normal = at.normal;
         const Vec3f side =
@@ -287,13 +285,13 @@ private:
         const float reach = 0.3F * diagonal_;
         unsigned cast = 0, free = 0;
         for (unsigned i = 0; i < occlusion_rays; ++i) {
-            const unsigned number = i * 16 + tile;  // of 16 times as many directions, spread over the tile
+            const unsigned number = i * 16 + tile;  // of 16 times as many directions, distributed over the tile
             const float share = (static_cast<float>(number) + 0.5F) / static_cast<float>(16 * occlusion_rays);
             const float angle = 2.0F * std::numbers::pi_v<float> * radical_inverse(number);
             const float radius = std::sqrt(share);
             const Vec3f direction = radius * std::cos(angle) * side + radius * std::sin(angle) * other +
                                     std::sqrt(1.0F - share) * normal;
-            // Rays below the flat face are an artefact of the smooth normal.
+            // Rays below the flat face are artefacts of the smooth normal.
             if (direction.dot(at.flat) <= 0.01F) continue;
             ++cast;
             if (!scene_.blocked(from, direction, reach)) ++free;
@@ -301,7 +299,7 @@ private:
         return cast == 0 ? 1.0F : static_cast<float>(free) / static_cast<float>(cast);
     }
 
-    /// 1 on an edge of the triangle as it is seen, fading where triangles are only a few pixels wide.
+    /// 1 on an edge of the projected triangle; weaker where triangles are only a few pixels wide.
     static float line_strength(float x, float y, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
         constexpr float half_width = 0.6F, full_height = 7.0F;
         const Eigen::Vector2f p(x, y);
@@ -325,10 +323,10 @@ private:
     const std::vector<std::array<std::uint32_t, 3>>& faces_;
     std::vector<Vec3f> points_;
     std::vector<std::array<Vec3f, 3>> normals_;
-    std::vector<float> parts_;  ///< on the ramp, of the points; empty: one colour
+    std::vector<float> parts_;  ///< position of the points on the scale; empty: one colour
     RayScene scene_;
     float diagonal_ = 0.0F;
-    std::vector<Surfel> centres_;  ///< one a pixel; empty without occlusion
+    std::vector<Surfel> centres_;  ///< one per pixel; empty without occlusion
 };
 
 }  // namespace
@@ -354,7 +352,7 @@ ColourBounds colour_bounds(std::span<const double> values) {
 
 double colour_part(double value, const ColourBounds& bounds) {
     if (!(bounds.high > bounds.low)) return 0.0;
-    // The difference of two huge bounds may be infinite, that of their halves is not.
+    // The difference of two huge bounds may be infinite; the difference of their halves is not.
     return std::clamp((0.5 * value - 0.5 * bounds.low) / (0.5 * bounds.high - 0.5 * bounds.low), 0.0, 1.0);
 }
 
@@ -367,7 +365,7 @@ Image render(const surface::TriangleMesh& mesh, const RenderOptions& options) {
     }
     surface::require_sound(mesh);
     if (mesh.faces.empty()) {
-        throw GeometryError("surface.empty", "picture: the mesh has no faces; a picture needs at least one");
+        throw GeometryError("surface.empty", "picture: the mesh has no faces; at least one is needed");
     }
     if (!options.values.empty() && options.values.size() != mesh.points.size()) {
         throw GeometryError("surface.size", "picture: " + std::to_string(options.values.size()) + " values for " +

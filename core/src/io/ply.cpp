@@ -1,4 +1,4 @@
-// PLY surfaces: text, little and big endian. Elements and properties that we do not need are skipped.
+// PLY surfaces: text, little and big endian. Elements and properties that are not needed are skipped.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -28,18 +28,18 @@ public:
     /// A number that may be NaN or infinite.
     double any(Type) { return told(tokens_.value()); }
     std::int64_t integer(Type) { return told(tokens_.integer()); }
-    /// Anything that is a number; NaN is allowed where we do not look.
+    /// Accepts any number; NaN is allowed in values that are not used.
     void skip(Type) { told(tokens_.require("a number")); }
     void skip_list(Type type, std::uint64_t count) {
         for (std::uint64_t i = 0; i < count; ++i) skip(type);
     }
     Place place() const { return tokens_.place(); }
-    /// What there is in a body whose values take at least one digit and one blank.
+    /// Least size of a value: one digit and one blank.
     static std::size_t least_size(Type) { return 2; }
     bool ended() { return tokens_.next().empty(); }
 
-    /// Around each element. A line is an element: values that are left over on it, or that have to be taken from the next one,
-    /// mean that the header does not fit. Only a list may be broken over lines.
+    /// Called for each element. A line is an element: if values remain on it or must be taken from the next line, the header
+    /// does not fit. Only a list may continue on further lines.
     void begin_element() { first_of_element_ = 0; }
     void end_element(std::string_view element) {
         if (first_of_element_ == 0 || !tokens_.more_on_line()) return;
@@ -158,7 +158,7 @@ public:
                  "the counts of the header are wrong: export the file again");
         }
         if (further_ != nullptr) {
-            // A header may name the vertices in two parts, with other properties in each.
+            // A header may list the vertices in two parts, with different properties in each.
             const auto partial = [&](const DataArray& a) { return a.values.size() != mesh_.points.size(); };
             further_->erase(std::remove_if(further_->begin(), further_->end(), partial), further_->end());
         }
@@ -166,7 +166,7 @@ public:
     }
 
 private:
-    /// A count that lies must not make us reserve memory or loop for ever.
+    /// A false count must not make the program reserve much memory or loop for very long.
     void check_header() {
         bool vertex = false;
         for (const Element& element : header_.elements) {
@@ -179,9 +179,9 @@ private:
             }
             if (least > 0 && element.count > size_ / least + 1) {
                 fail("io.truncated", header_place_,
-                     "the header names " + std::to_string(element.count) + " elements " +
+                     "the header announces " + std::to_string(element.count) + " elements " +
                          in_quotes(element.name) + ", more than a file of " + counted(size_, "byte") +
-                         " can hold",
+                         " can contain",
                      copy_again);
             }
             if (element.name == "vertex") {
@@ -189,7 +189,7 @@ private:
                 points_ = element.count;
             }
         }
-        if (!vertex) fail("io.syntax", header_place_, "the header names no element 'vertex'", export_again);
+        if (!vertex) fail("io.syntax", header_place_, "the header has no element 'vertex'", export_again);
         if (points_ > std::numeric_limits<std::uint32_t>::max()) {
             fail("io.count", header_place_, "more than 4294967295 vertices", "split the file");
         }
@@ -201,14 +201,14 @@ private:
         else
             body_.skip(p.type);
     }
-    /// What is not read, and said where it looks like a part of the surface: a list of whole numbers, or an edge.
+    /// Skips an element. Logs a warning if it looks like a part of the surface: a list of integers, or an edge.
     void skip_element(const Element& element) {
         const bool lists = std::any_of(element.properties.begin(), element.properties.end(),
                                        [](const Property& p) { return p.count && is_integer(p.type); });
         if (element.count > 0 && (lists || element.name == "edge")) {
             log(LogLevel::warning, std::string(header_place_.file) + ": element " + in_quotes(element.name) + " (" +
                                        std::to_string(element.count) +
-                                       ") is not read; of the elements of a PLY file 'vertex', 'face' and 'tristrips' are");
+                                       ") is not read; only the elements 'vertex', 'face' and 'tristrips' of a PLY file are read");
         }
         for (std::uint64_t i = 0; i < element.count; ++i) {
             body_.begin_element();
@@ -225,7 +225,7 @@ private:
     }
 
     void read_vertices(const Element& element) {
-        std::vector<int> axes;  // 0 to 2 a coordinate, 3 to 5 a colour, 6 and up a further number, -1 anything else
+        std::vector<int> axes;  // 0 to 2: coordinate; 3 to 5: colour; from 6: further number; -1: other
         std::array<int, 3> seen{};
         const bool coloured = has_colours(element);
         for (const Property& p : element.properties) {
@@ -286,11 +286,11 @@ private:
         return seen == std::array<int, 3>{1, 1, 1};
     }
 
-    /// Text can hold any integer where the header promises a byte.
+    /// In a text body, a value may be larger than the byte that the header announces.
     std::uint8_t read_byte(Type type) {
         const std::int64_t value = body_.integer(type);
         if (value < 0 || value > 255) {
-            fail("io.syntax", body_.place(), "colour " + std::to_string(value) + " is no byte, 0 to 255",
+            fail("io.syntax", body_.place(), "colour " + std::to_string(value) + " is not a byte (0 to 255)",
                  export_again);
         }
         return static_cast<std::uint8_t>(value);
@@ -329,8 +329,8 @@ private:
         }
     }
 
-    /// Strips of triangles, which -1 ends: each corner after the second makes a triangle with the two before it, every other
-    /// one the other way round. A corner that comes twice turns the strip and makes none.
+    /// Strips of triangles; -1 ends a strip. Each corner after the second makes a triangle with the two corners before it, with
+    /// alternating orientation. A repeated corner changes the orientation and makes no triangle.
     void read_strips(const Element& element) {
         require_corners(element);
         for (std::uint64_t i = 0; i < element.count; ++i) {

@@ -1,3 +1,4 @@
+// Reads the header of a PLY surface.
 #include "io/ply_header.hpp"
 
 #include <array>
@@ -52,7 +53,7 @@ public:
                 fail("io.syntax", place_, in_quotes(word) + " is not a word of a PLY header", export_again);
             }
         }
-        if (!format) fail("io.syntax", place_, "the header names no format", export_again);
+        if (!format) fail("io.syntax", place_, "the header has no format", export_again);
         header_.size = at_;
         header_.lines = place_.line;
         return std::move(header_);
@@ -80,7 +81,7 @@ private:
         else if (name != "ascii")
             fail("io.syntax", place_, in_quotes(name) + " is not a PLY format", export_again);
         if (version != "1.0")
-            fail("io.syntax", place_, "PLY version " + in_quotes(version) + ", known is 1.0", export_again);
+            fail("io.syntax", place_, "PLY version " + in_quotes(version) + "; only 1.0 is supported", export_again);
     }
 
     void read_element(Fields& fields) {
@@ -108,7 +109,7 @@ private:
             fields = ahead;
             property.count = read_type(fields);
             if (!is_integer(*property.count))
-                fail("io.syntax", place_, "a list counted in fractions", export_again);
+                fail("io.syntax", place_, "the length of a list is not an integer", export_again);
         }
         property.type = read_type(fields);
         property.name = fields.next();

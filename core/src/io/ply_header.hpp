@@ -12,7 +12,7 @@ namespace dsc::io::ply {
 
 enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-/// Bytes of a number in a binary file.
+/// Number of bytes of a number in a binary file.
 constexpr std::size_t size_of(Type type) {
     switch (type) {
         case Type::int8:
@@ -48,7 +48,7 @@ struct Element {
 struct Header {
     std::optional<std::endian> order;  ///< empty: text
     std::vector<Element> elements;
-    std::size_t size = 0;  ///< bytes, the line feed of end_header included
+    std::size_t size = 0;  ///< number of bytes, including the line feed of end_header
     std::size_t lines = 0;
 };
 

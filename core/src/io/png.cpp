@@ -1,3 +1,4 @@
+// Writes a PNG.
 #include <dsc/io/picture.hpp>
 
 #include <dsc/base/error.hpp>

@@ -1,3 +1,4 @@
+// Ray casting with Embree.
 #include "io/ray_scene.hpp"
 
 #include <dsc/base/error.hpp>
@@ -45,7 +46,7 @@ void fill_ray(RTCRay& ray, const Vec3f& origin, const Vec3f& direction, float di
 
 }  // namespace
 
-// One thread and the instruction set that every x86-64 has: the same tree and the same hits on every machine.
+// One thread, and the instruction set that every x86-64 processor has: the same tree and the same hits on every machine.
 RayScene::RayScene(const std::vector<Vec3f>& points, const std::vector<std::array<std::uint32_t, 3>>& faces)
     : data_(std::make_unique<Data>()) {
     data_->device = rtcNewDevice("threads=1,isa=sse2");

@@ -1,5 +1,5 @@
 #pragma once
-// Triangles for ray casting. The one door to Embree.
+// Triangles for ray casting. Only its source uses Embree.
 
 #include <array>
 #include <cstdint>
@@ -21,15 +21,15 @@ struct RayHit {
 
 class RayScene {
 public:
-    /// Copies the triangles. Throws Error "picture.device" when Embree does not start. [setup]
+    /// Copies the triangles. Throws Error "picture.device" if Embree does not start. [setup]
     RayScene(const std::vector<Vec3f>& points, const std::vector<std::array<std::uint32_t, 3>>& faces);
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
 
-    /// First face along the ray; false when there is none. [parallel]
+    /// First face along the ray; false if there is none. [parallel]
     bool first_hit(const Vec3f& origin, const Vec3f& direction, RayHit& hit) const;
-    /// Whether anything is on the ray before `distance`. [parallel]
+    /// Whether the ray hits anything before `distance`. [parallel]
     bool blocked(const Vec3f& origin, const Vec3f& direction, float distance) const;
 
 private:

@@ -1,3 +1,4 @@
+// Reads surfaces and volumes: chooses the format, checks that the file is not empty.
 #include <dsc/io/read.hpp>
 
 #include <dsc/base/byte_order_mark.hpp>
@@ -14,17 +15,17 @@ namespace {
 
 [[noreturn]] void unknown_format(const std::string& file, const std::string& what,
                                  const std::string& accepted) {
-    fail("io.format", {file, 0}, "the extension is not that of a " + what + " file",
+    fail("io.format", {file, 0}, "the extension does not belong to a " + what + " file",
          "give it one of " + accepted + " or convert the file");
 }
 
-/// The content of a file of a known format that holds something, without a byte order mark.
+/// The content of a file of a known format, without a byte order mark; refuses an empty file.
 std::string require_content(const std::filesystem::path& file) {
     std::string content = read_file(file);
     if (content.find_first_not_of(" \t\r\n") == std::string::npos) {
         fail("io.empty", {file.string(), 0}, "the file is empty", "copy or export it again");
     }
-    // Of a binary STL these bytes may be its header.
+    // In a binary STL these bytes may be part of the header.
     if (find_format(file)->extension == ".stl") return content;
     if (has_wide_byte_order_mark(content)) {
         fail("io.format", {file.string(), 0}, std::string(wide_text_cause), std::string(wide_text_remedy));
@@ -58,7 +59,7 @@ mesh::TetMesh read_volume(const std::filesystem::path& file, std::vector<DataArr
     const Format* format = find_format(file);
     if (format == nullptr || !format->volume) unknown_format(name, "volume", readable_volume_extensions());
     if (format->write_only) {
-        fail("io.write_only", {name, 0}, std::string(format->name) + " files are written here and not read",
+        fail("io.write_only", {name, 0}, std::string(format->name) + " files can be written but not read",
              "convert it with meshio to one of " + readable_volume_extensions() + ", as share/doc/formats.md shows");
     }
     const std::string content = require_content(file);

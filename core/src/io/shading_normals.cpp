@@ -1,3 +1,4 @@
+// Normals for shading.
 #include "io/shading_normals.hpp"
 
 #include <Eigen/Geometry>

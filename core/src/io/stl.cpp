@@ -1,4 +1,4 @@
-// STL, text and binary. A soup of float triangles: equal corners are joined when it is read.
+// STL, text and binary: separate float triangles; the reader joins equal corners.
 #include <dsc/base/byte_order_mark.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/measure.hpp>
@@ -22,7 +22,7 @@ constexpr std::size_t data_start = header_size + 4;
 constexpr std::size_t facet_size = 50;
 constexpr std::string_view centre_mark = "dsc surface, add centre ";
 
-/// Corners as they come become a mesh with joined points in the order of first appearance.
+/// Joins equal corners into points, in the order of their first use.
 surface::TriangleMesh join(const std::vector<Vec3>& corners) {
     const auto first = surface::first_equal(corners);
     surface::TriangleMesh mesh;
@@ -40,7 +40,7 @@ surface::TriangleMesh join(const std::vector<Vec3>& corners) {
     return mesh;
 }
 
-/// What encode_stl() subtracted, from the header.
+/// The centre that encode_stl() subtracted, from the header.
 Vec3 centre_of(std::string_view header) {
     Vec3 centre = Vec3::Zero();
     if (header.substr(0, centre_mark.size()) != centre_mark) return centre;
@@ -89,7 +89,7 @@ surface::TriangleMesh decode_binary(std::string_view content, std::string_view f
     return mesh;
 }
 
-/// In any case: some programs write the words in capitals.
+/// In upper or lower case, because some programs write the words in capitals.
 bool is_word(std::string_view found, std::string_view word) {
     return found.size() == word.size() && std::equal(found.begin(), found.end(), word.begin(), [](unsigned char a, char b) {
                return std::tolower(a) == b;
@@ -167,8 +167,8 @@ private:
     std::vector<Vec3> corners_;
 };
 
-/// Whether a file whose size is not that of a binary one is meant as text. A binary one that was cut may begin with the word,
-/// too, but holds zeros, which no text does.
+/// Whether a file whose size does not fit a binary STL is text. A truncated binary file may also begin with the word, but it
+/// contains zeros, which text does not.
 bool is_text_stl(std::string_view content) {
     const std::size_t begin = content.find_first_not_of(" \t\r\n");
     constexpr std::size_t looked_at = 512;
@@ -176,8 +176,8 @@ bool is_text_stl(std::string_view content) {
            content.substr(0, looked_at).find('\0') == std::string_view::npos;
 }
 
-/// The centre to subtract: none where floats do without, so that ordinary models stay where they are. A
-/// float, so that its text fits the header.
+/// The centre to subtract: zero if floats are exact enough without it, so that ordinary models keep their coordinates. It is
+/// rounded to float, so that its text fits the header.
 Vec3 centre_to_subtract(const surface::TriangleMesh& mesh) {
     const Box3 box = surface::used_box(mesh);
     if (box.empty() || box.centre().norm() <= box.diagonal()) return Vec3::Zero();
@@ -210,14 +210,14 @@ surface::TriangleMesh decode_stl(std::string_view content, std::string_view file
     if (is_text_stl(text)) return TextStl(text, file).read();
     if (content.size() < data_start) {
         fail("io.truncated", {file, 0},
-             "a binary STL of " + counted(content.size(), "byte") + " has no room for its " +
+             "a binary STL of " + counted(content.size(), "byte") + " is too short for its " +
                  std::to_string(data_start) + " bytes of header",
              copy_again);
     }
     const std::uint64_t expected = data_start + facet_size * facet_count(content);
     fail(expected > content.size() ? "io.truncated" : "io.count", {file, 0},
-         "the header names " + counted(facet_count(content), "facet") + ", " + std::to_string(expected) +
-             " bytes in all, but the file has " + std::to_string(content.size()),
+         "the header announces " + counted(facet_count(content), "facet") + ", " + std::to_string(expected) +
+             " bytes in total, but the file has " + std::to_string(content.size()),
          copy_again);
 }
 

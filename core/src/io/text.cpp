@@ -1,3 +1,4 @@
+// Reads and writes numbers as text.
 #include "io/text.hpp"
 
 #include <dsc/base/byte_order_mark.hpp>
@@ -23,7 +24,7 @@ std::string in_quotes(std::string_view token) {
 }
 
 namespace {
-// std::from_chars takes no plus sign; files do use it.
+// std::from_chars accepts no plus sign, but files use it.
 std::string_view without_plus(std::string_view token) {
     return token.size() > 1 && token[0] == '+' && token[1] != '-' ? token.substr(1) : token;
 }

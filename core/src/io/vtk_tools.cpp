@@ -1,3 +1,4 @@
+// Arrays and messages of VTK.
 #include "io/vtk_tools.hpp"
 
 #include <vtkDoubleArray.h>
@@ -7,7 +8,7 @@
 
 namespace dsc::io {
 
-/// Takes what VTK would print.
+/// Receives the messages that VTK would print.
 class VtkMessages : public vtkOutputWindow {
 public:
     static VtkMessages* New() { VTK_STANDARD_NEW_BODY(VtkMessages); }
@@ -41,7 +42,7 @@ std::string CaptureScope::cause() const {
         const std::size_t colon = line.find("): ");
         if (colon != std::string_view::npos) return std::string(line.substr(colon + 3));
     }
-    return "it is not a readable file of VTK";
+    return "it is not a readable VTK file";
 }
 
 vtkSmartPointer<vtkPoints> make_points(const std::vector<Vec3>& points) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the VTK formats share: arrays in VTK's form and back, and VTK's messages, which it would print.
+// Common parts of the VTK formats: conversion of arrays, and capture of VTK's messages.
 
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
@@ -23,7 +23,7 @@ namespace dsc::io {
 
 class VtkMessages;
 
-/// While it lives, VTK's messages come here and not to the terminal.
+/// During its lifetime, VTK's messages are collected here and not printed.
 class CaptureScope {
 public:
     CaptureScope();
@@ -32,7 +32,7 @@ public:
     CaptureScope& operator=(const CaptureScope&) = delete;
 
     bool quiet() const;
-    /// The first line of VTK's messages that says something, without its object and file names.
+    /// The first meaningful line of VTK's messages, without its object and file names.
     std::string cause() const;
 
 private:
@@ -50,7 +50,7 @@ vtkSmartPointer<Array> make_array(const char* name, const std::vector<Value>& va
     return array;
 }
 
-/// Doubles, every bit kept.
+/// As doubles; every bit is kept.
 vtkSmartPointer<vtkPoints> make_points(const std::vector<Vec3>& points);
 
 /// Cells of N corners each.
@@ -72,7 +72,7 @@ vtkSmartPointer<vtkCellArray> make_cells(const std::vector<Corners>& cells) {
 /// Throws IoError "io.not_finite" for a point that is NaN or infinite.
 std::vector<Vec3> points_of(vtkPointSet& data, std::string_view file);
 
-/// The array where it has a name and holds doubles, `components` of them for each of the elements; else null.
+/// The array if it has a name and contains doubles, `components` of them per element; else null.
 vtkDoubleArray* doubles_of(vtkFieldData& data, int index, int components, std::size_t elements);
 
 /// Appends all arrays of one double per element.

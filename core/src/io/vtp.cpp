@@ -1,4 +1,4 @@
-// VTK polygons, triangles only, through VTK's own XML reader and writer; and the .pvd index, a few lines.
+// VTK polygons, triangles only, with VTK's own XML reader and writer; and the .pvd index.
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/io/atomic_file.hpp>
@@ -45,7 +45,7 @@ vtkSmartPointer<vtkDoubleArray> make_vectors(const VectorArray& vectors) {
     return array;
 }
 
-/// Bytes as ParaView shows them without a colour map.
+/// As bytes; ParaView shows them without a colour map.
 vtkSmartPointer<vtkUnsignedCharArray> make_colours(const surface::TriangleMesh& mesh) {
     auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
     array->SetName(colour_array);
@@ -87,11 +87,11 @@ std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& dat
     return writer->GetOutputString();
 }
 
-/// VTK trusts offsets and indices of the file; we do not.
+/// VTK trusts the offsets and indices of the file, so they are checked here.
 void read_faces(vtkPolyData& polygons, surface::TriangleMesh& mesh, std::string_view file) {
     const vtkIdType count = polygons.GetNumberOfPolys();
     if (polygons.GetNumberOfCells() != count)
-        fail("io.cell_type", {file, 0}, "it holds points, lines or strips", "export the triangles alone");
+        fail("io.cell_type", {file, 0}, "it contains points, lines or strips", "export only the triangles");
     if (count == 0) return;
     vtkDataArray* offsets = polygons.GetPolys()->GetOffsetsArray();
     vtkDataArray* corners = polygons.GetPolys()->GetConnectivityArray();
@@ -100,7 +100,7 @@ void read_faces(vtkPolyData& polygons, surface::TriangleMesh& mesh, std::string_
     for (vtkIdType f = 0; f < count; ++f) {
         const auto begin = static_cast<vtkIdType>(offsets->GetTuple1(f)), end = static_cast<vtkIdType>(offsets->GetTuple1(f + 1));
         if (begin < 0 || end - begin != 3 || end > size) {
-            fail("io.cell_type", {file, 0}, "polygon " + std::to_string(f) + " has no 3 corners", "export triangles");
+            fail("io.cell_type", {file, 0}, "polygon " + std::to_string(f) + " does not have 3 corners", "export triangles");
         }
         std::array<std::uint32_t, 3> face{};
         for (vtkIdType k = 0; k < 3; ++k) {
@@ -146,7 +146,7 @@ surface::TriangleMesh decode_checked(const std::string& content, std::string_vie
     return mesh;
 }
 
-/// Our own names need it least, but a .pvd is XML whatever it is told.
+/// Names of the program need no escapes, but a .pvd is XML and the caller may pass any name.
 std::string xml_text(std::string_view text) {
     std::string out;
     for (const char c : text) {

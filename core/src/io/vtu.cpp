@@ -1,4 +1,4 @@
-// VTK unstructured grids of tets through VTK's own XML reader and writer.
+// VTK unstructured grids of tets with VTK's own XML reader and writer.
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/quality.hpp>
 
@@ -44,7 +44,7 @@ std::vector<double> qualities(const mesh::TetMesh& mesh) {
     return out;
 }
 
-/// VTK trusts offsets and indices of the file; we do not.
+/// VTK trusts the offsets and indices of the file, so they are checked here.
 void read_tets(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view file) {
     const vtkIdType count = grid.GetNumberOfCells();
     if (count == 0) return;
@@ -63,7 +63,7 @@ void read_tets(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view 
             fail("io.cell_type", {file, 0},
                  "cell " + std::to_string(t) + " has type " + std::to_string(types->GetValue(t)) +
                      ", only tets (10) are read",
-                 "export the tets alone");
+                 "export only the tets");
         }
         const auto begin = static_cast<vtkIdType>(offsets->GetTuple1(t)),
                    end = static_cast<vtkIdType>(offsets->GetTuple1(t + 1));
@@ -91,7 +91,7 @@ void read_tets(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view 
 void read_labels(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view file) {
     vtkDataArray* labels = grid.GetCellData()->GetArray("label");
     if (labels == nullptr || labels->GetNumberOfComponents() != 1) {
-        fail("io.no_labels", {file, 0}, "there is no cell array 'label' of one number a tet",
+        fail("io.no_labels", {file, 0}, "there is no cell array 'label' with one number per tet",
              "add one: 0 outside, 1 the object, further phases above");
     }
     if (labels->GetNumberOfTuples() != static_cast<vtkIdType>(mesh.tets.size())) {
@@ -106,8 +106,8 @@ void read_labels(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_vie
         if (!(value >= 0.0) || value > std::numeric_limits<mesh::Label>::max() ||
             value != std::floor(value)) {
             fail("io.syntax", {file, 0},
-                 "cell " + std::to_string(t) + " has a label that is not an integer from 0 up",
-                 "labels are 0 (outside) and up");
+                 "cell " + std::to_string(t) + " has a label that is not an integer of at least 0",
+                 "labels are 0 (outside) or larger");
         }
         mesh.labels.push_back(static_cast<mesh::Label>(value));
     }

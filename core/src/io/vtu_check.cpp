@@ -1,3 +1,4 @@
+// Checks a VTU or VTP file before VTK reads it.
 #include "io/vtu_check.hpp"
 
 #include <array>
@@ -21,7 +22,7 @@ std::size_t skip_space(std::string_view text, std::size_t at) {
     return at;
 }
 
-/// Value of an attribute of one tag; empty when there is none.
+/// Value of an attribute of one tag; empty if there is none.
 std::string_view attribute(std::string_view tag, std::string_view name) {
     for (std::size_t at = tag.find(name); at != std::string_view::npos; at = tag.find(name, at + 1)) {
         if (at == 0 || !is_space(tag[at - 1])) continue;
@@ -43,7 +44,7 @@ std::optional<std::uint64_t> number(std::string_view text) {
     return value;
 }
 
-/// Calls action(tag, place of its end) for every tag that begins with `opening`.
+/// Calls action(tag, position of its end) for every tag that begins with `opening`.
 template <class Action>
 void for_tags(std::string_view xml, std::string_view opening, Action&& action) {
     for (std::size_t at = xml.find(opening); at != std::string_view::npos; at = xml.find(opening, at + 1)) {
@@ -53,7 +54,7 @@ void for_tags(std::string_view xml, std::string_view opening, Action&& action) {
     }
 }
 
-/// The first `size` bytes of base64 text, as far as they are there.
+/// The first `size` bytes of base64 text, or fewer if the text is shorter.
 std::string from_base64(std::string_view text, std::size_t size) {
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string out;
@@ -99,7 +100,7 @@ public:
                 if (format != "ascii" && format != "binary" && format != "appended") {
                     fail("io.syntax", place_,
                          "array " + in_quotes(attribute(tag, "Name")) + " has format " + in_quotes(format) +
-                             ", known are ascii, binary, appended",
+                             "; supported are ascii, binary, appended",
                          copy_again);
                 }
                 if (!compressed_) return;
@@ -115,7 +116,7 @@ public:
     }
 
 private:
-    /// VTK takes other versions for other layouts of the same bytes.
+    /// VTK assumes other layouts of the same bytes for other versions.
     void check_version() const {
         bool found = false, known = false;
         std::string_view version;
@@ -127,11 +128,11 @@ private:
         });
         if (known) return;
         if (!found) fail("io.syntax", place_, "there is no element VTKFile", "check that it is a VTU file");
-        fail("io.syntax", place_, "VTK file version " + in_quotes(version) + ", known are 0.1 to 2.9",
+        fail("io.syntax", place_, "VTK file version " + in_quotes(version) + "; supported are 0.1 to 2.9",
              "check that it is a VTU file or export it again");
     }
 
-    /// VTK allocates what is announced. zlib packs at most 1032 to 1, and a point or a tet has at least 12
+    /// VTK allocates as much as the file announces. zlib compresses at most 1032 to 1, and a point or a tet has at least 12
     /// bytes.
     void check_counts() const {
         bool polygons = false;
@@ -147,7 +148,7 @@ private:
                 if (count && *count / 100 <= content_.size()) return;
                 fail("io.count", place_,
                      std::string(name) + " is " + in_quotes(value) + ", more than a file of " +
-                         counted(content_.size(), "byte") + " can hold",
+                         counted(content_.size(), "byte") + " can contain",
                      copy_again);
             });
         }
@@ -166,8 +167,7 @@ private:
         }
     }
 
-    /// The header of a compressed array: number of blocks, their size, size of a last partial one, compressed
-    /// sizes.
+    /// The header of a compressed array: number of blocks, their size, size of a last partial block, compressed sizes.
     void check_blocks(std::string_view data, bool raw, std::string_view name) const {
         const std::size_t word = wide_ ? 8 : 4;
         const auto words = [&](std::size_t count) {
@@ -181,7 +181,7 @@ private:
         if (head.size() < 3 * word) refuse(name);
         const std::uint64_t blocks = word_at(head, 0), size = word_at(head, 1), partial = word_at(head, 2);
         if (blocks == 0 && partial == 0) return;
-        // A block is packed at most 1032 to 1; small arrays still name the usual size of a block.
+        // A block is compressed at most 1032 to 1; small arrays still contain the usual size of a block.
         if (blocks == 0 || blocks > data.size() || size == 0 || size > 2000 * content_.size() + (1U << 26U) ||
             partial > size)
             refuse(name);

@@ -1,17 +1,17 @@
 #pragma once
-// A look at a VTU or VTP file before VTK gets it: VTK trusts its block headers and divides by what they say.
+// Checks a VTU or VTP file before VTK reads it: VTK trusts the block headers and divides by their values.
 
 #include <string>
 #include <string_view>
 
 namespace dsc::io {
 
-/// Throws IoError "io.count" where the file announces more than it can hold, "io.syntax" where its version, the
-/// format of an array or the header of a compressed array does not fit.
+/// Throws IoError "io.count" if the file announces more than it can contain, "io.syntax" if its version, the format of an array
+/// or the header of a compressed array is not supported.
 void check_vtu(std::string_view content, std::string_view file);
 
-/// The file with an empty PointData element where a piece has none: VTK 9.1 reads through a null pointer when it
-/// reports a cell array that it cannot read and there is no such element.
+/// The file with an empty PointData element in each piece that has none. Without it, VTK 9.1 reads through a null pointer when
+/// it reports a cell array that it cannot read.
 std::string with_point_data(std::string_view content);
 
 }  // namespace dsc::io

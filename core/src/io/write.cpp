@@ -1,3 +1,4 @@
+// Writes surfaces and volumes: checks, and chooses the format.
 #include <dsc/io/write.hpp>
 
 #include <dsc/base/error.hpp>
@@ -47,7 +48,7 @@ void check_points(const mesh::TetMesh& mesh) {
     }
 }
 
-/// The formats carry doubles whole, so the numbers in memory are the numbers that are written.
+/// The formats store complete doubles, so the numbers in memory are the numbers that are written.
 void check_tets(const mesh::TetMesh& mesh, const std::string& file) {
     std::size_t wrong = 0, first = 0;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -65,7 +66,7 @@ void check_tets(const mesh::TetMesh& mesh, const std::string& file) {
                         file + ": not written, " + counted(wrong, "tet") + " of " +
                             std::to_string(mesh.tets.size()) + " not positive, the first is tet " +
                             std::to_string(first) +
-                            "; orient the tets (adopt does) or use units in which they do not vanish");
+                            "; orient the tets (adopt does) or use units in which their volume is not rounded to 0");
 }
 
 void require_colours(const surface::TriangleMesh& mesh) {

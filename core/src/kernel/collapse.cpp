@@ -1,4 +1,4 @@
-// Edge collapse, with or without the interface.
+// Edge collapse, with and without the interface (method.md, section 4.7).
 #include <cmath>
 #include <optional>
 
@@ -12,7 +12,7 @@ namespace {
 
 using mesh::CollapseMode;
 
-// The edge as a collapse sees it: `removed` goes, `kept` stays at (1 - weight) kept + weight removed.
+// The edge to collapse: `removed` is removed, `kept` lies at (1 - weight) kept + weight removed afterwards.
 struct Plan {
     VertexId kept = mesh::none, removed = mesh::none;
     double weight = 0.0;
@@ -30,7 +30,7 @@ public:
         b_ = b;
     }
 
-    // Whether v may go: never off the box, and an interface vertex only along the interface.
+    // Whether v may be removed: never a vertex of the box, and an interface vertex only along the interface.
     bool removable(VertexId v) const {
         if (c_.on_box(v)) return false;
         return !c_.on_interface(v) || (interface_edge_ && c_.phases(v) == 2);
@@ -38,7 +38,7 @@ public:
     // Whether v may change its position.
     bool free_to_move(VertexId v) const { return removable(v); }
 
-    // Least quality of the tets that survive with both ends at `place`; early out at `bound`.
+    // Least quality of the remaining tets with both ends at `place`; ends early at `bound`.
     float least(const Vec3& place, bool a_moves, bool b_moves, float bound) const {
         float least = 2.0F;
         const auto scan = [&](const std::vector<TetId>& star, VertexId own, VertexId other) {
@@ -86,7 +86,8 @@ public:
         return (1.0 - plan.weight) * c_.position(plan.kept) + plan.weight * c_.position(plan.removed);
     }
 
-    // How far the interface moves: from each old vertex to the new faces, from the new place to the old ones.
+    // Largest distance that the interface moves: from each old vertex to the new faces, and from the new place to the old
+    // faces.
     double interface_distance(const Plan& plan) {
         auto& old = bench_.faces;
         auto& fan = bench_.fan;
@@ -109,8 +110,8 @@ public:
         return std::max({kept, removed, back});
     }
 
-    // The link condition of a surface [Dey1999], with which the interface keeps its topology and every vertex stays regular:
-    // a and b have the two vertices opposite their edge in common as neighbours, and no others. False says nothing.
+    // The link condition of a surface [Dey1999]. If it holds, the interface keeps its topology and every vertex stays regular:
+    // a and b have exactly the two vertices opposite their edge as common neighbours. If it does not hold, nothing is known.
     bool link_condition() {
         const auto simple = [this](VertexId v) { return c_.phases(v) == 2 && !c_.on_box(v); };
         if (!simple(a_) || !simple(b_)) return false;
@@ -124,7 +125,7 @@ public:
             if (!simple(x)) return false;
             ++common;
         }
-        // The vertex that stays has the rest of both as neighbours: three at least.
+        // The kept vertex gets the other neighbours of both; there must be at least three.
         return common == 2 && bench_.near_a.size() + bench_.near_b.size() >= 7;
     }
 
@@ -150,7 +151,7 @@ bool is_interface_edge(const Workbench& bench) {
     return std::any_of(tets.begin(), tets.end(), [&](TetId t) { return bench.complex.label(t) != first; });
 }
 
-// Judges and commits the collapse in the bench.
+// Tests and commits the collapse in the bench.
 Refusal finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool interface_edge, float must_exceed, float old) {
     mesh::Complex& c = bench.complex;
     double distance = 0.0, volume = 0.0;
@@ -164,7 +165,7 @@ Refusal finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool inte
     if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
     if (!c.link(bench.edit)) return Refusal::irregular;
     if (interface_edge && !collapse.link_condition()) {
-        // Round any other vertex nothing dies and nothing meets: its tets only have a corner renamed.
+        // At any other vertex no tet is removed and none is joined: only a corner of its tets changes its name.
         bench.shared_interface_vertices(bench.vertices);
         if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
     }
@@ -197,7 +198,7 @@ Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     Collapse collapse(bench, a, b, interface_edge);
     const bool a_goes = collapse.removable(a), b_goes = collapse.removable(b);
     if (!a_goes && !b_goes) return c.on_box(a) || c.on_box(b) ? Refusal::box : Refusal::not_applicable;
-    // In safe mode the interface may only be edited where it is flat round the vertex that leaves its place.
+    // In safe mode the interface may be edited only if it is flat round the vertex that leaves its place.
     const bool shape_matters = interface_edge && mode == CollapseMode::safe;
     const bool a_moves = a_goes && (!shape_matters || bench.flat(a, bench.star_a));
     const bool b_moves = b_goes && (!shape_matters || bench.flat(b, bench.star_b));
@@ -220,7 +221,7 @@ Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
 
     const Refusal result = finish(bench, collapse, best, interface_edge, must_exceed, old);
     if (result != Refusal::bound || !interface_edge || !bench.limits.keeps_creases()) return result;
-    // The other way round, or into the end that lies on a crease.
+    // Also with exchanged ends, or into the end that lies on a crease.
     for (const auto& [kept, removed] : {std::array{a, b}, std::array{b, a}}) {
         const bool to_a = kept == a;
         if (!(to_a ? b_moves : a_moves) || (best.kept == kept && best.weight == 0.0)) continue;

@@ -1,5 +1,5 @@
-// Split and collapse as one transaction: repairs of a nearly flat tet by its shape. The intermediate state, with its
-// flat tets, is never built; what is judged is the result.
+// Split and collapse as one transaction, for nearly flat tets (method.md, section 4.9). The intermediate state with its flat
+// tets is never built; only the result is tested.
 #include <cmath>
 
 #include <dsc/geometry/quality.hpp>
@@ -10,7 +10,7 @@
 namespace dsc::kernel {
 namespace {
 
-// Parameters of the closest points of the lines ab and cd; false when they are parallel.
+// Parameters of the closest points of the lines ab and cd; false if they are parallel.
 bool closest_parameters(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double& s, double& t) {
     const Vec3 u = b - a, v = d - c, w = a - c;
     const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
@@ -21,14 +21,14 @@ bool closest_parameters(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
     return true;
 }
 
-constexpr double margin = 0.05;  // a split nearer to an end than this is the neighbouring class' business
+constexpr double margin = 0.05;  // a split closer to an end than this is handled by the adjacent shape class
 bool inside(double s) { return s > margin && s < 1.0 - margin; }
 
 bool same_edge(const mesh::Request& request, VertexId a, VertexId b) {
     return (request.vertices[0] == a && request.vertices[1] == b) || (request.vertices[0] == b && request.vertices[1] == a);
 }
 
-// Splits the ring's tets round (a, b), except `skip` and those that hold `merged`, at the created vertex.
+// Splits the tets round (a, b), except `skip` and those that contain `merged`, at the created vertex.
 void split_ring(Workbench& bench, const mesh::EdgeRing& ring, VertexId a, VertexId b, TetId skip, VertexId merged) {
     const std::size_t n = ring.tets.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -42,7 +42,7 @@ void split_ring(Workbench& bench, const mesh::EdgeRing& ring, VertexId a, Vertex
     }
 }
 
-// Length of the created vertex' shortest edge.
+// Length of the shortest edge of the created vertex.
 double shortest_new_edge(const Workbench& bench) {
     double least2 = INFINITY;
     for (const mesh::NewTet& t : bench.edit.added) {
@@ -55,7 +55,7 @@ double shortest_new_edge(const Workbench& bench) {
     return std::sqrt(least2);
 }
 
-// Judges and commits the edit in the bench; the created vertex was made on (a, b) at s.
+// Tests and commits the edit in the bench; the created vertex was made on (a, b) at s.
 Refusal finish(Workbench& bench, const mesh::Request& request, VertexId a, VertexId b, double s) {
     mesh::Complex& c = bench.complex;
     const float old = bench.old_quality();
@@ -89,7 +89,7 @@ Refusal finish(Workbench& bench, const mesh::Request& request, VertexId a, Verte
     return Refusal::committed;
 }
 
-// Two opposite edges that pass close to each other get a common vertex half-way between.
+// Two opposite edges that are close to each other get a common vertex midway between them.
 Refusal merge_edges(Workbench& bench, TetId t, const mesh::Request& request) {
     mesh::Complex& c = bench.complex;
     const auto v = c.tet(t).v;
@@ -100,7 +100,7 @@ Refusal merge_edges(Workbench& bench, TetId t, const mesh::Request& request) {
     for (const auto& pair : pairs) {
         std::array<VertexId, 4> e = {v[pair[0]], v[pair[1]], v[pair[2]], v[pair[3]]};
         if (request.vertices[1] != mesh::none) {
-            // The named edge comes first: the new vertex follows the destinations of its ends.
+            // The named edge comes first: the destination of the new vertex follows the destinations of its ends.
             if (same_edge(request, e[2], e[3])) e = {e[2], e[3], e[0], e[1]};
             if (!same_edge(request, e[0], e[1])) continue;
         }
@@ -128,15 +128,15 @@ Refusal merge_edges(Workbench& bench, TetId t, const mesh::Request& request) {
     return finish(bench, request, chosen[0], chosen[1], best_s);
 }
 
-// A free vertex v of the tet that lies close to an edge or a face moves into it: the edge or face is split at v's
-// projection and v collapses there. What v leaves must be of one label.
+// A free vertex v of the tet that is close to an edge or a face moves into it: the edge or face is split at v's projection, and
+// v collapses there. All tets at v must have one label.
 Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, const mesh::Request& request) {
     mesh::Complex& c = bench.complex;
     const VertexId v = c.tet(t).v[apex];
     if (c.on_box(v) || c.on_interface(v)) return Refusal::not_applicable;
     std::array<VertexId, 3> f{};
     for (unsigned k = 0; k < 3; ++k) f[k] = c.tet(t).v[mesh::face_vertices[apex][k]];
-    // Into the face if v projects well inside it, else into the nearest edge.
+    // Into the face if v projects well inside it, otherwise into the nearest edge.
     const Vec3 &p0 = c.position(f[0]), &p1 = c.position(f[1]), &p2 = c.position(f[2]), &p = c.position(v);
     const Vec3 normal = (p1 - p0).cross(p2 - p0);
     const double area2 = normal.squaredNorm();
@@ -190,7 +190,7 @@ Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, const mesh::Reque
     reconnect([&](TetId s) { return mesh::has_vertex(c.tet(s), a) && mesh::has_vertex(c.tet(s), b); });
     const std::size_t star = bench.edit.removed.size();
     split_ring(bench, bench.ring, a, b, mesh::none, v);
-    // Ring tets that hold v are in its star already.
+    // Ring tets that contain v are in its star already.
     bench.edit.removed.erase(std::remove_if(bench.edit.removed.begin() + static_cast<std::ptrdiff_t>(star), bench.edit.removed.end(),
                                             [&](TetId s) { return mesh::has_vertex(c.tet(s), v); }),
                              bench.edit.removed.end());

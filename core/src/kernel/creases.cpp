@@ -1,3 +1,4 @@
+// The rule for creases: compares the faces and edges before and after a change (method.md, section 4.10).
 #include "kernel/creases.hpp"
 
 #include <cmath>
@@ -20,7 +21,7 @@ struct CreaseEdge {
     bool operator<(const CreaseEdge& other) const { return a != other.a ? a < other.a : b < other.b; }
 };
 
-// The faces before and after a change, and the edges inside of each.
+// The faces before and after a change, and the inner edges of each set.
 struct Patches {
     std::vector<Face> before, after;
     std::vector<CreaseEdge> edges_before, edges_after;
@@ -41,7 +42,7 @@ Face make_face(const std::array<VertexId, 4>& tet, unsigned f, const At& at) {
     return face;
 }
 
-// Where three faces or more meet in an edge, three labels do: nothing is said about it.
+// Edges with three faces or more, where three labels meet, are left out.
 void find_edges(const std::vector<Face>& faces, std::vector<CreaseEdge>& out) {
     struct Side {
         VertexId a, b;
@@ -72,7 +73,7 @@ bool is_crease(const std::vector<CreaseEdge>& edges, VertexId a, VertexId b, dou
     return found != edges.end() && found->a == wanted.a && found->b == wanted.b && found->cosine < cosine;
 }
 
-// A face that the change leaves in place, but for a corner's name, is compared with itself, any other with the nearest one.
+// A face that keeps its place, apart from the name of a corner, is compared with itself; other faces with the nearest old face.
 bool turns_too_far(const Patches& p, VertexId kept, VertexId removed, double turn) {
     const auto sorted = [&](std::array<VertexId, 3> v) {
         std::replace(v.begin(), v.end(), removed, kept);
@@ -100,7 +101,7 @@ std::size_t creases_at(const Patches& p, VertexId v, double crease) {
     }));
 }
 
-// A vertex on a crease may only go along it, and not if it is an end or a corner of it.
+// A vertex on a crease may only move along it, and not if it is an end or a corner of the crease.
 bool leaves_crease(const Patches& p, VertexId kept, VertexId removed, bool kept_moves, double crease) {
     const bool along = is_crease(p.edges_before, kept, removed, crease);
     const auto stays_on = [along](std::size_t creases) { return creases == 0 ? !along : along && creases == 2; };
@@ -111,13 +112,13 @@ bool loses_crease(const Patches& p, VertexId kept, VertexId removed, double crea
     for (const CreaseEdge& e : p.edges_before) {
         if (!(e.cosine < crease)) continue;
         const VertexId a = e.a == removed ? kept : e.a, b = e.b == removed ? kept : e.b;
-        if (a == b) continue;  // collapsed along itself
+        if (a == b) continue;  // the crease is collapsed along itself
         if (!is_crease(p.edges_after, a, b, crease)) return true;
     }
     return false;
 }
 
-// A tet that is as good as flat may be repaired at any price.
+// If the cavity has a nearly flat tet, the rule does not apply.
 Refusal judge(Workbench& bench, Patches& p, VertexId kept, VertexId removed, float worst) {
     find_edges(p.before, p.edges_before);
     find_edges(p.after, p.edges_after);
@@ -143,7 +144,7 @@ Refusal check_creases(Workbench& bench, VertexId kept, VertexId removed) {
         for (unsigned f = 0; f < 4; ++f) {
             const mesh::Label across = c.label_across(t, f);
             if (c.label(t) > across) p.before.push_back(make_face(c.tet(t).v, f, now));
-            // The neighbour outside the cavity has the larger label: its face looks the other way.
+            // The neighbour outside the cavity has the larger label, so the orientation of the face is reversed.
             const std::uint32_t code = c.tet(t).n[f];
             if (c.label(t) >= across || code == mesh::none) continue;
             const TetId other = mesh::neighbour_tet(code);
@@ -175,7 +176,7 @@ Refusal check_creases(Workbench& bench, std::span<const TetId> tets, mesh::Label
     Patches& p = emptied_patches();
     const auto now = [&c](VertexId v) -> const Vec3& { return c.position(v); };
     float worst = 1.0F;
-    // All of them have one label; outwards from the larger one.
+    // All of them have one label; the orientation is outwards from the larger label.
     const auto add = [&](std::vector<Face>& faces, TetId t, unsigned f, mesh::Label inner, mesh::Label outer) {
         if (inner == outer) return;
         Face& face = faces.emplace_back(make_face(c.tet(t).v, f, now));

@@ -1,18 +1,18 @@
 #pragma once
-// The rule for creases: which changes of the interface it forbids. Faces are judged where they are now and where the edit in
-// the bench puts them.
+// The rule for creases: which changes of the interface it forbids (method.md, section 4.10). Faces are compared at their
+// present places and at the places that the edit in the bench would give them.
 
 #include "kernel/workbench.hpp"
 
 namespace dsc::kernel {
 
-/// Judges the linked edit in the bench: `bound` where it removes a crease or turns a face too far. Where `kept` and `removed` are
-/// named, the edit is a collapse, and edges of `removed` go on as those of `kept`; a crease may be collapsed along itself where it
-/// goes on. A tet below the quality floor among those that go sets the rule aside, which the bench counts. Without a rule:
-/// `committed`, at no cost.
+/// Tests the linked edit in the bench: `bound` if it removes a crease or turns a face too far. If `kept` and `removed` are
+/// named, the edit is a collapse, and edges of `removed` become edges of `kept`; an edge of a crease may be collapsed if the
+/// crease continues beyond the vertices that move. If a removed tet is below `Limits::crease_floor`, the rule does not apply,
+/// and the bench counts this. Without a rule it returns `committed` at no cost.
 Refusal check_creases(Workbench& bench, VertexId kept = mesh::none, VertexId removed = mesh::none);
 
-/// The same for the relabelling of tets, which is no edit.
+/// The same for relabelling tets, which is not an edit.
 Refusal check_creases(Workbench& bench, std::span<const TetId> tets, mesh::Label label);
 
 }  // namespace dsc::kernel

@@ -1,4 +1,4 @@
-// A step: motion, repair and topology in turn.
+// A step: motion, repair and topology in turn (method.md, sections 5, 6 and 8).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -11,8 +11,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr unsigned move_passes = 2;        // before a repair: neighbours that moved make way for each other
-constexpr double worthwhile_pass = 0.1;    // part of the way left by which a pass must bring the vertices on
+constexpr unsigned move_passes = 2;        // before a repair: neighbours that moved make room for each other
+constexpr double worthwhile_pass = 0.1;    // fraction of the remaining distance by which a pass must advance the vertices
 
 void count(const Event& event, mesh::EventCounts& counts) {
     switch (event.kind) {
@@ -59,7 +59,7 @@ void Deformer::State::begin(std::span<const VertexId> vertices, std::span<const 
     const Vec3 high = complex.box().high.array() - 2.0 * length;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const VertexId v = vertices[i];
-        // In this order: a vertex that rests is not even looked at.
+        // In this order, so that a vertex without displacement is not even looked at.
         if (displacements[i].isZero(0.0) || !complex.movable(v)) continue;
         ++report.requested;
         const Vec3 wanted = complex.position(v) + displacements[i];
@@ -69,7 +69,7 @@ void Deformer::State::begin(std::span<const VertexId> vertices, std::span<const 
     }
 }
 
-// For the topology stage: what changed in this step, each tet once.
+// Collects for the topology stage what changed in this step, each tet once.
 void Deformer::State::note_changes(std::span<const TetId> changed) {
     noted.resize(std::max(noted.size(), complex.tet_slots()), false);
     for (const TetId t : changed) {
@@ -79,7 +79,7 @@ void Deformer::State::note_changes(std::span<const TetId> changed) {
     }
 }
 
-// A refused request makes its tet wait until its neighbourhood changes.
+// The tet of a refused request waits until its neighbourhood changes.
 void Deformer::State::record(std::uint32_t i, Refusal refusal, std::uint32_t date, StepReport& report) {
     outcomes[i] = {i, refusal};
     const mesh::Request& request = requests[i];
@@ -89,7 +89,7 @@ void Deformer::State::record(std::uint32_t i, Refusal refusal, std::uint32_t dat
     if (refusal != Refusal::stale && request.tet != mesh::none) queues.fail(request.tet, date);
 }
 
-// Requests that smooth different vertices one after the other may run side by side.
+// Consecutive requests that smooth different vertices may run in parallel.
 struct Deformer::State::Smoothing {
     State& state;
     std::uint32_t first;  // request of vertex 0
@@ -115,7 +115,7 @@ struct Deformer::State::Smoothing {
     }
 };
 
-// Whether the request is sure to be a Laplacian smoothing at its turn, whatever other smoothings do before it.
+// Whether the request is certainly a Laplacian smoothing at its turn, whatever other smoothings do before it.
 bool Deformer::State::plain_smoothing(const mesh::Request& request) const {
     const VertexId v = request.vertices[0];
     const TetId t = request.tet;

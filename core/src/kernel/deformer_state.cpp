@@ -1,4 +1,4 @@
-// A Deformer outside of its steps: what it is made of, its lengths and attributes, its checkpoints.
+// A Deformer outside its steps: construction, lengths and attributes, checkpoints.
 #include "kernel/deformer_state.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ Deformer::State::State(mesh::Complex start, const DeformerOptions& wanted, Worke
       star_loop(complex),
       travels(complex, queues, star_loop),
       fields(complex, travels),
-      // The lost wake-up is counted in the order of one thread.
+      // Wake-ups must be counted in the order of one thread.
       workers(wanted.drop_wake_up == 0 ? given : nullptr) {
     bench.listener = &fields;
     length = mean_interface_edge();

@@ -1,5 +1,5 @@
 #pragma once
-// What a Deformer holds; its parts are in deformer.cpp (a step), refinement.cpp (between steps) and deformer_state.cpp.
+// The state of a Deformer. Its functions are in deformer.cpp (a step), refinement.cpp (between steps) and deformer_state.cpp.
 
 #include <dsc/kernel/deformer.hpp>
 
@@ -11,7 +11,7 @@
 
 namespace dsc::kernel {
 
-/// The field that holds the target lengths: no attribute has such a name.
+/// The field of the target lengths; no attribute can have this name.
 inline constexpr std::string_view length_field = "target length";
 
 struct Deformer::State {
@@ -29,18 +29,18 @@ struct Deformer::State {
     Workers* workers;  // null: one thread
 
     std::vector<TetId> step_changes;
-    std::vector<bool> noted;  // per tet: it is in step_changes
+    std::vector<bool> noted;  // per tet: whether it is in step_changes
     std::vector<mesh::Request> requests, last_requests;
     std::vector<mesh::Outcome> outcomes;
-    std::vector<VertexId> smoothed;  // of a batch of requests
+    std::vector<VertexId> smoothed;  // vertices of a batch of requests
 
     State(mesh::Complex start, const DeformerOptions& wanted, Workers* given);
 
     void apply_limits(double flatness, const std::optional<mesh::CreaseRule>& creases = {});
     double mean_interface_edge() const;
-    /// To be called whenever the set of fields has changed.
+    /// Must be called whenever the set of fields has changed.
     void fields_changed();
-    /// L for the whole surface.
+    /// Sets L for the whole surface.
     void set_length(double everywhere);
     bool alive(VertexId v) const { return v < complex.vertex_slots() && complex.vertex_alive(v); }
 

@@ -1,4 +1,4 @@
-// Operations that re-triangulate round an edge: edge removal, interface flip, edge split.
+// Operations that re-triangulate round an edge: edge removal, interface flip, edge split (method.md, sections 4.3, 4.5, 4.6).
 #include <cmath>
 
 #include <dsc/geometry/quality.hpp>
@@ -10,7 +10,7 @@
 namespace dsc::kernel {
 namespace {
 
-// The best triangulation of a polygon of ring vertices: each triangle becomes a tet with b above and one with a below.
+// The best triangulation of a polygon of ring vertices: each triangle makes one tet with b above and one with a below.
 struct Fan {
     std::span<const VertexId> corners;  // counter-clockwise seen from b
     mesh::Label label;
@@ -90,7 +90,7 @@ Refusal flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, f
     c.ring(t, a, b, bench.ring);
     if (!bench.ring.closed) return Refusal::box;
     const std::size_t n = bench.ring.tets.size();
-    // Rotate the ring so that it starts at an interface face, then find the other one.
+    // Rotates the ring so that it starts at an interface face, then finds the other interface face.
     const auto label = [&](std::size_t i) { return c.label(bench.ring.tets[i % n]); };
     std::size_t changes = 0;
     std::size_t start = 0;
@@ -128,9 +128,10 @@ Refusal flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, f
     add_tets(bench, a, b, second);
     if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
     if (!c.link(bench.edit)) return Refusal::irregular;
-    // Where two labels meet and each has two tets or more here, a flip keeps every vertex regular: positive tets that fill the
-    // cavity hold the segment pq inside, so pq was no edge before, and in the cycles of interface neighbours b leaves a's, a
-    // leaves b's, q and p enter each other's between a and b. (A single tet has pq on the cavity's boundary.)
+    // If exactly two labels meet here and each has at least two tets at the edge, a flip keeps every vertex regular. Positive
+    // tets that fill the cavity contain the segment pq inside, so pq was not an edge before. In the cycles of interface
+    // neighbours, a and b lose each other, and p and q are inserted into each other's cycle between a and b. (If a label has a
+    // single tet, pq lies on the boundary of the cavity.)
     const std::array<VertexId, 4> touched = {a, b, p, q};
     const auto simple = [&c](VertexId v) { return c.phases(v) == 2 && !c.on_box(v); };
     if (turn < 2 || n - turn < 2 || !std::all_of(touched.begin(), touched.end(), simple)) {

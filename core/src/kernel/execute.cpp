@@ -1,4 +1,4 @@
-// From a request to an operation: choosing the simplex where the request names a tet only.
+// Executes a request: chooses the simplex if the request names only a tet (method.md, section 6.1).
 #include <dsc/geometry/quality.hpp>
 
 #include "kernel/operations.hpp"
@@ -23,14 +23,14 @@ std::array<Edge, 6> edges_of(const mesh::Complex& c, TetId t) {
     return edges;
 }
 
-// By insertion: stable, and without the buffer that std::stable_sort takes.
+// Insertion sort: stable, and without the buffer that std::stable_sort allocates.
 void sort_by_length(std::array<Edge, 6>& edges) {
     for (std::size_t i = 1; i < edges.size(); ++i) {
         for (std::size_t j = i; j > 0 && edges[j].length2 < edges[j - 1].length2; --j) std::swap(edges[j], edges[j - 1]);
     }
 }
 
-// Of several refusals the one that says most: topology and bounds before quality before "does not apply".
+// Of several refusals the most informative one: topology and bounds before quality before "does not apply".
 Refusal stronger(Refusal x, Refusal y) {
     const auto rank = [](Refusal r) {
         switch (r) {
@@ -88,7 +88,7 @@ Refusal on_faces(Workbench& bench, const Request& request, TetId t) {
         if (request.operation == Operation::face_removal) {
             r = remove_faces(bench, t, f, request.accept_above);
         } else {
-            // Split at the projection of the opposite vertex if it falls inside.
+            // Splits at the projection of the opposite vertex if it lies inside the face.
             const auto& v = c.tet(t).v;
             const Vec3 &a = c.position(v[mesh::face_vertices[f][0]]), &b = c.position(v[mesh::face_vertices[f][1]]),
                        &d = c.position(v[mesh::face_vertices[f][2]]);
@@ -103,7 +103,7 @@ Refusal on_faces(Workbench& bench, const Request& request, TetId t) {
     return result;
 }
 
-// The tet of a request that names vertices only.
+// A tet for a request that names only vertices.
 TetId tet_of(const mesh::Complex& c, const Request& request) {
     const VertexId a = request.vertices[0], b = request.vertices[1];
     if (a == mesh::none || a >= c.vertex_slots() || !c.vertex_alive(a)) return mesh::none;

@@ -1,4 +1,4 @@
-// Operations at faces: multi-face removal (2-3 flips and wider), face split.
+// Operations at faces: multi-face removal (2-3 flips and wider), face split (method.md, sections 4.4 and 4.6).
 #include <dsc/geometry/quality.hpp>
 
 #include "kernel/operations.hpp"
@@ -8,18 +8,18 @@ namespace {
 
 constexpr std::size_t max_sandwiched = 8;
 
-// Faces sandwiched between the apices `above` and `below`, grown over their edges as long as that pays.
+// Faces between the apices `above` and `below`; the set grows over their edges as long as the quality does not fall.
 class Sandwich {
 public:
     Sandwich(Workbench& bench, VertexId above, VertexId below) : bench_(bench), above_(above), below_(below) {}
 
-    // Everything decided about one edge (u, w) of a sandwiched face, counter-clockwise seen from `above`.
+    // The decision about one edge (u, w) of such a face, counter-clockwise seen from `above`.
     struct Answer {
         float old;
         float now;
     };
 
-    // tet_a holds above, u, w and the face's third vertex; tet_b the same with below.
+    // tet_a contains above, u, w and the face's third vertex; tet_b the same with below.
     Answer visit(VertexId u, VertexId w, VertexId third, TetId tet_a, TetId tet_b) {
         mesh::Complex& c = bench_.complex;
         const auto without = static_cast<float>(bench_.quality(below_, above_, u, w));
@@ -105,7 +105,7 @@ Refusal split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point) 
     if (const Refusal r = bench.check_shape(0.0F, bench.old_quality()); r != Refusal::committed) return r;
     double volume = 0.0;
     if (c.label(t) != c.label(other)) {
-        // The point lies in the face's plane up to rounding; anything more would move the interface.
+        // The point lies in the face's plane up to rounding; otherwise the split would move the interface.
         volume = bench.phase_change();
         if (volume > bench.bounds_at(c.tet(t).v).volume) return Refusal::bound;
     }
@@ -114,7 +114,7 @@ Refusal split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point) 
                                              c.tet(t).v[mesh::face_vertices[face][2]]};
     const VertexId v = bench.commit(0.0, volume);
     if (bench.listener != nullptr) {
-        // Its destination follows the nearest corner pair: between the first two corners at the point's projection.
+        // Its destination is interpolated between the first two corners, at the point's projection on their edge.
         const Vec3 edge = c.position(corners[1]) - c.position(corners[0]);
         const double s = std::clamp((point - c.position(corners[0])).dot(edge) / std::max(edge.squaredNorm(), 1e-300), 0.0, 1.0);
         bench.listener->on_split(v, corners[0], corners[1], s);

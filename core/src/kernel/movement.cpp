@@ -1,3 +1,4 @@
+// Moves one vertex towards its destination without inverting a tet (method.md, section 5.2).
 #include "kernel/movement.hpp"
 
 #include <cmath>
@@ -8,9 +9,9 @@
 namespace dsc::kernel {
 namespace {
 
-constexpr double arrival = 1e-4;  // of L: closer is arrived, a shorter step is none
+constexpr double arrival = 1e-4;  // in L: a vertex closer than this has arrived; a shorter move is not made
 
-// Fraction of the way to `d` at which the first link plane is met; infinity when none is.
+// Fraction of the distance to `d` at which the first link plane is reached; infinity if no plane is reached.
 double first_inversion(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& p, const Vec3& d) {
     double first = INFINITY;
     for (const TetId t : star) {
@@ -27,7 +28,7 @@ double first_inversion(const mesh::Complex& c, std::span<const TetId> star, Vert
     return first;
 }
 
-// Whether v may go to `place`; the tets' qualities there are in `qualities` then.
+// Whether v may move to `place`; on success `qualities` contains the tets' qualities there.
 bool acceptable(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& place, float floor,
                 std::vector<float>& qualities) {
     qualities.clear();

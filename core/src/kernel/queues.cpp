@@ -1,3 +1,4 @@
+// The lists of changed and refused tets, and the audit that finds a missed tet (method.md, section 6.2).
 #include "kernel/queues.hpp"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ std::span<const TetId> RepairQueues::next_round() {
         if (complex_.tet_alive(t) && !lost()) dirty_[offered++] = t;
     }
     dirty_.resize(offered);
-    // Of a slot's failures in a round the first one counts.
+    // Of several failures of a slot in a round, the first one counts.
     seen_.clear();
     for (const Failure& failure : failed_now_) {
         if (seen_.insert(failure.tet)) failed_.push_back(failure);
@@ -42,7 +43,7 @@ std::span<const TetId> RepairQueues::next_round() {
     std::size_t kept = 0;
     for (const Failure& failure : failed_) {
         if (!complex_.tet_alive(failure.tet) || complex_.birth_date(failure.tet) != failure.birth_date) continue;
-        // What changed since the last round is on offer already.
+        // Tets that changed since the last round are already in the list.
         if (complex_.date(failure.tet) > previous_clock) continue;
         if (!out_of_date(failure.tet, failure.date)) {
             failed_[kept++] = failure;
@@ -64,7 +65,8 @@ void RepairQueues::fail(TetId t, std::uint32_t date) {
     memory_[t] = failure;
 }
 
-// The full scan: whatever changed since the last round, or failed before its neighbourhood changed, must be on offer.
+// The full scan: every tet that changed since the last round, or whose neighbourhood changed after a failure, must be in the
+// list.
 void RepairQueues::check(std::uint32_t previous_clock) {
     memory_.resize(std::max(memory_.size(), complex_.tet_slots()), Failure{mesh::none, 0, 0});
     std::vector<char> offered(complex_.tet_slots(), 0);
@@ -80,7 +82,7 @@ void RepairQueues::check(std::uint32_t previous_clock) {
         throw GeometryError("kernel.audit", "audit: tet " + std::to_string(t) + (changed ? " changed" : " was to be tried again") +
                                                 " but is in no queue; the queues of the kernel lost a wake-up");
     }
-    // A failure that was woken is offered now; it counts again only when it fails again.
+    // A tet in the list is tried again; its failure counts only if it fails again.
     for (const TetId t : dirty_) memory_[t].tet = mesh::none;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Work follows change: which tets a repair round must look at, and the audit that proves nothing is missed.
+// The tets that a repair round must look at, and the audit that proves that none is missed (method.md, section 6.2).
 
 #include <cstdint>
 #include <span>
@@ -12,24 +12,24 @@ namespace dsc::kernel {
 using mesh::TetId;
 using mesh::VertexId;
 
-/// Dirty tets and remembered failures. A failed tet is offered again only after a tet at one of its vertices changed.
+/// Changed tets and remembered failures. A failed tet is offered again only after a tet at one of its vertices has changed.
 class RepairQueues {
 public:
-    /// `drop_wake_up`: for tests of the audit, the n-th wake-up from now is lost; 0: none is.
+    /// `drop_wake_up`: for tests of the audit, the n-th wake-up from now is dropped; 0: none.
     RepairQueues(mesh::Complex& complex, bool audit, std::uint64_t drop_wake_up)
         : complex_(complex), audit_(audit), drop_(drop_wake_up) {}
 
-    /// Collects the round's dirty tets: those changed since the last call, then the failures that are out of date.
-    /// Throws GeometryError when the audit finds a tet that was missed. [step]
+    /// Collects the tets of the round: first those that changed since the last call, then tets whose failure is out of date.
+    /// Throws GeometryError if the audit finds a missed tet. [step]
     std::span<const TetId> next_round();
-    /// Remembers that a request on this tet was refused in the present round, when the change clock was `date`.
+    /// Remembers that a request on this tet was refused in this round, when the change clock was `date`.
     void fail(TetId t, std::uint32_t date);
-    /// Vertices whose motion is blocked sleep until their star changes.
+    /// Whether a blocked vertex may be tried again: its star has changed since `blocked_at`.
     bool awake(VertexId v, std::uint32_t blocked_at);
 
     std::size_t failures() const { return failed_.size(); }
 
-    /// Between rounds. The audit's own memory starts anew. [step]
+    /// Between rounds. The audit starts again with an empty memory. [step]
     void save(StateWriter& out) const;
     void load(StateReader& in);
 
@@ -50,7 +50,7 @@ private:
     std::vector<Failure> failed_;
     std::vector<Failure> failed_now_;
     mesh::TetIndex seen_;
-    std::vector<Failure> memory_;          // audit only, per tet: its last failure, kept apart from the queues
+    std::vector<Failure> memory_;          // audit only, per tet: its last failure, independent of the queues
     std::uint32_t last_clock_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a Deformer does between steps at a refinement's request.
+// What a Deformer does between steps when a refinement requests it (method.md, section 7).
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace dsc::kernel {
 
 Refusal Deformer::State::split_longest_edge(const std::array<VertexId, 3>& face) {
     if (!alive(face[0]) || !alive(face[1]) || !alive(face[2])) return Refusal::stale;
-    // Only while the three vertices still bound one interface face.
+    // Only if the three vertices still bound one interface face.
     std::vector<TetId>& star = bench.star_a;
     complex.star(face[0], star);
     TetId found = mesh::none;
@@ -54,7 +54,7 @@ Refusal Deformer::State::flip(const FlipTo& request) {
     const TetId t = complex.find_edge(request.a, request.b);
     if (t == mesh::none) return Refusal::stale;
     bench.limits.flatness = request.flatness;
-    // Shape may be lost down to the floor.
+    // The quality may fall to the floor.
     return flip_interface_edge(bench, t, request.a, request.b, 0.0F);
 }
 
@@ -64,7 +64,7 @@ Refusal Deformer::State::move(const MoveTo& request) {
     bool moved = false;
     const Vec3 low = complex.box().low.array() + 2.0 * length, high = complex.box().high.array() - 2.0 * length;
     const Vec3 place = request.place.cwiseMax(low).cwiseMin(high);
-    // A few attempts, as each goes only part of the way to the first inversion.
+    // Several attempts, because each covers only part of the distance to the first inversion.
     for (int attempt = 0; attempt < 4; ++attempt) {
         const Motion motion = move_towards(bench, request.vertex, place, options.free_path);
         moved = moved || motion != Motion::blocked;
@@ -135,7 +135,7 @@ std::size_t Deformer::relabel(std::span<const TetId> tets, std::span<const mesh:
     std::sort(touched.begin(), touched.end(), [&](VertexId a, VertexId b) { return s.complex.birth(a) < s.complex.birth(b); });
     touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
     const std::size_t unpinched = mesh::unpinch(s.complex, "relabelling", touched);
-    s.fields.settle();  // unpinching makes vertices
+    s.fields.settle();  // unpinching creates vertices
     const mesh::InterfaceCounts after = mesh::count_interface(s.complex);
     const auto emit = [&](Event::Kind kind, long times) {
         for (long i = 0; i < times; ++i) {

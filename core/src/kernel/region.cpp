@@ -1,3 +1,4 @@
+// Grows and measures sets of tets for a change of topology (method.md, sections 8.2 and 8.3).
 #include "kernel/region.hpp"
 
 #include <cmath>
@@ -15,7 +16,7 @@ constexpr int max_growth = 10;
 
 struct BoundaryFace {
     std::array<VertexId, 3> v;
-    bool faces_to;  // looks at `to`, else at `from`
+    bool faces_to;  // faces `to`, else `from`
     double area;
 };
 
@@ -24,7 +25,7 @@ struct BoundaryEdge {
     std::uint32_t face;
 };
 
-// Arrays that keep their memory from one region to the next.
+// Arrays that are reused from one region to the next.
 struct Scratch {
     std::vector<std::size_t> group_size;
     std::vector<char> is_from, has_outside;
@@ -68,7 +69,7 @@ void collect_vertices(const mesh::Complex& c, const Region& region, std::vector<
     out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
-// The smallest group of `from` at the vertex, if there are two or more: tets to add.
+// The smallest group of `from` at the vertex if there are two or more; `out` receives the tets to add.
 void smallest_group(mesh::LocalStar& star, mesh::Label from, std::vector<TetId>& out) {
     out.clear();
     const unsigned count = star.groups();
@@ -94,7 +95,7 @@ void smallest_group(mesh::LocalStar& star, mesh::Label from, std::vector<TetId>&
     }
 }
 
-// The shortest face-connected chain of `from` tets that joins two groups of `to` at the vertex.
+// The shortest face-connected chain of `from` tets that joins two groups of label `to` at the vertex.
 void shortest_chain(mesh::LocalStar& star, mesh::Label from, mesh::Label to, std::vector<TetId>& out) {
     out.clear();
     star.groups();
@@ -105,7 +106,7 @@ void shortest_chain(mesh::LocalStar& star, mesh::Label from, mesh::Label to, std
     std::size_t best = n + 1;
     for (std::size_t start = 0; start < n; ++start) {
         if (star.label(start) != to) continue;
-        // Breadth-first from one node of each group is not enough: chains may leave from any of its nodes.
+        // Breadth-first from all nodes of a group, because a chain may leave from any of them.
         previous.assign(n, mesh::none);
         distance.assign(n, mesh::none);
         queue.clear();

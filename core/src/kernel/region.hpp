@@ -1,5 +1,5 @@
 #pragma once
-// Sets of tets of one label that could take another without leaving a pinched vertex: balls with a boundary of patches.
+// Sets of tets of one label that can take another label without leaving a pinched vertex (method.md, section 8.2).
 
 #include <vector>
 
@@ -7,10 +7,10 @@
 
 namespace dsc::kernel {
 
-/// Why a region was not taken.
+/// Why a region was refused.
 enum class RegionFault : std::uint8_t { none, irregular, too_large, not_a_ball, kind, box, labels };
 
-/// A set of tets of one label that could take another.
+/// A set of tets of one label that could take another label.
 struct Region {
     std::vector<TetId> tets;
     mesh::Label from = 0, to = 0;
@@ -18,16 +18,16 @@ struct Region {
     unsigned patches_to = 0;    ///< o: those that face `to`
     double volume = 0.0, area_from = 0.0, area_to = 0.0;
     Vec3 centroid = Vec3::Zero();
-    std::vector<VertexId> patch_a, patch_b;  ///< vertices of the two patches of the side that has two
+    std::vector<VertexId> patch_a, patch_b;  ///< vertices of the two patches, on the side that has two
 };
 
-/// Grows the region until every vertex is regular with `to` on it, or says why not. [step]
+/// Grows the region until every vertex is regular with label `to` on the region, or returns the fault. [step]
 RegionFault grow(Workbench& bench, Region& region);
-/// Whether the region as it is leaves all its vertices regular. [step]
+/// Whether all vertices of the region are regular with label `to` on it, without growth. [step]
 bool regular(Workbench& bench, const Region& region);
-/// Patches, areas, volume, centroid; not_a_ball unless the boundary is one closed surface of Euler number 2. [step]
+/// Computes patches, areas, volume and centroid; not_a_ball unless the boundary is one closed surface of Euler number 2. [step]
 RegionFault measure(const Workbench& bench, Region& region);
-/// Length that decides: sheet or gap thickness, or the diameter of a neck where two patches face `from`.
+/// The length that the limit applies to: thickness of a sheet or gap, or diameter of a neck if two patches face `from`.
 double thickness(const Region& region);
 bool touches_box(const mesh::Complex& complex, TetId t);
 

@@ -1,4 +1,4 @@
-// The interface shift: a tet, with whatever must go along, takes the label around it; the topology stays.
+// The interface shift: a tet, with others if necessary, takes the label around it; the topology stays (method.md, section 4.8).
 #include <dsc/geometry/quality.hpp>
 
 #include "kernel/creases.hpp"
@@ -8,7 +8,7 @@
 namespace dsc::kernel {
 namespace {
 
-// The label that most of the tet's interface faces look at; its own when it has none.
+// The label behind most of the tet's interface faces; its own label if it has no interface face.
 mesh::Label majority_across(const mesh::Complex& c, TetId t) {
     mesh::Label best = c.label(t);
     unsigned votes = 0;

@@ -1,12 +1,13 @@
+// Splits a long list of vertices into blocks of space and runs the blocks in parallel (method.md, section 10).
 #include "kernel/star_loop.hpp"
 
 namespace dsc::kernel {
 namespace {
 
-constexpr unsigned cell_bits = 5;  // an axis
+constexpr unsigned cell_bits = 5;  // per axis
 constexpr std::uint32_t cells_an_axis = 1U << cell_bits;
 
-// Spreads five bits to every third place.
+// Spreads five bits to every third position.
 std::uint32_t spread(std::uint32_t x) {
     std::uint32_t out = 0;
     for (unsigned bit = 0; bit < cell_bits; ++bit) out |= (x >> bit & 1U) << (3 * bit);
@@ -57,7 +58,7 @@ void StarLoop::split(std::span<const mesh::VertexId> vertices) {
         cells_[i] = z_order(complex_.position(vertices[i]), low, scale);
         ++cell_sizes_[cells_[i]];
     }
-    // Whole cells make a block until it has its share; then cell_sizes_ becomes the block of each cell.
+    // Consecutive cells form a block until it has its share; then cell_sizes_ becomes the block of each cell.
     std::size_t passed = 0;
     begins_.fill(0);
     for (std::uint32_t& size : cell_sizes_) {
@@ -77,7 +78,7 @@ void StarLoop::split(std::span<const mesh::VertexId> vertices) {
     }
 }
 
-// Gives the moves of a wave the dates that they would have one after the other.
+// Gives the moves of a wave the dates that they would have in serial order.
 void StarLoop::date_wave(std::size_t count, Workers* workers) {
     std::uint32_t clock = complex_.clock();
     for (std::size_t b = 0; b < count; ++b) {

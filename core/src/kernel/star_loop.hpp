@@ -1,11 +1,11 @@
 #pragma once
-// An action at many vertices, each on the vertex' own star: side by side where the stars cannot meet, with a result that
-// depends on the complex and the list only, never on the number of threads.
+// Performs an action at many vertices, each on its own star. Stars that cannot meet are processed in parallel; the result
+// depends only on the complex and the list, never on the number of threads (method.md, section 10).
 //
-// Long lists are split into blocks of space, along the Z-order of a coarse grid. Blocks run at the same time, each its own
-// vertices in the order of the list; a vertex that has one of another block in its star waits and runs after all blocks, in
-// the order of the list. So no two threads ever write to the same tet, or read what another one writes. Short lists run in
-// the order of the list, as they are.
+// Long lists are split into blocks of space, along the Z-order of a coarse grid. Blocks run at the same time; each processes
+// its own vertices in the order of the list. A vertex whose star contains a vertex of another block waits and runs after all
+// blocks, in the order of the list. So no two threads write to the same tet, and no thread reads what another one writes. Short
+// lists run in their order without blocks.
 
 #include <algorithm>
 #include <array>
@@ -18,17 +18,17 @@
 
 namespace dsc::kernel {
 
-/// What looking at one star needs; one a thread.
+/// Arrays for the visit of one star; one per thread.
 struct StarScratch {
     std::vector<mesh::TetId> star;
     mesh::TetIndex places;                  // of the star's tets
     std::vector<mesh::VertexId> neighbours;
-    mesh::TetIndex seen;                    // of vertices, here
-    Vec3 place = Vec3::Zero();              // where the vertex may go,
-    std::vector<float> qualities;           // and the star's qualities there, in its order
+    mesh::TetIndex seen;                    // of vertices, for find_neighbours()
+    Vec3 place = Vec3::Zero();              // the planned place of the vertex,
+    std::vector<float> qualities;           // and the qualities of the star there, in its order
 };
 
-/// The other vertices of the star, by birth, to scratch.neighbours. [parallel]
+/// Writes the other vertices of the star, in birth order, to scratch.neighbours. [parallel]
 void find_neighbours(const mesh::Complex& complex, mesh::VertexId v, StarScratch& scratch);
 
 class StarLoop {
@@ -38,11 +38,11 @@ public:
 
     explicit StarLoop(mesh::Complex& complex) : complex_(complex) {}
 
-    /// For each vertices[i], a live one:
+    /// For each vertices[i], which must be alive:
     ///   action.ready(i)                   [parallel] false: nothing to try; reads nothing that Complex::place() writes
-    ///   action.attempt(i, scratch)        [parallel] scratch.star is there; true: the vertex goes to scratch.place, with
+    ///   action.attempt(i, scratch)        [parallel] scratch.star is filled; true: the vertex moves to scratch.place, with
     ///                                     scratch.qualities
-    ///   action.settle(i, attempted, date) [step] once, after all of that; date: the change clock at its turn
+    ///   action.settle(i, attempted, date) [step] once, after all of these; date: the change clock at its turn
     template <class Action>
     void run(std::span<const mesh::VertexId> vertices, Workers* workers, Action& action) {
         if (vertices.size() < least_split) {
@@ -79,9 +79,9 @@ private:
     struct Block {
         StarScratch scratch;
         std::vector<Entry> entries;
-        std::vector<mesh::TetId> stars;  // of the moved vertices, one after the other
+        std::vector<mesh::TetId> stars;  // stars of the moved vertices, one after the other
         std::uint32_t moved = 0;
-        std::uint32_t clock = 0;  // before the first of them
+        std::uint32_t clock = 0;  // before the first of these moves
         std::vector<mesh::TetId> changed;
         std::vector<std::uint32_t> waiting;
     };
@@ -144,10 +144,10 @@ private:
     void date_wave(std::size_t count, Workers* workers);
 
     mesh::Complex& complex_;
-    std::array<Block, 8> blocks_;  // a wave of them, so that the stars that they keep stay few
+    std::array<Block, 8> blocks_;  // one wave of blocks, so that few stars are stored at a time
     std::size_t block_count_ = 0;
     std::size_t wave_ = 0;                // first block of the wave
-    std::vector<std::uint8_t> block_of_;  // a vertex of the list; no_block for any other
+    std::vector<std::uint8_t> block_of_;  // per vertex: its block; no_block if it is not in the list
     std::vector<std::uint32_t> order_;    // the list by block
     std::array<std::size_t, most_blocks + 1> begins_{};
     std::vector<std::uint32_t> waiting_;

@@ -1,3 +1,4 @@
+// The topology stage: finds seeds, evaluates candidates, commits the selected ones (method.md, sections 8.1 to 8.5).
 #include "kernel/topology.hpp"
 
 #include <cmath>
@@ -8,14 +9,14 @@
 namespace dsc::kernel {
 namespace {
 
-constexpr std::uint64_t rest_steps = 5;     // steps in which a vertex touched by an event takes part in none that undoes it
-constexpr double longest_edge = 1.0;        // of a candidate, in L
+constexpr std::uint64_t rest_steps = 5;     // steps in which the vertices of an event take part in no change that undoes it
+constexpr double longest_edge = 1.0;        // of a seed, in L
 constexpr double thickest_neck = 0.5;       // area of a neck's cross-section, in L^2
-constexpr double events_per_vertex = 0.02;  // a step
-constexpr std::size_t seed_block = 8192;    // changed tets that one thread looks at in one go
-constexpr std::size_t small_component = 64; // tets that a flood visits at most
+constexpr double events_per_vertex = 0.02;  // per step
+constexpr std::size_t seed_block = 8192;    // changed tets per block of the parallel search
+constexpr std::size_t small_component = 64; // largest number of tets that a flood visits
 
-// The label at an interface vertex that is not `own`; `own` when there is not exactly one.
+// The label at an interface vertex that is not `own`; `own` if there is not exactly one such label.
 mesh::Label other_label(const mesh::Complex& c, std::span<const TetId> star, mesh::Label own) {
     mesh::Label other = own;
     for (const TetId t : star) {
@@ -110,7 +111,8 @@ void TopologyStage::collect_seeds_of(TetId t, std::uint64_t step, SeedBlock& blo
     for (unsigned f = 0; f < 4; ++f) interface[f] = c.interface_face(t, f);
     for (const auto& e : mesh::edge_vertices) {
         if (!ready[e[0]] || !ready[e[1]]) continue;
-        // Most interface edges show it in this tet: one of the two faces at the edge, opposite the other vertices.
+        // A quick test for most interface edges: one of the two faces at the edge, opposite the other vertices, is on the
+        // interface.
         bool seen = false;
         for (unsigned f = 0; f < 4; ++f) seen = seen || (interface[f] && f != e[0] && f != e[1]);
         if (seen) continue;
@@ -212,7 +214,7 @@ bool TopologyStage::same_shell(std::span<const VertexId> from, std::span<const V
     return std::any_of(to.begin(), to.end(), [this](VertexId v) { return seen_[v] == seen_epoch_; });
 }
 
-// The target length where a region lies: at its first tet, from which it was grown.
+// The target length at a region: at its first tet, from which it grew.
 double TopologyStage::length_at(const Region& region) const { return bench_.length_at(bench_.complex.tet(region.tets.front()).v); }
 
 Event TopologyStage::commit(const Region& region, std::uint64_t step) {
@@ -296,7 +298,7 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
     if (!touched_.empty()) remove_small_components(step, touched_, limits.min_component, events);
 }
 
-// The component of the seed if it is small, closed in by one label and bounded by one surface.
+// The component of the seed if it is small, has one label around it and is bounded by one surface.
 bool TopologyStage::flood_component(TetId seed, double volume_limit, Region& region) {
     const mesh::Complex& c = bench_.complex;
     region.tets.assign(1, seed);
@@ -328,7 +330,7 @@ void TopologyStage::remove_small_components(std::uint64_t step, std::span<const 
     for (const VertexId v : near) {
         if (v >= c.vertex_slots() || !c.vertex_alive(v) || !c.on_interface(v)) continue;
         const double limit = min_component * geometry::regular_tet_volume(bench_.length_at(v));
-        // One seed a label: the star of a regular vertex has one group each.
+        // One seed per label: the star of a regular vertex has one group per label.
         c.star(v, star_);
         seeds.clear();
         for (const TetId t : star_) {
@@ -337,7 +339,7 @@ void TopologyStage::remove_small_components(std::uint64_t step, std::span<const 
         }
         for (const TetId seed : seeds) {
             if (!flood_component(seed, limit, region)) continue;
-            // A ball vanishes as one event; anything with handles or cavities waits until it is one.
+            // A ball vanishes as one event; a component with handles or cavities stays until it has become a ball.
             if (measure(bench_, region) != RegionFault::none || region.patches_from != 0 || region.patches_to != 1) continue;
             events.push_back(commit(region, step));
             break;

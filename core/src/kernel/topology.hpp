@@ -1,5 +1,5 @@
 #pragma once
-// The topology stage: the only place where the interface changes its topology, by relabelling balls of tets.
+// The topology stage: changes the topology of the interface by relabelling balls of tets (method.md, section 8).
 
 #include <functional>
 #include <span>
@@ -19,25 +19,26 @@ public:
 
     using Select = std::function<void(std::span<const mesh::TopologyCandidate>, std::span<std::uint8_t>)>;
 
-    /// Finds candidates among the changed tets' edges, lets `select` choose, commits the accepted ones serially.
-    /// `workers`, null for one thread, share the search.
+    /// Finds candidates at the edges and faces of the changed tets, lets `select` choose, and commits the accepted ones one by
+    /// one. `workers`, null for one thread, share the search.
     void run(std::uint64_t step, std::span<const TetId> changed, const mesh::TopologyLimits& limits, const Select& select,
              std::vector<Event>& events, Workers* workers = nullptr);
 
-    /// Components near the given vertices below `min_component` regular tets take the label around them.
+    /// Components near the given vertices that are smaller than `min_component` regular tets take the label around them.
     void remove_small_components(std::uint64_t step, std::span<const VertexId> near, double min_component, std::vector<Event>& events);
 
-    /// Relabels and names the event; kinds other than (1,2), (2,1), (0,1), (1,0) must not be committed.
+    /// The target length at a region.
     double length_at(const Region& region) const;
+    /// Relabels the region and returns the event; the kind must be (1,2), (2,1), (0,1) or (1,0).
     Event commit(const Region& region, std::uint64_t step);
 
-    /// Which vertices rest since which event. [step]
+    /// Saves which vertices rest, and since which event. [step]
     void save(StateWriter& out) const;
     void load(StateReader& in);
 
 private:
-    // Where a region may start: an edge inside a phase, its ends on the interface; or a face inside a phase whose three
-    // edges all lie on the interface, the cross-section of a neck that is too thin to have an edge inside.
+    // Start of a region: an edge inside a phase with its ends on the interface; or a face inside a phase whose three edges all
+    // lie on the interface, the cross-section of a neck that is too thin to have an edge inside.
     struct Seed {
         std::array<std::uint32_t, 3> births;  // ascending; the last is none for an edge
         std::array<VertexId, 3> v;
@@ -46,7 +47,7 @@ private:
         Seed seed;
         mesh::TopologyCandidate candidate;
     };
-    // The seeds that a block of the changed tets holds.
+    // The seeds found in a block of the changed tets.
     struct SeedBlock {
         std::vector<Seed> seeds;
         mesh::EdgeRing ring;
@@ -61,7 +62,7 @@ private:
     bool usable(const Seed& seed, mesh::Label from, std::uint64_t step) const;
     bool same_shell(std::span<const VertexId> from, std::span<const VertexId> to);
     void mark_event(const Region& region, std::uint64_t step);
-    /// An event at v gave tets of label `from` back within the last steps: taking them again would undo it.
+    /// Whether an event at v gave tets the label `from` within the last steps, so that taking them again would undo it.
     bool recent(VertexId v, mesh::Label from, std::uint64_t step) const;
     bool flood_component(TetId seed, double volume_limit, Region& region);
 
@@ -71,7 +72,7 @@ private:
     std::vector<Found> found_;
     std::vector<std::uint64_t> event_step_;  // per vertex: 1 + step of the last event that touched it
     std::vector<std::uint32_t> event_birth_;
-    std::vector<mesh::Label> event_to_;      // the label that the event put there
+    std::vector<mesh::Label> event_to_;      // the label that the event gave
     std::vector<std::uint32_t> seen_;
     std::uint32_t seen_epoch_ = 0;
     std::vector<VertexId> queue_;

@@ -1,3 +1,4 @@
+// Destinations of the moving vertices: passes of movement, and updates after edits (method.md, sections 5 and 9).
 #include "kernel/travels.hpp"
 
 #include <string>
@@ -14,7 +15,7 @@ void Travels::clear() {
     stranded_ = 0;
 }
 
-// The entry of v, even if v is dead by now; null if it has none.
+// The entry of v, even if v no longer exists; null if it has none.
 Travels::Travel* Travels::way_of(VertexId v) {
     if (v >= travel_of_.size() || travel_of_[v] >= travel_.size()) return nullptr;
     Travel& way = travel_[travel_of_[v]];
@@ -43,7 +44,7 @@ void Travels::on_split(VertexId vertex, VertexId a, VertexId b, double s) {
 }
 
 void Travels::on_collapse(VertexId kept, VertexId removed, double s) {
-    // The removed id is dead but its entry is still there: births differ only once the slot is taken again.
+    // The removed id no longer exists, but its entry does: births differ only after the slot is used again.
     const bool goes = way_of(removed) != nullptr;
     const bool stays = travels(kept);
     if ((!goes && !stays) || !complex_.movable(kept) || s == 0.0) return;
@@ -52,7 +53,7 @@ void Travels::on_collapse(VertexId kept, VertexId removed, double s) {
     send(kept, (1.0 - s) * from + s * to);
 }
 
-// What a pass does at active_[i].
+// What a pass does with active_[i].
 struct Travels::Pass {
     enum Fate : std::uint8_t { asleep, arrived, moved, stopped };
 

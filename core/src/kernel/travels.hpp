@@ -1,5 +1,6 @@
 #pragma once
-// The destinations of a step: who is under way, how destinations follow the edits, and the passes that bring vertices there.
+// The destinations of a step: which vertices move, how destinations follow the edits, and the passes of movement (method.md,
+// section 5).
 
 #include <utility>
 
@@ -12,8 +13,8 @@ namespace dsc::kernel {
 
 /// How a pass moves vertices.
 struct PassOptions {
-    double free_path = 0.5;      ///< fraction of the way to the first inversion that one move may take
-    bool audit = false;          ///< throw GeometryError for a vertex that sleeps though its star changed
+    double free_path = 0.5;      ///< fraction of the distance to the first inversion that one move may cover
+    bool audit = false;          ///< throw GeometryError if a blocked vertex is not tried although its star changed
     Workers* workers = nullptr;  ///< null: one thread
 };
 
@@ -21,14 +22,14 @@ class Travels final : public EditListener {
 public:
     Travels(mesh::Complex& complex, RepairQueues& queues, StarLoop& loop) : complex_(complex), queues_(queues), loop_(loop) {}
 
-    /// A new step: nobody is under way. [step]
+    /// Begins a step: no vertex moves. [step]
     void clear();
-    /// v goes to `destination`. [step]
+    /// Sets the destination of v. [step]
     void send(VertexId v, const Vec3& destination);
 
-    /// One attempt for every vertex under way; returns the summed distance left. [step]
+    /// Makes one attempt for every vertex that moves; returns the sum of the remaining distances. [step]
     double pass(const Limits& limits, const PassOptions& options);
-    /// Drops the rest of all motion; it is counted in dropped_motion. [step]
+    /// Drops the remaining motion; dropped_motion counts it. [step]
     void give_up(StepReport& report);
 
     bool done() const { return active_.empty(); }
@@ -36,9 +37,9 @@ public:
     std::span<const VertexId> blocked() const { return blocked_; }
     /// Moves attempted since clear() or the last call. [step]
     std::size_t take_tried() { return std::exchange(tried_, 0); }
-    /// Vertices given up in this step.
+    /// Vertices whose motion was dropped in this step.
     std::size_t stranded() const { return stranded_; }
-    /// Vertices that interface edges were collapsed to in this step.
+    /// Kept vertices of the collapses of interface edges in this step.
     std::span<const VertexId> near_collapses() const { return near_collapses_; }
 
     void on_split(VertexId vertex, VertexId a, VertexId b, double s) override;
@@ -48,10 +49,10 @@ public:
 private:
     struct Travel {
         Vec3 destination;
-        VertexId vertex = mesh::none;  // none: arrived or given up
+        VertexId vertex = mesh::none;  // none: arrived or dropped
         std::uint32_t birth = 0;
         std::uint32_t blocked_at = 0;  // 0: not blocked
-        std::uint32_t listed = 0;      // pass in which it was handled, against double entries
+        std::uint32_t listed = 0;      // pass in which it was handled, to avoid double entries
     };
     struct Pass;
 
@@ -63,7 +64,7 @@ private:
     mesh::Complex& complex_;
     RepairQueues& queues_;
     StarLoop& loop_;
-    // One entry a vertex under way; `travel_of_` leads to it, which is the vertex' own where vertex and birth fit.
+    // One entry per moving vertex. `travel_of_` maps a vertex to its entry, which is valid if vertex and birth agree.
     std::vector<Travel> travel_;
     std::vector<std::uint32_t> travel_of_;
     std::vector<VertexId> active_;

@@ -1,5 +1,5 @@
 #pragma once
-// All triangulations of convex polygons with 3 to 7 corners (1, 2, 5, 14, 42 of them), made by the compiler.
+// All triangulations of convex polygons with 3 to 7 corners (1, 2, 5, 14, 42 of them), computed at compile time.
 
 #include <array>
 #include <cstddef>
@@ -14,7 +14,7 @@ struct Corners {
     std::uint8_t i, j, k;
 };
 
-/// The triangles of an n-gon, and each triangulation as a set of bits, one a triangle.
+/// The triangles of an n-gon, and each triangulation as a set of bits, one bit per triangle.
 struct Triangulations {
     std::size_t triangle_count = 0;
     std::array<Corners, 35> triangles{};
@@ -31,7 +31,7 @@ constexpr std::size_t triangle_index(const Triangulations& t, std::size_t i, std
     return 0;
 }
 
-/// Masks of the chain i..j: the side (i, j) has one triangle with each possible corner between.
+/// Masks of the chain i..j: the side (i, j) has one triangle with each possible corner between i and j.
 struct MaskList {
     std::size_t count = 0;
     std::array<std::uint64_t, 42> masks{};

@@ -1,3 +1,4 @@
+// Numbers per interface vertex: target lengths and attributes, and how they follow the edits (method.md, section 9).
 #include "kernel/vertex_fields.hpp"
 
 #include <cmath>
@@ -11,7 +12,7 @@ namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-// What lies between two values of which one or both may be missing.
+// Interpolates between two values, one or both of which may be missing.
 double between(double a, double b, double s) {
     if (std::isnan(a)) return b;
     return std::isnan(b) ? a : (1.0 - s) * a + s * b;
@@ -25,7 +26,7 @@ void VertexFields::grow() {
     for (Column& column : columns_) column.values.resize(births_.size(), no_value);
 }
 
-// Makes the slot v's own; true if another vertex had it before.
+// Assigns the slot to v; true if another vertex used it before.
 bool VertexFields::claim(VertexId v) {
     if (births_[v] == complex_.birth(v)) return false;
     births_[v] = complex_.birth(v);
@@ -81,7 +82,7 @@ void VertexFields::on_split(VertexId vertex, VertexId a, VertexId b, double s) {
 }
 
 void VertexFields::on_collapse(VertexId kept, VertexId removed, double s) {
-    // The removed id is dead, but nothing has taken its slot yet. An end that is not on the interface has no say.
+    // The removed id no longer exists, but its slot is not used again yet. An end that is not on the interface is ignored.
     if (!empty() && complex_.on_interface(kept)) {
         grow();
         claim(kept);
@@ -92,8 +93,8 @@ void VertexFields::on_collapse(VertexId kept, VertexId removed, double s) {
     next_.on_collapse(kept, removed, s);
 }
 
-// One ring further: values for those of `missing` that have a neighbour with one; the others are left in it. False if there
-// was none to be had.
+// One ring: gives values to those of `missing` that have a neighbour with a value; the others stay in `missing`. False if none
+// got a value.
 bool VertexFields::fill_from_neighbours(std::vector<VertexId>& missing) {
     struct Found {
         VertexId vertex;
@@ -127,7 +128,7 @@ bool VertexFields::fill_from_neighbours(std::vector<VertexId>& missing) {
             if (count > 0) found.push_back({v, i, sum / count});
         }
     }
-    // All at once, so that the order of the vertices does not matter.
+    // All at once, so that the order of the vertices has no influence.
     for (const Found& f : found) columns_[f.column].values[f.vertex] = f.value;
     missing.erase(std::remove_if(missing.begin(), missing.end(), [this](VertexId v) { return !lacks(v); }), missing.end());
     return !found.empty();
@@ -170,7 +171,7 @@ void VertexFields::load(StateReader& in) {
         in.list(column.values);
         fits = fits && column.values.size() == births_.size();
     }
-    if (!fits) throw IoError("state.damaged", "the saved state's numbers per vertex do not fit its complex");
+    if (!fits) throw IoError("state.damaged", "the numbers per vertex in the saved state do not fit its complex");
 }
 
 }  // namespace dsc::kernel

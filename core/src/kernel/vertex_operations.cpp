@@ -1,4 +1,4 @@
-// Operations on one vertex or one tet: smoothing, vertex split, relabelling.
+// Operations on one vertex or one tet: smoothing, vertex split, relabelling (method.md, sections 4.2, 4.6, 4.8).
 #include <cmath>
 
 #include <dsc/geometry/predicates.hpp>
@@ -11,7 +11,8 @@
 namespace dsc::kernel {
 namespace {
 
-// Least quality of the star with v at `place`, all of them in `qualities`; -1 as soon as one is not above `bound`.
+// Least quality of the star with v at `place`; `qualities` receives all of them. Returns -1 as soon as one is not above
+// `bound`.
 float star_quality(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& place, float bound,
                    std::vector<float>& qualities) {
     float least = 2.0F;
@@ -73,7 +74,7 @@ Refusal plan_laplacian(const mesh::Complex& complex, const Limits& limits, Verte
     Vec3 mean = Vec3::Zero();
     for (const VertexId w : scratch.neighbours) mean += complex.position(w);
     mean /= static_cast<double>(scratch.neighbours.size());
-    // A vertex that is there already would only wake its neighbourhood.
+    // A vertex that is already there is not moved: the move would only mark its star as changed.
     if ((mean - complex.position(v)).norm() < 0.02 * limits.length) return Refusal::no_gain;
     const float bound = std::min(star_old(complex, scratch.star), accept_above);
     if (star_quality(complex, scratch.star, v, mean, bound, scratch.qualities) < 0.0F) return Refusal::quality;
@@ -103,7 +104,7 @@ Refusal smooth_optimise(Workbench& bench, VertexId v) {
     Vec3 place = c.position(v);
     double step = 0.25 * bench.limits.length;
     for (int iteration = 0; iteration < 6; ++iteration) {
-        // Uphill on the tet that is worst at the present place.
+        // Uphill for the tet that is worst at the present place.
         float worst = 2.0F;
         Vec3 uphill = Vec3::Zero();
         for (const TetId t : bench.star_a) {
@@ -151,7 +152,7 @@ Refusal split_vertex(Workbench& bench, VertexId v, VertexId w) {
         break;
     }
     if (!found) return Refusal::not_applicable;
-    // The half of the star towards w, inside one label: the interface stays where it is.
+    // The half of the star towards w, inside one label, so the interface does not change.
     bench.star_b.clear();
     for (const TetId t : bench.star_a) {
         Vec3 centroid = -3.0 * c.position(v);
@@ -168,7 +169,7 @@ Refusal split_vertex(Workbench& bench, VertexId v, VertexId w) {
     }
     if (const Refusal r = bench.check_shape(0.0F, bench.old_quality()); r != Refusal::committed) return r;
     if (!c.link(bench.edit)) return Refusal::irregular;
-    // Where the star's interface corner sits in the group, the new vertex takes the corner over: geometry would move.
+    // If the star's interface corner is in the group, the new vertex would take over the corner and the geometry would change.
     if (c.on_interface(v)) {
         const double volume = bench.phase_change();
         const EditBounds bounds = bench.bounds_at(v, v);

@@ -1,3 +1,4 @@
+// The tests that every edit must pass, and its commit (method.md, sections 3 and 4.1).
 #include "kernel/workbench.hpp"
 
 #include <cmath>
@@ -44,7 +45,7 @@ Refusal Workbench::check_shape(float must_exceed, float old) {
         if (!(q > must_exceed) || !(q >= floor)) return Refusal::quality;
         edit.qualities.push_back(q);
     }
-    // Exactness last: the filter decides nearly all of these, and candidates that fail are usually far from flat.
+    // The exact test comes last: the filter decides nearly all cases, and candidates that fail are usually far from flat.
     for (const mesh::NewTet& t : edit.added) {
         if (geometry::orient3d(at(t.v[0]), at(t.v[1]), at(t.v[2]), at(t.v[3])) != 1) return Refusal::quality;
     }

@@ -1,6 +1,6 @@
 #pragma once
-// Where an operation is built, judged and committed. Every operation fills `edit`, asks the checks below and commits;
-// until then the complex is untouched, so refusing costs nothing and leaves no trace.
+// Where an operation is built, tested and committed (method.md, section 4.1). Every operation fills `edit`, calls the checks
+// below and commits. Until then the complex is unchanged, so a refusal costs nothing.
 
 #include <algorithm>
 #include <span>
@@ -18,32 +18,32 @@ using mesh::Refusal;
 using mesh::TetId;
 using mesh::VertexId;
 
-/// Absolute limits of one edit, in normalised units, where the target length is L.
+/// Absolute limits of one edit, in normalised units, where the target length is L (method.md, section 3).
 struct Limits {
     double length = 0.0;          ///< L
     double quality_floor = 1e-3;
-    double edit_distance = 0.0;   ///< by which one edit may move the interface
-    double edit_volume = 0.0;     ///< by which one edit may change a phase
+    double edit_distance = 0.0;   ///< largest distance by which one edit may move the interface
+    double edit_volume = 0.0;     ///< largest volume by which one edit may change a phase
     double flatness = 0.995;      ///< cosine
-    double crease = -2.0;         ///< cosine between an edge's two faces below which it is a crease that stays; -2: none is
+    double crease = -2.0;         ///< an edge with a smaller cosine between its two faces is a crease and must stay; -2: no creases
     double turn = -2.0;           ///< least cosine between a face's normals before and after an edit
-    double crease_floor = 0.0;    ///< for a tet below this quality creases may go
+    double crease_floor = 0.0;    ///< the rule for creases does not apply to a cavity with a tet below this quality
     bool keeps_creases() const { return crease > -2.0; }
-    /// No move takes a tet below the floor: one that has come close to it holds its vertices, so it counts as degenerate before
-    /// it gets there.
+    /// No move takes a tet below the floor. A tet close to the floor cannot be moved any more, so it counts as degenerate
+    /// before it reaches the floor.
     void set_floor(double floor) {
         quality_floor = floor;
         crease_floor = 1.5 * floor;
     }
 };
 
-/// By how much one edit may change the interface at a place.
+/// Largest change of the interface by one edit, at a place.
 struct EditBounds {
-    double distance = 0.0;  ///< by which it may move
+    double distance = 0.0;  ///< by which the interface may move
     double volume = 0.0;    ///< by which a phase may change
 };
 
-/// Told of vertices that come and go, so that destinations can follow.
+/// Receives the vertices that edits create and remove, so that destinations can follow.
 class EditListener {
 public:
     EditListener() = default;
@@ -54,7 +54,7 @@ public:
     virtual void on_split(VertexId vertex, VertexId a, VertexId b, double s) = 0;
     /// `removed` was merged into `kept`, which now lies at (1 - s) kept + s removed.
     virtual void on_collapse(VertexId kept, VertexId removed, double s) = 0;
-    /// The interface changed within these vertices' stars by a collapse: a component may have become small.
+    /// A collapse changed the interface within these vertices' stars: a component may have become small.
     virtual void on_interface_collapse(VertexId kept) = 0;
 };
 
@@ -67,34 +67,34 @@ struct EditSums {
 
 class Workbench {
 public:
-    /// What known refusals are kept of.
+    /// The kinds of smoothing for which refusals are remembered.
     enum class Trial : std::uint8_t { laplacian, optimise };
 
     explicit Workbench(mesh::Complex& target) : complex(target), star_(target) {}
 
     mesh::Complex& complex;
     Limits limits;
-    const std::vector<double>* lengths = nullptr;  ///< target length per vertex, NaN for none; null where it is L everywhere
+    const std::vector<double>* lengths = nullptr;  ///< target length per vertex, NaN for none; null if it is L everywhere
     mesh::Edit edit;
     EditListener* listener = nullptr;
     EditSums sums;
-    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule for creases aside
+    std::uint64_t crease_exceptions = 0;  ///< edits that ignored the rule for creases
 
-    // Scratch of the operations; whoever needs one fills it.
+    // Scratch arrays of the operations; each operation fills those that it uses.
     mesh::EdgeRing ring, ring2;
     std::vector<TetId> star_a, star_b;
     std::vector<VertexId> vertices, near_a, near_b;
     StarScratch scratch;
     std::vector<std::array<VertexId, 3>> fan, faces;
 
-    /// Position with the edit's changes.
+    /// Position after the edit's changes.
     const Vec3& at(VertexId v) const {
         if (v == mesh::created_vertex) return edit.created_at;
         return v == edit.moved ? edit.moved_to : complex.position(v);
     }
     double quality(VertexId a, VertexId b, VertexId c, VertexId d) const;
 
-    /// The target length at these vertices: the mean of those that have one, L where none has. [parallel]
+    /// The target length at these vertices: the mean of those that have one; L if none has one. [parallel]
     double length_at(std::span<const VertexId> vertices) const;
     double length_at(VertexId v) const { return length_at(std::span(&v, 1)); }
     double length_at(VertexId a, VertexId b) const { return length_at(std::array<VertexId, 2>{a, b}); }
@@ -102,32 +102,33 @@ public:
     EditBounds bounds_at(std::span<const VertexId> vertices) const;
     EditBounds bounds_at(VertexId a, VertexId b) const { return bounds_at(std::array<VertexId, 2>{a, b}); }
 
-    /// Least cached quality of the edit's removed tets; 1 without any.
+    /// Least cached quality of the edit's removed tets; 1 if there is none.
     float old_quality() const;
-    /// Qualities of the added tets go to edit.qualities. Refuses when one is not above `must_exceed`, below
-    /// min(floor, old), or not exactly positive.
+    /// Writes the qualities of the added tets to edit.qualities. Refuses if one is not above `must_exceed`, below min(floor,
+    /// old), or not exactly positive.
     Refusal check_shape(float must_exceed, float old);
-    /// After link(): every given vertex stays regular and the interface's Euler number there stays what it is.
+    /// Call after link(): tests that every given vertex stays regular and that the sum of their Euler shares does not change.
     Refusal check_topology(std::span<const VertexId> touched);
     /// Volume that changes phase: half the sum over labels of |added - removed|.
     double phase_change() const;
-    /// Links and commits. `distance` and `volume` are what the edit does to the interface.
+    /// Links and commits. `distance` and `volume` are the changes of the interface by the edit.
     VertexId commit(double distance, double volume);
 
-    /// Interface vertices of both stars, `star_a` and `star_b`, by id.
+    /// Interface vertices that both stars, `star_a` and `star_b`, contain, by id.
     void shared_interface_vertices(std::vector<VertexId>& out);
 
-    /// A smoothing that was refused is refused again as long as nothing in the vertex' star changed: `known_refusal` says so
-    /// without trying, `committed` means that a try is worth it. `trial` tells requests of one vertex apart.
+    /// A refused smoothing would be refused again as long as nothing in the vertex' star has changed. `known_refusal` returns
+    /// the old refusal without a new attempt; `committed` means that an attempt is useful. `trial` distinguishes the kinds of
+    /// smoothing of one vertex.
     Refusal known_refusal(VertexId v, Trial trial, float accept_above) const;
     Refusal remember(VertexId v, Trial trial, float accept_above, Refusal refusal) {
         return remember(v, trial, accept_above, refusal, complex.clock());
     }
     Refusal remember(VertexId v, Trial trial, float accept_above, Refusal refusal, std::uint32_t date);
-    /// Forgets all refusals: the limits changed.
+    /// Forgets all refusals, because the limits have changed.
     void forget_refusals() { memory_.clear(); }
 
-    /// True when the interface faces round v are flat to each other (signed normals). `star`: the tets of v.
+    /// Whether the interface faces round v are flat to each other (signed normals). `star`: the tets of v.
     bool flat(VertexId v, std::span<const TetId> star);
     /// Vertices of the star's interface faces as triangles with v first, counter-clockwise from the smaller label.
     void interface_fan(VertexId v, std::span<const TetId> star, std::vector<std::array<VertexId, 3>>& out) const;
@@ -141,11 +142,11 @@ private:
     std::vector<std::array<VertexId, 3>> fan_;
     std::vector<Vec3> normals_;
 
-    // What was refused at a vertex, by trial: when, by the change clock, and why. The star of a vertex that takes the slot of
-    // another is younger than what was remembered of that one.
+    // Refusals at a vertex, by kind of smoothing: the change clock and the reason. If another vertex takes the slot, its star
+    // is younger than the remembered clock.
     struct Memory {
         std::array<std::uint32_t, 2> date = {0, 0};
-        float accept_above = 0.0F;  // of the Laplacian; the other trial has no bound
+        float accept_above = 0.0F;  // of the Laplacian; the other kind has no bound
         std::array<Refusal, 2> refusal = {Refusal::committed, Refusal::committed};
     };
     std::vector<Memory> memory_;  // per vertex

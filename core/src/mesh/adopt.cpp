@@ -1,3 +1,4 @@
+// Turns plain arrays into a complex, or names the first fault (method.md, section 1.3).
 #include <dsc/mesh/adopt.hpp>
 
 #include <algorithm>
@@ -29,14 +30,15 @@ std::string point_text(const Vec3& p) {
 }
 
 void check_arrays(const TetMesh& mesh, std::string_view name) {
-    if (mesh.tets.empty()) refuse(name, "mesh.empty", "the mesh has no tets", "a box filled with labelled tets is needed");
+    if (mesh.tets.empty()) refuse(name, "mesh.empty", "the mesh has no tets", "provide a box filled with labelled tets");
     if (mesh.labels.size() != mesh.tets.size()) {
         refuse(name, "mesh.labels", std::to_string(mesh.labels.size()) + " labels for " + std::to_string(mesh.tets.size()) + " tets",
-               "give one label a tet");
+               "provide exactly one label per tet");
     }
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         if (!mesh.points[i].allFinite()) {
-            refuse(name, "mesh.not_finite", "vertex " + std::to_string(i) + " has a coordinate that is not finite", "mend the vertex");
+            refuse(name, "mesh.not_finite", "vertex " + std::to_string(i) + " has a coordinate that is not finite",
+                   "fix or remove this vertex and export the mesh again");
         }
     }
     for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
@@ -49,7 +51,7 @@ void check_arrays(const TetMesh& mesh, std::string_view name) {
     }
 }
 
-// Drops unused points; `tets` get the new indices.
+// Drops unused points; `tets` receive the new indices.
 std::vector<Vec3> used_points(const TetMesh& mesh, std::vector<Tet>& tets, AdoptReport& report) {
     std::vector<std::uint32_t> index(mesh.points.size(), none);
     for (const auto& t : mesh.tets) {
@@ -74,7 +76,7 @@ std::vector<Vec3> used_points(const TetMesh& mesh, std::vector<Tet>& tets, Adopt
 
 constexpr std::size_t adopt_block = 16384;
 
-// Results of the blocks of one loop, by their places.
+// Results of the blocks of one loop, by block number.
 template <class T>
 std::vector<T> per_block(std::size_t count) {
     return std::vector<T>(count / adopt_block + 1);
@@ -108,11 +110,11 @@ void orient(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string
     if (flat == 0) return;
     refuse(name, "mesh.flat_tet",
            "tet " + std::to_string(first) + " at " + point_text(points[tets[first].v[0]]) + " has zero volume (" +
-               std::to_string(flat) + " such in all)",
+               std::to_string(flat) + " in total)",
            "remove flat tets, or write the coordinates with more digits");
 }
 
-// A kind of face that must not be: how many there are, and the first.
+// A forbidden kind of face: how many there are, and the first one.
 struct Fault {
     std::size_t count = 0;
     std::uint32_t tet = 0, vertex = 0;
@@ -127,7 +129,7 @@ struct Fault {
     }
 };
 
-// Joins equal faces; positive tets on both sides of a face see it in opposite order.
+// Joins equal faces; positive tets on the two sides of a face have its vertices in opposite order.
 void join_faces(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name, Workers* workers) {
     FaceTable table = deal_faces(points.size(), tets.size(), [&](std::size_t t) { return &tets[t].v; });
     struct Found {
@@ -160,13 +162,13 @@ void join_faces(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::st
     };
     if (crowded.count > 0) {
         refuse(name, "mesh.crowded_face",
-               face_text(crowded) + " has a face that two other tets have already (" + std::to_string(crowded.count) + " such in all)",
+               face_text(crowded) + " has a face that two other tets already have (" + std::to_string(crowded.count) + " in total)",
                "remove duplicate tets: some writers repeat the last line of the file");
     }
     if (same_side.count > 0) {
         refuse(name, "mesh.same_side",
                face_text(same_side) + " lies on the same side of a face as its neighbour (" + std::to_string(same_side.count) +
-                   " such in all)",
+                   " in total)",
                "tets must not overlap");
     }
 }
@@ -182,9 +184,10 @@ void check_volume(const std::vector<Vec3>& points, const std::vector<Tet>& tets,
     refuse(name, "mesh.volume", text, "the tets must fill an axis-parallel box without gaps or overlaps");
 }
 
-// Whether every face without a second tet lies in one side of the box, to the last bit. Then no star is torn: the tets, positive
-// and joined on both sides of every other face, cover the inside of the box equally often everywhere, so once, as their volumes
-// add up to it; but if the tets of a vertex were not joined through faces, each group of them would cover its surroundings.
+// Whether every face without a second tet lies exactly in one side of the box. Then the tets of every vertex are joined through
+// faces. Reason: the tets are positive and joined on both sides of every other face, so they cover the inside of the box
+// equally often everywhere; this is once, because their volumes add up to the box. If the tets of a vertex were not joined
+// through faces, each group of them would cover the surroundings of the vertex.
 bool open_faces_are_on_box(const Complex& c) {
     const Box3 box = c.box();
     const auto side_of = [&](const Vec3& p) {
@@ -234,8 +237,8 @@ double mean_interface_edge(const Complex& c) {
     return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-// Marks the tets of face-connected components of equal label that are clearly larger than the volume. Most of a mesh is in
-// such ones, and a union over the tets in their order runs through memory faster than a walk from tet to tet.
+// Marks the tets of face-connected components of equal label that are clearly larger than the volume. Most tets belong to such
+// components, and a union over the tets in their order uses the memory better than a walk from tet to tet.
 std::vector<char> tets_of_large_components(const Complex& c, double volume) {
     const auto count = static_cast<TetId>(c.tet_slots());
     UnionFind components(count);
@@ -258,8 +261,8 @@ std::vector<char> tets_of_large_components(const Complex& c, double volume) {
     return large;
 }
 
-// Face-connected components of equal label below the volume take the label around them if it is one. The largest
-// label-0 component and everything on the box stay.
+// Face-connected components of equal label below the volume take the label around them if there is exactly one. The largest
+// component of label 0, and all components on the box, stay.
 std::size_t remove_small_components(Complex& c, double volume) {
     std::size_t removed = 0;
     std::vector<char> seen = tets_of_large_components(c, volume);

@@ -1,3 +1,4 @@
+// A set of cells of a cubic array: bricks of 4 x 4 x 4 cells in a hash table.
 #include "mesh/cell_set.hpp"
 
 #include <bit>
@@ -39,7 +40,7 @@ void CellSet::add(const CellSet& other) {
     }
 }
 
-// With the neighbours along an axis; the cells at both ends of a row have one neighbour.
+// The set with its neighbours along an axis; the cells at both ends of a row have one neighbour.
 CellSet CellSet::spread(unsigned axis) const {
     const unsigned step = 1U << 2U * axis;
     const std::uint64_t first = first_cells[axis], last = first << 3U * step;
@@ -47,7 +48,7 @@ CellSet CellSet::spread(unsigned axis) const {
     for (const Brick& b : slots_) {
         if (b.key == unused) continue;
         Cell at = brick_of(b.key);
-        // Of the last brick only the cells within the box count.
+        // Only the cells of the last brick that are inside the box count.
         const unsigned width = side_ - 4U * static_cast<unsigned>(at[axis]);
         std::uint64_t inner = (b.cells & ~last) << step | (b.cells & ~first) >> step;
         if (width < 4) inner &= ~(first << width * step);

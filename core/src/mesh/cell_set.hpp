@@ -1,5 +1,5 @@
 #pragma once
-// A set of cells of a cubic array, which takes memory only where it has cells.
+// A set of cells of a cubic array; it uses memory only where it has cells.
 
 #include <array>
 #include <cstddef>
@@ -8,18 +8,18 @@
 
 namespace dsc::mesh::lattice {
 
-/// Indices x, y, z of a cell; -1 and `side` name the cells beyond the box.
+/// Indices x, y, z of a cell; -1 and `side` are outside the box.
 using Cell = std::array<int, 3>;
 
-/// Bricks of 4 x 4 x 4 cells, one word each, in a hash table with open addressing. Whole sets are grown and coarsened
-/// a brick at a time. Sides are below 2^21.
+/// Bricks of 4 x 4 x 4 cells, one word each, in a hash table with open addressing. Sets are grown and coarsened brick by brick.
+/// Sides are below 2^21.
 class CellSet {
 public:
-    /// An empty set of the side^3 cells.
+    /// An empty set in an array of side^3 cells.
     explicit CellSet(unsigned side) : side_(side), slots_(16, Brick{unused, 0}) {}
 
     unsigned side() const { return side_; }
-    /// False beyond the box.
+    /// False outside the box.
     bool has(const Cell& cell) const {
         const auto side = static_cast<int>(side_);
         if (cell[0] < 0 || cell[1] < 0 || cell[2] < 0 || cell[0] >= side || cell[1] >= side ||
@@ -32,9 +32,9 @@ public:
     void add(const Cell& cell) { add({cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}, bit_of(cell)); }
     std::size_t count() const;
 
-    /// With all cells that share an edge with one of the set's, `layers` times.
+    /// The set with all cells that share an edge with one of its cells; repeated `layers` times.
     CellSet grown(unsigned layers) const;
-    /// The cells of twice the size that hold at least one of the set's; the side must be even.
+    /// The cells of twice the size that contain at least one cell of the set; the side must be even.
     CellSet parents() const;
 
 private:
@@ -55,7 +55,7 @@ private:
         return {static_cast<int>(key & low), static_cast<int>(key >> 21U & low),
                 static_cast<int>(key >> 42U)};
     }
-    // The brick's slot, or the unused one where it belongs.
+    // The brick's slot, or the unused slot for it.
     std::size_t slot_of(std::uint64_t key) const {
         const std::size_t mask = slots_.size() - 1;
         // Fibonacci hashing: the upper bits of the product depend on all bits of the key.
@@ -69,7 +69,7 @@ private:
 
     unsigned side_;
     std::size_t bricks_ = 0;
-    std::vector<Brick> slots_;  // a power of two, at most half of them used
+    std::vector<Brick> slots_;  // their number is a power of two; at most half of them are used
 };
 
 }  // namespace dsc::mesh::lattice

@@ -1,3 +1,4 @@
+// The complex: its three primitives replace(), move() and relabel(), and its construction (method.md, sections 1 and 4.1).
 #include <dsc/mesh/complex.hpp>
 
 #include <algorithm>
@@ -125,7 +126,7 @@ void Complex::date_star(std::span<const TetId> star, std::uint32_t clock, std::v
         if (dates_[t] <= taken_clock_) changed.push_back(t);
         dates_[t] = clock;
         for (const VertexId v : tets_[t].v) {
-            // Another star may share the vertex: the latest date stays, whoever comes first.
+            // Stars may share the vertex: the latest date is kept, in whatever order they come.
             const std::atomic_ref<std::uint32_t> date(vertices_[v].date);
             std::uint32_t before = date.load(std::memory_order_relaxed);
             while (before < clock && !date.compare_exchange_weak(before, clock, std::memory_order_relaxed)) {
@@ -153,8 +154,8 @@ void Complex::relabel(std::span<const TetId> tets, Label label) {
     for (const VertexId v : relabelled_) refresh_phases(v);
 }
 
-// Whether the labels round some vertices may become others; then relabelled_ are the existing ones among them. Where a vertex
-// has the same labels in the cavity before and after, as in nearly every edit, its star keeps them, too.
+// Whether the labels round some vertices may change; relabelled_ then contains the existing vertices among them. If a vertex
+// has the same labels in the cavity before and after, as in nearly every edit, the labels of its star do not change either.
 bool Complex::find_relabelled(const Edit& edit) {
     relabelled_.clear();
     const Label first = edit.added.empty() ? 0 : edit.added.front().label;
@@ -165,7 +166,7 @@ bool Complex::find_relabelled(const Edit& edit) {
     }
     places_.clear();
     cavity_labels_.clear();
-    // A set of labels as bits, exact for labels up to 63; beyond, every vertex of the cavity is looked at.
+    // A set of labels as bits, exact for labels up to 63; with larger labels, every vertex of the cavity is tested.
     const auto bit = [](Label label) { return std::uint64_t{1} << (static_cast<std::uint32_t>(label) & 63U); };
     const auto note = [&](VertexId v, Label label, std::size_t when) {
         if (v == created_vertex) return;
@@ -196,7 +197,7 @@ VertexId Complex::replace(Edit& edit) {
     if (edit.creates) created = allocate_vertex(edit.created_at);
     if (edit.moved != none) vertices_[edit.moved].position = edit.moved_to;
 
-    // The cavity's slots are filled first, so that new tets stay near old ones in memory.
+    // The slots of the cavity are filled first, so that new tets stay near old ones in memory.
     last_added_.resize(edit.added.size());
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
         last_added_[i] = i < edit.removed.size() ? edit.removed[i] : allocate_tet();
@@ -282,7 +283,7 @@ Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::
         }
         c.touch(t);
     }
-    // Vertices whose star is one label everywhere stay as they are; only ends of interface faces need a look.
+    // Vertices with one label in their star need no change; only vertices of interface faces are tested.
     std::vector<char> candidate(c.vertices_.size(), 0);
     for (TetId t = 0; t < n; ++t) {
         for (unsigned f = 0; f < 4; ++f) {
@@ -331,7 +332,7 @@ TetMesh Complex::to_mesh(std::vector<VertexId>* ids) const {
         if (!tet_alive(t)) continue;
         std::array<std::uint32_t, 4> v{};
         for (unsigned i = 0; i < 4; ++i) v[i] = index[tets_[t].v[i]];
-        // Sort; an odd number of exchanges turns the tet inside out, which exchanging the last two mends.
+        // Sorts; an odd number of exchanges inverts the tet, and exchanging the last two corrects this.
         bool odd = false;
         for (unsigned i = 1; i < 4; ++i) {
             for (unsigned j = i; j > 0 && v[j] < v[j - 1]; --j) {

@@ -1,3 +1,4 @@
+// Saves and loads a complex.
 #include <dsc/base/error.hpp>
 #include <dsc/base/state.hpp>
 #include <dsc/mesh/complex.hpp>
@@ -43,7 +44,7 @@ Complex Complex::load(StateReader& in) {
     if (c.labels_.size() != tets || c.qualities_.size() != tets || c.dates_.size() != tets ||
         c.birth_dates_.size() != tets)
         throw IoError("state.damaged",
-                      "a saved complex has lists of different lengths; it is not what it seems");
+                      "a saved complex has lists of different lengths; it is damaged or not a saved complex");
     return c;
 }
 

@@ -1,4 +1,5 @@
-// Linking a cavity: who neighbours whom among the added tets and across the cavity's boundary.
+// Linking a cavity: finds the neighbours of the added tets, among each other and across the boundary of the cavity (method.md,
+// section 4.1).
 #include <dsc/mesh/complex.hpp>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// A balanced octree with a wanted cell size per place, which can be divided further.
 #include <algorithm>
 #include <cmath>
 #include <dsc/base/error.hpp>
@@ -14,7 +15,7 @@ namespace {
 
 using lattice::Cell;
 
-// Which cell a leaf is.
+// Level and position of a leaf's cell.
 struct Place {
     unsigned level;
     Cell cell;
@@ -22,15 +23,15 @@ struct Place {
     bool operator==(const Place&) const = default;
 };
 
-// As make_lattice() takes them: growth 1 would mean cells of one size.
+// As make_lattice() reads the options: growth 1 would mean cells of one size.
 LatticeOptions checked(LatticeOptions options, std::string_view name) {
     const double cells = options.wanted_cells();
     if (!(cells >= least_lattice_cells && cells <= most_graded_cells)) {
         throw ConfigError("lattice.size",
-                          std::string(name) + ": the smallest cells go " + std::to_string(cells) +
-                              " times into the box; make them larger or the box smaller, so that they go " +
+                          std::string(name) + ": the box contains " + std::to_string(cells) +
+                              " of the smallest cells in a row; change the cells or the box so that there are " +
                               std::to_string(least_lattice_cells) + " to " +
-                              std::to_string(most_graded_cells) + " times into it");
+                              std::to_string(most_graded_cells) + " of them");
     }
     options.growth = 2.0;
     return options;
@@ -42,15 +43,15 @@ struct GradedLattice::Parts {
     Parts(const LatticeOptions& options, std::string_view caller)
         : name(caller), frame(lattice::frame_of(options)), octree(frame, lattice::top_level(options)) {}
 
-    // The same box in cells of the top level only.
+    // The same box, only with cells of the top level.
     explicit Parts(const Parts& other, unsigned top) : name(other.name), frame(other.frame), octree(frame, top) {}
 
-    // The smallest cell that contains the place, or the one nearest to it.
+    // The smallest cell that contains the place or is nearest to it.
     Cell cell_at(const Vec3& place) const {
         Cell out{};
         for (int i = 0; i < 3; ++i) {
             const double x = (place[i] - frame.centre[i]) / frame.cell() + 0.5 * frame.side;
-            // Also for a place that is not a number.
+            // Also accepts a place that is NaN.
             out[static_cast<std::size_t>(i)] = !(x > 0) ? 0 : static_cast<int>(std::min(x, frame.side - 1.0));
         }
         return out;
@@ -59,10 +60,10 @@ struct GradedLattice::Parts {
         return {c[0] >> level, c[1] >> level, c[2] >> level};
     }
 
-    // Both lists of leaves from the octree. Those that were leaves before keep their vertices.
+    // Writes both lists of leaves from the octree. Earlier leaves keep their vertices.
     void list_leaves() {
         if (octree.leaves() > lattice::most_leaves) {
-            throw lattice::too_large(name, octree.leaves(), "ask for larger cells at fewer places");
+            throw lattice::too_large(name, octree.leaves(), "request larger cells, or small cells at fewer places");
         }
         std::vector<Leaf> old;
         std::vector<Place> old_places;
@@ -106,7 +107,7 @@ struct GradedLattice::Parts {
         const Cell centre = {low[0] + half, low[1] + half, low[2] + half};
         leaf.vertices[8] = table.number(centre);
         leaf.edge = frame.cell() * (1U << level);
-        // The tets on the box meet in the centres of its faces.
+        // The tets on the box meet at the centres of its faces.
         for (std::size_t axis = 0; axis < 3; ++axis) {
             Cell face = centre;
             if (cell[axis] == 0) {

@@ -1,3 +1,4 @@
+// Isosurface stuffing: finds the mixed edges, snaps, cuts, collapses and smooths [LabelleShewchuk2007].
 #include <dsc/mesh/isosurface.hpp>
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace {
 void check_input(const LatticeView& lattice, std::span<const double> values, const StuffOptions& options, std::string_view name) {
     const auto text = [name](const std::string& cause) { return std::string(name) + ": " + cause; };
     if (!(options.cut_low > 0 && options.cut_low <= options.cut_high && options.cut_high < 1)) {
-        throw ConfigError("stuff.options", text("cuts are asked for outside their edges; use 0 < cut_low <= cut_high < 1"));
+        throw ConfigError("stuff.options", text("the cut range is not inside the edges; use 0 < cut_low <= cut_high < 1"));
     }
     if (values.size() != lattice.points.size()) {
         throw GeometryError("stuff.values", text(std::to_string(values.size()) + " values for " + std::to_string(lattice.points.size()) +

@@ -1,3 +1,4 @@
+// Finds islands and cavities of labelled vertices and removes those that must not stay.
 #include <algorithm>
 #include <cmath>
 #include <dsc/mesh/label_components.hpp>
@@ -41,7 +42,7 @@ Regions regions_of(std::span<const Vec3> points, std::span<const Corners> tets, 
     out.of.resize(points.size());
     const Box3 box = bounding_box(points);
     for (std::uint32_t v = 0; v < points.size(); ++v) {
-        // Roots are the lowest vertices, so their regions are known before they are asked for.
+        // Roots are the lowest vertices, so their regions exist before they are needed.
         const std::uint32_t root = sets.find(v);
         if (root == v) {
             out.of[v] = static_cast<std::uint32_t>(out.list.size());
@@ -70,8 +71,8 @@ void change(const Regions& regions, const std::vector<std::uint8_t>& chosen, std
     }
 }
 
-// The region that the shell between two regions encloses. In a box, regions that touch form a tree with the outermost
-// as its root; so the enclosed one is the one farther from it.
+// Finds the region that the shell between two regions encloses. In a box, regions that touch form a tree with the outermost
+// region as its root, so the enclosed region is the one farther from the root.
 class Shells {
 public:
     Shells(const Regions& regions, std::span<const Corners> tets) : depth_(regions.list.size(), unreached) {
@@ -105,7 +106,7 @@ private:
     std::vector<std::uint32_t> depth_;
 };
 
-// The tets round chosen vertices.
+// The tets around chosen vertices.
 class Rounds {
 public:
     Rounds(std::size_t vertices, std::span<const Corners> tets, std::span<const std::uint32_t> chosen)
@@ -162,7 +163,7 @@ std::vector<std::size_t> points_at_shells(std::span<const Vec3> points, std::spa
     return out;
 }
 
-// Which regions are islands that do not stay.
+// The islands that do not stay.
 std::vector<std::uint8_t> islands_of(const Regions& regions, double least_volume) {
     std::size_t largest = regions.list.size();
     for (std::size_t r = 0; r < regions.list.size(); ++r) {
@@ -198,7 +199,7 @@ std::vector<LabelComponent> settle_components(std::span<const Vec3> points, std:
         }
     }
 
-    // A cavity that must be asked about its points, and those that do not stay whatever they are near to.
+    // Cavities for which the points must be counted, and cavities that do not stay in any case.
     std::vector<std::uint8_t> filled(regions.list.size(), 0), asked(regions.list.size(), 0);
     for (std::size_t r = 0; r < filled.size(); ++r) {
         const Region& region = regions.list[r];

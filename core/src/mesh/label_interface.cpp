@@ -1,3 +1,4 @@
+// Counts vertices, edges and faces of the interface between two labels of vertices.
 #include "mesh/label_interface.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ void InterfaceCounter::add(const std::array<std::uint32_t, 4>& tet, const std::a
         }
     }
     if (cut == 0) return;
-    // Three cut edges leave one face whole; four cut all faces.
+    // With three cut edges one face has no cut; with four, all faces are cut.
     ++tets_;
     faces_of_tets_ += cut;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -25,7 +26,7 @@ void InterfaceCounter::add(const std::array<std::uint32_t, 4>& tet, const std::a
 }
 
 long InterfaceCounter::euler() const {
-    // All cut faces but those on the box belong to two tets.
+    // All cut faces belong to two tets, except those on the box.
     return static_cast<long>(edges_) - static_cast<long>((faces_of_tets_ + box_faces_) / 2) +
            static_cast<long>(tets_);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of the surface between two labels of vertices, one polygon per tet with both of them.
+// Counts of the surface between two labels of vertices; it has one polygon per tet with both labels.
 
 #include <array>
 #include <cstddef>
@@ -29,7 +29,7 @@ private:
 
     std::span<const Vec3> points_;
     Box3 box_;
-    std::vector<std::uint64_t> slots_;  // cut edges by their ends; 0 is unused, as the ends of an edge differ
+    std::vector<std::uint64_t> slots_;  // cut edges by their ends; 0 is unused, because the ends of an edge differ
     std::size_t edges_ = 0, tets_ = 0, faces_of_tets_ = 0, box_faces_ = 0;
 };
 

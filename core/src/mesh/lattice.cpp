@@ -1,3 +1,4 @@
+// Box and number of cells of a lattice from its options, and the lattice itself.
 #include <algorithm>
 #include <cmath>
 #include <dsc/base/error.hpp>
@@ -11,9 +12,9 @@
 namespace dsc::mesh {
 namespace {
 
-constexpr unsigned cells_of_top = 6;  // largest cells along the box, at least
+constexpr unsigned cells_of_top = 6;  // least number of the largest cells along the box
 
-// Layers of equal cells, so many that their size grows by `growth` from layer to layer on average.
+// The number of layers of equal cells with which their size grows by `growth` from layer to layer on average.
 unsigned coarse_layers(double growth) {
     return static_cast<unsigned>(std::ceil(std::log(2.0) / std::log(growth) - 1e-9));
 }
@@ -31,7 +32,7 @@ unsigned top_level(const LatticeOptions& options) {
 }
 
 Frame frame_of(const LatticeOptions& options) {
-    // Even, so that the centre of the box is a corner of cells, as a cube's half_width expects.
+    // Even, so that the centre of the box is a corner of cells; the half_width of a cube relies on this.
     const auto cells = static_cast<unsigned>(options.wanted_cells());
     const unsigned step = std::max(2U, 1U << top_level(options));
     Frame frame{(cells + step - 1) / step * step, options.box, static_cast<double>(options.cells),
@@ -44,8 +45,8 @@ Frame frame_of(const LatticeOptions& options) {
 }
 
 ConfigError too_large(std::string_view name, std::size_t leaves, std::string_view remedy) {
-    return ConfigError("lattice.size", std::string(name) + ": " + std::to_string(leaves) + " cells, more than the " +
-                                           std::to_string(most_leaves) + " that it makes; " + std::string(remedy));
+    return ConfigError("lattice.size", std::string(name) + ": " + std::to_string(leaves) + " cells, but the limit is " +
+                                           std::to_string(most_leaves) + "; " + std::string(remedy));
 }
 
 }  // namespace lattice

@@ -9,13 +9,13 @@
 
 namespace dsc::mesh::lattice {
 
-inline constexpr std::size_t most_leaves = 12'000'000;  // some 60 to 150 million tets
+inline constexpr std::size_t most_leaves = 12'000'000;  // these make about 60 to 150 million tets
 
 /// Level of the largest cells.
 unsigned top_level(const LatticeOptions& options);
-/// The box in finest cells, as many as the largest cells need.
+/// The box in finest cells; their number is a multiple of the largest cells.
 Frame frame_of(const LatticeOptions& options);
-/// The refusal of more than most_leaves cells.
+/// The error for more than most_leaves cells.
 ConfigError too_large(std::string_view name, std::size_t leaves, std::string_view remedy);
 
 }  // namespace dsc::mesh::lattice

@@ -1,12 +1,13 @@
+// The balanced octree of a lattice.
 #include "mesh/lattice_octree.hpp"
 
 namespace dsc::mesh::lattice {
 namespace {
 
-// Of a cell, in its edges; a little more, so that a surface through a corner counts.
+// Of a cell, in edges; slightly larger, so that a surface through a corner counts.
 constexpr double half_diagonal = 0.8660254037844387 * (1 + 1e-9);
 
-// The finest cells within a distance of places where tets may have different labels, found from the top down.
+// The finest cells within a distance of places where tets may have different labels; the search goes from the top level down.
 class Near {
 public:
     Near(const Frame& frame, const SameWithin& same, double distance)
@@ -37,7 +38,7 @@ private:
 Octree::Octree(const Frame& frame, unsigned top, const SameWithin& same, unsigned layers, unsigned coarse_layers) {
     divided_.emplace_back(frame.side);
     if (top == 0) return;
-    // One layer is crossed by the surface itself.
+    // The surface itself crosses one layer.
     const double distance = (layers - 1) * 2 * frame.length / frame.units;
     Near near(frame, same, distance);
     const auto roots = static_cast<int>(frame.side >> top);

@@ -1,3 +1,4 @@
+// Fills the octree's cells with tets [LabelleShewchuk2007].
 #include "mesh/lattice_tiling.hpp"
 
 #include <algorithm>
@@ -50,8 +51,8 @@ private:
         }
     }
 
-    // Four corners round the tet of those whose coordinates have an even sum. Diagonals so chosen run from a
-    // larger cell's corners to the centre of its face, as the tets on the other side have them.
+    // One tet between the four corners with an even sum of coordinates, and one at each of the other corners. The diagonals
+    // then run from the corners of a larger cell to the centre of its face, where the tets on the other side have them, too.
     void tile_by_parity(const Cell& cell) {
         std::array<Cell, 4> even{}, odd{};
         std::size_t evens = 0, odds = 0;
@@ -66,7 +67,7 @@ private:
         }
         add(even[0], even[1], even[2], even[3]);
         for (const Cell& x : odd) {
-            // The three even corners that are neighbours of x: all but the one across the cell.
+            // The three even corners that are neighbours of x: all except the one on the opposite side of the cell.
             std::array<Cell, 3> near{};
             std::size_t nears = 0;
             for (const Cell& y : even) {
@@ -76,7 +77,7 @@ private:
         }
     }
 
-    // A point and its number, asked for at its first use, so that numbers follow the order of the tets.
+    // A point and its number, which is requested at its first use, so that numbers follow the order of the tets.
     struct Corner {
         Cell x;
         std::uint32_t number = no_number;
@@ -91,7 +92,7 @@ private:
         const bool boundary = across[axis] < 0 || across[axis] >= static_cast<int>(octree_.side(level));
         const bool finer = octree_.divided(level, across);
         const bool equal = !boundary && !finer && octree_.leaf(level, across);
-        if (equal && side < 0) return;  // the neighbour's turn
+        if (equal && side < 0) return;  // the neighbour makes these tets
         const int half = edge_of(level) / 2;
         Cell centre = corner_of(level, cell);
         for (int& x : centre) x += half;
@@ -113,7 +114,7 @@ private:
             for (const int way : {-1, 1}) {
                 const std::size_t first = way < 0 ? 0 : (along_u ? 2 : 1);
                 Corner &a = corners[first], &b = corners[first + (along_u ? 1 : 2)];
-                // Turns round the axis the other way for an edge along v.
+                // Turns round the axis in the other direction for an edge along v.
                 const bool positive = (side * way < 0) == along_u;
                 const std::size_t out = along_u ? v : u;
                 if (halved(level, cell, finer, axis, side, out, way)) {
@@ -127,7 +128,7 @@ private:
         }
     }
 
-    // Whether a smaller cell has its corner in the middle of the edge between two faces of the cell.
+    // Whether a smaller cell has a corner in the middle of the edge between two faces of the cell.
     bool halved(unsigned level, const Cell& cell, bool finer, std::size_t axis, int side, std::size_t out,
                 int way) const {
         if (level == 0) return false;
@@ -135,7 +136,7 @@ private:
                octree_.divided(level, moved(moved(cell, axis, side), out, way));
     }
 
-    // Cuts along the diagonal between the two corners of even sum: a corner and the centre of the larger face.
+    // Cuts along the diagonal between the two corners with an even sum: a corner, and the centre of the larger face.
     void halve_pyramid(unsigned level, const Cell& centre, const Cell& middle, std::size_t u, std::size_t v,
                        int half) {
         const auto corner = [&](int du, int dv) { return moved(moved(middle, u, du * half), v, dv * half); };
@@ -198,7 +199,7 @@ TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, co
     TetMesh out;
     VertexTable table;
     const std::size_t roots = octree.side(octree.top());
-    // Five to twelve of a cell, more where sizes change.
+    // Five to twelve tets per cell, more where sizes change.
     out.tets.reserve(10 * octree.leaves());
     Tiling(octree, finest, table, out.tets, cancel).fill(0, roots * roots * roots);
     out.points.reserve(table.points().size());

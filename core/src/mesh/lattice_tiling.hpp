@@ -1,5 +1,5 @@
 #pragma once
-// From the octree's cells to tets [LabelleShewchuk2007].
+// Makes tets from the octree's cells [LabelleShewchuk2007].
 
 #include <array>
 #include <cstdint>
@@ -24,8 +24,8 @@ TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, co
 /// Vertices of a tet.
 using Corners = std::array<std::uint32_t, 4>;
 
-/// The same tets with the numbers that the table has for their vertices; it must have all of them. `workers`, null for one
-/// thread, share the work.
+/// The same tets with the vertex numbers of the table, which must contain all of them. `workers`, null for one thread, share
+/// the work.
 std::vector<Corners> tile(const Octree& octree, LatticePattern finest, const VertexTable& table, Workers* workers,
                           const CancelToken* cancel);
 

@@ -1,3 +1,4 @@
+// The star of a vertex as a labelled graph: regularity and share of the Euler number (method.md, sections 2 and 4.1).
 #include <dsc/mesh/local_star.hpp>
 
 #include <algorithm>
@@ -52,7 +53,7 @@ void LocalStar::build(VertexId v, const Edit& edit) {
     labels_.clear();
     corners_.clear();
     adjacent_.clear();
-    // Added tets first: node numbers of virtual codes are then found through added_node.
+    // Added tets first, so that added_node gives the node number of a virtual code.
     stack_.assign(edit.added.size(), none);
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
         const auto& x = edit.added[i].v;
@@ -93,7 +94,7 @@ void LocalStar::build(VertexId v, const Edit& edit) {
                 adjacent_[i][f] = outside_node;
                 outside = true;
             } else {
-                adjacent_[i][f] = node_of_[places_.find(neighbour_tet(tet.n[f]))];  // none where removed: set from the other side
+                adjacent_[i][f] = node_of_[places_.find(neighbour_tet(tet.n[f]))];  // none if removed: set from the other side
             }
         }
     }
@@ -128,8 +129,7 @@ void LocalStar::build(VertexId v, const Edit& edit) {
 unsigned LocalStar::flood(bool complement, Label label) {
     const std::size_t n = tets_.size();
     group_.assign(n, none);
-    // The outside has more than four neighbours; it is reached from the others' side, so when a flood gets there all
-    // nodes that border it are pushed.
+    // The outside has more than four neighbours. It is reached from its neighbours; then all nodes next to it are pushed.
     const bool has_outside = n > 0 && corners_[n - 1][0] == none;
     const auto outside_node = static_cast<std::uint32_t>(n - 1);
     unsigned count = 0;
@@ -181,7 +181,7 @@ bool LocalStar::regular() {
     }
     if (second == first) return groups() == 1;
     if (!more) return groups() == 2;
-    // Three labels or more: one group each, and the others of each together one.
+    // Three labels or more: each label must form one group, and all other labels together must form one.
     std::vector<Label> distinct(labels_);
     std::sort(distinct.begin(), distinct.end());
     distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
@@ -200,7 +200,7 @@ int LocalStar::euler_share() const {
         for (unsigned f = 0; f < 4; ++f) {
             const std::uint32_t other = adjacent_[i][f];
             if (other == none || labels_[other] == labels_[i]) continue;
-            // Each face between two tets is seen from both; one to the outside only from inside.
+            // Each face between two tets is seen from both; a face to the outside only from inside.
             if (corners_[other][0] != none && other < i) continue;
             ++faces;
             for (const auto k : face_vertices[f]) {

@@ -1,3 +1,4 @@
+// Moves a stair-stepped interface onto a smooth surface: pushing, approaching, sliding, relaxing.
 #include <algorithm>
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
@@ -9,14 +10,14 @@
 namespace dsc::mesh {
 namespace {
 
-/// A vertex this near to the surface, in mean edges of the lattice, is on it.
+/// A vertex closer to the surface than this, in mean edges of the lattice, has arrived.
 constexpr double arrived = 1e-12;
-/// A move that gains less quality than this is not worth it.
+/// A move that gains less quality than this is not made.
 constexpr double least_gain = 1e-3;
 constexpr int halvings = 5;
-/// How far, in mean edges, a vertex tries to get away from a bad tet's opposite face.
+/// Distance, in mean edges, by which a vertex tries to move away from the opposite face of a bad tet.
 constexpr double escape_step = 0.2;
-/// No vertex farther away than this, in mean edges, comes to the interface by a push.
+/// A push adds no vertex to the interface that is farther from the surface than this, in mean edges.
 constexpr double farthest_pushed = 0.9;
 
 class Projection {
@@ -83,7 +84,7 @@ private:
                   [this](VertexId a, VertexId b) { return complex_.birth(a) < complex_.birth(b); });
     }
 
-    /// Of the stars of the interface vertices.
+    /// Mean edge of the stars of the interface vertices.
     double mean_edge() {
         double sum = 0.0;
         std::size_t count = 0;
@@ -118,14 +119,14 @@ private:
         return geometry::orient3d(p[0], p[1], p[2], p[3]) == 1 ? geometry::tet_quality(p[0], p[1], p[2], p[3])
                                                                : 0.0;
     }
-    /// Least quality of the star of v, which star_ holds, with v at `position`.
+    /// Least quality of the star of v (stored in star_), with v at `position`.
     double star_quality(VertexId v, const Vec3& position) const {
         double least = 1.0;
         for (const TetId t : star_) least = std::min(least, quality_at(t, v, position));
         return least;
     }
 
-    /// Interface vertices towards the surface, as far as no tet gets worse than the floor or than it was.
+    /// Moves interface vertices towards the surface as far as no tet becomes worse than the floor or than before.
     bool approach() {
         bool any = false;
         for (const VertexId v : interface_) {
@@ -146,7 +147,7 @@ private:
         return any;
     }
 
-    /// Moves v to `to` or part of the way there if that raises the least quality of its star, which star_ holds.
+    /// Moves v to `to`, or part of the distance, if that raises the least quality of its star (stored in star_).
     bool improve(VertexId v, const Vec3& to, bool along_surface) {
         const Vec3 from = complex_.position(v);
         const double before = star_quality(v, from);
@@ -161,7 +162,7 @@ private:
         return false;
     }
 
-    /// Vertices on the surface towards the mean of their interface neighbours, along the surface.
+    /// Moves vertices on the surface towards the mean of their interface neighbours, along the surface.
     bool slide() {
         bool any = false;
         for (const VertexId v : interface_) {
@@ -172,7 +173,7 @@ private:
         return any;
     }
 
-    /// Free vertices towards the mean of their neighbours.
+    /// Moves free vertices towards the mean of their neighbours.
     bool relax() {
         bool any = false;
         for (const VertexId v : free_) {
@@ -182,7 +183,8 @@ private:
         return any;
     }
 
-    /// Out of the way of a bad tet. Surface vertices only where nothing else has helped: it makes uneven triangles.
+    /// Moves v away from a bad tet. Surface vertices are moved only if nothing else has helped, because this makes uneven
+    /// triangles.
     bool escape(VertexId v, bool along_surface) {
         const double bad = along_surface ? options_.quality : 2 * options_.quality;
         if (star_quality(v, complex_.position(v)) >= bad) return false;
@@ -202,7 +204,7 @@ private:
         return complex_.position(v) - escape_step * scale_ * normal;
     }
 
-    /// Over the star that star_ holds; with `interface_only` over the interface faces at v.
+    /// Over the star in star_; with `interface_only` over the interface faces at v.
     Vec3 mean_of_neighbours(VertexId v, bool interface_only) const {
         Vec3 sum = Vec3::Zero();
         std::size_t count = 0;
@@ -220,8 +222,8 @@ private:
         return count == 0 ? complex_.position(v) : Vec3(sum / static_cast<double>(count));
     }
 
-    /// A tet between four interface vertices has no vertex that could give way: once they are on the surface it is
-    /// nearly flat. Pushes one of its vertices off the interface, to either side, where that leaves fewer such tets.
+    /// A tet with four interface vertices has no vertex that could move away: with all of them on the surface it is nearly
+    /// flat. Pushes one of its vertices off the interface, to either side, if that leaves fewer such tets.
     bool push_vertices() {
         bool any = false;
         for (const VertexId v : interface_) {
@@ -243,7 +245,7 @@ private:
         return geometry::tet_quality(p[0], p[1], p[2], p[3]) < options_.quality;
     }
 
-    /// All tets of one label at v take the other one.
+    /// All tets of one label at v take the other label.
     bool push(VertexId v) {
         std::vector<TetId> star;
         complex_.star(v, star);
@@ -312,9 +314,9 @@ private:
     const std::function<Vec3(const Vec3&)>& nearest_;
     ProjectOptions options_;
     LocalStar local_;
-    double floor_;  // lowered where the way is blocked
+    double floor_;  // lowered if vertices cannot move
     double scale_ = 0.0;
-    bool stuck_ = false;  // nothing has moved although the floor is as low as it may get
+    bool stuck_ = false;  // nothing has moved although the floor is as low as possible
     ProjectReport report_;
     std::vector<bool> fixed_;
     std::vector<VertexId> interface_;
@@ -332,8 +334,8 @@ ProjectReport project_interface(Complex& complex, const std::function<Vec3(const
 
 TetMesh make_projected(const std::function<TetMesh(std::span<const Shape>)>& make,
                        std::span<const Shape> shapes, double cell, std::string_view name) {
-    // A tet belongs to a shape when no vertex lies farther outside than this part of a cell: so no tet outside has four
-    // vertices on the interface, and the interface has as much to go inwards as outwards.
+    // A tet belongs to a shape if no vertex lies farther outside than this fraction of a cell. So no tet outside has four
+    // vertices on the interface, and on average the interface moves inwards as much as outwards.
     constexpr double reach = 0.4;
     std::vector<Shape> reached;
     for (const Shape& shape : shapes) {

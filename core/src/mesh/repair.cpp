@@ -1,3 +1,4 @@
+// Names of operations and refusals, and the target length of a tet.
 #include <dsc/mesh/repair.hpp>
 
 namespace dsc::mesh {

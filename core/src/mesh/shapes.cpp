@@ -1,3 +1,4 @@
+// Distances and nearest points of simple solids, and the labels that they give.
 #include <algorithm>
 #include <cmath>
 #include <dsc/mesh/shapes.hpp>
@@ -37,7 +38,7 @@ Vec3 nearest_on_box(const Vec3& half, Vec3 p) {
     return p;
 }
 
-/// `p` from the centre of the cylinder.
+/// `p` is relative to the centre of the cylinder.
 Vec3 nearest_on_cylinder(const Shape& shape, const Vec3& p) {
     const Vec3 axis = shape.axis.normalized();
     const double along = p.dot(axis);
@@ -49,7 +50,7 @@ Vec3 nearest_on_cylinder(const Shape& shape, const Vec3& p) {
     return flat.x() * outwards + flat.y() * axis;
 }
 
-/// Label at a point that lies on no border, as the shapes before `end` leave it.
+/// Label at a point that lies on no border, according to the shapes before `end`.
 Label label_at(std::span<const Shape> shapes, std::size_t end, const Vec3& point) {
     for (std::size_t i = end; i-- > 0;) {
         if (excess(shapes[i], point) < 0) return label_inside(shapes[i]);
@@ -57,7 +58,7 @@ Label label_at(std::span<const Shape> shapes, std::size_t end, const Vec3& point
     return 0;
 }
 
-/// Whether the border of shape i separates labels at a point of it.
+/// Whether the border of shape i separates two labels at a point of the border.
 bool shows(std::span<const Shape> shapes, std::size_t i, const Vec3& point, double tolerance) {
     for (std::size_t later = i + 1; later < shapes.size(); ++later) {
         if (excess(shapes[later], point) < -tolerance) return false;
@@ -98,7 +99,8 @@ Vec3 nearest_on_surface(std::span<const Shape> shapes, const Vec3& point) {
         std::size_t i = first;
         Vec3 p = nearest_on_border(shapes[i], point);
         for (int visit = 0; visit < visits && !shows(shapes, i, p, rounding); ++visit) {
-            // Hidden here: on to the nearest border that hides it, or whose inside it lies in without a difference.
+            // This point is hidden: continue with the nearest border that hides it, or inside which it lies without a
+            // difference of labels.
             std::size_t other = i;
             double least = std::numeric_limits<double>::infinity();
             for (std::size_t k = 0; k < shapes.size(); ++k) {

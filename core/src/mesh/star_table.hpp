@@ -16,14 +16,14 @@ struct LatticeView {
     std::span<const Vec3> points;
     std::span<const Corners> tets;
 };
-/// Whether the point lies on the box' sides or outside.
+/// Whether the point lies on the sides of the box or outside.
 inline bool lies_on(const Box3& box, const Vec3& p) {
     return (p.array() <= box.low.array()).any() || (p.array() >= box.high.array()).any();
 }
-/// Stands where there is no vertex.
+/// Means that there is no vertex.
 inline constexpr std::uint32_t no_vertex = 0xffffffffU;
 
-/// Tets of each vertex with a mark, in ascending order; other vertices have none.
+/// Tets of each marked vertex, in ascending order; other vertices have no tets in the table.
 class StarTable {
 public:
     StarTable(std::span<const Corners> tets, std::span<const char> marks) : start_(marks.size() + 2, 0) {
@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    std::vector<std::uint32_t> start_;  // of the tets of v at v, once they are dealt out
+    std::vector<std::uint32_t> start_;  // the tets of vertex v start here, after the table is filled
     std::vector<std::uint32_t> tets_;
 };
 

@@ -1,3 +1,4 @@
+// Collapses edges of a new interface and thins the free vertices near it.
 #include "mesh/stuff_collapse.hpp"
 
 #include <algorithm>
@@ -10,14 +11,14 @@
 namespace dsc::mesh::stuffing {
 namespace {
 
-// A free vertex near the interface goes when its shortest edge is below this share of the interface's edges there, where all
-// tets that this changes keep a quality. From layer to layer its edges may grow.
+// A free vertex near the interface is removed if its shortest edge is below this fraction of the interface's edges there and
+// all changed tets keep a minimum quality. Its edges may grow from layer to layer.
 constexpr double dense = 0.9;
 constexpr double growth = 1.3;
 constexpr double thin_quality = 0.25;
 // Layers of free vertices that are thinned between the passes over the interface, so that they do not block it, and at the end.
 constexpr unsigned layers_between = 1, layers_at_end = 3;
-// The first passes collapse only those edges of the interface that leave tets of this quality, later ones less and less.
+// The first passes collapse only edges of the interface that leave tets of at least this quality; later passes accept less.
 constexpr double first_quality = 0.3;
 constexpr double relaxation = 0.6;
 
@@ -26,7 +27,8 @@ bool has(const std::array<std::uint32_t, N>& cell, std::uint32_t v) {
     return std::find(cell.begin(), cell.end(), v) != cell.end();
 }
 
-// The cells (tets or faces) of each vertex, kept up to date while vertices are merged. A dead cell has no_vertex first.
+// The cells (tets or faces) of each vertex, kept up to date while vertices are merged. A removed cell has no_vertex as its
+// first entry.
 template <std::size_t N>
 class Incidence {
 public:
@@ -58,7 +60,7 @@ public:
     }
     bool empty(std::uint32_t v) const { return count_[v] == 0; }
 
-    /// The cells of `removed` become cells of `kept`, those of both die.
+    /// The cells of `removed` become cells of `kept`; cells of both are removed.
     void merge(std::uint32_t kept, std::uint32_t removed) {
         merged_.clear();
         each(removed, [&](std::uint32_t i, const Cell& cell) {
@@ -86,11 +88,11 @@ struct Edge {
     std::uint32_t a, b;
 };
 
-// Every collapse merges two vertices into one at a place from which all tets of the two are positive that remain. Then they
-// tile the box as before: the map of the old mesh onto the new one that draws the edge together leaves the border of the box
-// where it is, so it covers each place once, and tets that shared an edge or a face they did not share before would overlap.
-// On the interface the link condition of a surface [Dey1999] is asked for as well, so it stays a surface of the same topology,
-// and all its vertices are regular; it is what separates the labels, as no tet changes its label.
+// Every collapse merges two vertices into one at a place where all remaining tets of the two are positive. Then the tets still
+// fill the box exactly once: the map from the old mesh to the new one that contracts the edge keeps the border of the box, so
+// it covers each place once, and tets that shared an edge or a face which they did not share before would overlap. On the
+// interface the link condition of a surface [Dey1999] is also required. So the interface remains a surface of the same
+// topology, and all its vertices are regular. It still separates the labels, because no tet changes its label.
 class Collapser {
 public:
     Collapser(Stuffed& stuffed, const StuffOptions& options, StuffReport& report, const CancelToken* cancel)
@@ -103,7 +105,7 @@ public:
     void run() {
         double quality = std::max(first_quality, options_.collapse_quality);
         while (vertices_ > options_.most_interface_vertices) {
-            // Long edges come only when no short ones can go: the next pass may shorten the list differently.
+            // Long edges are tried only if no short edge can be collapsed: the next pass may limit the list differently.
             const std::vector<Edge> edges = sorted_edges();
             std::size_t done = pass(edges, edges.size() / 2, quality);
             if (done == 0) done = pass(edges, edges.size(), quality);
@@ -132,8 +134,8 @@ private:
         return edges;
     }
 
-    // Tries the first edges, except those of merged vertices, whose lengths are not those of the list any more. Returns the
-    // number of collapses.
+    // Tries the first `count` edges, except those of merged vertices, whose lengths have changed. Returns the number of
+    // collapses.
     std::size_t pass(const std::vector<Edge>& edges, std::size_t count, double quality) {
         std::fill(touched_.begin(), touched_.end(), 0);
         std::size_t done = 0;
@@ -163,7 +165,7 @@ private:
         return done;
     }
 
-    // Least quality of the tets of v without `other` if v were at `place`; early out below the bound.
+    // Least quality of the tets of v without `other` if v were at `place`; ends early below the bound.
     double least_quality(std::uint32_t v, std::uint32_t other, const Vec3& place, double bound) {
         double least = 2.0;
         tets_.each(v, [&](std::uint32_t, const Corners& tet) {
@@ -175,8 +177,8 @@ private:
         return least;
     }
 
-    // The two vertices opposite the edge are the only ones that a and b have both as neighbours on the interface, and at least
-    // three neighbours are left.
+    // Whether a and b have exactly the two vertices opposite the edge as common neighbours on the interface, and at least three
+    // neighbours are left.
     bool link_condition(std::uint32_t a, std::uint32_t b) {
         neighbours(a, near_a_);
         neighbours(b, near_b_);
@@ -201,7 +203,7 @@ private:
         out.erase(std::unique(out.begin(), out.end()), out.end());
     }
 
-    // Merges free vertices near the interface into neighbours where they are denser than the interface.
+    // Merges free vertices near the interface into neighbours if they are denser than the interface.
     void thin_free_vertices(unsigned layers) {
         const std::vector<double> wanted = wanted_lengths(layers);
         for (std::uint32_t v = 0; v < wanted.size(); ++v) {
@@ -211,7 +213,7 @@ private:
         }
     }
 
-    // Least length of the edges of vertices on the interface and in some layers round it; 0 for the others.
+    // Least length of the edges of vertices on the interface and in some layers around it; 0 for other vertices.
     std::vector<double> wanted_lengths(unsigned layers) const {
         std::vector<double> wanted(s_.mesh.points.size(), 0.0);
         for (const Face& f : s_.faces) {
@@ -275,7 +277,7 @@ private:
     std::size_t vertices_ = 0;
 };
 
-// Takes dead cells and unused points out.
+// Removes dead cells and unused points.
 void compact(Stuffed& s) {
     TetMesh& mesh = s.mesh;
     std::vector<std::uint32_t> index(mesh.points.size(), no_vertex);

@@ -1,3 +1,4 @@
+// Cuts the mixed tets of a lattice along the interface.
 #include "mesh/stuff_cut.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ public:
     }
 
 private:
-    // Corners of one tet that have the same sign, in ascending order.
+    // Corners of one tet with the same sign, in ascending order.
     struct Side {
         std::array<std::uint32_t, 4> v{};
         std::size_t count = 0;
@@ -64,7 +65,8 @@ private:
         }
     }
 
-    // One corner on one side, two on the other, one snapped: a tet and a pyramid on a quad, whose top is the snapped vertex.
+    // One corner on one side, two on the other, one snapped: a tet, and a pyramid with a quad as base and the snapped vertex as
+    // apex.
     void split_pyramid(const Side& plus, const Side& minus, std::uint32_t top) {
         const bool one_plus = plus.count == 1;
         const std::uint32_t c = (one_plus ? plus : minus).v[0];
@@ -76,7 +78,7 @@ private:
         out_.faces.push_back({ac, bc, top});
     }
 
-    // Two and two corners: two prisms with a quad in common.
+    // Two corners on each side: two prisms with a common quad.
     void split_in_prisms(const Side& plus, const Side& minus) {
         const std::uint32_t a = plus.v[0], b = plus.v[1], c = minus.v[0], d = minus.v[1];
         const std::uint32_t ac = cut(a, c), ad = cut(a, d), bc = cut(b, c), bd = cut(b, d);
@@ -119,12 +121,12 @@ private:
         out_.mesh.labels.push_back(label);
     }
 
-    // A face of three snapped vertices, and whether the tet that has it is inside.
+    // A face of three snapped vertices, and whether the tet that contains it is inside.
     struct FlatFace {
         Face face;
         bool inside;
     };
-    // Those with a tet of either label belong to the interface.
+    // Those between tets of both labels belong to the interface.
     void join_flat_faces() {
         std::sort(flat_.begin(), flat_.end(), [](const FlatFace& x, const FlatFace& y) {
             return x.face != y.face ? x.face < y.face : x.inside < y.inside;

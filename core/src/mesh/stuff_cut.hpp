@@ -1,5 +1,5 @@
 #pragma once
-// Tets with corners on both sides of the interface, cut along it.
+// Cuts tets with corners on both sides of the interface along it.
 
 #include <array>
 #include <cstdint>
@@ -19,8 +19,8 @@ struct Stuffed {
     std::vector<Face> faces;
 };
 
-/// Cuts the mixed edges at their places and splits the mixed tets so that they fit together: quads on faces of the lattice
-/// get the diagonal from the end of lower index, those in the interface the shorter one. Edges with a snapped end are not
+/// Cuts the mixed edges at their cut points and splits the mixed tets so that they fit together. Quads on faces of the lattice
+/// get the diagonal from the end of lower index; quads in the interface get the shorter one. Edges with a snapped end are not
 /// cut. No tet has four snapped vertices.
 Stuffed cut_tets(const LatticeView& lattice, std::span<const MixedEdge> edges, const EdgeTable& table, const Signs& signs);
 

@@ -1,3 +1,4 @@
+// Moves the vertices of a new interface and improves the free vertices near it.
 #include "mesh/stuff_smooth.hpp"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ public:
     Mover(Stuffed& stuffed, std::span<const char> on_interface, double least)
         : mesh_(stuffed.mesh), stars_(mesh_.tets, on_interface), least_(least) {}
 
-    // Whether the whole way could be gone.
+    // Moves the vertex; returns whether it reached its target.
     bool move(std::uint32_t v, const Vec3& target) {
         const Vec3 start = mesh_.points[v];
         double share = 1.0;
@@ -94,7 +95,7 @@ double least_of(const TetMesh& mesh, std::span<const std::uint32_t> star, double
 void improve(TetMesh& mesh, std::uint32_t v, std::span<const std::uint32_t> star) {
     const double before = least_of(mesh, star, -1.0);
     if (before >= bad) return;
-    // Every neighbour counts once per tet in which it is.
+    // Every neighbour counts once per tet that contains it.
     const Vec3 start = mesh.points[v];
     Vec3 way = Vec3::Zero();
     for (const std::uint32_t t : star) {
@@ -170,7 +171,7 @@ double improve_free_vertices(Stuffed& stuffed, Workers* workers) {
     }
     const StarTable stars(mesh.tets, marks);
     for (const std::uint32_t v : free) improve(mesh, v, stars.of(v));
-    // All others have at least the quality that counts as bad.
+    // All other tets have at least the quality `bad`.
     double least = 1.0;
     for (const std::uint32_t t : bad_tets) least = std::min(least, quality(mesh, mesh.tets[t]));
     for (const std::uint32_t v : free) least = std::min(least, least_of(mesh, stars.of(v), -1.0));

@@ -1,3 +1,4 @@
+// Snaps lattice vertices to the interface if this keeps its topology.
 #include "mesh/stuff_snap.hpp"
 
 #include <algorithm>
@@ -10,19 +11,19 @@ namespace {
 
 // The link of a vertex p, a sphere of triangles whose corners have the signs of the lattice, cut as the interface cuts it.
 //
-// Snapping p, of sign s, puts the cut points of all its mixed edges into p. It leaves the topology as it is if and only if
-// the open parts of either sign in the cut link are both connected, as follows. Every mixed tet of p's star meets the
-// interface in a piece that p sees behind exactly the part of sign -s of the tet's opposite triangle. So the pieces make a
-// surface patch P, which central projection from p maps one to one onto M, the closed part of sign -s in the link, and leaves
-// fixed where it meets the link. The snap replaces P by the cone from p over the border of M. If both open parts are connected
-// through edges, the border of M is one simple closed curve (a part that touched itself in a snapped vertex would separate the
-// other), so P and the cone are discs with the same border in the ball that is p's star, and what else there is of the
-// interface lies outside the open star: the interface before and after is the same up to a motion within this ball, and p is a
-// regular vertex, as its link is cut into two discs. If one part is not connected, or there is none of it, p is not regular.
+// Snapping p, of sign s, moves the cut points of all its mixed edges into p. It keeps the topology if and only if the open
+// parts of both signs in the cut link are connected. Proof: every mixed tet of p's star meets the interface in a piece. Seen
+// from p, this piece covers exactly the part of sign -s of the tet's opposite triangle. So the pieces make a surface patch P.
+// Central projection from p maps P one to one onto M, the closed part of sign -s in the link, and leaves points of P on the
+// link fixed. The snap replaces P by the cone from p over the border of M. If both open parts are connected through edges, the
+// border of M is one simple closed curve (a part that touched itself in a snapped vertex would separate the other part). So P
+// and the cone are discs with the same border in the ball that is p's star, and the rest of the interface lies outside the open
+// star. The interface before and after is then the same up to a motion within this ball, and p is a regular vertex, because its
+// link is cut into two discs. If one part is not connected or is empty, p is not regular.
 //
-// Two more snaps are refused that would do no harm to the topology. A tet of four snapped vertices would have no sign, and all
-// of it would be drawn into the interface. And a patch P that touches the link in a snapped vertex amid M would be drawn off it:
-// that vertex would be on the interface no more, and perhaps on the other side than its value says.
+// Two more kinds of snaps are refused although they would not harm the topology. A tet of four snapped vertices would have no
+// sign, and all of it would become part of the interface. And a patch P that touches the link in a snapped vertex inside M
+// would be moved off this vertex: it would not be on the interface any more, and its side could contradict its value.
 class CutLink {
 public:
     explicit CutLink(std::size_t points) : stamps_(points, 0), places_(points, 0) {}
@@ -49,7 +50,7 @@ public:
                 const std::uint32_t place = place_of(corner[i], 0);
                 nodes_[place].beside |= bit(sign[j]) | bit(sign[k]);
                 if (sign[j] == 0) {
-                    // Across an edge of snapped vertices two equal signs are joined.
+                    // Across an edge of snapped vertices, two equal signs are joined.
                     across_.push_back({std::min(corner[i], corner[j]), std::max(corner[i], corner[j]), place_of(corner[k], sign[k])});
                 }
             }
@@ -132,7 +133,7 @@ private:
 };
 
 struct Candidate {
-    double distance;  // mean share of its mixed edges up to their cut points
+    double distance;  // mean fraction of its mixed edges up to their cut points
     std::uint32_t vertex;
 };
 
@@ -180,7 +181,7 @@ std::vector<Snapped> snap_vertices(const LatticeView& lattice, std::span<const M
     const std::vector<char> on_box = marks_of_box(lattice);
     std::vector<char> active(points, 0);
     std::vector<Candidate> order;
-    std::vector<std::uint32_t> open(points, 0);  // cut points on its edges that are still there
+    std::vector<std::uint32_t> open(points, 0);  // remaining cut points on its edges
     for (std::uint32_t v = 0; v < points; ++v) {
         const auto own = of.of(v);
         open[v] = static_cast<std::uint32_t>(own.size());
@@ -199,7 +200,7 @@ std::vector<Snapped> snap_vertices(const LatticeView& lattice, std::span<const M
     for (std::size_t i = 0; i < order.size(); ++i) {
         if (i % 1024 == 0 && cancel != nullptr && cancel->cancelled()) throw CancelledError("the initial mesh was not finished");
         const std::uint32_t v = order[i].vertex;
-        // One cut point for one vertex of the lattice would be no gain.
+        // Replacing one cut point by one lattice vertex would gain nothing.
         if (open[v] < 2) continue;
         if (!link.allows_snap(v, stars.of(v), lattice.tets, signs)) {
             ++report.refused_snaps;

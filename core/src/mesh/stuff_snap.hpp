@@ -1,5 +1,5 @@
 #pragma once
-// Which vertices of a lattice become vertices of its interface.
+// Decides which vertices of a lattice become vertices of its interface.
 
 #include <cstdint>
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace dsc::mesh::stuffing {
 
-/// An edge whose ends differ in sign, and where the interface cuts it.
+/// An edge whose ends differ in sign, and the cut point on it.
 struct MixedEdge {
     std::uint32_t plus, minus;
     double t;  ///< 0 at `plus`, 1 at `minus`
@@ -22,9 +22,9 @@ struct MixedEdge {
 class EdgeTable {
 public:
     explicit EdgeTable(std::size_t expected);
-    /// Index of the edge, that of the new one at its first call.
+    /// Index of the edge; the first call with an edge adds it.
     std::uint32_t number(std::uint32_t plus, std::uint32_t minus, std::vector<MixedEdge>& edges);
-    /// Index of an edge that is in the table.
+    /// Index of an edge that the table contains.
     std::uint32_t find(std::uint32_t plus, std::uint32_t minus) const { return slots_[slot_of(key_of(plus, minus))].number; }
 
 private:
@@ -42,11 +42,11 @@ private:
     }
     void grow();
 
-    std::vector<Slot> slots_;  // a power of two
+    std::vector<Slot> slots_;  // their number is a power of two
     std::size_t size_ = 0;
 };
 
-/// A vertex that lies on the interface from now on, and where it would like to be.
+/// A vertex that has become a vertex of the interface, and its wanted position.
 struct Snapped {
     std::uint32_t vertex;
     Vec3 target;  ///< mean of the cut points of its mixed edges
@@ -55,8 +55,8 @@ struct Snapped {
 /// Signs of all vertices: 1 inside, -1 outside, 0 on the interface.
 using Signs = std::vector<std::int8_t>;
 
-/// Sets the sign of snapped vertices to 0, nearest to their cut points first. Sets the counters of the report that belong to
-/// it.
+/// Sets the sign of snapped vertices to 0, beginning with those nearest to their cut points. Sets the counters of the report
+/// for snapping.
 std::vector<Snapped> snap_vertices(const LatticeView& lattice, std::span<const MixedEdge> edges, Signs& signs, StuffReport& report,
                                    const CancelToken* cancel);
 

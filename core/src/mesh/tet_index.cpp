@@ -1,3 +1,4 @@
+// The table from tets to places: insertion and growth.
 #include <dsc/mesh/tet_index.hpp>
 
 namespace dsc::mesh {

@@ -1,3 +1,4 @@
+// Homotopic growth of labels over weak values, and counts of the topology.
 #include <algorithm>
 #include <cmath>
 #include <dsc/mesh/topology_filter.hpp>
@@ -13,7 +14,7 @@ namespace {
 using Corners = std::array<std::uint32_t, 4>;
 constexpr std::uint32_t no_slot = std::numeric_limits<std::uint32_t>::max();
 
-// The values split into certain ones, whose components are found once, and weak ones with the tets round them.
+// Separates certain values, whose components are found once, from weak values with the tets around them.
 class Filter {
 public:
     Filter(std::span<const Vec3> points, std::span<const Corners> tets, std::span<double> values, double tau)
@@ -48,11 +49,11 @@ public:
         return counts_of(sets, interface);
     }
 
-    // Grows the inside (sign 1) or the outside (sign -1) over the weak values; what cannot be reached changes sides.
+    // Grows the inside (sign 1) or the outside (sign -1) over the weak values; vertices that are not reached change sides.
     void grow(double sign, TopologyFilterReport& report) {
         UnionFind sets = certain_;
         std::vector<std::uint8_t> in(points_.size(), 0);
-        std::vector<std::uint32_t> certain(points_.size(), 0);  // vertices of the part with this root
+        std::vector<std::uint32_t> certain(points_.size(), 0);  // number of vertices of the part with this root
         for (std::size_t v = 0; v < points_.size(); ++v) {
             if (slot_[v] != no_slot || inside(v) != (sign > 0)) continue;
             in[v] = 1;
@@ -93,7 +94,7 @@ public:
     }
 
 private:
-    // A vertex that may be added; the larger one comes first.
+    // A vertex that may be added; the larger step is tried first.
     struct Step {
         double level;
         std::uint32_t vertex;
@@ -112,7 +113,7 @@ private:
         }
     }
 
-    // Joins certain vertices of a label; lists the tets with weak vertices and the others with both labels.
+    // Joins certain vertices of a label; lists the tets with weak vertices, and the other tets with both labels.
     void sort_tets() {
         std::vector<std::uint8_t> kind(points_.size());  // 0 outside, 1 inside, 2 weak
         for (std::size_t v = 0; v < kind.size(); ++v) kind[v] = slot_[v] != no_slot ? 2 : inside(v) ? 1 : 0;
@@ -135,7 +136,7 @@ private:
         }
     }
 
-    // The tets round each weak vertex.
+    // Lists the tets around each weak vertex.
     void index_tets() {
         begin_.assign(weak_.size() + 1, 0);
         for (const std::uint32_t t : weak_tets_) {
@@ -159,7 +160,7 @@ private:
         return std::span(round_).subspan(begin_[slot], begin_[slot + 1] - begin_[slot]);
     }
 
-    // Lists the parts that the vertex connects to the largest one of those round it. Returns the size of all together.
+    // Lists the parts that the vertex connects to the largest part around it. Returns the total size.
     std::uint32_t attach(const Step& step, double sign, const std::vector<std::uint32_t>& certain,
                          TopologyFilterReport& report) const {
         std::uint32_t together = 0, largest = 0;
@@ -179,7 +180,8 @@ private:
         return together;
     }
 
-    // The vertices of the link, the number of components of the grown part of it, and their roots in the whole.
+    // Finds the vertices of the link, the number of components of its grown part, and the roots of these components in the
+    // whole grown part.
     void look_round(std::uint32_t v, const std::vector<std::uint8_t>& in, UnionFind& sets) {
         ++visit_;
         link_.clear();
@@ -290,10 +292,10 @@ private:
     double tau_;
     Box3 box_;
     UnionFind certain_;
-    std::vector<std::uint32_t> slot_;  // of each point among the weak ones
+    std::vector<std::uint32_t> slot_;  // index of each point among the weak points
     std::vector<std::uint32_t> weak_, weak_tets_, cut_tets_;
     std::vector<std::uint32_t> begin_, round_;  // tets round each weak point
-    // Of the last vertex that was looked at.
+    // Of the last vertex that was tested.
     std::vector<Seen> seen_;
     std::uint32_t visit_ = 0;
     std::vector<std::uint32_t> link_, local_, roots_;

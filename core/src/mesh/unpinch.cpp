@@ -1,3 +1,4 @@
+// Makes irregular vertices regular by splitting or relabelling (method.md, section 8.6).
 #include <dsc/mesh/unpinch.hpp>
 
 #include <algorithm>
@@ -31,7 +32,7 @@ std::vector<Group> groups_of(const Complex& c, LocalStar& star) {
         group.tets.push_back(t);
         group.volume += c.volume(t);
     }
-    // Smallest first; equal ones in the order of their first tet, which the star's walk fixes.
+    // Smallest first; equal ones in the order of their first tet in the star's walk.
     std::stable_sort(groups.begin(), groups.end(), [](const Group& x, const Group& y) {
         return x.tets.size() != y.tets.size() ? x.tets.size() < y.tets.size() : x.volume < y.volume;
     });
@@ -79,7 +80,7 @@ bool relabel_group(Complex& c, VertexId v, const Group& group) {
     char place[96];
     std::snprintf(place, sizeof place, "(%.6g, %.6g, %.6g)", c.position(v).x(), c.position(v).y(), c.position(v).z());
     throw GeometryError("mesh.pinched", std::string(name) + ": labels " + list + " touch at vertex " + std::to_string(v) + " " +
-                                            place + " in a way that cannot be pulled apart; relabel the tets there");
+                                            place + " and cannot be separated; relabel the tets there");
 }
 
 }  // namespace
@@ -88,7 +89,8 @@ std::size_t unpinch(Complex& c, std::string_view name, std::span<const VertexId>
     std::vector<VertexId> queue(seeds.begin(), seeds.end());
     LocalStar star(c);
     std::size_t treated = 0;
-    // Each split takes one group away from a vertex; relabelling may hand a problem on, hence the bound.
+    // Each split separates one group from a vertex. Relabelling may move a problem to another vertex, so the number of attempts
+    // is limited.
     std::size_t budget = 64 * (queue.size() + 16);
     for (std::size_t i = 0; i < queue.size(); ++i) {
         const VertexId v = queue[i];

@@ -1,3 +1,4 @@
+// Checks all invariants of a complex by a full scan (method.md, section 2).
 #include <dsc/mesh/validate.hpp>
 
 #include <algorithm>
@@ -41,13 +42,13 @@ void check_tet(const Complex& c, TetId t, ComplexReport& report, Faults& faults)
     report.volume += c.volume(t);
     report.min_quality = std::min(report.min_quality, static_cast<double>(c.quality(t)));
     if (c.quality(t) != static_cast<float>(geometry::tet_quality(p0, p1, p2, p3))) {
-        faults.add(tet_name(t) + " has a stale quality");
+        faults.add(tet_name(t) + " has an outdated quality");
     }
     for (unsigned f = 0; f < 4; ++f) {
         const std::uint32_t code = tet.n[f];
         if (code == none) {
             for (const auto i : face_vertices[f]) {
-                if (!c.on_box(tet.v[i])) faults.add("vertex " + std::to_string(tet.v[i]) + " lies on a box face, unmarked");
+                if (!c.on_box(tet.v[i])) faults.add("vertex " + std::to_string(tet.v[i]) + " lies on a box face but is not marked");
             }
             continue;
         }
@@ -101,8 +102,8 @@ ComplexReport validate(const Complex& c) {
         if (c.on_box(v)) labels.push_back(0);
         std::sort(labels.begin(), labels.end());
         const auto distinct = static_cast<unsigned>(std::unique(labels.begin(), labels.end()) - labels.begin());
-        if (c.phases(v) != std::min(distinct, 3U)) faults.add(vertex + " has a stale count of phases");
-        if ((listed[v] != 0) != (distinct > 1)) faults.add(vertex + " is wrongly in or out of the interface list");
+        if (c.phases(v) != std::min(distinct, 3U)) faults.add(vertex + " has an outdated count of phases");
+        if ((listed[v] != 0) != (distinct > 1)) faults.add(vertex + " is wrongly in the interface list or missing in it");
         if (distinct < 2) continue;
         local.build(v);
         if (!local.regular()) {

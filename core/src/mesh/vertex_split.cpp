@@ -1,3 +1,4 @@
+// Splits a vertex: rim of a group, direction and distance of the new vertex (method.md, section 4.6).
 #include <dsc/mesh/vertex_split.hpp>
 
 #include <algorithm>
@@ -9,8 +10,8 @@
 namespace dsc::mesh {
 namespace {
 
-// The direction that maximises the least distance to the planes with the given unit normals: the optimum of this small
-// linear program on the unit sphere is bounded by one, two or three planes. Zero when no direction has a positive one.
+// The direction that maximises the least distance to the planes with the given unit normals. This is a small linear program on
+// the unit sphere; one, two or three planes limit its optimum. Zero if no direction has a positive distance to all planes.
 Vec3 deepest_direction(const std::vector<Vec3>& normals) {
     Vec3 best = Vec3::Zero();
     double best_depth = 1e-9;
@@ -102,7 +103,7 @@ bool plan_vertex_split(const Complex& c, VertexId v, std::span<const TetId> grou
         old = std::min(old, static_cast<double>(c.quality(t)));
     }
     const Label own = c.label(group.front());
-    // The rim face (v, a, b) looks out of the group, so v' lies behind it.
+    // The rim face (v, a, b) is oriented out of the group, so v' lies behind it.
     for (const RimFace& face : rim) {
         edit.added.push_back({{v, face.b, face.a, created_vertex}, labels == RimLabel::across ? face.across : own});
     }

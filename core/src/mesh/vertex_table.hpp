@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of lattice points, in the order in which they are first asked for.
+// Numbers lattice points in the order of their first use.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace dsc::mesh::lattice {
 
-/// Open addressing; grows by doubling. Points asked for a short while ago are found in a small table that stays in
-/// the processor's cache. Coordinates are in [0, 2^21).
+/// Open addressing; grows by doubling. Recently used points are found in a small table that stays in the processor's cache.
+/// Coordinates are in [0, 2^21).
 class VertexTable {
 public:
     VertexTable() : slots_(1024, Slot{unused, 0}), recent_(1U << recent_bits, Slot{unused, 0}) {}
 
-    /// Number of the point, a new one at its first call.
+    /// Number of the point; the first call with a point gives it a new number.
     std::uint32_t number(const Cell& x) {
         const std::uint64_t key = key_of(x);
         Slot& seen = recent_[static_cast<std::size_t>(spread(key) >> (64U - recent_bits))];
@@ -29,9 +29,9 @@ public:
         seen = slot;
         return slot.number;
     }
-    /// Number of a point that has one.
+    /// Number of a point that the table contains.
     std::uint32_t known(const Cell& x) const { return slots_[slot_of(key_of(x))].number; }
-    /// All points by their numbers.
+    /// All points, in the order of their numbers.
     const std::vector<Cell>& points() const { return points_; }
 
 private:
@@ -69,13 +69,13 @@ private:
     std::vector<Cell> points_;
 };
 
-/// Reads the numbers of a table that has all the points; each thread has its own reader.
+/// Reads the numbers of a table that contains all points; each thread needs its own reader.
 class KnownNumbers {
 public:
     explicit KnownNumbers(const VertexTable& table)
         : table_(table), recent_(1U << recent_bits, VertexTable::Slot{VertexTable::unused, 0}) {}
 
-    /// Number of a point that has one.
+    /// Number of a point of the table.
     std::uint32_t number(const Cell& x) {
         const std::uint64_t key = VertexTable::key_of(x);
         VertexTable::Slot& seen = recent_[static_cast<std::size_t>(VertexTable::spread(key) >> (64U - recent_bits))];

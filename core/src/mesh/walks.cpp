@@ -1,4 +1,4 @@
-// Walks through the complex: star of a vertex, ring of an edge.
+// Walks through the complex: star of a vertex, ring of an edge (method.md, section 1.1).
 #include <dsc/mesh/complex.hpp>
 
 namespace dsc::mesh {
@@ -23,11 +23,12 @@ VertexId fourth(const Tet& tet, VertexId a, VertexId b, VertexId c) {
 void Complex::star(VertexId v, std::vector<TetId>& out, TetIndex& places) const {
     out.clear();
     places.clear();
-    // Kept in a register: the compiler cannot know that writing the table does not change it.
+    // Kept in a register: the compiler cannot know that writing to the table does not change it.
     const Tet* const tets = tets_.data();
     const TetId first = vertices_[v].seed;
     places.insert(first);
-    // Until the end `out` holds codes: the tet and the face through which it was reached, where nothing new lies behind.
+    // Until the end `out` contains codes: the tet, and the face through which it was reached, because nothing new lies behind
+    // that face.
     out.push_back(4 * first + index_of(tets[first], v));
     for (std::size_t i = 0; i < out.size(); ++i) {
         const Tet& tet = tets[neighbour_tet(out[i])];
@@ -50,7 +51,7 @@ void Complex::ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const {
     if (!even_permutation(i, j, k, l)) std::swap(k, l);
     VertexId p = tets_[t].v[k], q = tets_[t].v[l];
 
-    // Back to the first tet of an open ring, or once round a closed one.
+    // Back to the first tet of an open ring, or once around a closed one.
     TetId first = t;
     out.closed = false;
     while (true) {

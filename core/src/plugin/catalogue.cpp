@@ -1,3 +1,4 @@
+// Creates strategies from their ids and parameters.
 #include <dsc/base/random.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/plugin/catalogue.hpp>
@@ -30,7 +31,7 @@ std::unique_ptr<hooks::Strategy> check(std::unique_ptr<hooks::Strategy> made, At
         case Kind::filter:
             return check_filter(as<hooks::CloudFilter>(std::move(made)), std::move(attribution));
     }
-    throw Error(ExitCode::internal, "plugin.kind", "a strategy of no kind");
+    throw Error(ExitCode::internal, "plugin.kind", "a strategy of an unknown kind");
 }
 
 std::string place_of(const config::ConfigNode& params) {

@@ -1,6 +1,6 @@
 #pragma once
-// Wrappers round strategies of each kind: they guard every call, give the contexts the strategy's own
-// instance number and judge what comes back. Catalogue::create hands out nothing else.
+// Wrappers for strategies of each kind: they guard every call, set the strategy's own instance number in the contexts, and
+// check the answers. Catalogue::create returns only wrapped strategies.
 
 #include <dsc/plugin/guarded.hpp>
 #include <memory>
@@ -9,16 +9,16 @@
 
 namespace dsc::plugin {
 
-/// The usual remedy for what only a plugin's authors can put right.
+/// The usual remedy for faults that only the authors of a plugin can remove.
 inline constexpr std::string_view report_it = "report this to the plugin's authors";
 
-/// An entry of a list as a message names it: "normal 3".
+/// An entry of a list, as messages name it: "normal 3".
 inline std::string entry(std::string_view what, std::size_t index) { return std::string(what) + " " + std::to_string(index); }
 
-/// snake_case: what columns, keys and classes may be called.
+/// Whether the name is snake_case, as names of columns, keys and classes must be.
 bool plain_name(std::string_view name);
 
-/// What a wrapper knows about its strategy.
+/// Identifies the wrapped strategy.
 struct Attribution {
     Identity who;
     std::uint64_t instance = 0;
@@ -28,14 +28,13 @@ struct Attribution {
     }
 };
 
-/// Attributes of a surface: one finite number per vertex, under names that they may have and that differ. Throws
-/// StrategyFailure.
+/// Checks attributes of a surface: one finite number per vertex, under allowed names that differ. Throws StrategyFailure.
 void judge(const Call& current, const hooks::Attributes& attributes, std::size_t vertices);
 
-/// Angles of a rule for creases: above 0, at most pi. Throws StrategyFailure.
+/// Checks the angles of a rule for creases: above 0, at most pi. Throws StrategyFailure.
 void judge(const Call& current, const std::optional<mesh::CreaseRule>& creases);
 
-/// Save and load of any wrapped hook.
+/// Save and load of a wrapped hook of any kind.
 template <class Hook>
 class Checked : public Hook {
 public:
@@ -82,7 +81,7 @@ std::unique_ptr<hooks::Strategy> check_observer(std::unique_ptr<hooks::Observer>
                                                 Attribution attribution);
 std::unique_ptr<hooks::Strategy> check_filter(std::unique_ptr<hooks::CloudFilter> inner, Attribution attribution);
 
-/// Refuses figures whose names are not in snake_case or not all different, and values that are not finite.
+/// Refuses figures with names that are not snake_case or that repeat, and values that are not finite.
 void judge(const Call& current, const hooks::Figures& figures);
 /// Refuses warnings without a text, and codes that are not lower-case words joined by dots.
 void judge(const Call& current, const hooks::Warnings& warnings);

@@ -1,4 +1,4 @@
-// What answers of every kind of strategy have in common: names, attributes, rules for creases, figures and warnings.
+// Checks that answers of every kind of strategy share: names, attributes, rules for creases, figures and warnings.
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,8 @@ void judge(const Call& current, const hooks::Attributes& attributes, std::size_t
     for (const hooks::Attribute& a : attributes) {
         if (!hooks::may_name_attribute(a.name) || std::find(seen.begin(), seen.end(), a.name) != seen.end()) {
             fail(current, "strategy.range", "gave an attribute the name '" + a.name + "'",
-                 "names are snake_case, differ, and are none that files have for other things; report this to the plugin's authors");
+                 "names are snake_case, differ, and are not reserved for other data in files; report this to the plugin's "
+                 "authors");
         }
         seen.push_back(a.name);
         if (a.values.size() != vertices) {
@@ -44,7 +45,7 @@ void judge(const Call& current, const std::optional<mesh::CreaseRule>& creases) 
     }
 }
 
-// Figures for columns and keys: named in snake_case, each once, finite.
+// Figures for columns and keys: names in snake_case, each once; finite values.
 void judge(const Call& current, const hooks::Figures& figures) {
     std::vector<std::string_view> seen;
     for (const auto& [name, value] : figures) {
@@ -60,7 +61,7 @@ void judge(const Call& current, const hooks::Figures& figures) {
     }
 }
 
-// Warnings for people and programs: a code of lower-case words and dots, a text.
+// Warnings for people and programs: a code of lower-case words and dots, and a text.
 void judge(const Call& current, const hooks::Warnings& warnings) {
     for (const hooks::Warning& warning : warnings) {
         const bool plain = std::all_of(warning.code.begin(), warning.code.end(), [](char c) {

@@ -1,4 +1,4 @@
-// Velocity and curvature: batches of values a vertex, called concurrently.
+// Velocity and curvature: checks batches of values per vertex, which are computed concurrently.
 #include <algorithm>
 #include <cmath>
 #include <dsc/config/yaml.hpp>
@@ -35,8 +35,8 @@ std::string vertex_text(const hooks::StepContext& context, std::size_t vertex) {
 
 [[noreturn]] void wrote_outside(const Call& current, const std::string& whose, std::size_t entries) {
     fail(current, "strategy.outside",
-         "wrote outside of the " + std::to_string(entries) + " entries of its output" + whose,
-         "an output ends where its span ends; report this to the plugin's authors");
+         "wrote outside the " + std::to_string(entries) + " entries of its output" + whose,
+         "an output ends at the end of its span; report this to the plugin's authors");
 }
 
 std::string range_text(const hooks::StepContext& context, hooks::Range range) {

@@ -1,4 +1,4 @@
-// Filter: called once per run with the whole cloud; its answer is a cloud with attributes and a report.
+// Filter: called once per run with the complete cloud; checks the returned cloud, its attributes and its report.
 #include <algorithm>
 #include <cmath>
 #include <dsc/config/yaml.hpp>
@@ -27,11 +27,11 @@ void judge_finite(const Call& current, std::string_view what, const std::vector<
 }
 
 void judge_normals(const Call& current, const std::vector<Vec3>& normals) {
-    constexpr double tolerance = 1e-6;  // wide enough for normals that went through floats
+    constexpr double tolerance = 1e-6;  // large enough for normals that were stored as floats
     for (std::size_t i = 0; i < normals.size(); ++i) {
         if (std::abs(normals[i].norm() - 1.0) <= tolerance || normals[i].isZero(0.0)) continue;
         fail(current, "strategy.range", "gave " + entry("normal", i) + " the length " + config::real_text(normals[i].norm()),
-             "normals are unit vectors, or zero where they are unknown; report this to the plugin's authors");
+             "normals are unit vectors, or zero if they are unknown; report this to the plugin's authors");
     }
 }
 
@@ -83,12 +83,13 @@ void judge_cloud(const Call& current, const cloud::Cloud& cloud) {
 }
 
 void judge_report(const Call& current, const cloud::FilterReport& told, std::size_t given, std::size_t left) {
-    // Compared without the sum, which might overflow.
+    // Compared without the sum, which could overflow.
     if (told.kept != left || told.removed > given || given - told.removed != told.kept) {
         fail(current, "strategy.size",
              "reported " + std::to_string(told.kept) + " points as kept and " + std::to_string(told.removed) +
-                 " as removed, where it was given " + std::to_string(given) + " and gave " + std::to_string(left),
-             "a filter adds no points, and kept and removed together are those given; report this to the plugin's authors");
+                 " as removed, but was given " + std::to_string(given) + " and returned " + std::to_string(left),
+             "a filter adds no points, and kept and removed points together are the given points; report this to the "
+             "plugin's authors");
     }
     std::size_t rest = told.removed;
     bool adds_up = true;
@@ -129,8 +130,8 @@ public:
         judge_cloud(current, result.cloud);
         judge_report(current, result.report, cloud.points.size(), result.cloud.points.size());
         result.report.filter = current.who.id;
-        result.cloud.source = cloud.source;  // the points still come from there
-        // An orientation that was only passed on does not hold for other points than those it was estimated from.
+        result.cloud.source = cloud.source;  // the points still come from this source
+        // An orientation that the filter only passed on is not valid for other points than those from which it was estimated.
         cloud::Orientation& orientation = result.cloud.orientation;
         if (!orientation.empty() && result.cloud.points != cloud.points && same(orientation, cloud.orientation))
             orientation = {};

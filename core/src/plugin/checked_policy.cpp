@@ -1,4 +1,4 @@
-// Refinement, initial mesh, improvement and observer: called from one thread, answers of any size.
+// Refinement, initial mesh, improvement and observer: called from one thread; checks answers of any size.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -34,7 +34,7 @@ public:
         const unsigned passes = guarded(current, [&] { return inner().passes(); });
         if (passes < 1 || passes > hooks::refinement_passes) {
             fail(current, "strategy.range", "asked for " + std::to_string(passes) + " passes",
-                 "from 1 to " + std::to_string(hooks::refinement_passes) + " are possible; report this to the plugin's authors");
+                 "use 1 to " + std::to_string(hooks::refinement_passes) + " passes; report this to the plugin's authors");
         }
         return passes;
     }
@@ -105,7 +105,7 @@ private:
         }
         if (out.target_length > 0 && !out.target_lengths.empty()) {
             fail(current, "strategy.size", "gave a target length for the whole surface and one per vertex",
-                 "one of them is enough; report this to the plugin's authors");
+                 "give only one of them; report this to the plugin's authors");
         }
     }
 
@@ -200,8 +200,8 @@ public:
         std::vector<std::string> names = guarded(current, [&] { return inner().repair_classes(); });
         if (names.size() > mesh::repair_class_limit) {
             fail(current, "strategy.size",
-                 "named " + std::to_string(names.size()) + " classes of requests, " +
-                     std::to_string(mesh::repair_class_limit) + " are the most",
+                 "named " + std::to_string(names.size()) + " classes of requests; " +
+                     std::to_string(mesh::repair_class_limit) + " is the limit",
                  report_it);
         }
         for (std::size_t i = 0; i < names.size(); ++i) {
@@ -219,7 +219,7 @@ public:
         const Call current = call("flatness");
         const double cosine = guarded(current, [&] { return inner().flatness(); });
         if (!(cosine >= -1 && cosine <= 1)) {
-            fail(current, "strategy.range", "gave " + std::to_string(cosine) + ", which is no cosine",
+            fail(current, "strategy.range", "gave " + std::to_string(cosine) + ", which is not a cosine",
                  report_it);
         }
         return cosine;
@@ -247,7 +247,7 @@ public:
             if (accept[i] <= 1) continue;
             fail(current, "strategy.range",
                  "gave " + entry("candidate", i) + " the answer " + std::to_string(accept[i]) +
-                     " where 0 or 1 is due",
+                     " instead of 0 or 1",
                  report_it);
         }
     }
@@ -255,7 +255,7 @@ public:
 private:
     static void judge(const Call& current, const mesh::Complex& complex, std::size_t classes,
                       const mesh::Request& request, std::size_t index) {
-        // Only a fault needs the words: there are many requests.
+        // The text is made only for a fault, because there are many requests.
         const auto where = [index] { return "in " + entry("request", index); };
         if (static_cast<std::size_t>(request.operation) >= mesh::operation_count) {
             fail(current, "strategy.range", "named an operation that does not exist " + where(), report_it);
@@ -279,7 +279,7 @@ private:
         }
     }
 
-    std::optional<std::size_t> class_count_;  // 1 without names: class 0 is everyone's
+    std::optional<std::size_t> class_count_;  // 1 without names: class 0 then contains all requests
 };
 
 class CheckedObserver final : public Checked<hooks::Observer> {
@@ -299,7 +299,7 @@ public:
         std::vector<std::string> names;
         for (const auto& figure : result) names.push_back(figure.first);
         if (names_ && *names_ != names) {
-            fail(current, "strategy.size", "gave figures of other names than in its first step",
+            fail(current, "strategy.size", "gave figures with other names than in its first step",
                  "the columns of metrics.csv must stay the same; report this to the plugin's authors");
         }
         names_ = std::move(names);

@@ -1,5 +1,5 @@
 #pragma once
-// Fenced: the memory that a strategy writes its output to, with a margin on both sides that it must leave alone.
+// Fenced: the memory for a strategy's output, with a margin on both sides that the strategy must not change.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace dsc::plugin {
 
-/// `size` entries of `fill` between two margins of the same. The memory comes from a store of the thread, so that a step
-/// allocates nothing once it is warm; nested strategies get memory of their own.
+/// `size` entries of `fill` between two margins with the same value. The memory comes from a store per thread, so that later
+/// steps allocate nothing; nested strategies get separate memory.
 template <class T>
 class Fenced {
 public:
@@ -25,7 +25,7 @@ public:
 
     std::span<T> entries() { return std::span(memory_).subspan(margin, size_); }
 
-    /// Whether the margins are as they were, bit for bit.
+    /// Whether the margins are unchanged, bit for bit.
     bool intact() const {
         const auto same = [this](const T& entry) { return std::memcmp(&entry, &fill_, sizeof(T)) == 0; };
         const auto begin = memory_.begin();

@@ -1,3 +1,4 @@
+// The fingerprint of this build, and the comparison of two fingerprints.
 #include <algorithm>
 #include <array>
 #include <dsc/plugin/entry.hpp>
@@ -65,7 +66,7 @@ std::vector<FingerprintDifference> compare_fingerprints(std::string_view plugin,
 }
 
 const void* core_address() noexcept {
-    // Data, not a function: the address of a function may be that of a jump table in the caller's file.
+    // Data, not a function: the address of a function could be that of a jump table in the caller's file.
     static const char inside = 0;
     return &inside;
 }

@@ -1,3 +1,4 @@
+// Turns the faults of a strategy into errors that name it.
 #include <dsc/plugin/guarded.hpp>
 #include <exception>
 

@@ -1,3 +1,4 @@
+// Names of the kinds of strategies.
 #include <dsc/plugin/kind.hpp>
 
 namespace dsc::plugin {

@@ -1,3 +1,4 @@
+// Readers and units for generators that start from a file.
 #include <dsc/base/error.hpp>
 #include <dsc/plugin/placing.hpp>
 
@@ -13,7 +14,7 @@ void place(std::span<Vec3> points, Coordinates coordinates, const hooks::Initial
     if (coordinates == Coordinates::as_they_are) return;
     if (context.cloud == nullptr) {
         throw ConfigError("config.no_input",
-                          "initial_mesh.coordinates is 'of_input', and the experiment has no input; leave it out or give "
+                          "initial_mesh.coordinates is 'of_input', but the experiment has no input; leave it out or give "
                           "the cloud");
     }
     for (Vec3& p : points) p = context.cloud->transform().apply(p);

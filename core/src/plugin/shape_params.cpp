@@ -1,3 +1,4 @@
+// The keys of one shape in a list, and the list of all shapes of a generator.
 #include <dsc/plugin/shape_params.hpp>
 
 namespace dsc::plugin {
@@ -28,13 +29,13 @@ void declare_shape(config::ParamSchema<Shape>& schema) {
     schema
         .choice("shape", &Shape::shape,
                 {{"sphere", ShapeKind::sphere}, {"box", ShapeKind::box}, {"cylinder", ShapeKind::cylinder}})
-        .doc("What it is; a cylinder ends flat.");
+        .doc("Kind of shape; a cylinder has flat ends.");
     schema.choice("action", &Shape::action, {{"add", ShapeAction::add}, {"cut", ShapeAction::cut}})
         .doc("'add' gives the tets inside the shape's label, 'cut' gives them label 0.");
     schema
         .choice("rule", &Shape::rule,
                 {{"barycentre", ShapeRule::barycentre}, {"vertices", ShapeRule::vertices}})
-        .doc("A tet is inside when its barycentre is, or only when all four of its vertices are.");
+        .doc("A tet is inside if its barycentre is inside, or only if all four of its vertices are inside.");
     schema.vec3("centre", &Shape::centre).unit("length").doc("The shape's centre.");
     schema.real("radius", &Shape::radius).greater(0).unit("length").doc("Radius of a sphere or a cylinder.");
     schema.vec3("half_size", &Shape::half_size)

@@ -1,3 +1,4 @@
+// Writes, checks and selects the checkpoints of a run.
 #include "checkpoints.hpp"
 
 #include <algorithm>
@@ -16,14 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "dsc-checkpoint-1";
-constexpr std::size_t seal_size = 64;  // hex digits of a SHA-256
+constexpr std::size_t seal_size = 64;  // number of hex digits of a SHA-256
 
 std::string name_of(std::uint64_t steps) {
     const std::string number = std::to_string(steps);
     return "step_" + std::string(number.size() < 10 ? 10 - number.size() : 0, '0') + number + ".dscstate";
 }
 
-/// Oldest first: the names have their steps with leading zeros.
+/// Oldest first, because the names contain their steps with leading zeros.
 std::vector<fs::path> files_of(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code error;
@@ -52,11 +53,11 @@ std::string packed(const Checkpoint& c) {
 [[noreturn]] void unusable(const std::string& cause) { throw IoError("checkpoint.unusable", cause); }
 
 Checkpoint unpacked(const std::string& file) {
-    if (file.size() < seal_size) unusable("it is cut short");
+    if (file.size() < seal_size) unusable("it is truncated");
     const std::string_view bytes(file.data(), file.size() - seal_size);
-    if (sha256(bytes) != file.substr(bytes.size())) unusable("it is damaged: its SHA-256 is another one");
+    if (sha256(bytes) != file.substr(bytes.size())) unusable("it is damaged: its SHA-256 does not match");
     StateReader in(bytes);
-    if (in.text() != magic) unusable("it is of another version");
+    if (in.text() != magic) unusable("it was written by another version");
     if (in.text() != plugin::core_fingerprint()) unusable("it was written by another build of dsc");
     Checkpoint c;
     c.hash = in.text();
@@ -73,7 +74,7 @@ void Checkpoints::write(const Checkpoint& checkpoint) const {
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error)
-        throw IoError("run.folder", folder_.string(), "", "cannot be made: " + error.message(),
+        throw IoError("run.folder", folder_.string(), "", "cannot be created: " + error.message(),
                       "choose another folder with -o or make this one writable");
     io::write_file(folder_ / name_of(checkpoint.steps), packed(checkpoint));
     std::vector<fs::path> files = files_of(folder_);
@@ -87,12 +88,12 @@ std::optional<Checkpoint> Checkpoints::last(const std::string& hash, const std::
     for (auto file = files.rbegin(); file != files.rend(); ++file) {
         try {
             Checkpoint checkpoint = unpacked(read_file(*file));
-            if (checkpoint.hash != hash) unusable("it is of another experiment");
+            if (checkpoint.hash != hash) unusable("it belongs to another experiment");
             require(checkpoint);
-            for (const std::string& text : refused) log(LogLevel::warning, text + "; the one before is taken");
+            for (const std::string& text : refused) log(LogLevel::warning, text + "; using the previous one");
             return checkpoint;
         } catch (const Error& error) {
-            refused.push_back(file->string() + " is of no use: " + error.what());
+            refused.push_back(file->string() + " cannot be used: " + error.what());
         }
     }
     if (!refused.empty()) *reason = refused.front();

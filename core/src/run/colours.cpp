@@ -1,3 +1,4 @@
+// Transfers the colours of a cloud to a surface.
 #include "colours.hpp"
 
 namespace dsc::run {

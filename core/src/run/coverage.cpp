@@ -1,3 +1,4 @@
+// Measures how well a surface and its points agree.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,10 +14,10 @@ namespace {
 constexpr double far_noise = 3.0;           // noise scales
 constexpr double far_width = 1.0;           // spacings
 constexpr double unsupported_beyond = 3.0;  // spacings
-constexpr double group_cell = 3.0;          // median spacings: points of neighbouring cells belong together
-constexpr double widest = 2.0;              // median spacings that a point's own one may count
+constexpr double group_cell = 3.0;          // median spacings: points in neighbouring cells belong to the same group
+constexpr double widest = 2.0;              // median spacings: larger spacings of a point count as this
 
-/// Pieces of a set of points: two of them are joined where the cells of a grid that they lie in touch.
+/// Pieces of a set of points: two points are joined if the cells of a grid that contain them touch.
 class Pieces {
 public:
     Pieces(std::span<const Vec3> points, double cell) : cells_(points.size()) {
@@ -28,7 +29,7 @@ public:
         for (const auto& [at, number] : numbers_) join_neighbours(at, number);
     }
 
-    /// The least number of a cell of the piece that a point belongs to.
+    /// The least cell number of the piece that contains a point.
     std::uint32_t of(std::size_t point) { return sets_.find(cells_[point]); }
 
 private:
@@ -61,7 +62,7 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-/// From each point to the nearest other one; zeros for a point that is alone.
+/// From each point to the nearest other one; zero for a single point.
 std::vector<double> distances_to_nearest(const std::vector<Vec3>& places, Workers* workers) {
     std::vector<double> out(places.size(), 0.0);
     if (places.size() < 2) return out;

@@ -1,3 +1,4 @@
+// The warnings about the agreement of a surface with its points.
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
@@ -16,9 +17,10 @@ constexpr std::size_t named_groups = 3;
 std::string place(const Vec3& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z()); }
 
 std::string far_text(const Coverage& coverage, double scale, const cloud::Transform& to_normalised) {
-    return fmt::format("{} of {} points ({:.1f} %) lie farther from the surface than noise and spacing explain, the farthest {:.3g} away at {}, "
-                       "which is {:.0f} spacings. There the surface does not show what was scanned. More vertices (--detail high) follow finer "
-                       "shapes; points that do not belong to the object are better cut out of the cloud.",
+    return fmt::format("{} of {} points ({:.1f} %) are farther from the surface than noise and spacing explain; the "
+                       "farthest is {:.3g} away at {}, which is {:.0f} spacings. There the surface does not show the "
+                       "scanned shape. More vertices (--detail high) can follow finer shapes; remove points that do not "
+                       "belong to the object from the cloud.",
                        coverage.far_points, coverage.points, 100.0 * coverage.far_share(), coverage.largest_distance / scale,
                        place(to_normalised.inverse(coverage.farthest_point)), coverage.largest_distance / coverage.width);
 }
@@ -32,13 +34,13 @@ std::string missing_text(const std::vector<PointGroup>& groups, double scale, co
                             place(to_normalised.inverse(group.centre)), group.diameter / scale, group.farthest / scale);
     }
     if (groups.size() > named_groups) text += fmt::format("; and {} smaller ones", groups.size() - named_groups);
-    return text + ". If they are an object, reconstruct them from a cloud of their own, or scan them more densely; if they are background or "
-                  "noise, cut them out of the cloud.";
+    return text + ". If they are an object, reconstruct them from a separate cloud, or scan them more densely; if they are "
+                  "background or noise, remove them from the cloud.";
 }
 
 std::string unsupported_text(const Coverage& coverage) {
-    return fmt::format("{:.0f} % of the surface has no point within 3 spacings: there it is a guess that closes the volume. --trim (in an experiment "
-                       "output: {{trim: {{}}}}) writes the surface without these parts.",
+    return fmt::format("{:.0f} % of the surface has no point within 3 spacings: there its shape is a guess that closes the "
+                       "volume. --trim (in an experiment output: {{trim: {{}}}}) writes the surface without these parts.",
                        100.0 * coverage.unsupported_share);
 }
 

@@ -1,3 +1,4 @@
+// Runs the schedule of an experiment: steps, refinements, figures, checkpoints.
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/base/state.hpp>
@@ -14,12 +15,12 @@
 namespace dsc::run {
 namespace {
 
-/// Vertices a block of evaluate() has. Fixed, so that the split never depends on the number of threads.
+/// Number of vertices per block of evaluate(). Constant, so that the blocks do not depend on the number of threads.
 constexpr std::size_t evaluated_block = 256;
-/// A series stalls when for this many steps less than this part of the asked motion came about.
+/// A series stalls if less than this fraction of the wanted motion was made in this many steps in a row.
 constexpr unsigned stall_steps = 5;
 constexpr double stall_ratio = 0.01;
-/// Mean speed, in mean edges, below which a vertex counts as arrived (as in the kernel) and nothing can stall.
+/// Mean speed, in current mean edges, below which vertices count as arrived (as in the kernel), so the series cannot stall.
 constexpr double stall_speed = 1e-4;
 
 class Run {
@@ -68,7 +69,7 @@ public:
     }
 
 private:
-    /// `step`: as in metrics.csv and events.jsonl, the first one is 1.
+    /// `step`: the number in metrics.csv and events.jsonl; the first one is 1.
     hooks::StepContext make_context(std::uint64_t step) const {
         const std::uint64_t told = strategies_.velocity->planned_steps();
         return {.step = step,
@@ -87,7 +88,7 @@ private:
                 .attributes = attributes_};
     }
 
-    /// The nearest points serve the velocity of the next step and the figures of this one.
+    /// The nearest points are used by the velocity of the next step and by the figures of this step.
     void refresh_view() {
         const Timed timed(result_.totals.seconds.velocity);
         surface::build_view(deformer_.complex(), view_, &workers_, &view_memory_);
@@ -102,7 +103,7 @@ private:
         attributes_ = attributes_at(deformer_, view_.vertex_ids);
     }
 
-    /// What the velocity's calls see: the faces of the points too, where it wants them.
+    /// The context of the velocity's calls: it includes the faces of the points if the velocity needs them.
     hooks::StepContext make_velocity_context(std::uint64_t step) {
         hooks::StepContext context = make_context(step);
         if (cloud_ == nullptr || !strategies_.velocity->needs_faces_of_points()) return context;
@@ -119,7 +120,7 @@ private:
         StepMetrics row;
         measure_row(row);
         result_.totals.volume_initial = row.volume;
-        // The columns of the observers are known after the first step only: row 0 has none of their figures.
+        // The columns of the observers are known only after the first step, so row 0 does not contain their figures.
         publish(row);
     }
 
@@ -137,7 +138,7 @@ private:
         result_.surface = surface::extract_interface(result_.mesh);
     }
 
-    /// What the schedule has at `place_`, from there on; leaves `place_` where the run is to go on.
+    /// Runs the schedule from `place_` on; afterwards `place_` is where the run continues.
     void series() {
         const Series& item = experiment_.schedule[place_.item];
         hooks::RefinementPolicy* refinement = strategies_.refinements[place_.item].get();
@@ -181,7 +182,7 @@ private:
 
     void next_item() { place_ = {.item = place_.item + 1}; }
 
-    /// What a run depends on: the strategies' state, and how far it has come.
+    /// Saves everything on which the run depends: the complex, the strategies' states, and the progress.
     void checkpoint() {
         if (!options_.on_checkpoint || deformer_.step_count() == 0) return;
         StateWriter out;
@@ -200,7 +201,7 @@ private:
         over_ = view_.vertex_count() == 0;
     }
 
-    /// One step; true if its largest speed was below the stop criterion.
+    /// Makes one step; true if its largest speed was below the stop criterion.
     bool advance() {
         const hooks::StepContext context = make_velocity_context(deformer_.step_count() + 1);
         context_ = &context;
@@ -234,7 +235,7 @@ private:
         return experiment_.stop && row.max_speed < experiment_.stop->speed * mean_edge;
     }
 
-    /// Asks the velocity for all displacements; returns the summed length that movable vertices want to go.
+    /// Evaluates all displacements; returns the sum of the wanted lengths over the movable vertices.
     double velocities(const hooks::StepContext& context, StepMetrics& row) {
         const Timed timed(result_.totals.seconds.velocity);
         const std::size_t count = view_.vertex_count();
@@ -251,7 +252,7 @@ private:
         return measure_speeds(view_, displacements_, row);
     }
 
-    /// Its passes, each on a fresh view, until it asks for no change of the mesh.
+    /// Runs the passes of a refinement, each on a fresh view, until it requests no change of the mesh.
     void refine(hooks::RefinementPolicy& refinement) {
         const Timed timed(result_.totals.seconds.refine);
         const bool sampling = refinement.needs_sampling();
@@ -362,13 +363,13 @@ private:
     kernel::RepairPolicy policy_;
     surface::SurfaceView view_;
     NearestPoints nearest_;
-    std::vector<surface::FacePoint> faces_of_points_;  // empty until somebody wants them
-    std::vector<double> lengths_;   // of the view's vertices; empty where L is the same everywhere
+    std::vector<surface::FacePoint> faces_of_points_;  // empty until they are needed
+    std::vector<double> lengths_;   // per vertex of the view; empty if L is the same everywhere
     surface::ViewMemory view_memory_;
     hooks::Attributes attributes_;  // of the view's vertices
     std::vector<Vec3> displacements_;
-    const hooks::StepContext* context_ = nullptr;  // of the step under way, for the policy
-    bool stopped_ = false;  // before the end of the schedule
+    const hooks::StepContext* context_ = nullptr;  // of the current step, for the policy
+    bool stopped_ = false;  // stopped before the end of the schedule
     bool over_ = false;
 };
 

@@ -1,3 +1,4 @@
+// Loads an experiment: files, overrides, plugins, validation, hash.
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/config/overrides.hpp>
@@ -17,14 +18,14 @@ using config::FieldType;
 using config::Schema;
 using config::StrategyLookup;
 
-/// Folder that relative names in `node` count from.
+/// The folder to which relative names in `node` refer.
 fs::path folder_of(const ConfigNode& node) {
     const config::SourcePosition& position = node.position();
     if (!position.known() || position.from_command_line()) return fs::current_path();
     return fs::absolute(position.source->name).parent_path();
 }
 
-/// `plugins:` before anything is validated: wrong types are left to the schema.
+/// Reads `plugins:` before the validation; wrong types are reported later by the schema.
 std::vector<std::string> plugin_paths(const ConfigNode& root) {
     std::vector<std::string> paths;
     const ConfigNode* list = root.find("plugins");
@@ -38,7 +39,7 @@ std::vector<std::string> plugin_paths(const ConfigNode& root) {
 
 using FileChange = std::function<ConfigNode(const ConfigNode& file)>;
 
-/// Replaces the values of all file fields that name one by `change(value)`, through nested objects and strategies.
+/// Replaces the value of every file field that is set by `change(value)`, also in nested objects and strategies.
 ConfigNode map_files(const ConfigNode& node, const Schema& schema, const StrategyLookup& lookup,
                      const FileChange& change);
 
@@ -85,7 +86,7 @@ ConfigNode map_files(const ConfigNode& node, const Schema& schema, const Strateg
     return ConfigNode::map(std::move(entries));
 }
 
-/// Content of a plugin path: the hash of a library, or those of all libraries of a folder in the order of their names.
+/// Content of a plugin path: the hash of a library, or the hashes of all libraries of a folder in the order of their names.
 ConfigNode plugin_content(const std::string& path, InputFiles& known) {
     std::vector<fs::path> files;
     if (fs::is_directory(path)) {
@@ -101,7 +102,7 @@ ConfigNode plugin_content(const std::string& path, InputFiles& known) {
     return ConfigNode::list(std::move(hashes));
 }
 
-/// All files that are not there at once, each at its place.
+/// Reports all missing files at once, each at its place.
 void require_files(const ConfigNode& resolved, const StrategyLookup& lookup) {
     config::Diagnostics missing;
     map_files(resolved, *experiment_schema(), lookup, [&](const ConfigNode& file) {
@@ -109,7 +110,7 @@ void require_files(const ConfigNode& resolved, const StrategyLookup& lookup) {
         const bool typed = file.position().from_command_line();
         if (!fs::exists(file.as_string(), ignored)) {
             missing.error("io.open", file.position(), "'" + file.path() + "': " + file.as_string() + " does not exist",
-                          std::string("check the path; it counts from the ") +
+                          std::string("check the path; it is relative to the ") +
                               (typed ? "current folder" : "folder of this file"));
         }
         return file;

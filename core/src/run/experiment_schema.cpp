@@ -1,4 +1,4 @@
-// The declaration of format 1: every key of an experiment, its range and its meaning.
+// Declares format 1: every key of an experiment with its range and its meaning.
 #include <algorithm>
 #include <dsc/cloud/shapes.hpp>
 #include <dsc/run/experiment.hpp>
@@ -14,7 +14,7 @@ bool plain_name(const std::string& name) {
     });
 }
 
-/// The built-in shapes as the values of a choice.
+/// The built-in shapes as values of a choice.
 std::vector<std::pair<std::string, std::string>> shapes() {
     std::vector<std::pair<std::string, std::string>> all;
     for (const std::string_view name : cloud::shape_names()) all.emplace_back(name, name);
@@ -32,27 +32,27 @@ void declare_sample(config::ParamSchema<SampleInput>& s) {
         .range(0, 1)
         .open_high()
         .unit("1")
-        .doc("Part of the points that lie anywhere in the shape's box, grown 1.2 times.");
+        .doc("Fraction of the points that lie anywhere in the shape's box, enlarged 1.2 times.");
 }
 
 void declare_cloud(config::ParamSchema<CloudInput>& s) {
     s.file("file", &CloudInput::file)
         .doc(
-            "Point cloud: .obj, .ply, .pcd, .xyz, .txt, .asc, .pts or .csv. Positions are read, and colours for "
-            "the surface to carry.");
+            "Point cloud: .obj, .ply, .pcd, .xyz, .txt, .asc, .pts or .csv. Positions are read, and colours, which the "
+            "surface gets.");
     s.strings("columns", &CloudInput::columns)
         .or_integers()
         .size(0, 6)
         .doc(
-            "Columns of a text cloud: x, y, z, or these and red, green, blue, by their names in the header or "
-            "by numbers from 1. Empty: the columns with these names, else the first three.");
+            "Columns of a text cloud: x, y, z, or x, y, z, red, green, blue, by their names in the header or by numbers "
+            "from 1. Empty: the columns with these names, else the first three.");
     s.object("sample", &CloudInput::sample, declare_sample).doc("A cloud sampled from a built-in shape.");
     s.strategies("filters", &CloudInput::filters, "filter")
-        .doc("Filters of the cloud, in the order in which they work.");
+        .doc("Filters of the cloud, in the order in which they are applied.");
     s.check([](const CloudInput& p) { return p.file.has_value() != p.sample.has_value(); },
             "exactly one of 'file' and 'sample' must be given");
     s.check([](const CloudInput& p) { return p.columns.empty() || (p.file && p.columns.size() % 3 == 0); },
-            "'columns' belongs to a 'file' and names 3 columns or 6");
+            "'columns' requires 'file' and must name 3 or 6 columns");
 }
 
 void declare_normalize(config::ParamSchema<NormalizeInput>& s) {
@@ -60,16 +60,15 @@ void declare_normalize(config::ParamSchema<NormalizeInput>& s) {
         .range(0, 1.5)
         .open_low()
         .unit("length")
-        .doc("Longest half-extent of the cloud once it is centred in the box [-1.5, 1.5]^3.");
+        .doc("Longest half-extent of the cloud after it is centred in the box [-1.5, 1.5]^3.");
 }
 
 void declare_input(config::ParamSchema<Input>& s) {
-    s.object("cloud", &Input::cloud, declare_cloud).doc("The points that the surface shall follow.");
+    s.object("cloud", &Input::cloud, declare_cloud).doc("The points to which the surface is fitted.");
     s.object("normalize", &Input::normalize, declare_normalize)
         .doc(
-            "Centre and scale the cloud into the box; results return to the input's coordinates. Left out: "
-            "the "
-            "coordinates stay as they are and must lie inside the box.");
+            "Centre and scale the cloud into the box; results are written in the input's coordinates. Left out: the "
+            "coordinates do not change and must lie inside the box.");
 }
 
 void declare_series(config::ParamSchema<Series>& s) {
@@ -77,24 +76,24 @@ void declare_series(config::ParamSchema<Series>& s) {
     s.integer("every", &Series::every)
         .range(1, 1000000)
         .unit("steps")
-        .doc("Refine after every so many of the steps.");
+        .doc("Number of steps between refinements.");
     s.strategy("refine", &Series::refine, "refinement").optional().doc("Refinement of the interface.");
     s.choice("until", &Series::until, {{"finished", Until::finished}})
-        .doc("finished: the series ends as soon as the velocity says that its motion has come to its end.");
-    s.check([](const Series& p) { return p.steps || !p.until; }, "'until' belongs to an item with 'steps'");
+        .doc("finished: the series ends as soon as the velocity reports that its motion is finished.");
+    s.check([](const Series& p) { return p.steps || !p.until; }, "'until' is allowed only in an item with 'steps'");
     s.check([](const Series& p) { return p.steps || !p.refine.empty(); },
-            "an item of the schedule needs 'steps', 'refine' or both with 'every'");
+            "an item of the schedule needs 'steps' or 'refine', or both together with 'every'");
     s.check([](const Series& p) { return p.every.has_value() == (p.steps && !p.refine.empty()); },
-            "'every' belongs to an item with both 'steps' and 'refine', which needs it");
+            "'every' must be given if an item has both 'steps' and 'refine', and only then");
 }
 
 void declare_stop(config::ParamSchema<Stop>& s) {
     s.real("speed", &Stop::speed)
         .range(0, 1000)
         .open_low()
-        .unit("mean edges")
-        .doc("A series of steps ends when the largest speed stays below this.");
-    s.integer("patience", &Stop::patience).range(1, 1000000).unit("steps").doc("For so many steps in a row.");
+        .unit("current mean edges")
+        .doc("A series of steps ends when the largest speed per step stays below this.");
+    s.integer("patience", &Stop::patience).range(1, 1000000).unit("steps").doc("Number of steps in a row with a lower speed.");
 }
 
 void declare_checkpoint(config::ParamSchema<CheckpointOutput>& s) {
@@ -102,7 +101,7 @@ void declare_checkpoint(config::ParamSchema<CheckpointOutput>& s) {
         .range(1, 1000000)
         .unit("steps")
         .doc("Steps between checkpoints.");
-    s.integer("keep", &CheckpointOutput::keep).range(1, 1000).unit("1").doc("Checkpoints kept.");
+    s.integer("keep", &CheckpointOutput::keep).range(1, 1000).unit("1").doc("Number of checkpoints that are kept.");
 }
 
 void declare_states(config::ParamSchema<SeriesOutput>& s) {
@@ -113,11 +112,13 @@ void declare_trim(config::ParamSchema<TrimOutput>& s) {
     s.real("distance", &TrimOutput::distance)
         .greater(0)
         .unit("spacings")
-        .doc("Faces with a vertex farther than this from the nearest point go. A spacing is the root of the area per point there.");
+        .doc("Faces with a vertex farther than this from the nearest point are removed. A spacing is the square root of "
+             "the area per point there.");
     s.real("support", &TrimOutput::support)
         .range(0, 1)
         .unit("1")
-        .doc("Faces with a vertex of less support go, too, where the velocity tells the support of vertices, as surface_fit does. 0: none.");
+        .doc("Faces with a vertex of less support are also removed, if the velocity publishes the support of vertices, as "
+             "surface_fit does. 0: none.");
 }
 
 void declare_output(config::ParamSchema<Output>& s) {
@@ -128,23 +129,25 @@ void declare_output(config::ParamSchema<Output>& s) {
     s.strings("volume", &Output::volume)
         .choices({"vtu", "dsc", "msh", "mesh"})
         .size(1, 4)
-        .doc("Formats of the volume, vtu or dsc among them; msh is Gmsh's, mesh that of MEDIT.");
+        .doc("Formats of the volume; vtu or dsc must be included. msh is the format of Gmsh, mesh the format of MEDIT.");
     s.check(
         [](const Output& p) {
             return std::any_of(p.volume.begin(), p.volume.end(),
                                [](const std::string& format) { return format == "vtu" || format == "dsc"; });
         },
-        "'volume' needs vtu or dsc: the result is judged on the file as read back, and msh and mesh are only written");
+        "'volume' needs vtu or dsc: the result is checked on the file as read back, and msh and mesh can only be written");
     s.object("checkpoint", &Output::checkpoint, declare_checkpoint)
-        .doc("States to resume from. Accepted, not written by this version.");
+        .doc("States of the run, in checkpoint/, from which dsc run --resume continues.");
     s.object("series", &Output::series, declare_states)
-        .doc("States on the way for ParaView, in series/: surfaces as .vtp, volumes as .vtu, an index .pvd of each.");
+        .doc("States of the run for ParaView, in series/: surfaces as .vtp, volumes as .vtu, and a .pvd index for each.");
     s.object("trim", &Output::trim, declare_trim)
-        .doc("Write the surface without the parts that no points support, with a border. The volume stays closed. Needs a cloud.");
+        .doc("Write the surface without the parts that no points support, as a surface with a border. The volume stays "
+             "closed. Needs a cloud.");
     s.boolean("report", &Output::report)
-        .doc("report.html, a page that shows the run: figures, plots and the surface to turn and cut.");
+        .doc("Write report.html, a page that shows the run: figures, plots, and a view of the surface that can be rotated "
+             "and cut.");
     s.boolean("normals", &Output::normals)
-        .doc("Writes a unit normal with each vertex of a surface, to .obj and .ply. dsc reconstruct does.");
+        .doc("Write a unit normal with each vertex of a surface, in .obj and .ply. dsc reconstruct does this.");
 }
 
 }  // namespace
@@ -154,18 +157,18 @@ void Experiment::declare(config::ParamSchema<Experiment>& s) {
     s.string("name", &Experiment::name).doc("Names the run's folder: letters, digits, '.', '_', '-'.");
     s.integer("seed", &Experiment::seed).at_least(0).unit("1").doc("Seed of all random streams.");
     s.strings("plugins", &Experiment::plugins)
-        .doc("Plugin libraries or folders of them, relative to the experiment's file.");
+        .doc("Plugin libraries, or folders that contain them, relative to the experiment's file.");
     s.object("input", &Experiment::input, declare_input)
-        .doc("The point cloud. Left out: no cloud, normalised units are the output's units.");
+        .doc("The point cloud. Left out: there is no cloud, and results are in normalised units.");
     s.strategy("initial_mesh", &Experiment::initial_mesh, "initial_mesh")
         .doc("The labelled box that the run starts from.");
-    s.strategy("velocity", &Experiment::velocity, "velocity").doc("Where the interface wants to go.");
-    s.strategy("improvement", &Experiment::improvement, "improvement").doc("Which repairs a step tries.");
+    s.strategy("velocity", &Experiment::velocity, "velocity").doc("The displacement of the interface in a step.");
+    s.strategy("improvement", &Experiment::improvement, "improvement").doc("The repairs that a step tries.");
     s.list("schedule", &Experiment::schedule, declare_series)
         .size(1)
         .required()
         .doc(
-            "What happens, item by item: {steps: N}, {refine: {...}} or {steps: N, every: K, refine: "
+            "The items of the run, in order: {steps: N}, {refine: {...}} or {steps: N, every: K, refine: "
             "{...}}.");
     s.object("stop", &Experiment::stop, declare_stop).doc("Ends a series of steps early. Left out: never.");
     s.strategies("observers", &Experiment::observers, "observer")

@@ -1,3 +1,4 @@
+// Texts of metrics.csv and events.jsonl.
 #include <array>
 #include <charconv>
 #include <dsc/run/figures.hpp>

@@ -1,3 +1,4 @@
+// Builds and adopts the initial mesh.
 #include "initial_complex.hpp"
 
 #include <dsc/base/error.hpp>

@@ -1,12 +1,12 @@
 #pragma once
-// The complex that a run starts with.
+// Makes the complex with which a run starts.
 
 #include <dsc/run/driver.hpp>
 
 namespace dsc::run {
 
-/// What the experiment's strategy for the initial mesh builds, as a complex; `totals` takes what it tells, and its seconds.
-/// `cloud` and `cancel` may be null. Throws StrategyError, GeometryError (the mesh, a cloud outside its box). [setup]
+/// Builds the mesh with the experiment's generator and adopts it. `totals` receives the generator's figures, warnings and
+/// seconds. `cloud` and `cancel` may be null. Throws StrategyError, GeometryError (the mesh, a cloud outside its box). [setup]
 mesh::Complex initial_complex(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
                               const CancelToken* cancel, Workers& workers, RunTotals& totals);
 

@@ -1,3 +1,4 @@
+// Reads or samples the cloud, filters and normalises it.
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
@@ -33,7 +34,7 @@ cloud::Cloud read_points(const CloudInput& input, std::uint64_t seed, InputFiles
 
 using Filters = std::vector<std::unique_ptr<hooks::CloudFilter>>;
 
-/// Made before anything is read: a filter that cannot be made costs no time.
+/// Created before anything is read, so that a filter that cannot be created costs no time.
 Filters make_filters(const CloudInput& input, const plugin::Catalogue& catalogue) {
     Filters filters;
     for (std::size_t i = 0; i < input.filters.size(); ++i) {
@@ -42,7 +43,7 @@ Filters make_filters(const CloudInput& input, const plugin::Catalogue& catalogue
     return filters;
 }
 
-/// Places of `before` that have no point in `after`, each once.
+/// Positions in `before` that no point in `after` has, each once.
 std::vector<Vec3> places_lost(std::vector<Vec3> before, std::vector<Vec3> after) {
     const auto earlier = geometry::lexicographically_before;
     std::sort(before.begin(), before.end(), earlier);

@@ -1,3 +1,4 @@
+// The files of a command, each read once.
 #include <dsc/base/read_file.hpp>
 #include <dsc/run/input_files.hpp>
 #include <dsc/run/sha256.hpp>

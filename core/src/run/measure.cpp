@@ -1,3 +1,4 @@
+// Measures surfaces and volumes.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -23,7 +24,7 @@ bool sound(const mesh::TetMesh& mesh, const TetCorners& tet) {
     return true;
 }
 
-/// Up to two labels that a vertex has met, and whether there was a third.
+/// Up to two labels at a vertex, and whether there is a third.
 class LabelsAt {
 public:
     void meet(mesh::Label label) {

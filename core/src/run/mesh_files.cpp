@@ -1,3 +1,4 @@
+// The readers for generators of initial meshes.
 #include <dsc/io/read.hpp>
 #include <dsc/run/mesh_files.hpp>
 

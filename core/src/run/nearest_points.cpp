@@ -1,3 +1,4 @@
+// The nearest cloud point of each view vertex.
 #include "nearest_points.hpp"
 
 namespace dsc::run {
@@ -11,7 +12,7 @@ void NearestPoints::refresh(const surface::SurfaceView& view, const cloud::Neare
     before_.swap(found_);
     found_.resize(view.vertex_count());
     moved_.clear();
-    // Both lists of births ascend.
+    // Both lists of births are ascending.
     std::size_t old = 0;
     for (std::uint32_t v = 0; v < view.vertex_count(); ++v) {
         while (old < births_.size() && births_[old] < view.births[v]) ++old;

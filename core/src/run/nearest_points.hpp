@@ -1,5 +1,5 @@
 #pragma once
-// The cloud's point nearest to each vertex of a view. Vertices that have not moved since the last view keep theirs.
+// The nearest cloud point of each vertex of a view. Vertices that have not moved since the last view keep their points.
 
 #include <cstdint>
 #include <span>
@@ -11,16 +11,16 @@
 
 namespace dsc::run {
 
-/// Of one cloud and one complex, whose vertices keep their birth ids.
+/// Belongs to one cloud and one complex, whose vertices keep their birth ids.
 class NearestPoints {
 public:
-    /// The points nearest to the vertices of this view. [step]
+    /// Finds the points nearest to the vertices of this view. [step]
     void refresh(const surface::SurfaceView& view, const cloud::NearestSearch& search, Workers* workers);
     /// One per vertex of the last view; empty before.
     std::span<const cloud::Neighbour> all() const { return found_; }
 
 private:
-    // Of the last view.
+    // Belongs to the last view.
     std::vector<std::uint32_t> births_;
     std::vector<Vec3> positions_;
     std::vector<cloud::Neighbour> found_;

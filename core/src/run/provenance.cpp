@@ -1,3 +1,4 @@
+// Texts of provenance.json and of `dsc --version`.
 #include <pwd.h>
 #include <sys/resource.h>
 #include <sys/utsname.h>
@@ -38,7 +39,7 @@ double memory_mb() {
     return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
 }
 
-/// What decides how fast a run is. The name of the host is nobody's business.
+/// Properties that determine the speed of a run. The name of the host is private and not included.
 ordered_json machine(unsigned threads) {
     utsname name{};
     uname(&name);
@@ -51,14 +52,14 @@ ordered_json machine(unsigned threads) {
             {"threads", threads}};
 }
 
-/// Times and memory so far, this process as a whole.
+/// Times and memory of the whole process up to now.
 ordered_json usage(double wall_seconds) {
     const Usage so_far = process_usage();
     return {{"wall_s", wall_seconds}, {"cpu_s", so_far.cpu_seconds}, {"peak_rss_mb", so_far.peak_rss_mb}};
 }
 
-/// The home folder by the environment, the same without symbolic links, and by the user's entry: their names tell the
-/// user's.
+/// The home folder from the environment, the same without symbolic links, and the one of the user's entry: all of them contain
+/// the user's name.
 std::vector<std::string> home_folders() {
     std::vector<std::string> folders;
     const auto add = [&](std::string folder) {
@@ -79,7 +80,7 @@ std::string without_homes(std::string text, const std::vector<std::string>& home
     return text;
 }
 
-/// A file as it would be typed here: relative below the current folder, else below "~" or absolute.
+/// A file name as it would be typed here: relative if it is below the current folder, else below "~" or absolute.
 std::string shown(const std::filesystem::path& file, const std::vector<std::string>& homes) {
     std::error_code error;
     const std::filesystem::path here = std::filesystem::current_path(error);
@@ -125,7 +126,7 @@ Usage process_usage() {
 std::string without_home(std::string text, const std::string& home) {
     if (home.size() < 2) return text;
     for (std::size_t at = text.find(home); at != std::string::npos; at = text.find(home, at + 1)) {
-        // A whole folder's name: the home of ann is not that of anna, nor a folder of another place that ends like it.
+        // Only complete folder names match: the home of ann is not that of anna, nor a folder elsewhere with the same ending.
         const std::size_t end = at + home.size();
         const auto part_of_name = [](char c) {
             return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.' || c == '/';

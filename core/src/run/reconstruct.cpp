@@ -1,4 +1,4 @@
-// The experiment of `dsc reconstruct`: a file under configs/reconstruct, which is part of the library, and a cloud.
+// The experiment of `dsc reconstruct`: a file of configs/reconstruct, which is compiled into the library, and a cloud.
 #include <dsc/run/reconstruct.hpp>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using config::ConfigNode;
 
-constexpr double no_noise = 1e-6;  // spacings; 0 asks for it to be measured
+constexpr double no_noise = 1e-6;  // spacings; 0 would mean that it is measured
 
 ConfigNode embedded(std::string_view name) {
     for (const EmbeddedFile& file : reconstruct_files()) {
@@ -22,7 +22,7 @@ ConfigNode embedded(std::string_view name) {
     throw Error(ExitCode::internal, "reconstruct.file", "configs/reconstruct/" + std::string(name) + " is not part of the program");
 }
 
-/// A parameter of every refinement in the schedule.
+/// Sets a parameter of every refinement in the schedule.
 ConfigNode with_refinement(const ConfigNode& root, const std::string& key, const ConfigNode& value) {
     std::vector<ConfigNode> items;
     for (const ConfigNode& item : root.at("schedule").items()) items.push_back(item.with("refine", item.at("refine").with(key, value)));

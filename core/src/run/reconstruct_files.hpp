@@ -1,12 +1,12 @@
 #pragma once
-// The experiments under configs/reconstruct, part of the library.
+// The experiments of configs/reconstruct, compiled into the library.
 
 #include <dsc/base/embedded_file.hpp>
 #include <span>
 
 namespace dsc::run {
 
-/// All of them. The build writes its source.
+/// All of these files. The build generates the source.
 std::span<const EmbeddedFile> reconstruct_files();
 
 }  // namespace dsc::run

@@ -1,3 +1,4 @@
+// Converts the requests and attributes of a refinement for the kernel.
 #include "refinement.hpp"
 
 #include <algorithm>
@@ -7,7 +8,7 @@ namespace {
 
 using ViewEdge = std::array<std::uint32_t, 2>;
 
-/// Edges longer than the mean of the wanted lengths at their ends, each once, in ascending order.
+/// Edges longer than the mean of the wanted lengths at their ends; each once, in ascending order.
 std::vector<ViewEdge> too_long(const surface::SurfaceView& view, const std::vector<double>& sizing) {
     std::vector<ViewEdge> edges;
     if (sizing.empty()) return edges;

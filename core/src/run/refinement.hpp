@@ -1,6 +1,6 @@
 #pragma once
-// Between strategies, which speak of view vertices and faces, and the kernel: what a refinement asks for, and the numbers per
-// vertex that strategies publish.
+// Converts between strategies, which use view vertices and faces, and the kernel: the requests of a refinement, and the numbers
+// per vertex that strategies publish.
 
 #include <dsc/hooks/refinement_policy.hpp>
 #include <dsc/kernel/deformer.hpp>
@@ -8,15 +8,15 @@
 
 namespace dsc::run {
 
-/// Hands target lengths and attributes over. `view` is that of the deformer's complex. [step]
+/// Passes target lengths and attributes to the kernel. `view` must be a view of the deformer's complex. [step]
 void set_fields(kernel::Deformer& deformer, const surface::SurfaceView& view, const hooks::RefinementRequests& requests);
-/// Hands the attributes over. [step]
+/// Passes the attributes to the kernel. [step]
 void set_attributes(kernel::Deformer& deformer, const surface::SurfaceView& view, const hooks::Attributes& attributes);
 
-/// All attributes at these vertices of its complex, NaN off the interface.
+/// All attributes at these vertices of the deformer's complex; NaN off the interface.
 hooks::Attributes attributes_at(const kernel::Deformer& deformer, std::span<const mesh::VertexId> vertices);
 
-/// The stricter bounds of two rules; the one that there is, or none.
+/// The stricter bounds of two rules; the only rule if there is one; none if there is none.
 std::optional<mesh::CreaseRule> stricter(const std::optional<mesh::CreaseRule>& a, const std::optional<mesh::CreaseRule>& b);
 
 /// The requests that change the mesh, without those for labels.

@@ -1,3 +1,4 @@
+// The report page of a run.
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/config/yaml.hpp>
@@ -46,7 +47,7 @@ std::string guarded_report(const std::function<std::string()>& make) {
     try {
         return make();
     } catch (const nlohmann::json::exception& error) {
-        throw IoError("report.damaged", std::string("a JSON file of the run does not hold what a run writes: ") + error.what() +
+        throw IoError("report.damaged", std::string("a JSON file of the run does not contain what a run writes: ") + error.what() +
                                             "; run the experiment again");
     }
 }
@@ -66,7 +67,7 @@ std::string report_html(const std::filesystem::path& run_folder, const plugin::C
 
 bool stands_along_z(const std::filesystem::path& run_folder) {
     try {
-        config::YamlOptions options;  // what stands in it is final
+        config::YamlOptions options;  // its values are final
         options.environment = [](const std::string&) { return std::optional<std::string>(); };
         const config::ConfigNode resolved = config::load_yaml((run_folder / "config.resolved.yaml").string(), options);
         const config::ConfigNode* input = resolved.find("input");
@@ -90,7 +91,7 @@ std::vector<std::string> plugins_of_runs(std::span<const std::filesystem::path> 
                 all.push_back(item.as_string());
             }
         } catch (const Error&) {
-            // report_html tells what is wrong with the folder
+            // report_html reports what is wrong with the folder
         }
     }
     return all;

@@ -1,3 +1,4 @@
+// Packs attributes of surfaces for the viewer.
 #include "report_attributes.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// For each drawn point the nearest of the source; the same one where nothing was thinned.
+/// For each drawn point the nearest point of the source; the same point if nothing was thinned.
 std::vector<std::uint32_t> nearest_points(const std::vector<Vec3>& source, const std::vector<Vec3>& drawn, Workers* workers) {
     std::vector<std::uint32_t> nearest(drawn.size());
     if (source == drawn) {

@@ -1,3 +1,4 @@
+// The page that compares several runs.
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/config/yaml.hpp>
@@ -17,13 +18,13 @@ namespace fs = std::filesystem;
 using html::tag;
 using html::text;
 
-/// A run and how the page calls it.
+/// A run and its name on the page.
 struct Column {
     RunRecord record;
     std::string name;
 };
 
-/// Runs of one experiment share a name: the folder then tells them apart.
+/// Runs of one experiment have the same name; then the folder distinguishes them.
 std::vector<Column> read_columns(std::span<const fs::path> folders) {
     std::vector<Column> columns;
     std::map<std::string, int> seen;
@@ -46,7 +47,7 @@ html::Row column_header(const std::vector<Column>& columns, const std::string& f
     return row;
 }
 
-/// Every figure that one of the runs has, a column a run.
+/// Every figure that at least one of the runs has, one column per run.
 std::string figures(const std::vector<Column>& columns) {
     std::vector<std::string> names;
     std::vector<std::map<std::string, std::string>> values;
@@ -120,7 +121,7 @@ std::string plot(const std::vector<Column>& columns, const std::string& title, c
 }
 
 std::string viewers(const std::vector<Column>& columns, const plugin::Catalogue& catalogue, Workers* workers) {
-    // All runs together may weigh what one does in its own report.
+    // All runs together may use as much memory as one run in its own report.
     SceneLimits limits;
     limits.frames = 0;
     limits.tets = 0;
@@ -172,14 +173,14 @@ std::string comparison_html(std::span<const fs::path> run_folders, const plugin:
                                   plot(columns, "Distance, vertex to cloud, mean", "vertex_to_cloud_mean", true) +
                                   plot(columns, "Vertices of the surface", "interface_vertices", false) +
                                   plot(columns, "Least tet quality", "min_tet_quality", false) +
-                                  plot(columns, "Mean speed, normalised units a step", "mean_speed", true) +
+                                  plot(columns, "Mean speed, normalised units per step", "mean_speed", true) +
                                   plot(columns, "Volume, normalised units", "volume", false);
         const std::string body = section("In short", figures(columns)) + all_warnings(columns) +
                                  section("The surfaces", viewers(columns, catalogue, workers)) +
                                  section("Convergence", tag("div", plots, "plots")) + section("Time by phase", times(columns)) +
                                  section("What differs in the experiments", differences(columns));
         return report_page(std::to_string(columns.size()) + (columns.size() == 1 ? " run" : " runs") + " compared",
-                           "every column is a run", body);
+                           "one column per run", body);
     });
 }
 

@@ -1,12 +1,12 @@
 #pragma once
-// The files of share/report and of three.js, part of the library.
+// The files of share/report and of three.js, compiled into the library.
 
 #include <dsc/base/embedded_file.hpp>
 #include <span>
 
 namespace dsc::run {
 
-/// All of them. The build writes its source.
+/// All of these files. The build generates the source.
 std::span<const EmbeddedFile> report_files();
 
 }  // namespace dsc::run

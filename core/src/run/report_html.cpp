@@ -1,3 +1,4 @@
+// Text for HTML.
 #include "report_html.hpp"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::string_view unreadable = "\xEF\xBF\xBD";
 
-/// Length of the well-formed UTF-8 sequence at the start of `s`, 0 for none.
+/// Length of the well-formed UTF-8 sequence at the start of `s`; 0 if there is none.
 std::size_t utf8_length(std::string_view s) {
     const auto byte = [&](std::size_t i) { return i < s.size() ? static_cast<unsigned char>(s[i]) : 0U; };
     const auto tail = [&](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };
@@ -71,7 +72,7 @@ std::string json_in_script(std::string_view json) {
     out.reserve(json.size());
     for (const char c : json) {
         if (c == '<') {
-            out += "\\u003c";  // in JSON it stands in strings only
+            out += "\\u003c";  // in JSON this character occurs only in strings
         } else {
             out += c;
         }
@@ -136,7 +137,7 @@ std::string fill(std::string_view page, const std::vector<std::pair<std::string,
     std::string out;
     std::set<std::string> used;
     while (true) {
-        // The first mark that is a name of ours; any other @ is text.
+        // The first mark that is one of our names; any other @ is ordinary text.
         std::size_t at = std::string_view::npos;
         const std::pair<std::string, std::string>* next = nullptr;
         for (const auto& value : values) {

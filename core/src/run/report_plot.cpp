@@ -1,3 +1,4 @@
+// Plots as SVG.
 #include "report_plot.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 constexpr double width = 460, height = 250;
 constexpr double left = 58, right = 14, top = 34, bottom = 40;
 
-/// A coordinate on the paper: a tenth of a unit is finer than print.
+/// A coordinate on the page; a tenth of a unit is finer than print.
 std::string at(double value) {
     std::array<char, 32> out{};
     std::snprintf(out.data(), out.size(), "%.1f", value);
@@ -43,11 +44,11 @@ std::string open_svg(const std::string& title, double w, double h) {
     return "<svg viewBox=\"0 0 " + at(w) + " " + at(h) + "\" role=\"img\" aria-label=\"" + html::text(title) + "\">\n";
 }
 
-/// An axis: from numbers to places on the paper.
+/// An axis: maps numbers to positions on the page.
 struct PlotAxis {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
-    double begin = 0, end = 1;  // on the paper
+    double begin = 0, end = 1;  // on the page
     bool logarithmic = false;
 
     bool takes(double value) const { return std::isfinite(value) && (!logarithmic || value > 0.0); }
@@ -111,7 +112,7 @@ std::string frame(const PlotAxis& x, const PlotAxis& y, const std::string& title
     return out + label(0.5 * (left + width - right), height - 6, x_label, "tick");
 }
 
-/// Thins a long curve to what the paper can show: first, least, greatest and last of each stretch keep its outline.
+/// Thins a long curve to the resolution of the page: the first, least, greatest and last value of each part keep its outline.
 std::vector<std::size_t> outline(const Curve& curve) {
     constexpr std::size_t most = 1200;
     std::vector<std::size_t> kept;

@@ -1,3 +1,4 @@
+// Reads the folder of a finished run.
 #include "report_record.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ using nlohmann::ordered_json;
 ordered_json read_record_json(const fs::path& file) {
     ordered_json json = ordered_json::parse(read_file(file), nullptr, false);
     if (!json.is_object())
-        throw IoError("report.damaged", file.string(), "", "is no JSON object", "run the experiment again");
+        throw IoError("report.damaged", file.string(), "", "is not a JSON object", "run the experiment again");
     return json;
 }
 
@@ -63,7 +64,7 @@ MetricsTable parse_metrics(std::string_view csv, const std::string& file) {
             const char* const last = cells[i].data() + cells[i].size();
             if (!cells[i].empty()) {
                 const auto [rest, error] = std::from_chars(cells[i].data(), last, value);
-                if (error != std::errc() || rest != last) damaged("a cell of column " + metrics.columns[i] + " is no number");
+                if (error != std::errc() || rest != last) damaged("a cell of column " + metrics.columns[i] + " is not a number");
             }
             metrics.values[i].push_back(value);
         }
@@ -112,8 +113,8 @@ bool RunRecord::several_labels() const {
 
 RunRecord read_record(const fs::path& folder) {
     std::error_code error;
-    if (!fs::is_directory(folder, error)) no_run(folder, "is no folder");
-    if (!RunFolder::is_ours(folder)) no_run(folder, "no run wrote this folder: status.json is not there or not ours");
+    if (!fs::is_directory(folder, error)) no_run(folder, "is not a folder");
+    if (!RunFolder::is_ours(folder)) no_run(folder, "no run wrote this folder: status.json is missing or was not written by dsc");
     if (!fs::exists(folder / "summary.json", error))
         no_run(folder, "the run has no result: it failed or has not ended, see status.json");
     RunRecord record;
@@ -123,7 +124,7 @@ RunRecord read_record(const fs::path& folder) {
     const fs::path metrics = folder / "metrics.csv";
     record.metrics = parse_metrics(read_file(metrics), metrics.string());
     record.config = read_file(folder / "config.resolved.yaml");
-    // What stands in it is final: `${` is text, and there is nothing to look up.
+    // The values in this file are final: `${` is ordinary text.
     config::YamlOptions options;
     options.environment = [](const std::string&) { return std::optional<std::string>(); };
     record.resolved = config::parse_yaml(record.config, (folder / "config.resolved.yaml").string(), options);

@@ -1,3 +1,4 @@
+// Packs surfaces, cloud and tets for the viewer of the report.
 #include "report_scene.hpp"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ ordered_json pack_points(const std::vector<Vec3>& points) {
             {"data", html::base64(bytes)}};
 }
 
-/// Indices in 16 bits where that is enough.
+/// Indices in 16 bits if that is enough.
 template <class Corners>
 ordered_json pack_cells(const std::vector<Corners>& cells, std::size_t points) {
     const bool wide = points > 65536;
@@ -93,7 +94,7 @@ public:
         json_["units"] = "normalised units";
         read_result();
         json_["frames"] = ordered_json::array();
-        if (limits_.frames > 0) attempt("the steps on the way are not shown", [&] { add_frames(); });
+        if (limits_.frames > 0) attempt("the intermediate steps are not shown", [&] { add_frames(); });
         if (!surface_.faces.empty()) {
             attempt("the surface is not shown", [&] {
                 add_frame("result", thinned(surface_, limits_.faces, "the surface"), attributes_);
@@ -110,7 +111,7 @@ public:
 private:
     void note(const std::string& text) { scene_.notes.push_back(text); }
 
-    /// A page without one of its parts is better than none.
+    /// A page without one of its parts is better than no page.
     template <class Action>
     void attempt(const std::string& otherwise, const Action& action) {
         try {
@@ -122,7 +123,7 @@ private:
 
     void read_result() {
         const fs::path surface = result_file(record_.folder, "surface", {"obj", "ply", "off", "stl"});
-        // Of the surface's files the .ply has the attributes, of the volume's the .vtu.
+        // Of the surface's files, .ply contains the attributes; of the volume's files, .vtu.
         const fs::path coloured = result_file(record_.folder, "surface", {"ply"});
         AttributeSource source;
         if (!surface.empty()) {
@@ -156,12 +157,12 @@ private:
         std::vector<io::DataArray>& arrays = attributes_.arrays;
         arrays = attributes_among(std::move(arrays));
         if (arrays.size() <= limits_.attributes) return;
-        note("of the surface's " + html::integer(static_cast<double>(arrays.size())) + " attributes it can be coloured by the first " +
+        note("of the surface's " + html::integer(static_cast<double>(arrays.size())) + " attributes only these can be used as colours: the first " +
              html::integer(static_cast<double>(limits_.attributes)));
         arrays.resize(limits_.attributes);
     }
 
-    /// Attributes that the result has not are left out, so that the same choice is there in all frames.
+    /// Attributes that the result does not have are left out, so that all frames offer the same choice.
     void add_frame(const std::string& label, const surface::TriangleMesh& mesh, AttributeSource source) {
         std::vector<io::DataArray> arrays;
         for (const io::DataArray& known : attributes_.arrays) {
@@ -185,7 +186,7 @@ private:
                      html::integer(static_cast<double>(mesh.faces.size())) + " triangles");
             return few;
         } catch (const GeometryError&) {
-            // Where three labels meet the interface is no manifold and cannot be thinned.
+            // Where three labels meet, the interface is not a manifold and cannot be thinned.
             return mesh;
         }
     }
@@ -196,7 +197,7 @@ private:
         const auto last = static_cast<std::uint64_t>(std::max(0.0, record_.number("steps")));
         for (std::size_t i = 0; i < count; ++i) {
             const io::SeriesEntry& entry = kept[count == kept.size() ? i : i * (kept.size() - 1) / std::max<std::size_t>(1, count - 1)];
-            // The state after the last step is the result, unless a refinement followed.
+            // The state after the last step equals the result, unless a refinement followed.
             if (entry.step >= last && last > 0) continue;
             io::SurfaceData data;
             const surface::TriangleMesh mesh = io::read_vtp(record_.folder / "series" / entry.file, &data);
@@ -209,7 +210,7 @@ private:
     void add_cloud() {
         const std::optional<Input> input = input_of(record_.resolved, input_.catalogue);
         if (!input) return;
-        if (input->cloud.sample) json_["up"] = "z";  // the built-in shapes stand along z
+        if (input->cloud.sample) json_["up"] = "z";  // the up axis of the built-in shapes is z
         std::optional<LoadedInput> again;
         if (input_.loaded == nullptr) {
             require_same_file(*input);
@@ -226,7 +227,7 @@ private:
         ordered_json cloud = {{"points", pack_points(points)}};
         if (!surface_.faces.empty()) {
             scene_.distances = distances(points, loaded.target.transform().scale);
-            // A few points far away would leave all others in one colour.
+            // With the maximum as bound, a few distant points would give all others the same colour.
             const double top = io::colour_bounds(scene_.distances).high;
             cloud["top"] = top;
             cloud["distance"] = pack_levels(scene_.distances, top);
@@ -240,7 +241,7 @@ private:
         return load_input(input, seed != nullptr ? static_cast<std::uint64_t>(seed->as_integer()) : 1, input_.catalogue, files_, workers_);
     }
 
-    /// A report of yesterday's run must not show today's file. The provenance has paths as they were typed, so files of the
+    /// The report of an old run must not show a changed file. The provenance contains paths as they were typed, so files of the
     /// same name are compared.
     void require_same_file(const Input& input) {
         const ordered_json* inputs = find(record_.provenance, "inputs");
@@ -254,7 +255,7 @@ private:
         }
         if (!known) return;
         throw IoError("report.changed", *input.cloud.file, "", "is not the file that the run read",
-                      "bring it back to see the cloud");
+                      "restore the file to see the cloud");
     }
 
     std::vector<double> distances(const std::vector<Vec3>& points, double scale) const {
@@ -262,7 +263,7 @@ private:
         return table(workers_, points.size(), [&](std::size_t i) { return scale * tree.nearest(points[i]).distance; });
     }
 
-    /// Tets round the surface: all that are not outside, and those outside whose centre is near its box.
+    /// Tets near the surface: all inside ones, and those outside whose centre is near the surface's box.
     std::vector<std::size_t> near_tets() const {
         Box3 box = bounding_box(surface_.points);
         const Vec3 margin = Vec3::Constant(0.12 * box.diagonal());
@@ -282,7 +283,7 @@ private:
         const std::vector<std::size_t> chosen = near_tets();
         if (chosen.size() > limits_.tets) {
             note("the cut is not shown: " + html::integer(static_cast<double>(chosen.size())) +
-                 " tets are too many for a page; ParaView cuts result/volume.vtu");
+                 " tets are too many for a page; ParaView can cut result/volume.vtu");
             return;
         }
         constexpr std::uint32_t unused = 0xFFFFFFFFU;

@@ -1,3 +1,4 @@
+// The sections of a report.
 #include "report_sections.hpp"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ std::string card(const std::string& name, const std::string& value, const std::s
     return tag("div", tag("b", text(value)) + tag("span", text(name)), "card " + classes);
 }
 
-/// The rows of the thesis' tables 6.1 and 6.2 [Saul2015]: seconds, vertices, faces; mean, least and largest distance.
+/// The rows of tables 6.1 and 6.2 of the thesis [Saul2015]: seconds, vertices, faces; mean, least and largest distance.
 struct ThesisRow {
     const char* mesh;
     double seconds, vertices, faces, mean, least, largest;
@@ -49,7 +50,7 @@ Curve curve(const RunRecord& record, const std::string& column, const std::strin
     return {name, *x, *y};
 }
 
-/// Speeds in mean edges, as the stop criterion counts them.
+/// Speeds in current mean edges, as in the stop criterion.
 Curve in_edges(const RunRecord& record, const std::string& column, const std::string& name) {
     Curve out = curve(record, column, name);
     const std::vector<double>* edges = record.metrics.find("mean_edge");
@@ -57,7 +58,7 @@ Curve in_edges(const RunRecord& record, const std::string& column, const std::st
     return out;
 }
 
-/// A plot for each observer's figure.
+/// One plot per figure of an observer.
 std::string observer_plots(const RunRecord& record) {
     std::string out;
     for (const std::string& column : record.metrics.columns) {
@@ -66,7 +67,7 @@ std::string observer_plots(const RunRecord& record) {
     return out;
 }
 
-/// One line a value, nested names joined by blanks; lists are left to others.
+/// One line per value; nested names are joined by blanks; lists are left out.
 void flatten(const ordered_json& json, const std::string& prefix, std::vector<std::pair<std::string, std::string>>& rows) {
     for (const auto& [key, value] : json.items()) {
         const std::string name = prefix.empty() ? key : prefix + " " + key;
@@ -174,7 +175,7 @@ std::string coverage_section(const RunRecord& record) {
         {"area of the surface without a point within 3 spacings", percent("coverage.unsupported_share")},
         {"mean edge of the surface", real(record.number("coverage.edge_to_spacing")) + " spacings"},
         {"spacing, root of the area per point", real(width / scale) + ", in the units of the input"}};
-    if (record.has("trimmed")) rows.push_back({"area that trimming cut off", percent("trimmed.area_share")});
+    if (record.has("trimmed")) rows.push_back({"area removed by trimming", percent("trimmed.area_share")});
     std::string body = html::table({"how well the surface explains its points", ""}, rows);
     std::vector<html::Row> groups;
     const ordered_json* told = find(record.summary, "coverage.groups_of_far_points");
@@ -193,11 +194,11 @@ std::string coverage_section(const RunRecord& record) {
         }
     }
     if (!groups.empty()) {
-        body += tag("p", "Points without a surface, by groups, in the units of the input:") + "\n" +
+        body += tag("p", "Groups of points without a surface, in the units of the input:") + "\n" +
                 html::table({"points", "centre", "diameter", "largest distance"}, groups);
     }
-    return section("Points and surface", body + tag("p", "The viewer colours the surface by gap, the distance to the nearest point in spacings, and by support, where the "
-                                                         "velocity tells them.", "hint"));
+    return section("Points and surface", body + tag("p", "The viewer can colour the surface by gap (the distance to the nearest point, in spacings) and by support, if the "
+                                                         "velocity publishes them.", "hint"));
 }
 
 std::string notes_section(const RunRecord& record) {
@@ -231,8 +232,8 @@ std::string viewer_section(const RunRecord& record, const Scene& scene) {
     const std::string body = viewer(record, scene, "view-0");
     if (body.empty()) return "";
     return section("The surface", body + tag("p",
-                                             "Drag to turn, turn the wheel to come nearer, drag with the right button to move. Surfaces on "
-                                             "the way are drawn with fewer triangles.",
+                                             "Drag to rotate, use the wheel to zoom, drag with the right button to move. "
+                                             "Intermediate surfaces are drawn with fewer triangles.",
                                              "hint"));
 }
 
@@ -267,7 +268,7 @@ std::string plots_section(const RunRecord& record, const Scene& scene) {
                              curve(record, "vertex_to_cloud_max", "vertex to cloud, largest"),
                              curve(record, "cloud_to_surface_mean", "cloud to surface, mean")},
                   .logarithmic = true}) +
-        svg_plot({.title = "Speed, mean edges a step",
+        svg_plot({.title = "Speed, current mean edges per step",
                   .x_label = "step",
                   .curves = {in_edges(record, "mean_speed", "mean"), in_edges(record, "max_speed", "largest")},
                   .logarithmic = true}) +

@@ -1,3 +1,4 @@
+// The checks and warnings at the top of a report.
 #include "report_warnings.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ Check zero(const RunRecord& record, const std::string& name, const std::string& 
     return {name, html::integer(value), value == 0.0};
 }
 
-/// Where several labels meet, each label has a closed surface and the interface as a whole has none.
+/// If there are several labels above 0, each label has a closed surface, but the interface as a whole is not closed.
 void add_labels(const RunRecord& record, std::vector<Check>& checks) {
     for (const auto& [label, figures] : record.summary["labels"].items()) {
         const ordered_json* surface = find(figures, "surface");
@@ -54,8 +55,8 @@ std::vector<std::string> warnings(const RunRecord& record) {
         }
     }
     const std::string status = record.word("status");
-    if (status == "stalled") out.push_back("The run stalled: the surface could not move on; the result is what was reached.");
-    if (status == "cancelled") out.push_back("The run was stopped before the end of its schedule; the result is what was reached.");
+    if (status == "stalled") out.push_back("The run stalled: the surface could not move further; the result is the last state.");
+    if (status == "cancelled") out.push_back("The run was stopped before the end of its schedule; the result is the last state.");
     if (!(record.number("interface_faces") > 0)) out.push_back("The surface vanished: no tet with a label above 0 is left.");
     for (const Check& check : validity(record)) {
         if (!check.holds) out.push_back("Not valid: " + check.name + ": " + check.value + ".");
@@ -66,8 +67,8 @@ std::vector<std::string> warnings(const RunRecord& record) {
     };
     count("input.dropped", " point of the cloud was NaN or infinite and was left out.",
           " points of the cloud were NaN or infinite and were left out.");
-    count("clamped", " destination lay beyond the box and was held inside it.",
-          " destinations lay beyond the box and were held inside it; a smaller input.normalize.scale gives room.");
+    count("clamped", " destination was outside the box and was moved inside.",
+          " destinations were outside the box and were moved inside; use a smaller input.normalize.scale for more space.");
     if (const ordered_json* filters = find(record.summary, "input.filters"); filters != nullptr && filters->is_array()) {
         for (const ordered_json& filter : *filters) {
             if (!filter.is_object()) continue;

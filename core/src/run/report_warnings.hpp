@@ -1,5 +1,5 @@
 #pragma once
-// What a reader of a report must know before trusting it.
+// What a reader of a report must know before trusting the result.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace dsc::run {
 
-/// A property that a result as written must have.
+/// A property that a written result must have.
 struct Check {
     std::string name;
     std::string value;
@@ -16,7 +16,7 @@ struct Check {
 };
 std::vector<Check> validity(const RunRecord& record);
 
-/// One sentence each; empty for a run without anything to mind.
+/// One sentence each; empty for a run without problems.
 std::vector<std::string> warnings(const RunRecord& record);
 
 }  // namespace dsc::run

@@ -1,3 +1,4 @@
+// Writes the surfaces and volumes of a run and measures the written files.
 #include "result_files.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The attributes of a surface's points, which are those of the volume in `vertex_of`.
+/// The attributes of a surface's points; `vertex_of` maps them to points of the volume.
 std::vector<io::DataArray> arrays(const hooks::Attributes& attributes, const std::vector<std::uint32_t>& vertex_of) {
     std::vector<io::DataArray> all;
     for (const hooks::Attribute& a : attributes) {
@@ -25,8 +26,7 @@ std::vector<io::DataArray> arrays(const hooks::Attributes& attributes, const std
     return all;
 }
 
-/// The labels above 0 where there is more than one: each has a surface of its own, and the interface is not a
-/// manifold where they meet.
+/// The labels above 0 if there are two or more: each has its own surface, and the interface is not a manifold where they meet.
 std::vector<mesh::Label> several_phases(const mesh::TetMesh& mesh) {
     std::vector<mesh::Label> labels(mesh.labels);
     std::sort(labels.begin(), labels.end());
@@ -36,7 +36,7 @@ std::vector<mesh::Label> several_phases(const mesh::TetMesh& mesh) {
     return labels;
 }
 
-/// Of a surface's points where they are wanted, else none.
+/// Normals of a surface's points if they are requested, else none.
 std::vector<Vec3> normals(const Output& output, const surface::TriangleMesh& surface) {
     return output.normals.value_or(false) ? surface::vertex_normals(surface) : std::vector<Vec3>();
 }
@@ -59,8 +59,8 @@ void ResultFiles::write(const mesh::TetMesh& mesh, const hooks::Attributes& attr
     surface_ = surface::extract_interface(mesh, &vertex_of);
     if (surface_.faces.empty() && target != nullptr) {
         throw GeometryError("run.vanished",
-                            "the surface vanished: no tet with a label above 0 is left, so there is no result; the "
-                            "object may be thinner than the mesh is fine: use more cells, smaller steps, or stop "
+                            "the surface vanished: no tet with a label above 0 is left, so there is no result; parts of "
+                            "the object may be thinner than the mesh resolution: use more cells, smaller steps, or stop "
                             "earlier");
     }
     if (output_.trim && target != nullptr) trim_surface(attributes, gaps, vertex_of, outcome);
@@ -97,7 +97,7 @@ void ResultFiles::trim_surface(const hooks::Attributes& attributes, std::span<co
     std::vector<std::uint32_t> points_of;
     surface_ = surface::trim(surface_, gaps_, support_, {output_.trim->distance, output_.trim->support}, &points_of, &outcome.trimmed.emplace());
     if (surface_.faces.empty()) {
-        throw GeometryError("run.trimmed", "trimming leaves nothing of the surface: every face has a vertex farther than " +
+        throw GeometryError("run.trimmed", "trimming removed the whole surface: every face has a vertex farther than " +
                                                std::to_string(output_.trim->distance) +
                                                " spacings from the points or with too little support; raise output.trim.distance, lower "
                                                "output.trim.support, or write the whole surface");
@@ -124,10 +124,10 @@ void ResultFiles::measure_files(RunOutcome& outcome) const {
     outcome.volume.interface_measure = outcome.trimmed ? measure(whole, &workers_) : outcome.surface;
 }
 
-/// `conforms` becomes false where one of the files differs from what is expected.
+/// `conforms` becomes false if one of the files differs from the expected surface.
 SurfaceMeasure ResultFiles::measure_surface(const std::string& stem, const surface::TriangleMesh& expected, bool& conforms) const {
     for (const std::string& extension : output_.surface) {
-        if (extension == "stl") continue;  // holds floats
+        if (extension == "stl") continue;  // it contains floats
         conforms = conforms && identical(io::read_surface(staged(stem, extension)), expected);
     }
     return measure(io::read_surface(staged(stem, preferred(output_.surface, {"obj", "ply", "off", "stl"}))), &workers_);

@@ -1,5 +1,5 @@
 #pragma once
-// The surfaces and volumes of a run: written into the staging folder, then measured as they stand on the disk.
+// The surfaces and volumes of a run: written into the staging folder, then measured from the written files.
 
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/target.hpp>
@@ -22,15 +22,16 @@ public:
     ResultFiles(const RunFolder& folder, const Output& output, Workers& workers)
         : folder_(folder), output_(output), workers_(workers) {}
 
-    /// `mesh` is in the units of the input. `gaps` are the distances of the interface's vertices to the points, in spacings; empty
-    /// without a cloud. Where all vanished, a motion has come to its end, with a volume and no surface; a cloud has got no surface:
-    /// GeometryError "run.vanished", and "run.trimmed" where trimming leaves nothing.
+    /// `mesh` is in the units of the input. `gaps` are the distances of the interface's vertices to the points, in spacings;
+    /// empty without a cloud. If no label above 0 is left and there is no cloud, the motion has ended and the result is a
+    /// volume without a surface; with a cloud it is GeometryError "run.vanished". GeometryError "run.trimmed" if trimming
+    /// removes everything.
     void write(const mesh::TetMesh& mesh, const hooks::Attributes& attributes, const cloud::TargetCloud* target,
                std::span<const double> gaps, RunOutcome& outcome);
 
     void measure_files(RunOutcome& outcome) const;
 
-    /// The surface that surface.* hold, after write().
+    /// The surface in the files surface.*, after write().
     const surface::TriangleMesh& surface() const { return surface_; }
 
 private:
@@ -43,7 +44,7 @@ private:
     const Output& output_;
     Workers& workers_;
     surface::TriangleMesh surface_;
-    std::vector<double> gaps_, support_;  // of trimming
+    std::vector<double> gaps_, support_;  // for trimming
 };
 
 }  // namespace dsc::run

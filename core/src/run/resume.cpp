@@ -1,3 +1,4 @@
+// Decides whether a run can continue in a folder.
 #include "resume.hpp"
 
 #include <algorithm>
@@ -17,9 +18,9 @@ using config::ConfigEntry;
 using config::ConfigNode;
 
 constexpr const char* remedy_of_resume =
-    "; nothing in it was changed; run without --resume to start anew there, or name another folder with -o";
+    "; nothing in it was changed; run without --resume to start again there, or name another folder with -o";
 
-/// The places at which two trees differ.
+/// The places where two trees differ.
 class Comparison {
 public:
     void compare(const ConfigNode* there, const ConfigNode* here, const std::string& path) {
@@ -67,23 +68,23 @@ private:
 std::string difference_to(const fs::path& folder, const LoadedExperiment& loaded) {
     const fs::path file = folder / "config.resolved.yaml";
     try {
-        // What stands in them is final: `${` is text. Both went through the same writer, so a number is the same number.
+        // The values are final: `${` is ordinary text. The same writer made both texts, so equal numbers have equal texts.
         config::YamlOptions options;
         options.environment = [](const std::string&) { return std::optional<std::string>(); };
         const std::string told = experiment_differences(config::parse_yaml(read_file(file), file.string(), options),
                                                         config::parse_yaml(resolved_text(loaded), "the experiment", options));
-        return told.empty() ? "a file or a plugin that it names has another content now" : told;
+        return told.empty() ? "the content of a file or a plugin that it names has changed" : told;
     } catch (const Error&) {
         return "its " + file.filename().string() + " cannot be read";
     }
 }
 
-/// The tables must hold at least what they held at the checkpoint.
+/// The tables must contain at least what they contained at the checkpoint.
 void require_tables(const fs::path& folder, const Checkpoint& checkpoint) {
     const auto require = [&folder](const char* name, std::uint64_t bytes) {
         std::error_code error;
         const std::uintmax_t size = fs::file_size(folder / name, error);
-        if (error || size < bytes) throw IoError("checkpoint.unusable", std::string(name) + " is shorter than it was then");
+        if (error || size < bytes) throw IoError("checkpoint.unusable", std::string(name) + " is shorter than at the checkpoint");
     };
     require("metrics.csv", checkpoint.log.metrics_bytes);
     require("events.jsonl", checkpoint.log.events_bytes);
@@ -101,14 +102,15 @@ std::optional<Checkpoint> checkpoint_to_resume(const fs::path& folder, const Che
                                                const LoadedExperiment& loaded, const std::string& hash) {
     const std::optional<RunFolder::Status> status = RunFolder::status(folder);
     if (status && !status->hash.empty() && status->hash != hash) {
-        throw UsageError("run.resume", folder.string() + " holds the run of another experiment: " + difference_to(folder, loaded) +
-                                           remedy_of_resume);
+        throw UsageError("run.resume", folder.string() + " contains the run of another experiment: " +
+                                           difference_to(folder, loaded) + remedy_of_resume);
     }
     std::string reason;
     std::optional<Checkpoint> found =
         checkpoints.last(hash, [&folder](const Checkpoint& c) { require_tables(folder, c); }, &reason);
     if (!found && !reason.empty()) {
-        throw UsageError("run.resume", folder.string() + " has no checkpoint that this run can go on from: " + reason + remedy_of_resume);
+        throw UsageError("run.resume", folder.string() + " has no checkpoint from which this run can continue: " +
+                                           reason + remedy_of_resume);
     }
     return found;
 }

@@ -1,3 +1,4 @@
+// Claims, clears and fills the folder of a run.
 #include <array>
 #include <dsc/base/error.hpp>
 #include <dsc/io/atomic_file.hpp>
@@ -11,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a run writes. Those that look like a result come first.
+/// The files that a run writes. Those that look like a result come first.
 constexpr std::array result_names = {"result",      ".result.part", "summary.json",
                                      "preview.png", "report.html"};
 constexpr std::array other_names = {"metrics.csv", "events.jsonl", "config.resolved.yaml", "provenance.json",
@@ -58,7 +59,7 @@ RunFolder RunFolder::claimed(fs::path folder) {
         throw UsageError("run.folder", folder.string() + " is a file; name a folder with -o");
     }
     if (fs::is_directory(status)) {
-        // A run that was killed before it said that it is running leaves nothing but its lock.
+        // A run that was killed before it wrote that it is running leaves only its lock.
         const bool empty = io::nothing_but_leftovers(folder, error, RunLock::name);
         if (error) cannot(folder, "cannot be read", error);
         if (!empty && !is_ours(folder)) {
@@ -69,7 +70,7 @@ RunFolder RunFolder::claimed(fs::path folder) {
         }
     }
     fs::create_directories(folder, error);
-    if (error) cannot(folder, "cannot be made", error);
+    if (error) cannot(folder, "cannot be created", error);
     auto lock = std::make_unique<RunLock>(folder);
     return {std::move(folder), std::move(lock)};
 }
@@ -93,7 +94,7 @@ fs::path RunFolder::make(std::string_view name) const {
     discard(folder);
     std::error_code error;
     fs::create_directory(folder, error);
-    if (error) cannot(folder, "cannot be made", error);
+    if (error) cannot(folder, "cannot be created", error);
     return folder;
 }
 
@@ -101,14 +102,14 @@ void RunFolder::open_staging() const {
     discard(staging());
     std::error_code error;
     fs::create_directory(staging(), error);
-    if (error) cannot(staging(), "cannot be made", error);
+    if (error) cannot(staging(), "cannot be created", error);
 }
 
 void RunFolder::publish_results() const {
     discard(file("result"));
     std::error_code error;
     fs::rename(staging(), file("result"), error);
-    if (error) cannot(file("result"), "cannot be made", error);
+    if (error) cannot(file("result"), "cannot be created", error);
 }
 
 void RunFolder::remove_results() const {

@@ -1,3 +1,4 @@
+// The lock file of a run folder.
 #include "run_lock.hpp"
 
 #include <dsc/base/error.hpp>
@@ -23,7 +24,7 @@ std::string this_host() {
     return ::gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : std::string("unknown");
 }
 
-/// What the owner wrote: its process and its host.
+/// The text that the owner wrote: its process and its host.
 struct Owner {
     pid_t process = 0;
     std::string host;
@@ -51,7 +52,7 @@ std::string described(const Owner& owner) {
 enum class Taken { yes, by_other, unknown };
 
 Taken lock(int descriptor) {
-    // Whoever asks for the owner holds the lock for a moment.
+    // A process that asks for the owner holds the lock for a moment.
     constexpr int most_tries = 10;
     constexpr useconds_t between_us = 10000;
     for (int tries = 0; ::flock(descriptor, LOCK_EX | LOCK_NB) != 0;) {
@@ -63,7 +64,7 @@ Taken lock(int descriptor) {
     return Taken::yes;
 }
 
-/// Without locks: whether the owner may still be there.
+/// Without locks: whether the owner may still be running.
 bool may_live(const Owner& owner) {
     if (owner.process <= 0 || owner.process == ::getpid()) return false;
     return owner.host != this_host() || ::kill(owner.process, 0) == 0 || errno == EPERM;
@@ -97,12 +98,12 @@ RunLock::RunLock(const std::filesystem::path& folder) : file_(folder / name) {
             descriptor_ = -1;
             busy(folder, owner);
         }
-        // Its last owner may have removed the file between our opening and our locking.
+        // The last owner may have removed the file between opening and locking.
         if (is_file(descriptor_, file_)) break;
         ::close(descriptor_);
     }
     const std::string text = std::to_string(::getpid()) + " " + this_host() + "\n";
-    // The text is for a message: without it the lock holds as well.
+    // The text is only for a message; the lock works without it.
     if (::ftruncate(descriptor_, 0) == 0) static_cast<void>(::pwrite(descriptor_, text.data(), text.size(), 0));
 }
 
@@ -110,7 +111,7 @@ RunLock::RunLock(RunLock&& other) noexcept : file_(std::move(other.file_)), desc
 
 RunLock::~RunLock() {
     if (descriptor_ < 0) return;
-    ::unlink(file_.c_str());  // before the lock goes: nobody else may have made it a lock of theirs
+    ::unlink(file_.c_str());  // before the lock is released: no other process may have made it its own lock
     ::close(descriptor_);
 }
 

@@ -1,3 +1,4 @@
+// Writes metrics.csv and events.jsonl.
 #include "run_log.hpp"
 
 #include <dsc/base/error.hpp>
@@ -33,7 +34,7 @@ void RunLog::cut(const std::filesystem::path& file, std::uint64_t bytes) {
     if (!error && size >= bytes) std::filesystem::resize_file(file, bytes, error);
     if (error || size < bytes)
         throw IoError("run.resume", file.string(), "", "is shorter than it was at the checkpoint, or cannot be written",
-                      "run without --resume to start anew");
+                      "run without --resume to start again");
 }
 
 LogState RunLog::state() {

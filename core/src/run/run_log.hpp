@@ -1,5 +1,5 @@
 #pragma once
-// The tables that a run writes while it goes on: metrics.csv and events.jsonl.
+// The tables that a run writes during the steps: metrics.csv and events.jsonl.
 
 #include <cstdint>
 #include <dsc/run/figures.hpp>
@@ -10,28 +10,28 @@
 
 namespace dsc::run {
 
-/// How far the tables had come, for a run that goes on from there.
+/// The length of the tables, for a run that continues later.
 struct LogState {
     std::uint64_t metrics_bytes = 0;
     std::uint64_t events_bytes = 0;
     std::uint64_t columns = 0;  ///< of the observers
 };
 
-/// Every row is flushed, so that a reader may follow the run. Throws IoError "io.write".
+/// Every row is flushed, so that a reader can follow the run. Throws IoError "io.write".
 class RunLog {
 public:
     RunLog(const std::filesystem::path& folder, const cloud::Transform& to_normalised);
-    /// Goes on after the rows that were there at `from`; later ones are cut off. Throws IoError "io.write" where the files are
+    /// Continues after the rows that existed at `from`; later rows are removed. Throws IoError "io.write" if the files are
     /// shorter.
     RunLog(const std::filesystem::path& folder, const cloud::Transform& to_normalised, const LogState& from);
 
-    /// Once there was a step.
+    /// Valid after the first step.
     LogState state();
 
     void add(const StepMetrics& row);
     void add(const kernel::Event& event);
     void add(const ClassFigures& figures);
-    /// Writes what still waits and closes the files.
+    /// Writes waiting rows and closes the files.
     void close();
 
 private:
@@ -44,7 +44,7 @@ private:
     std::ofstream events_;
     cloud::Transform to_normalised_;
     std::optional<StepMetrics>
-        waiting_;  // row 0, until the first step tells which figures the observers have
+        waiting_;  // row 0, until the first step shows which figures the observers have
     std::optional<std::size_t> columns_;
 };
 

@@ -1,3 +1,4 @@
+// A complete run, from a loaded experiment to its folder.
 #include <algorithm>
 #include <array>
 #include <dsc/base/error.hpp>
@@ -37,10 +38,10 @@ void require_valid(const RunOutcome& outcome) {
         "the result as written is not valid: " + std::to_string(v.inverted_tets) + " inverted tets, " +
             std::to_string(v.overused_faces + v.folded_faces) + " wrong faces, the surface is " +
             (outcome.conforms ? "" : "not ") +
-            "the interface of the volume; if the coordinates are huge, move the input nearer to the origin");
+            "the interface of the volume; if the coordinates are huge, move the input closer to the origin");
 }
 
-/// What these warnings tell is not part of a trimmed surface.
+/// Warnings about parts of the surface that trimming removes.
 constexpr std::array<std::string_view, 3> about_unsupported_parts = {"cloud.open", "cloud.one_sided", "coverage.unsupported"};
 
 bool settled_by_trimming(const hooks::Warning& warning) {
@@ -51,7 +52,7 @@ fs::path folder_of(const LoadedExperiment& loaded, const std::string& hash) {
     return fs::path("runs") / loaded.experiment.name / hash.substr(0, 12);
 }
 
-/// The built-in shapes stand along z, most models in files along y.
+/// The up axis is z for the built-in shapes and y for most models in files.
 void draw(const RunFolder& folder, const surface::TriangleMesh& surface, bool sampled, Workers& workers) {
     io::RenderOptions options;
     options.width = 800;
@@ -61,7 +62,7 @@ void draw(const RunFolder& folder, const surface::TriangleMesh& surface, bool sa
     io::write_png(folder.file("preview.png"), io::render(surface, options));
 }
 
-/// Everything between "running" and "done" in status.json.
+/// The work between "running" and "done" in status.json.
 class Job {
 public:
     Job(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue, const RunOptions& options)
@@ -81,8 +82,8 @@ public:
         if (options_.resume) resumed_ = checkpoint_to_resume(path, checkpoints, loaded_, state_.hash);
         folder.clear(resumed_ ? RunFolder::Keep::progress : RunFolder::Keep::nothing);
         if (options_.resume) {
-            log(LogLevel::info, resumed_ ? "going on after step " + std::to_string(resumed_->steps)
-                                         : "no checkpoint of this experiment in " + path.string() + ": from the start");
+            log(LogLevel::info, resumed_ ? "continuing after step " + std::to_string(resumed_->steps)
+                                         : "no checkpoint of this experiment in " + path.string() + ": starting at the beginning");
         }
         folder.write("status.json", status_json(state_));
         const Running running([this, &folder](const Error& error) {
@@ -113,7 +114,7 @@ private:
         return wanted ? wanted->keep : 1;
     }
 
-    /// Of the whole run, that before a checkpoint included.
+    /// Of the whole run, including the time before a checkpoint.
     double run_seconds() const { return watch_.seconds() + (resumed_ ? resumed_->seconds : 0.0); }
 
     RunOutcome work(const RunFolder& folder, Strategies& strategies, const Checkpoints& checkpoints) {
@@ -181,7 +182,7 @@ private:
         return outcome;
     }
 
-    /// Measures how far surface and points are apart, and adds the warnings that follow.
+    /// Measures the distances between surface and points, and adds the warnings about them.
     surface::CloudEvaluation measure_cloud_distances(const surface::TriangleMesh& surface, const cloud::TargetCloud& target, RunOutcome& outcome) {
         const surface::CloudDistances distances = surface::cloud_distances(surface, target.points(), &workers_);
         outcome.coverage = measure_coverage(surface, target.points(), distances, target.statistics(&workers_), input_->removed, &workers_);
@@ -192,7 +193,7 @@ private:
         return surface::evaluate_cloud(distances);
     }
 
-    /// Made from the folder, as `dsc report` does. A result without its page is still a result.
+    /// Made from the folder, as `dsc report` does. A result without its page is still a valid result.
     void write_report(const RunFolder& folder, RunOutcome& outcome) {
         try {
             folder.write("report.html", report_html(folder.path(), catalogue_, &workers_, input_ ? &*input_ : nullptr));
@@ -202,7 +203,7 @@ private:
         }
     }
 
-    /// What was reached before a strategy failed. What goes wrong here must not hide the strategy's error.
+    /// Saves the last state before a strategy failed. A fault in this function must not hide the strategy's error.
     void save_last_good(const RunFolder& folder, const mesh::TetMesh& mesh, std::uint64_t steps) {
         try {
             const fs::path place = folder.make("last_good");
@@ -232,8 +233,8 @@ private:
             for (const std::string& note : filter.notes) log(LogLevel::info, note);
     }
 
-    /// The folder tells of the failure, or that the run was stopped before there was a result; it holds nothing that looks
-    /// like one. The first error counts: what goes wrong here (a full disk, say) must not hide it.
+    /// Writes to the folder that the run failed, or was stopped before there was a result, and removes all results. The first
+    /// error is kept: a further error here (for example a full disk) must not hide it.
     void fail(const RunFolder& folder, int exit_code, const std::string& code, const std::string& message) {
         state_.state = exit_code == static_cast<int>(ExitCode::stopped) ? "stopped" : "failed";
         state_.finished = utc_now();
@@ -255,7 +256,7 @@ private:
     Stopwatch watch_;
     RunState state_;
     std::optional<Checkpoint> resumed_;
-    std::optional<LoadedInput> input_;  // of work(), kept for the report
+    std::optional<LoadedInput> input_;  // made by work(), kept for the report
 };
 
 }  // namespace

@@ -1,3 +1,4 @@
+// The list of active runs of this process.
 #include "running.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ struct RunsOfProcess {
     std::vector<const Running::Abandon*> all;
 };
 RunsOfProcess& runs_of_process() {
-    static auto* const runs = new RunsOfProcess;  // lives as long as the process, exit() included
+    static auto* const runs = new RunsOfProcess;  // lives as long as the process, including exit()
     return *runs;
 }
 

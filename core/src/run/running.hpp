@@ -1,12 +1,12 @@
 #pragma once
-// The runs of this process, for the case that it ends before they do.
+// The active runs of this process, for the case that the process ends before they do.
 
 #include <dsc/base/error.hpp>
 #include <functional>
 
 namespace dsc::run {
 
-/// A run that goes on, as long as this lives. abandon_runs() calls `abandon`, which may come from any thread. [setup]
+/// Registers an active run during its lifetime. abandon_runs() calls `abandon`, possibly from any thread. [setup]
 class Running {
 public:
     using Abandon = std::function<void(const Error&)>;

@@ -1,3 +1,4 @@
+// Saves and loads the sums and the progress of a run.
 #include "saved_run.hpp"
 
 #include <sstream>
@@ -21,7 +22,7 @@ void load(StateReader& in, hooks::Figures& figures) {
     }
 }
 
-/// The plain members, in one order for both ways.
+/// Visits the plain members in one order, for saving and loading.
 template <class Totals, class Visit>
 void each_plain(Totals& t, Visit&& visit) {
     visit(t.steps);

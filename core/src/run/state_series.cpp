@@ -1,3 +1,4 @@
+// Writes intermediate states of a run.
 #include "state_series.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ std::string file_name(const std::string& kind, std::uint64_t step) {
     return text.data() + extension_of(kind);
 }
 
-/// The step of a file's name; empty for any other file.
+/// The step in a file's name; empty for any other file.
 std::optional<std::uint64_t> step_of(const std::string& name, const std::string& kind) {
     const std::size_t begin = kind.size() + 1;
     std::uint64_t step = 0;
@@ -37,7 +38,7 @@ std::optional<std::uint64_t> step_of(const std::string& name, const std::string&
     return step;
 }
 
-/// The estimator that the velocity reads, made a second time: its answers are those of the first.
+/// A second instance of the estimator that the velocity uses; both give the same answers.
 std::unique_ptr<hooks::CurvatureEstimator> make_curvature(const Experiment& experiment, const plugin::Catalogue& catalogue) {
     const config::Schema* schema = catalogue.find_schema("velocity", experiment.velocity.type);
     if (schema == nullptr) return nullptr;
@@ -61,7 +62,7 @@ void to_input(std::vector<Vec3>& points, const cloud::Transform& to_normalised) 
     for (Vec3& p : points) p = to_normalised.inverse(p);
 }
 
-/// The attributes as arrays of points with the given ids, NaN off the interface.
+/// The attributes as arrays of the points with the given ids; NaN off the interface.
 void add_attributes(const hooks::StepContext& context, const std::vector<mesh::VertexId>& ids, io::VolumeData& data) {
     if (context.attributes.empty()) return;
     const std::vector<mesh::VertexId>& on_surface = context.surface.vertex_ids;
@@ -76,7 +77,7 @@ void add_attributes(const hooks::StepContext& context, const std::vector<mesh::V
     }
 }
 
-/// Adds the entry, or takes the place of one of the same step; a state that a resumed run computes again is the same.
+/// Adds the entry, or replaces an entry of the same step: a resumed run computes the same state again.
 void note(std::vector<io::SeriesEntry>& entries, io::SeriesEntry entry) {
     const auto before = [](const io::SeriesEntry& a, const io::SeriesEntry& b) { return a.step < b.step; };
     const auto at = std::lower_bound(entries.begin(), entries.end(), entry, before);
@@ -117,7 +118,7 @@ StateSeries::StateSeries(const Experiment& experiment, const plugin::Catalogue& 
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error) {
-        throw IoError("run.folder", folder_.string(), "", "cannot be made: " + error.message(),
+        throw IoError("run.folder", folder_.string(), "", "cannot be created: " + error.message(),
                       "choose another folder with -o or make this one writable");
     }
     surfaces_ = kept_states(run_folder, "surface");

@@ -1,5 +1,5 @@
 #pragma once
-// The states that a run keeps on its way, in series/: for ParaView every so many steps, for the report a handful.
+// Intermediate states of a run, in series/: for ParaView at regular steps, for the report a few.
 
 #include <dsc/hooks/curvature_estimator.hpp>
 #include <dsc/io/series.hpp>
@@ -13,23 +13,23 @@
 
 namespace dsc::run {
 
-/// Surfaces that a report shows, the result included.
+/// Number of surfaces that a report shows, including the result.
 inline constexpr std::size_t report_frames = 12;
 
-/// The steps of which a report without `output.series` keeps the surface, the result left out: close together at the start,
-/// where most happens.
+/// The steps whose surfaces are kept for a report if there is no `output.series`, without the result. They are close together
+/// at the start, where the surface changes most.
 std::set<std::uint64_t> report_steps(std::uint64_t planned);
 
-/// Writes the states in the input's coordinates, and after each the index anew, so that a run may be watched. Reads the
-/// complex, writes nothing of it.
+/// Writes the states in the input's coordinates, and updates the index after each, so that a run can be watched. Does not
+/// change the complex.
 class StateSeries {
 public:
-    /// Takes up the states that `run_folder` holds already: those of a run that is resumed.
+    /// Continues with the states that `run_folder` already contains, for a resumed run.
     StateSeries(const Experiment& experiment, const plugin::Catalogue& catalogue, const std::filesystem::path& run_folder);
 
-    /// Whether anything is kept at all.
+    /// Whether any state is kept.
     bool active() const { return every_ != 0 || !steps_.empty(); }
-    /// Keeps the state if it is due. The context belongs to the state: its step is the last one. Throws IoError,
+    /// Keeps the state if its step is selected. The context belongs to the state; its step is the last one. Throws IoError,
     /// GeometryError as io::write_volume, StrategyError of the curvature. [step]
     void add(const hooks::StepContext& context, const mesh::Complex& complex);
 
@@ -42,7 +42,7 @@ private:
     std::filesystem::path folder_;
     std::uint64_t every_ = 0;          // of output.series
     std::set<std::uint64_t> steps_{};  // for the report
-    std::unique_ptr<hooks::CurvatureEstimator> curvature_;  // a second one of the velocity's, null where that has none
+    std::unique_ptr<hooks::CurvatureEstimator> curvature_;  // a copy of the velocity's; null if it has none
     std::vector<io::SeriesEntry> surfaces_;
     std::vector<io::SeriesEntry> volumes_;
 };

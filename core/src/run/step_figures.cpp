@@ -1,3 +1,4 @@
+// Figures of the state of a run.
 #include "step_figures.hpp"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ double enclosed_volume(const mesh::Complex& complex, const surface::SurfaceView&
             const mesh::VertexId apex = tet.v[face];
             if (apex != view.vertex_ids[a] && apex != view.vertex_ids[b] && apex != view.vertex_ids[c]) break;
         }
-        // Between two labels above 0 nothing ends.
+        // A face between two labels above 0 is not counted.
         if (std::min(complex.label(t), complex.label_across(t, face)) > 0) continue;
         sum += view.positions[a].dot(view.positions[b].cross(view.positions[c]));
     }

@@ -10,20 +10,20 @@
 
 namespace dsc::run {
 
-/// Fills the figures that the state alone gives: sizes, mean edge, distances, volume, quality. `cloud` may be null;
-/// `nearest` holds the cloud point nearest to each view vertex.
+/// Fills the figures that depend only on the state: sizes, mean edge, distances, volume, quality. `cloud` may be null;
+/// `nearest` contains the nearest cloud point of each view vertex.
 void measure_state(const mesh::Complex& complex, const surface::SurfaceView& view,
                    const cloud::TargetCloud* cloud, std::span<const cloud::Neighbour> nearest, Workers& workers,
                    StepMetrics& row);
 
-/// Fills the speeds of a step, those of the movable vertices; returns their sum.
+/// Fills the speeds of a step, for the movable vertices; returns their sum.
 double measure_speeds(const surface::SurfaceView& view, std::span<const Vec3> displacements, StepMetrics& row);
 
-/// Summed length that the movable vertices of the view have gone since it was taken; one that an edit removed counts with what
-/// it asked for.
+/// Sum of the distances that the movable vertices of the view have moved since it was made; a vertex that an edit removed
+/// counts with its whole displacement.
 double distance_gone(const mesh::Complex& complex, const surface::SurfaceView& view, std::span<const Vec3> displacements);
 
-/// Volume of all labels above 0 by the divergence theorem over the interface: the cost grows with the interface only.
+/// Volume of all labels above 0 by the divergence theorem over the interface; the cost grows only with the interface.
 double enclosed_volume(const mesh::Complex& complex, const surface::SurfaceView& view);
 
 }  // namespace dsc::run

@@ -1,5 +1,5 @@
 #pragma once
-// Wall time, for reports only: no result depends on it.
+// Wall time, only for reports: no result depends on it.
 
 #include <chrono>
 #include <ctime>
@@ -16,7 +16,7 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Adds the time of its life to a sum.
+/// Adds the time of its lifetime to a sum.
 class Timed {
 public:
     explicit Timed(double& sum) : sum_(&sum) {}
@@ -29,10 +29,10 @@ private:
     Stopwatch watch_;
 };
 
-/// CPU seconds of this process so far, over all its threads.
+/// CPU seconds of this process up to now, over all its threads.
 inline double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Adds the CPU time that the process spends during its life to a sum.
+/// Adds the CPU time of the process during its lifetime to a sum.
 class CpuTimed {
 public:
     explicit CpuTimed(double& sum) : sum_(&sum) {}

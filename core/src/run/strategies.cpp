@@ -1,4 +1,4 @@
-// Makes the strategies of an experiment and checks that they fit together.
+// Creates the strategies of an experiment and checks that they fit together.
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/run/driver.hpp>
 
@@ -18,7 +18,7 @@ Strategies make_strategies(const Experiment& experiment, const plugin::Catalogue
             !all.velocity->can_sample()) {
             config::fail("config.no_sampling", refine.params.position(),
                          path + ": refinement '" + refine.type +
-                             "' reads the velocity between the vertices, and velocity '" +
+                             "' reads the velocity between the vertices, but velocity '" +
                              experiment.velocity.type + "' has no value there",
                          "choose another refinement or a velocity that can be sampled");
         }

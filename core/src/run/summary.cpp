@@ -1,3 +1,4 @@
+// Texts of summary.json and status.json.
 #include "summary.hpp"
 
 #include <nlohmann/json.hpp>
@@ -71,7 +72,7 @@ ordered_json input(const LoadedInput* loaded) {
             {"diagonal", report.diagonal}};
 }
 
-/// Of all labels above 0; where there are several, the interface as a whole does not enclose it.
+/// Volume of all labels above 0; if there are several, the interface as a whole does not enclose it.
 double volume_of(const SummaryParts& parts) {
     if (parts.outcome.label_surfaces.empty()) return parts.outcome.surface.report.volume;
     double sum = 0.0;
@@ -121,14 +122,14 @@ ordered_json start_seconds(const SummaryParts& parts) {
     return all;
 }
 
-/// The same on the clock.
+/// The same as wall time.
 ordered_json start_wall_seconds(const SummaryParts& parts) {
     return {{"filters", parts.input == nullptr ? 0.0 : parts.input->report.filter_wall_seconds},
             {"initial_mesh", parts.outcome.totals.seconds.initial_mesh_wall},
             {"adopt", parts.outcome.totals.seconds.adopt_wall}};
 }
 
-/// Of the filtered points, in normalised units.
+/// Statistics of the filtered points, in normalised units.
 ordered_json statistics(const LoadedInput* loaded) {
     if (loaded == nullptr) return nullptr;
     const cloud::Statistics& s = loaded->target.statistics();
@@ -136,7 +137,7 @@ ordered_json statistics(const LoadedInput* loaded) {
             {"noise_to_width", s.noise_ratio}, {"area", s.area},                  {"duplicates", s.duplicates}};
 }
 
-/// In normalised units.
+/// Coverage, in normalised units.
 ordered_json coverage(const RunOutcome& outcome) {
     if (!outcome.coverage) return nullptr;
     const Coverage& c = *outcome.coverage;

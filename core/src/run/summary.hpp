@@ -12,7 +12,7 @@
 
 namespace dsc::run {
 
-/// All that summary.json reports.
+/// The data of summary.json.
 struct SummaryParts {
     const LoadedExperiment& loaded;
     const std::string& hash;
@@ -25,13 +25,13 @@ struct SummaryParts {
 };
 std::string summary_json(const SummaryParts& parts);
 
-/// What status.json says.
+/// The data of status.json.
 struct RunState {
     std::string state;  ///< running, done, stopped, failed
     std::string hash;
     std::string started;
     std::string finished;             ///< empty while running
-    std::optional<RunTotals> totals;  ///< of a run that ended by itself
+    std::optional<RunTotals> totals;  ///< for a run that ended normally
     int exit_code = 0;
     std::string error_code;
     std::string error;

@@ -1,4 +1,4 @@
-// A sweep file: its schema, and the points that its axes make.
+// Reads a sweep file: its schema, and the points that its axes make.
 #include <algorithm>
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/config/overrides.hpp>
@@ -17,7 +17,7 @@ using config::ConfigEntry;
 using config::ConfigNode;
 using config::Diagnostics;
 
-/// A map from dotted paths to values. Its keys are those of experiments, which no schema of ours lists.
+/// A map from dotted paths to values. Its keys are keys of experiments, which no schema here lists.
 struct Paths {};
 void declare_paths(config::ParamSchema<Paths>&) {}
 
@@ -27,7 +27,7 @@ struct RandomAxis {
     Paths ranges;
 };
 
-/// Exactly one of them.
+/// Exactly one of the members is given.
 struct SweepAxis {
     std::optional<Paths> grid;
     std::optional<Paths> zip;
@@ -45,7 +45,8 @@ struct SweepFile {
 };
 
 void declare_random(config::ParamSchema<RandomAxis>& s) {
-    s.integer("n", &RandomAxis::n).range(1, most_sweep_points).unit("points").doc("Number of draws. More only add points.");
+    s.integer("n", &RandomAxis::n).range(1, most_sweep_points).unit("points")
+        .doc("Number of draws. A larger number only adds points.");
     s.integer("seed", &RandomAxis::seed).at_least(0).unit("1").doc("Seed of the draws, not of the experiments.");
     s.object("ranges", &RandomAxis::ranges, declare_paths)
         .doc("Dotted path to {from, to, scale: linear or log, integer}.");
@@ -54,7 +55,7 @@ void declare_random(config::ParamSchema<RandomAxis>& s) {
 void declare_axis(config::ParamSchema<SweepAxis>& s) {
     s.object("grid", &SweepAxis::grid, declare_paths)
         .doc("Dotted path to a list of values or {from, to, count, scale, integer}: every combination.");
-    s.object("zip", &SweepAxis::zip, declare_paths).doc("Dotted path to a list of values: the lists side by side.");
+    s.object("zip", &SweepAxis::zip, declare_paths).doc("Dotted path to a list of values: the i-th values of all lists together.");
     s.list("list", &SweepAxis::list, declare_paths).doc("Maps of dotted paths to values, point by point.");
     s.object("random", &SweepAxis::random, declare_random).doc("Values drawn out of ranges.");
     s.check([](const SweepAxis& p) { return int(p.grid.has_value()) + int(p.zip.has_value()) + int(!p.list.empty()) +
@@ -64,18 +65,19 @@ void declare_axis(config::ParamSchema<SweepAxis>& s) {
 
 void declare_sweep(config::ParamSchema<SweepFile>& s) {
     s.integer("sweep", &SweepFile::format).range(1, 1).required().unit("1").doc("Version of the format: 1.");
-    s.file("base", &SweepFile::base).required().doc("The experiment that all points start from.");
+    s.file("base", &SweepFile::base).required().doc("The experiment on which all points are based.");
     s.object("set", &SweepFile::set, declare_paths).doc("Dotted path to value: overrides of all points.");
-    s.list("axes", &SweepFile::axes, declare_axis).doc("What varies. The points are every combination of the axes.");
-    s.integers("seeds", &SweepFile::seeds).at_least(0).doc("Every point once with each of these seeds.");
-    s.integer("repeat", &SweepFile::repeat).range(1, most_sweep_points).unit("1").doc("Every point so many times, with the seeds 1, 2, ...");
+    s.list("axes", &SweepFile::axes, declare_axis).doc("The varied values. The points are all combinations of the axes.");
+    s.integers("seeds", &SweepFile::seeds).at_least(0).doc("Repeats every point with each of these seeds.");
+    s.integer("repeat", &SweepFile::repeat).range(1, most_sweep_points).unit("1")
+        .doc("Number of repetitions of every point, with the seeds 1, 2, ...");
     s.check([](const SweepFile& p) { return p.seeds.empty() || !p.repeat; },
             "'seeds' and 'repeat' must not both be given");
     s.check([](const SweepFile& p) { return !p.axes.empty() || !p.seeds.empty() || p.repeat; },
             "a sweep needs 'axes', 'seeds' or 'repeat'");
 }
 
-// ---- the schema sees maps of dotted paths as empty ones --------------------------------------------------------------
+// ---- the schema sees maps of dotted paths as empty maps --------------------------------------------------------------
 
 ConfigNode blank(const ConfigNode& node) {
     return node.is_map() ? ConfigNode::map().placed(node.position()) : node;
@@ -87,7 +89,7 @@ ConfigNode blank_items(const ConfigNode& list) {
     return out;
 }
 
-/// A copy of a map in which the value at `key`, if there is one, went through `change`.
+/// A copy of a map in which the value at `key`, if there is one, is replaced by `change` of it.
 template <class Change>
 ConfigNode changed(const ConfigNode& map, const char* key, Change change) {
     const ConfigEntry* entry = map.find_entry(key);
@@ -132,7 +134,7 @@ Alternatives seed_axis(const ConfigNode& root, const SweepFile& file) {
     return all;
 }
 
-/// A later override that covers an earlier one would undo it without a word.
+/// A later override that covers an earlier one would silently undo it.
 class Order {
 public:
     explicit Order(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -156,9 +158,9 @@ private:
             if (path != entry.key && path.rfind(entry.key + ".", 0) != 0) continue;
             const bool same = path == entry.key;
             diagnostics_.error("config.sweep_order", entry.position,
-                               same ? "'" + path + "' is set by an earlier axis already"
+                               same ? "'" + path + "' is already set by an earlier axis"
                                     : "'" + entry.key + "' would undo '" + path + "', which is set before it",
-                               same ? "name a key in one axis only" : "put the whole before its part");
+                               same ? "name a key in one axis only" : "set the whole before its part");
         }
     }
 
@@ -166,7 +168,7 @@ private:
     std::set<std::string> earlier_;
 };
 
-/// 1, 1.0 and 1e0 are one value, whatever the key makes of it.
+/// 1, 1.0 and 1e0 are the same value.
 ConfigNode canonical(const ConfigNode& node) {
     if (node.is_number()) return ConfigNode(node.as_real());
     if (node.is_list()) {

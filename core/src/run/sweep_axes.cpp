@@ -1,3 +1,4 @@
+// Reads the axes of a sweep.
 #include "sweep_axes.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ using config::Diagnostics;
 
 enum class Scale { linear, log };
 
-/// Where values lie. `count` belongs to a grid, which spaces them evenly.
+/// A range of values. `count` is for a grid, which spaces the values evenly.
 struct Range {
     double from = 0.0;
     double to = 1.0;
@@ -46,7 +47,7 @@ void declare_range(config::ParamSchema<Range>& s, bool counted) {
             "'from' must be above 0 on a logarithmic scale");
 }
 
-/// The range, or nothing where it is faulty.
+/// The range, or nothing if it is faulty.
 std::optional<Range> read_range(const ConfigEntry& entry, bool counted, Diagnostics& diagnostics) {
     config::ParamSchema<Range> schema;
     declare_range(schema, counted);
@@ -57,7 +58,7 @@ std::optional<Range> read_range(const ConfigEntry& entry, bool counted, Diagnost
     return schema.read(resolved);
 }
 
-/// Twelve digits: 0.001, not 0.0010000000000000002.
+/// Twelve digits, so that 0.0010000000000000002 becomes 0.001.
 double rounded(double value) {
     std::array<char, 40> text{};
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 12).ptr;
@@ -65,7 +66,7 @@ double rounded(double value) {
     return value;
 }
 
-/// A value of a range as it stands in the override: at the place of the range.
+/// A value of a range for the override, at the place of the range.
 ConfigNode value_of(const Range& range, double value, const ConfigNode& place) {
     value = std::clamp(rounded(value), range.from, range.to);
     const ConfigNode node = range.integer ? ConfigNode(static_cast<std::int64_t>(std::llround(value))) : ConfigNode(value);
@@ -80,7 +81,7 @@ std::vector<ConfigNode> spaced(const Range& range, const ConfigNode& place) {
     return values;
 }
 
-/// The values that an entry of a grid or zip lists.
+/// The values in the list of a grid or zip entry.
 std::vector<ConfigNode> listed(const ConfigEntry& entry, bool ranges, Diagnostics& diagnostics) {
     const ConfigNode& value = entry.value;
     if (ranges && value.is_map()) {
@@ -100,7 +101,7 @@ std::vector<ConfigNode> listed(const ConfigEntry& entry, bool ranges, Diagnostic
     return value.items();
 }
 
-/// An empty map has nothing to vary.
+/// An empty map is an error.
 bool require_entries(const ConfigNode& map, const char* what, Diagnostics& diagnostics) {
     if (map.size() > 0) return true;
     diagnostics.error("config.missing", map.position(), std::string(what) + " names no key",
@@ -118,7 +119,7 @@ Alternatives product(const std::vector<Alternatives>& axes, std::size_t most, co
         if (count > most) {
             diagnostics.error("config.sweep_size", place,
                               "more than " + std::to_string(most) + " combinations",
-                              "take fewer values, or draw some of the combinations with random");
+                              "use fewer values, or select some of the combinations with random");
             return {};
         }
     }
@@ -155,12 +156,12 @@ Alternatives zip_axis(const ConfigNode& map, Diagnostics& diagnostics) {
     for (const ConfigEntry& entry : map.entries()) {
         const std::vector<ConfigNode> values = listed(entry, false, diagnostics);
         if (&entry == &first) all.resize(values.size());
-        if (values.empty()) continue;  // told already
+        if (values.empty()) continue;  // already reported
         if (!all.empty() && values.size() != all.size()) {
             diagnostics.error("config.list_size", entry.value.position(),
                               "'" + entry.key + "' has " + std::to_string(values.size()) + " values and '" + first.key +
                                   "' has " + std::to_string(all.size()),
-                              "the lists of a zip have one length");
+                              "all lists of a zip must have the same length");
             continue;
         }
         for (std::size_t i = 0; i < all.size(); ++i) all[i].emplace_back(entry.key, values[i], entry.position);
@@ -182,7 +183,7 @@ Alternatives random_axis(const ConfigNode& ranges, const Draw& draw, Diagnostics
     for (const ConfigEntry& entry : ranges.entries()) {
         const auto range = read_range(entry, false, diagnostics);
         if (!range) continue;
-        // Integers: each end gets the share of a whole number.
+        // Integers: both ends get the range of a whole integer.
         Range wide = *range;
         if (range->integer && range->scale == Scale::linear) wide.from -= 0.5, wide.to += 0.5;
         for (std::size_t i = 0; i < all.size(); ++i) {

@@ -1,4 +1,4 @@
-// Every point of a sweep as an experiment, and the faults of all of them at once.
+// Validates every point of a sweep as an experiment and reports all faults at once.
 #include <dsc/base/error.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/run/driver.hpp>
@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using config::ConfigNode;
 
-/// The faults of all points. Most of them are those of one value and come back with every point that has it.
+/// The faults of all points. Most belong to one value and occur in every point with this value.
 class Faults {
 public:
     void add(const Error& error, const SweepPoint& point) {
@@ -49,7 +49,7 @@ private:
         }
     }
 
-    /// A diagnostic starts at the margin and goes on in indented lines. The last line of several counts them.
+    /// A diagnostic starts at the left margin and continues in indented lines. The last line contains the number of faults.
     static std::vector<std::string> parts(std::string_view message) {
         const std::size_t end = message.rfind('\n');
         if (end == std::string_view::npos) return {"error: " + std::string(message) + "\n"};
@@ -75,7 +75,7 @@ private:
     bool only_files_ = true;
 };
 
-/// Plugins are loaded once for each list of them, not once a point.
+/// Loads plugins once per list of plugins, not once per point.
 class Loader {
 public:
     explicit Loader(const PluginLoader& load) : load_(load) {}
@@ -90,7 +90,7 @@ private:
     std::map<std::vector<std::string>, const config::StrategyLookup*> loaded_;
 };
 
-/// The tree with all overrides that fit; the others are faults of the point, beside which the rest is judged.
+/// The tree with all overrides that fit; the others are faults of the point, and the rest is still checked.
 ConfigNode with_all(ConfigNode root, const ConfigNode& overrides, const SweepPoint& point, Faults& faults) {
     if (overrides.is_null()) return root;
     for (const config::ConfigEntry& entry : overrides.entries()) {
@@ -114,7 +114,7 @@ std::vector<std::string> sweep_experiments(const Sweep& sweep, const PluginLoade
     Loader loader(load_plugins);
     const PluginLoader load_once = [&loader](const auto& paths) -> const config::StrategyLookup& { return loader(paths); };
     Faults faults;
-    std::set<std::vector<std::string>> read;  // files whose content was hashed: a cloud may be large
+    std::set<std::vector<std::string>> read;  // files that were already hashed, because a cloud may be large
     std::vector<std::string> texts;
     for (const SweepPoint& point : sweep.points) {
         try {

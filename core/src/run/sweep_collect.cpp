@@ -1,4 +1,4 @@
-// From the folders of a sweep to one table.
+// Collects the results of a sweep in one table.
 #include <algorithm>
 #include <array>
 #include <dsc/base/error.hpp>
@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Of summary.json, in the order of the columns; those of the observers come before the costs.
+/// Names in summary.json, in the order of the columns; the columns of the observers come before the costs.
 constexpr std::array figure_names = {
     "steps",           "interface_vertices", "interface_faces",      "tets",   "min_tet_quality",
     "inverted_tets",   "components",         "genus",                "volume", "volume_initial",
@@ -24,11 +24,11 @@ constexpr std::array figure_names = {
     "vertex_to_cloud.mean", "vertex_to_cloud.max", "cloud_to_surface.mean", "cloud_to_surface.max"};
 constexpr std::array cost_names = {"wall_s", "cpu_s", "peak_rss_mb"};
 
-/// A row before the columns of all rows are known.
+/// A row, before the columns of all rows are known.
 struct Row {
     std::string status;  ///< done, failed, stopped, unfinished, missing
     std::string ended;   ///< how the schedule ended: converged, max_steps, ...
-    std::string error;   ///< its code
+    std::string error;   ///< its error code
     std::map<std::string, std::string> figures;
 };
 
@@ -42,7 +42,7 @@ std::string text_at(const json& object, const char* key) {
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-/// Numbers and truth values, by dotted names.
+/// Adds numbers and booleans under dotted names.
 void add_figures(const json& value, const std::string& name, std::map<std::string, std::string>& figures) {
     if (value.is_object()) {
         for (const auto& item : value.items())
@@ -52,7 +52,7 @@ void add_figures(const json& value, const std::string& name, std::map<std::strin
     }
 }
 
-/// status.json says "running" of a run that was killed, too: it is unfinished, whoever may be at it.
+/// status.json of a killed run also says "running": such a run is unfinished, whether or not it is still active.
 Row read_row(const fs::path& folder) {
     const json status = read_point_json(folder / "status.json");
     Row row;
@@ -66,7 +66,7 @@ Row read_row(const fs::path& folder) {
     if (state != "done" && state != "stopped") return row;
     const json summary = read_point_json(folder / "summary.json");
     if (!summary.is_object()) {
-        row.status = "unfinished";  // a folder that somebody has taken things out of
+        row.status = "unfinished";  // files are missing in the folder
         return row;
     }
     row.ended = text_at(summary, "status");
@@ -84,13 +84,13 @@ std::string cell(const std::string& text) {
     return quoted + "\"";
 }
 
-/// A string as it is, everything else as it stands in YAML.
+/// A string without quotes, everything else as in YAML.
 std::string value_cell(const config::ConfigNode* value) {
     if (value == nullptr) return {};
     return cell(value->is_string() ? value->as_string() : config::flow_text(*value));
 }
 
-/// All paths that some point overrides, in the order in which they first appear.
+/// All paths that at least one point overrides, in the order in which they first appear.
 std::vector<std::string> override_names(const std::vector<SweepJob>& jobs) {
     std::vector<std::string> names;
     for (const SweepJob& job : jobs) {
@@ -132,7 +132,7 @@ void count(const Row& row, SweepStates& states) {
 std::string collect_sweep(const fs::path& folder, SweepStates& states) {
     std::error_code ignored;
     if (!fs::exists(table_file(folder), ignored)) {
-        throw UsageError("sweep.folder", folder.string() + " has no jobs.tsv; give a folder that dsc sweep expand wrote");
+        throw UsageError("sweep.folder", folder.string() + " has no jobs.tsv; use a folder that dsc sweep expand wrote");
     }
     const std::vector<SweepJob> jobs = read_table(folder);
     std::vector<Row> rows;

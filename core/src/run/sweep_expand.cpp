@@ -1,4 +1,4 @@
-// From a sweep to folders: the points' first, the table that names them last.
+// Writes the folders of a sweep: the points first, the table with their names last.
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/io/atomic_file.hpp>
@@ -17,18 +17,18 @@ void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) {
-        throw IoError("run.folder", folder.string(), "", "cannot be made: " + error.message(),
+        throw IoError("run.folder", folder.string(), "", "cannot be created: " + error.message(),
                       "choose another folder with -o or make this one writable");
     }
 }
 
-/// The table as it stands; an empty one is written first, so that a folder that an interrupted call left is known.
+/// The present table. If there is none, an empty one is written first, so that the folder of an interrupted call is recognised.
 std::vector<SweepJob> open_table(const fs::path& folder) {
     std::error_code error;
     if (fs::exists(table_file(folder), error)) return read_table(folder);
     const bool file = fs::exists(folder, error) && !fs::is_directory(folder, error);
     if (file || (fs::is_directory(folder, error) && !io::nothing_but_leftovers(folder, error))) {
-        throw UsageError("sweep.folder", folder.string() + (file ? " is a file" : " is not empty and no sweep") +
+        throw UsageError("sweep.folder", folder.string() + (file ? " is a file" : " is not empty and does not contain a sweep") +
                                              "; nothing in it was changed; name another folder with -o or empty it");
     }
     make_folder(folder);
@@ -39,14 +39,14 @@ std::vector<SweepJob> open_table(const fs::path& folder) {
 
 enum class Place { fresh, same, other };
 
-/// What stands where a point's experiment shall be.
+/// What exists at the place of a point's experiment.
 Place look(const fs::path& file, const std::string& text) {
     std::error_code error;
     if (!fs::exists(file, error)) return Place::fresh;
     return read_file(file) == text ? Place::same : Place::other;
 }
 
-/// Points that were started must stay the experiments that they are.
+/// Experiments of points that were started must not change.
 void require_unchanged(const Sweep& sweep, const std::vector<std::string>& experiments, const fs::path& folder) {
     std::size_t count = 0;
     std::string first;

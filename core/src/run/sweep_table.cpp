@@ -1,3 +1,4 @@
+// Reads and writes the job table of a sweep.
 #include "sweep_table.hpp"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ constexpr std::string_view points = "points/";
 
 [[noreturn]] void refuse(const fs::path& file, std::size_t line, const std::string& cause) {
     throw IoError("sweep.table", file.string(), std::to_string(line), cause,
-                  "put the table back as dsc sweep expand wrote it, or expand into another folder");
+                  "restore the table as dsc sweep expand wrote it, or expand into another folder");
 }
 
 bool is_point_name(std::string_view name) {
@@ -36,19 +37,19 @@ config::ConfigNode overrides_of(const fs::path& file, std::size_t number, std::s
         const config::ConfigNode map = config::parse_value(source, 0);
         if (map.is_map()) return map;
     } catch (const ConfigError&) {
-        // Below, with the line of the table.
+        // Reported below, with the line of the table.
     }
-    refuse(file, number, "the third column is no map of overrides");
+    refuse(file, number, "the third column is not a map of overrides");
 }
 
 SweepJob job_of(const fs::path& file, std::size_t number, std::size_t index, std::string_view line) {
     const std::size_t first = line.find('\t');
     const std::size_t second = first == std::string_view::npos ? first : line.find('\t', first + 1);
-    if (second == std::string_view::npos) refuse(file, number, "not three columns parted by tabs");
+    if (second == std::string_view::npos) refuse(file, number, "not three columns separated by tabs");
     if (line.substr(0, first) != std::to_string(index)) refuse(file, number, "its index is not " + std::to_string(index));
     const std::string_view folder = line.substr(first + 1, second - first - 1);
     if (folder.substr(0, points.size()) != points || !is_point_name(folder.substr(points.size())))
-        refuse(file, number, "the second column is no folder of a point");
+        refuse(file, number, "the second column is not the folder of a point");
     return {std::string(folder.substr(points.size())), overrides_of(file, number, line.substr(second + 1))};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers of many things at once.
+// Computes one value per element, in parallel.
 
 #include <cstddef>
 #include <dsc/base/workers.hpp>
@@ -7,7 +7,8 @@
 
 namespace dsc::run {
 
-/// value(i) for all i below `count`, computed in blocks that no number of threads changes; `workers` null: one thread.
+/// value(i) for all i below `count`, computed in blocks that do not depend on the number of threads; `workers` null: one
+/// thread.
 template <class Value>
 std::vector<double> table(Workers* workers, std::size_t count, const Value& value) {
     std::vector<double> values(count);

@@ -1,3 +1,4 @@
+// Analyses a triangle mesh: edges, shells, fans, borders, defects.
 #include <dsc/surface/analysis.hpp>
 
 #include <dsc/geometry/quality.hpp>
@@ -9,8 +10,7 @@
 namespace dsc::surface {
 namespace {
 
-/// Union-find with the smallest member as representative, so that groups do not depend on the order of
-/// unions.
+/// Union-find with the smallest member as representative, so that groups do not depend on the order of the unions.
 class Groups {
 public:
     explicit Groups(std::size_t count) : parent_(count) {
@@ -41,7 +41,7 @@ struct HalfEdge {
 
 struct Edge {
     std::size_t begin, end;  ///< its half-edges in the sorted list
-    std::size_t ascending;   ///< how many of them run from low to high
+    std::size_t ascending;   ///< number of half-edges from low to high
     std::size_t count() const { return end - begin; }
     std::size_t descending() const { return count() - ascending; }
     bool manifold() const { return ascending <= 1 && descending() <= 1; }
@@ -50,7 +50,7 @@ struct Edge {
 std::size_t next_corner(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
 struct Connectivity {
-    std::vector<std::array<std::uint32_t, 3>> faces;  ///< those that are analysed
+    std::vector<std::array<std::uint32_t, 3>> faces;  ///< the faces that are analysed
     std::vector<HalfEdge> half_edges;
     std::vector<Edge> edges;
 
@@ -148,7 +148,7 @@ void count_edges(const TriangleMesh& mesh, const Connectivity& c, SurfaceReport&
     if (!c.edges.empty()) report.edge_mean = sum / static_cast<double>(c.edges.size());
 }
 
-/// Faces joined through edges make shells; corners joined through edges at one point make fans.
+/// Faces joined through edges form shells; corners joined through edges at one point form fans.
 struct Pieces {
     Groups shells;
     Groups fans;
@@ -174,7 +174,7 @@ void count_nonmanifold_vertices(std::size_t points, const Connectivity& c, Piece
     }
 }
 
-/// Boundary edges joined through the fans at their ends; in a manifold shell every piece is one loop.
+/// Joins boundary edges through the fans at their ends; in a manifold shell every piece is one loop.
 void count_boundary_loops(const Connectivity& c, Pieces& pieces, const std::vector<std::size_t>& shell_of,
                           std::vector<ShellReport>& shells) {
     Groups loops(3 * c.faces.size());

@@ -13,7 +13,7 @@
 
 namespace dsc::surface {
 
-/// Built once, read from any thread. Its shape depends on the boxes only.
+/// Built once; can be read from any thread. Its shape depends only on the boxes.
 class BoxTree {
 public:
     explicit BoxTree(const std::vector<Box3>& boxes) : items_(boxes.size()) {
@@ -27,8 +27,8 @@ public:
         std::uint32_t item = 0;
     };
 
-    /// The item with the least squared_distance(item), the lowest one among equals. The function must not
-    /// return less than the squared distance from p to the item's box, rounding aside.
+    /// The item with the least squared_distance(item); of equal ones the lowest. The function must not return less than the
+    /// squared distance from p to the item's box, except for rounding.
     template <class SquaredDistance>
     Best nearest(const Vec3& p, SquaredDistance&& squared_distance) const {
         Best best;
@@ -42,7 +42,7 @@ public:
         stack[size++] = {0, nodes_[0].squared_distance(p)};
         while (size > 0) {
             const Entry top = stack[--size];
-            // The margin keeps rounding from cutting off an equally near item with a lower index.
+            // The margin prevents rounding from excluding an equally near item with a lower index.
             if (top.squared > best.squared * (1.0 + 1e-14)) continue;
             const Node& node = nodes_[top.node];
             if (node.count > 0) {
@@ -63,7 +63,7 @@ public:
         return best;
     }
 
-    /// item(i) for all items below nodes whose boxes meet(box); in a fixed order.
+    /// Calls item(i) for all items below nodes for which meets(box) is true, in a fixed order.
     template <class Meets, class Item>
     void visit(Meets&& meets, Item&& item) const {
         if (nodes_.empty()) return;
@@ -85,14 +85,14 @@ public:
 
 private:
     static constexpr std::size_t max_depth =
-        80;  // halving 2^32 items and one sibling a level, with room to spare
+        80;  // enough for halving 2^32 items with one sibling per level
     static constexpr std::uint32_t leaf_size = 4;
 
     struct Node {
         Box3 box;
         std::uint32_t first =
-            0;  ///< leaf: its first item; otherwise the second child, the first one follows the node
-        std::uint32_t count = 0;  ///< items of a leaf; 0 of an inner node
+            0;  ///< leaf: its first item; otherwise the second child; the first child follows the node
+        std::uint32_t count = 0;  ///< number of items of a leaf; 0 for an inner node
         double squared_distance(const Vec3& p) const {
             return (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).squaredNorm();
         }

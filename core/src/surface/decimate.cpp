@@ -1,3 +1,4 @@
+// Collapses edges by quadric error [Garland1997], with OpenMesh.
 #include <dsc/surface/decimate.hpp>
 
 #include <dsc/base/error.hpp>
@@ -19,7 +20,7 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
 };
 using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
 
-/// OpenMesh drops what its half-edges cannot hold, so the mesh is looked at before it gets it.
+/// OpenMesh drops faces that its half-edges cannot represent, so the mesh is checked first.
 void require_manifold(const TriangleMesh& mesh) {
     const SurfaceReport r = analyse(mesh);
     if (r.nonmanifold_edges + r.misoriented_edges + r.nonmanifold_vertices == 0 &&
@@ -68,7 +69,7 @@ TriangleMesh decimate(const TriangleMesh& mesh, std::size_t faces) {
     require_sound(mesh);
     if (mesh.faces.size() <= faces) return mesh;
     require_manifold(mesh);
-    // Quadrics square coordinates: about the centre they keep their digits.
+    // Quadrics square the coordinates, so coordinates relative to the centre keep more digits.
     const Vec3 centre = used_box(mesh).centre();
     HalfEdgeMesh half_edges = to_half_edges(mesh, centre);
     OpenMesh::Decimater::DecimaterT<HalfEdgeMesh> decimater(half_edges);

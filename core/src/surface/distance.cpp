@@ -1,3 +1,4 @@
+// Nearest points of meshes and clouds.
 #include <dsc/surface/distance.hpp>
 
 #include <dsc/base/error.hpp>
@@ -43,7 +44,7 @@ struct StoredTriangle {
 std::vector<StoredTriangle> store(const TriangleMesh& mesh) {
     require_sound(mesh);
     if (mesh.faces.empty()) {
-        throw GeometryError("surface.empty", "surface: the mesh has no faces; a distance needs at least one");
+        throw GeometryError("surface.empty", "surface: the mesh has no faces; at least one is needed for a distance");
     }
     std::vector<StoredTriangle> out;
     out.reserve(mesh.faces.size());
@@ -56,7 +57,7 @@ std::vector<StoredTriangle> store(const TriangleMesh& mesh) {
 
 std::vector<Vec3> store(std::span<const Vec3> points) {
     if (points.empty()) {
-        throw GeometryError("surface.empty", "points: there are none; a distance needs at least one");
+        throw GeometryError("surface.empty", "points: the set is empty; at least one point is needed for a distance");
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (points[i].allFinite()) continue;

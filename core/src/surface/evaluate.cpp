@@ -1,3 +1,4 @@
+// Compares surfaces with surfaces and clouds.
 #include <dsc/base/error.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/geometry/quality.hpp>
@@ -11,7 +12,7 @@
 namespace dsc::surface {
 namespace {
 
-/// nearest(i) for every i of [0, count), over fixed blocks.
+/// Calls nearest(i) for every i of [0, count), over fixed blocks.
 template <class Nearest>
 std::vector<NearestHit> all_nearest(std::size_t count, Workers* workers, Nearest&& nearest) {
     std::vector<NearestHit> hits(count);
@@ -26,7 +27,7 @@ double mean(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Quantile with linear interpolation between order statistics, as numpy's default.
+/// Quantile with linear interpolation between order statistics, as the default of numpy.
 double quantile(std::vector<double> values, double q) {
     const double place = q * static_cast<double>(values.size() - 1);
     const auto below = static_cast<std::ptrdiff_t>(place);
@@ -96,8 +97,7 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, std::size_t count, Rando
     }
     if (!(total > 0.0) || !std::isfinite(total)) {
         throw GeometryError("surface.empty",
-                            "surface: the mesh has no area to sample; it needs at least one face "
-                            "that is not degenerate");
+                            "surface: the mesh has no area to sample; provide at least one face that is not degenerate");
     }
     const auto last = std::lower_bound(cumulative.begin(), cumulative.end(), total);
     SurfaceSamples out;

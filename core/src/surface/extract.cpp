@@ -1,4 +1,4 @@
-// The label interface of plain arrays. Deliberately independent of Complex: it judges what the kernel wrote.
+// The label interface of plain arrays. It is deliberately independent of Complex, because it checks the kernel's results.
 #include <dsc/surface/surface_view.hpp>
 
 #include <algorithm>
@@ -9,10 +9,10 @@ namespace dsc::surface {
 
 namespace {
 
-// The face of a tet, counter-clockwise seen from outside it, its least vertex first.
+// The face of a tet, counter-clockwise seen from outside the tet, its least vertex first.
 std::array<std::uint32_t, 3> outward(const mesh::TetMesh& mesh, std::uint32_t code) {
     const auto& v = mesh.tets[code >> 2U];
-    // A negative tet sees its faces the other way round.
+    // The faces of a negative tet have the opposite orientation.
     const Vec3 &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]], &d = mesh.points[v[3]];
     const bool positive = (b - a).cross(c - a).dot(d - a) > 0.0;
     std::array<std::uint32_t, 3> face{};
@@ -21,8 +21,8 @@ std::array<std::uint32_t, 3> outward(const mesh::TetMesh& mesh, std::uint32_t co
     return face;
 }
 
-// The faces that `inner` chooses, each counter-clockwise seen from outside the tet that it returns, null for none; the points
-// that they use, in the order of the arrays.
+// The faces that `inner` chooses, each counter-clockwise seen from outside the tet that it returns (null for none), and the
+// points that they use, in the order of the arrays.
 template <class Corners, class Inner>
 TriangleMesh extract(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vertex_of, const Corners& corners, const Inner& inner) {
     TriangleMesh surface;
@@ -46,7 +46,7 @@ TriangleMesh extract(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vert
     return surface;
 }
 
-// Per vertex, whether tets of label 0 and of others meet in it.
+// Per vertex, whether it belongs to tets of label 0 and to tets of other labels.
 std::vector<std::uint8_t> vertices_between(const mesh::TetMesh& mesh) {
     std::vector<std::uint8_t> sides(mesh.points.size(), 0);
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -61,8 +61,8 @@ std::vector<std::uint8_t> vertices_between(const mesh::TetMesh& mesh) {
 
 TriangleMesh extract_interface(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vertex_of) {
     const auto label = [&](const mesh::FaceUse& use) { return mesh.labels[use.code >> 2U]; };
-    // Most tets lie outside and touch no other label with a whole face: their faces need not be sorted. Between two of them there
-    // is not a face of the interface, nor where one of them meets the outside of the box.
+    // Most tets lie outside and share no whole face with another label, so their faces need not be sorted: neither a face
+    // between two of them nor their faces on the box belong to the interface.
     const std::vector<std::uint8_t> between = vertices_between(mesh);
     const auto corners = [&](std::size_t t) {
         const auto& v = mesh.tets[t];

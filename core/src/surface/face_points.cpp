@@ -1,3 +1,4 @@
+// The nearest faces of points, and the barycentric weights there.
 #include <dsc/surface/face_points.hpp>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Exact search for intersecting faces: an R-tree finds candidates, predicates decide.
 #include <dsc/surface/intersections.hpp>
 
 #include <dsc/base/workers.hpp>
@@ -31,7 +32,7 @@ int side(const Vec3& a, const Vec3& b, const Vec3& c, Plane plane) {
     return orient2d(a, b, c, plane.u, plane.v);
 }
 
-/// A projection in which the triangle keeps an area; exists for every triangle that is not degenerate.
+/// A projection in which the triangle keeps an area; it exists for every triangle that is not degenerate.
 Plane good_plane(const Triangle& t) {
     for (const Plane plane : planes) {
         if (side(t[0], t[1], t[2], plane) != 0) return plane;
@@ -71,12 +72,12 @@ bool coplanar_segment_meets(const Vec3& a, const Vec3& b, const Triangle& t) {
            segments_meet(a, b, t[1], t[2], plane) || segments_meet(a, b, t[2], t[0], plane);
 }
 
-/// Closed segment against closed triangle; sa and sb are the sides of its ends of the triangle's plane.
+/// Closed segment against closed triangle; sa and sb say on which side of the triangle's plane its ends lie.
 bool segment_meets(const Vec3& a, const Vec3& b, int sa, int sb, const Triangle& t) {
     if (sa * sb > 0) return false;
     if (sa == 0 && sb == 0) return coplanar_segment_meets(a, b, t);
-    // The segment reaches the plane in one point, which is in the triangle when the line ab passes its three
-    // edges on the same side.
+    // The segment meets the plane in one point. This point is in the triangle if the line ab passes the three edges on the same
+    // side.
     return same_side_or_zero(orient3d(a, b, t[0], t[1]), orient3d(a, b, t[1], t[2]),
                              orient3d(a, b, t[2], t[0]));
 }
@@ -100,16 +101,15 @@ bool any_edge_meets(const Triangle& p, const std::array<int, 3>& sides, const Tr
     return false;
 }
 
-/// Triangles (v, a, b) and (v, c, d): a common point besides v exists exactly when the edge opposite to v of
-/// one meets the other, because the ray from v through it leaves one of the two first.
+/// Triangles (v, a, b) and (v, c, d) have a common point besides v exactly if the edge opposite v of one meets the other,
+/// because the ray from v through that point leaves one of the two first.
 bool meet_beyond_vertex(const Triangle& p, const Triangle& q) {
     const int sc = orient3d(p[0], p[1], p[2], q[1]), sd = orient3d(p[0], p[1], p[2], q[2]);
     if (sc * sd > 0) return false;
     return segment_meets(q[1], q[2], sc, sd, p) || segment_meets(p[1], p[2], q);
 }
 
-/// Triangles (a, b, c) and (a, b, d) overlap beyond ab exactly when they are coplanar with c and d on one
-/// side of ab.
+/// Triangles (a, b, c) and (a, b, d) overlap beyond ab exactly if they are coplanar and c and d are on the same side of ab.
 bool meet_beyond_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     if (orient3d(a, b, c, d) != 0) return false;
     const Plane plane = good_plane({a, b, c});
@@ -118,7 +118,7 @@ bool meet_beyond_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
 
 using Face = std::array<std::uint32_t, 3>;
 
-/// The face turned so that `shared` of its points that the other face has come first.
+/// The face, rotated so that its first `shared` points are those that the other face contains.
 struct Turned {
     Face face;
     std::size_t shared;

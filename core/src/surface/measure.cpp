@@ -1,3 +1,4 @@
+// Sizes, normals and cleaning of triangle meshes.
 #include <dsc/surface/measure.hpp>
 
 #include <dsc/base/error.hpp>
@@ -47,7 +48,7 @@ double area(const TriangleMesh& mesh) {
 
 double volume(const TriangleMesh& mesh) {
     if (mesh.faces.empty()) return 0.0;
-    // About the centre, so that a small mesh far from the origin keeps its digits.
+    // Relative to the centre, so that a small mesh far from the origin keeps its digits.
     const Vec3 centre = used_box(mesh).centre();
     double sum = 0.0;
     for (const auto& [a, b, c] : mesh.faces) {
@@ -90,8 +91,7 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
 }
 
 std::vector<std::uint32_t> first_equal(std::span<const Vec3> points) {
-    // The coordinates are sorted along with the indices: looking them up would miss the cache at every
-    // comparison.
+    // The coordinates are sorted together with the indices; looking them up would cause a cache miss in every comparison.
     std::vector<std::pair<std::array<double, 3>, std::uint32_t>> order;
     order.reserve(points.size());
     for (const Vec3& p : points) order.emplace_back(key_of(p), static_cast<std::uint32_t>(order.size()));

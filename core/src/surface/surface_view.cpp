@@ -1,3 +1,4 @@
+// Builds the flat view of the interface of a complex.
 #include <dsc/surface/surface_view.hpp>
 
 #include <algorithm>
@@ -11,7 +12,7 @@ using RawFace = ViewMemory::Face;
 
 constexpr std::size_t walk_block = 1024;  // vertices
 
-// Interface faces round v for which v is the vertex of least birth, each once, oriented out of the larger label.
+// Interface faces round v in which v has the least birth, each once, oriented out of the larger label.
 void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::TetId>& star, mesh::TetIndex& places, std::vector<RawFace>& out) {
     c.star(v, star, places);
     for (const mesh::TetId t : star) {
@@ -39,7 +40,7 @@ std::span<const ViewMemory::Face> ViewMemory::faces_led_by(const mesh::Complex& 
     known = false;
     if (v >= index_.size() || index_[v] >= births_.size()) return {};
     const std::uint32_t i = index_[v];
-    // The slot of a vertex may have another one by now.
+    // Another vertex may use the slot now.
     if (births_[i] != complex.birth(v) || complex.vertex_date(v) > clock_) return {};
     known = true;
     return std::span(faces_).subspan(starts_[i], starts_[i + 1] - starts_[i]);
@@ -143,7 +144,8 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
     for (std::size_t i = 0; i < n; ++i) view.face_offsets[i + 1] += view.face_offsets[i];
     view.vertex_faces.resize(3 * m);
     view.normals.assign(n, Vec3::Zero());
-    // Filling in face order keeps each vertex' faces in ascending order; offsets are restored by the shift below.
+    // Filling in the order of the faces keeps the faces of each vertex in ascending order; the shift below restores the
+    // offsets.
     for (std::size_t f = 0; f < m; ++f) {
         for (const auto v : view.faces[f]) {
             view.vertex_faces[view.face_offsets[v]++] = static_cast<std::uint32_t>(f);

@@ -1,3 +1,4 @@
+// Measures the thickness of the solid with rays.
 #include <dsc/surface/thickness.hpp>
 
 #include <cmath>
@@ -9,13 +10,13 @@ namespace dsc::surface {
 namespace {
 
 constexpr std::size_t ray_block = 256;  // vertices
-constexpr double rounding = 1e-9;       // a ray through an edge shall not slip through between its two faces
+constexpr double rounding = 1e-9;       // a ray through an edge must not pass between the two faces of the edge
 constexpr double never = std::numeric_limits<double>::infinity();
 
 struct Ray {
     Vec3 from, along;
 
-    /// Whether it is inside the box somewhere up to `most`.
+    /// Whether the ray is inside the box somewhere up to `most`.
     bool meets(const Box3& box, double most) const {
         double first = 0.0, last = most;
         for (int k = 0; k < 3; ++k) {
@@ -30,7 +31,7 @@ struct Ray {
         return first <= last + rounding * most;
     }
 
-    /// Distance to the triangle, infinity where it passes by [Moller1997].
+    /// Distance to the triangle; infinity if the ray misses it [Moller1997].
     double distance(const Vec3& a, const Vec3& b, const Vec3& c) const {
         const Vec3 ab = b - a, ac = c - a, across = along.cross(ac);
         const double determinant = ab.dot(across);

@@ -1,3 +1,4 @@
+// Removes the parts of a surface that no data supports.
 #include <dsc/surface/trim.hpp>
 
 #include <algorithm>
@@ -11,8 +12,8 @@
 namespace dsc::surface {
 namespace {
 
-constexpr double border_part = 0.5;      // of the bound: up to there the border of what goes is moved back
-constexpr double least_island = 0.02;    // of the area that stays
+constexpr double border_part = 0.5;      // of the bound: the border of the removed part is moved back to this
+constexpr double least_island = 0.02;    // of the remaining area
 constexpr std::uint32_t none = 0xffffffffU;
 constexpr int tooth_rounds = 3;
 
@@ -55,7 +56,7 @@ public:
         }
     }
 
-    /// Removes faces that `weak` holds for and that lie next to removed ones, and so on.
+    /// Removes faces for which `weak` is true and that lie next to removed ones, and repeats this.
     template <class Weak>
     void spread(Weak&& weak) {
         std::vector<std::uint32_t> front;
@@ -96,7 +97,7 @@ public:
         return static_cast<std::size_t>(std::count_if(areas.begin(), areas.end(), [&](double area) { return area < bound; }));
     }
 
-    /// Where the faces round a vertex are several fans, all but the largest go. Returns whether any went.
+    /// If the faces round a vertex form several fans, removes all but the largest. Returns whether any face was removed.
     bool remove_fans() {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> corners;  // vertex, face
         for (std::uint32_t f = 0; f < kept_.size(); ++f) {
@@ -196,7 +197,7 @@ TriangleMesh trim(const TriangleMesh& mesh, std::span<const double> gaps, std::s
                   std::vector<std::uint32_t>* points_of, TrimReport* report) {
     if (gaps.size() != mesh.points.size() || (!support.empty() && support.size() != mesh.points.size())) {
         throw GeometryError("trim.values", "there are " + std::to_string(gaps.size()) + " gaps and " + std::to_string(support.size()) + " supports for " +
-                                               std::to_string(mesh.points.size()) + " points of the surface; give one per point");
+                                               std::to_string(mesh.points.size()) + " points; provide one per point");
     }
     const auto any = [](const std::array<std::uint32_t, 3>& face, auto&& holds) { return holds(face[0]) || holds(face[1]) || holds(face[2]); };
     Trimmer trimmer(mesh);
@@ -206,7 +207,7 @@ TriangleMesh trim(const TriangleMesh& mesh, std::span<const double> gaps, std::s
         });
     });
     trimmer.spread([&](const auto& face) { return any(face, [&](std::uint32_t v) { return gaps[v] > border_part * options.distance; }); });
-    // What stays is settled when nothing touches others in a vertex alone.
+    // The result is final when no faces touch others only in a vertex.
     std::size_t islands = trimmer.remove_islands();
     trimmer.remove_teeth();
     while (trimmer.remove_fans()) {

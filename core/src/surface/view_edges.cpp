@@ -1,3 +1,4 @@
+// The edges of a surface view.
 #include <algorithm>
 
 #include <dsc/surface/surface_view.hpp>
@@ -5,7 +6,7 @@
 namespace dsc::surface {
 
 void build_edges(const SurfaceView& view, std::vector<ViewEdge>& edges) {
-    // The edges that lead from a vertex to later ones are few: they are dealt out by it and then sorted.
+    // Each vertex has few edges to later vertices: they are grouped by the first vertex and then sorted.
     static thread_local std::vector<std::uint32_t> starts;
     const std::size_t n = view.vertex_count();
     starts.assign(n + 2, 0);
@@ -24,7 +25,7 @@ void build_edges(const SurfaceView& view, std::vector<ViewEdge>& edges) {
     std::size_t kept = 0;
     for (std::size_t v = 0; v < n; ++v) {
         const auto first = edges.begin() + static_cast<std::ptrdiff_t>(starts[v]), last = edges.begin() + static_cast<std::ptrdiff_t>(starts[v + 1]);
-        // Dealt out in the order of the faces, which a stable sort keeps among equal edges.
+        // Grouped in the order of the faces; a stable sort keeps this order among equal edges.
         std::stable_sort(first, last, [](const ViewEdge& x, const ViewEdge& y) { return x.vertices[1] < y.vertices[1]; });
         const std::size_t own = kept;
         for (auto edge = first; edge != last; ++edge) {

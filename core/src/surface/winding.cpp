@@ -1,3 +1,4 @@
+// The winding number of a closed surface, by exact ray crossings.
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/surface/measure.hpp>
 #include <dsc/surface/winding.hpp>
@@ -25,9 +26,9 @@ std::vector<Box3> boxes_of(const std::vector<Triangle>& triangles) {
     return boxes;
 }
 
-// How often the triangle, seen along x, winds round p: -1, 0 or 1. Its sides count where they pass p on the side of smaller
-// y. Where p is level with a corner it counts as a little higher, where it lies on a side as beyond it, towards larger y: as
-// if moved by (0, e, e^2) for an infinitely small e. A side that two triangles share so counts for both or for none.
+// Winding of the triangle round p, seen along x: -1, 0 or 1. Sides count if they pass p on the side of smaller y. If p has the
+// same height as a corner, it counts as slightly higher; if p lies on a side, it counts as beyond it, towards larger y: as if
+// moved by (0, e, e^2) for an infinitely small e. So a side that two triangles share counts for both or for none.
 int winding_in_yz(const Triangle& t, const Vec3& p) {
     int winding = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -36,18 +37,18 @@ int winding_in_yz(const Triangle& t, const Vec3& p) {
         const bool down = b.z() <= p.z() && a.z() > p.z();
         if (!up && !down) continue;
         const int side = geometry::orient2d(a, b, p, y_axis, z_axis);
-        // Left of an upward side is smaller y.
+        // Left of an upward side means smaller y.
         if (up && side > 0) ++winding;
         if (down && side < 0) --winding;
     }
     return winding;
 }
 
-// Of the ray from p along +x. A triangle that p lies on is behind it, as if p were moved by more along x than along y.
+// For the ray from p along +x. A triangle that contains p is behind p, as if p were moved more along x than along y.
 int crossing(const Triangle& t, const Vec3& p) {
     const int winding = winding_in_yz(t, p);
     if (winding == 0) return 0;
-    // Seen along x a triangle with winding 1 has its normal towards +x: p is before its plane where it is below it.
+    // Seen along x, a triangle with winding 1 has its normal towards +x; p is before its plane if it is below the plane.
     const int side = geometry::orient3d(t[0], t[1], t[2], p);
     return side * winding < 0 ? winding : 0;
 }

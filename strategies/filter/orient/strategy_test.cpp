@@ -97,7 +97,7 @@ TEST_CASE("normals that contradict the points are estimated again, and a note st
     CHECK(figure(result, "estimated") == 1.0);
     CHECK(outwards(result.cloud));
     REQUIRE(result.report.notes.size() == 1);
-    CHECK(result.report.notes[0].find("do not stand on the surface") != std::string::npos);
+    CHECK(result.report.notes[0].find("are not perpendicular to the surface") != std::string::npos);
     CHECK(filtered(bad, from("estimate")).report.notes.empty());
 }
 

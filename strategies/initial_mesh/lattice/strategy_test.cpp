@@ -304,11 +304,11 @@ TEST_CASE("bad parameters are refused with their cause") {
     refused(ConfigNode::map({{"layers", 1}}), "layers");
     refused(ConfigNode::map({{"finest", "kuhn"}}), "finest");
     refused(ConfigNode::map({{"cell", 0.001}}),
-            "cell must go at least 4 and at most 1024 times into twice the box");
+            "cell must fit at least 4 and at most 1024 times into twice the box");
     refused(ConfigNode::map({{"half_width", 1.6}}),
             "a shape reaches the faces of the box; make the shape smaller or `box` larger");
     refused(ConfigNode::map({{"growth", 1.0}, {"cells", 400}}),
-            "64000000 cells, more than the 12000000 that it makes");
+            "64000000 cells, but the limit is 12000000");
     const ConfigNode flat =
         ConfigNode::map({{"shape", "cylinder"}, {"axis", ConfigNode::list({0.0, 0.0, 0.0})}});
     refused(ConfigNode::map({{"shapes", ConfigNode::list({flat})}}), "axis must not be the zero vector");

@@ -48,11 +48,11 @@ std::string ply(std::string_view format, std::string_view points, std::string_vi
 const std::string obj_remedy =
     "a 'v' line is 'v x y z' or 'v x y z r g b'; the file may be cut off, write it again";
 const std::string xyz_remedy =
-    "a point needs x, y and z, divided by blanks, commas or semicolons; the file may be cut off";
+    "a point needs x, y and z, separated by blanks, commas or semicolons; the file may be cut off";
 const std::string finite_remedy = "is not a finite number; remove the point or write its true coordinates";
 const std::string cut = "; the file is cut off, write it again";
 const std::string again = "; save the cloud again";
-const std::string alone = "; save the points with x, y and z alone";
+const std::string alone = "; save the points with only x, y and z";
 
 }  // namespace
 
@@ -92,17 +92,17 @@ TEST_CASE("formats that are not read are refused with a way out") {
     const test::Folder folder;
     const std::string accepted = "accepted are .pcd .ply .obj .xyz .txt .asc .pts .csv";
     CHECK(read_error(folder, "scan.las", "LASF") ==
-          "io.format 6: scan.las: las files are not read here; convert it first: pdal translate scan.las "
+          "io.format 6: scan.las: las files are not supported; convert it first: pdal translate scan.las "
           "scan.ply");
     CHECK(read_error(folder, "scan.LAZ", "LASF") ==
-          "io.format 6: scan.LAZ: laz files are not read here; convert it first: pdal translate scan.LAZ "
+          "io.format 6: scan.LAZ: laz files are not supported; convert it first: pdal translate scan.LAZ "
           "scan.ply");
     CHECK(read_error(folder, "scan.e57", "ASTM-E57") ==
-          "io.format 6: scan.e57: e57 files are not read here; convert it first: pdal translate scan.e57 "
+          "io.format 6: scan.e57: e57 files are not supported; convert it first: pdal translate scan.e57 "
           "scan.ply, or "
           "save it as PLY with CloudCompare");
     CHECK(read_error(folder, "scan.stl", "solid") ==
-          "io.format 6: scan.stl: '.stl' is no known cloud format; " + accepted);
+          "io.format 6: scan.stl: '.stl' is not a supported cloud format; " + accepted);
     CHECK(read_error(folder, "scan", "1 2 3") ==
           "io.format 6: scan: the file's name has no extension; " + accepted);
 }
@@ -119,7 +119,7 @@ TEST_CASE("bad OBJ files") {
     CHECK(read_error(folder, "a.obj", "v 1 2 3 1 0\n") ==
           "io.syntax 6: a.obj:1: the vertex has 5 numbers; " + obj_remedy);
     CHECK(read_error(folder, "a.obj", "v 1 2 3 1 0 1\nv 1 2 3 1") ==
-          "io.syntax 6: a.obj:2: the vertex has 4 numbers, the one before has more; " + obj_remedy);
+          "io.syntax 6: a.obj:2: the vertex has 4 numbers, the previous one has more; " + obj_remedy);
     CHECK(read_error(folder, "a.obj", "v 1 2 3\nv 1 2 -\n") ==
           "io.syntax 6: a.obj:2: '-' is not a number; a point needs three numbers");
     CHECK(read_error(folder, "a.obj", "v 1,5 2 3\n") ==
@@ -136,11 +136,11 @@ TEST_CASE("bad OBJ files") {
 TEST_CASE("bad XYZ files") {
     const test::Folder folder;
     CHECK(read_error(folder, "a.xyz", "# only\n\n// comments\nx y z\n") ==
-          "io.no_points 6: a.xyz: the file has no points; a cloud in text has a line 'x y z' for each point");
+          "io.no_points 6: a.xyz: the file has no points; a text cloud has one line 'x y z' per point");
     CHECK(read_error(folder, "a.txt", "1 2 3\n4 5\n") ==
           "io.syntax 6: a.txt:2: the line has 2 columns; " + xyz_remedy);
     CHECK(read_error(folder, "a.asc", "1 2 3 255 0 0\n4 5 6 25") ==
-          "io.syntax 6: a.asc:2: the line has 4 columns, the one before has more; " + xyz_remedy);
+          "io.syntax 6: a.asc:2: the line has 4 columns, the previous one has more; " + xyz_remedy);
     CHECK(read_error(folder, "a.csv", "x,y,z\n1,,3\n") ==
           "io.syntax 6: a.csv:2: column 2 is empty; a point needs x, y and z");
     CHECK(read_error(folder, "a.csv", "x;y;z\n4,5;5,5;6,5\n") ==
@@ -156,12 +156,12 @@ TEST_CASE("bad XYZ files") {
     CHECK(read_error(folder, "a.xyz", "inf 2 3\n4 5 6\n") ==
           "io.non_finite 6: a.xyz:1: 'inf' " + finite_remedy);
     CHECK(read_error(folder, "a.pts", "3\n1 2 3\n4 5 6\n") ==
-          "io.truncated 6: a.pts:1: the count line promises 3 points, the file has 2" + cut);
+          "io.truncated 6: a.pts:1: the count line announces 3 points, the file has 2" + cut);
     CHECK(read_error(folder, "a.pts", "18446744073709551615\n1 2 3\n") ==
-          "io.truncated 6: a.pts:1: the count line promises 18446744073709551615 points, the file has 1" +
+          "io.truncated 6: a.pts:1: the count line announces 18446744073709551615 points, the file has 1" +
               cut);
     CHECK(read_error(folder, "a.pts", "1\n1 2 3\n4 5 6\n") ==
-          "io.syntax 6: a.pts:1: the count line promises 1 point, the file has 2; correct the count");
+          "io.syntax 6: a.pts:1: the count line announces 1 point, the file has 2; correct the count");
 }
 
 TEST_CASE("bad PCD headers") {
@@ -169,21 +169,21 @@ TEST_CASE("bad PCD headers") {
     const std::string three = "1 2 3\n4 5 6\n7 8 9\n";
     const auto error = [&](const std::string& text) { return read_error(folder, "a.pcd", text + three); };
     REQUIRE(error(pcd("3", "ascii")) == "no error");
-    CHECK(error("hello\n") == "io.syntax 6: a.pcd:1: 'hello' is no entry of a PCD header" + again);
+    CHECK(error("hello\n") == "io.syntax 6: a.pcd:1: 'hello' is not an entry of a PCD header" + again);
     CHECK(read_error(folder, "a.pcd", "VERSION 0.7\nFIELDS x y z\n") ==
-          "io.truncated 6: a.pcd: the PCD header has no line DATA; the file is cut off or no PCD file, write "
-          "it again");
+          "io.truncated 6: a.pcd: the PCD header has no line DATA; the file is truncated or not a PCD file; "
+          "write it again");
     CHECK(error(pcd("0", "ascii")) == "io.no_points 6: a.pcd: the file has no points" + again);
     CHECK(error(pcd("-3", "ascii")) ==
           "io.syntax 6: a.pcd:6: '-3' is not a count between 0 and 2147483647" + again);
     CHECK(error(pcd("99999999999", "ascii")) ==
           "io.syntax 6: a.pcd:6: '99999999999' is not a count between 0 and 2147483647" + again);
     CHECK(error(pcd("3", "ascii", "x y w")) ==
-          "io.syntax 6: a.pcd:10: a point needs the fields x, y and z, each once; 'z' is not" + again);
+          "io.syntax 6: a.pcd:10: a point needs the fields x, y and z exactly once; 'z' is not" + again);
     CHECK(error(pcd("3", "ascii", "x y z", "8 8")) ==
           "io.syntax 6: a.pcd:3: SIZE has 2 values, FIELDS has 3" + again);
     CHECK(error(pcd("3", "ascii", "x y z", "8 8 3")) ==
-          "io.syntax 6: a.pcd:3: field 'z' has size 3; known are 1, 2, 4 and 8" + again);
+          "io.syntax 6: a.pcd:3: field 'z' has size 3; supported are 1, 2, 4 and 8" + again);
     CHECK(error(pcd("3", "ascii", "x y z", "8 8 2")) ==
           "io.syntax 6: a.pcd:4: field 'z' has the unknown type 'F' of 2 bytes" + again);
     CHECK(error(pcd("3", "ascii", "x y z", "8 8 8", "F F F", "1 1 999999")) ==
@@ -191,11 +191,11 @@ TEST_CASE("bad PCD headers") {
     CHECK(error(pcd("3", "ascii", "x y z i", "8 8 8 4", "F F F F", "1 1 1 0")) ==
           "io.syntax 6: a.pcd:5: field 'i' has count 0" + again);
     CHECK(error(pcd("3", "zipped")) ==
-          "io.syntax 6: a.pcd:10: 'zipped' is no kind of PCD data; known are ascii, binary and "
+          "io.syntax 6: a.pcd:10: 'zipped' is not a kind of PCD data; supported are ascii, binary and "
           "binary_compressed" +
               again);
     CHECK(error("FIELDS x y z\nTYPE F F F\nSIZE 8 8 8\n") ==
-          "io.syntax 6: a.pcd:3: 'SIZE' stands twice or in the wrong order" + again);
+          "io.syntax 6: a.pcd:3: 'SIZE' occurs twice or in the wrong order" + again);
     CHECK(error("FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nWIDTH 2\nHEIGHT 2\nPOINTS 3\nDATA ascii\n") ==
           "io.syntax 6: a.pcd:7: WIDTH 2 x HEIGHT 2 is not POINTS 3" + again);
     CHECK(error("FIELDS x y z\nSIZE 8 8 8\nWIDTH 3\nHEIGHT 1\nPOINTS 3\nDATA ascii\n") ==
@@ -208,17 +208,17 @@ TEST_CASE("bad PCD data") {
     const test::Folder folder;
     const auto error = [&](const std::string& text) { return read_error(folder, "a.pcd", text); };
     CHECK(error(pcd("5", "ascii") + "1 2 3\n4 5 6\n7 8 9\n") ==
-          "io.truncated 6: a.pcd: the header promises 5 points, the file holds 3" + cut);
+          "io.truncated 6: a.pcd: the header announces 5 points, the file contains 3" + cut);
     CHECK(error(pcd("3", "ascii") + "1 2 3\n4 5 6\n7 8") ==
-          "io.truncated 6: a.pcd:13: the point has 2 values, the header asks for 3; the file may be cut off, "
+          "io.truncated 6: a.pcd:13: the point has 2 values, the header requires 3; the file may be cut off, "
           "write it "
           "again");
     CHECK(error(pcd("3", "ascii") + "1 2 3\n4 five 6\n7 8 9\n") ==
           "io.syntax 6: a.pcd:12: 'five' is not a number; write its true coordinate");
     CHECK(error(pcd("2", "binary") + std::string(47, 'a')) ==
-          "io.truncated 6: a.pcd: the header promises 2 points, the file holds 1" + cut);
+          "io.truncated 6: a.pcd: the header announces 2 points, the file contains 1" + cut);
     CHECK(error(pcd("2147483647", "binary") + std::string(48, 'a')) ==
-          "io.truncated 6: a.pcd: the header promises 2147483647 points, the file holds 2" + cut);
+          "io.truncated 6: a.pcd: the header announces 2147483647 points, the file contains 2" + cut);
 
     const auto compressed = [&](std::uint32_t packed, std::uint32_t unpacked, std::size_t held) {
         std::string bytes(8 + held, '\0');
@@ -227,17 +227,17 @@ TEST_CASE("bad PCD data") {
         return pcd("2", "binary_compressed") + bytes;
     };
     CHECK(error(pcd("2", "binary_compressed") + "abc") ==
-          "io.truncated 6: a.pcd: the header promises 2 points, the file holds 0" + cut);
+          "io.truncated 6: a.pcd: the header announces 2 points, the file contains 0" + cut);
     CHECK(error(compressed(40, 48, 39)) ==
           "io.truncated 6: a.pcd: the compressed data have 39 of 40 bytes" + cut);
     CHECK(error(compressed(40, 4000000000, 40)) ==
-          "io.syntax 6: a.pcd: the compressed data are said to have 4000000000 bytes, the header's 2 points "
+          "io.syntax 6: a.pcd: the compressed data claim to have 4000000000 bytes, the header's 2 points "
           "need 48; "
           "the file is damaged, write it again");
     CHECK(error(compressed(40, 48, 40)) ==
           "io.syntax 6: a.pcd: PCL's PCD reader does not accept the file; save the cloud again, for instance "
           "as PLY "
-          "with x, y and z alone");
+          "with x, y and z only");
     CHECK(error(pcd("1", "binary_compressed", "x y z _", "4 4 4 1", "F F F U", "1 1 1 4") +
                 std::string(40, 'a')) ==
           "io.syntax 6: a.pcd:10: a padding field '_' in compressed data cannot be read" + again);
@@ -258,27 +258,27 @@ TEST_CASE("bad PLY headers") {
           "io.no_points 6: a.ply: the file has no points" + again);
     CHECK(error("ply\nend_header\n") == "io.syntax 6: a.ply:2: the header has no line 'format'" + again);
     CHECK(error("ply\nformat ascii 1.0\nproperty double x\n") ==
-          "io.syntax 6: a.ply:3: a property stands before the first element" + again);
+          "io.syntax 6: a.ply:3: a property comes before the first element" + again);
     CHECK(error(ply("ascii", "-2")) ==
           "io.syntax 6: a.ply:3: '-2' is not a count between 0 and 2147483647" + again);
     CHECK(error(ply("ascii", "99999999999999999999")) ==
           "io.syntax 6: a.ply:3: '99999999999999999999' is not a count between 0 and 2147483647" + again);
     CHECK(error(ply("binary", "2")) ==
-          "io.syntax 6: a.ply:2: 'binary' is no PLY format; known are ascii, binary_little_endian and "
+          "io.syntax 6: a.ply:2: 'binary' is not a PLY format; supported are ascii, binary_little_endian and "
           "binary_big_endian" +
               again);
     CHECK(error(ply("ascii", "2", "element empty 1000000000\n")) ==
           "io.syntax 6: a.ply: element 'empty' has no properties" + again);
     CHECK(error(ply("ascii", "2", "element vertex 3\n")) ==
-          "io.syntax 6: a.ply:7: element 'vertex' stands twice" + again);
+          "io.syntax 6: a.ply:7: element 'vertex' occurs twice" + again);
     CHECK(error(ply("ascii", "2", "property float x\n")) ==
-          "io.syntax 6: a.ply:7: property 'x' stands twice" + again);
+          "io.syntax 6: a.ply:7: property 'x' occurs twice" + again);
     CHECK(error(ply("ascii", "2", "", "property double x\nproperty real y\n")) ==
-          "io.syntax 6: a.ply:5: 'real' is no PLY type" + again);
+          "io.syntax 6: a.ply:5: 'real' is not a PLY type" + again);
     CHECK(error(ply("ascii", "2", "wrong\n")) ==
-          "io.syntax 6: a.ply:7: 'wrong' is no entry of a PLY header" + again);
+          "io.syntax 6: a.ply:7: 'wrong' is not an entry of a PLY header" + again);
     CHECK(error(ply("ascii", "2", "", "property double x\nproperty double y\n")) ==
-          "io.format 6: a.ply: the points have not each of x, y and z" + alone);
+          "io.format 6: a.ply: the points do not have each of x, y and z" + alone);
 }
 
 TEST_CASE("bad PLY data") {
@@ -286,11 +286,11 @@ TEST_CASE("bad PLY data") {
     const std::string two = "1 2 3\n4 5 6\n";
     const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
     const std::string face_cut =
-        "io.truncated 6: a.ply: the header promises 1 of 'face', the file holds 0" + cut;
+        "io.truncated 6: a.ply: the header announces 1 of 'face', the file contains 0" + cut;
     const auto error = [&](const std::string& text) { return read_error(folder, "a.ply", text); };
     REQUIRE(error(ply("ascii", "2", face) + two + "3 0 1 1\n") == "no error");
     CHECK(error(ply("ascii", "4") + two) ==
-          "io.truncated 6: a.ply: the header promises 4 points, the file holds 2" + cut);
+          "io.truncated 6: a.ply: the header announces 4 points, the file contains 2" + cut);
     CHECK(error(ply("ascii", "2") + "1 2 3\n4 5") ==
           "io.truncated 6: a.ply:9: the line ends before 'z' of element 'vertex'; the file may be cut off, "
           "write it "
@@ -308,9 +308,9 @@ TEST_CASE("bad PLY data") {
           "io.syntax 6: a.ply:12: '-1' is not the length of a list" + again);
     for (const char* format : {"binary_little_endian", "binary_big_endian"}) {
         CHECK(error(ply(format, "3") + std::string(71, 'a')) ==
-              "io.truncated 6: a.ply: the header promises 3 points, the file holds 2" + cut);
+              "io.truncated 6: a.ply: the header announces 3 points, the file contains 2" + cut);
         CHECK(error(ply(format, "2147483647") + std::string(48, 'a')) ==
-              "io.truncated 6: a.ply: the header promises 2147483647 points, the file holds 2" + cut);
+              "io.truncated 6: a.ply: the header announces 2147483647 points, the file contains 2" + cut);
         CHECK(error(ply(format, "2", face) + std::string(48, 'a') + "\x03" + std::string(11, 'b')) ==
               face_cut);
         CHECK(error(ply(format, "2", face) + std::string(48, 'a')) == face_cut);
@@ -331,7 +331,7 @@ TEST_CASE("PLY layouts that PCL puts into the wrong place are refused") {
     CHECK(error("property list uchar int v\n", "0 1 2 3\n") ==
           "io.format 6: a.ply: the points have a list, 'v'" + alone);
     const std::string grid =
-        "PLY files with a range grid are not read; save the points alone, for instance with MeshLab or "
+        "PLY files with a range grid are not supported; save only the points, for instance with MeshLab or "
         "CloudCompare";
     CHECK(read_error(folder, "a.ply",
                      ply("ascii", "1", "element range_grid 4\nproperty list uchar int vertex_indices\n") +

@@ -35,8 +35,8 @@ TEST_CASE("data files are found in the source tree of the build") {
                                       std::filesystem::path(DSC_SOURCE_DIR) / "share/data/teapot.bpt"));
     const std::string error = test::error_of([] { dsc::cloud::data_file("none.bpt"); });
     CHECK(error.find("io.data_file 6: none.bpt: this data file of the project is not at /") == 0);
-    CHECK(error.find("share/data/none.bpt; set the environment variable DSC_SHARE to the folder that holds "
-                     "data/none.bpt") != std::string::npos);
+    CHECK(error.find("share/data/none.bpt; set the environment variable DSC_SHARE to the folder that "
+                     "contains data/none.bpt") != std::string::npos);
 }
 
 TEST_CASE("DSC_SHARE decides where data files are") {
@@ -48,7 +48,7 @@ TEST_CASE("DSC_SHARE decides where data files are") {
     CHECK(teapot_error() ==
           "io.data_file 6: teapot.bpt: this data file of the project is not at s/data/teapot.bpt; set the "
           "environment "
-          "variable DSC_SHARE to the folder that holds data/teapot.bpt");
+          "variable DSC_SHARE to the folder that contains data/teapot.bpt");
     std::filesystem::create_directories(folder.path("s/data"));
     folder.write("s/data/teapot.bpt", "31\n");
     CHECK(
@@ -56,6 +56,6 @@ TEST_CASE("DSC_SHARE decides where data files are") {
         "io.syntax 6: s/data/teapot.bpt:1: the teapot has 32 patches; restore the file from the source tree");
     folder.write("s/data/teapot.bpt", "32\n3 3\n1 2\n");
     CHECK(teapot_error() ==
-          "io.syntax 6: s/data/teapot.bpt:3: the line has not 3 numbers; restore the file from the source "
+          "io.syntax 6: s/data/teapot.bpt:3: the line does not have 3 numbers; restore the file from the source "
           "tree");
 }

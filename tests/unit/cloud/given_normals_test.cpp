@@ -24,7 +24,7 @@ bool contains(const std::string& text, std::string_view part) { return text.find
 void check_refused(const Cloud& cloud, std::string_view why) {
     const GivenOrientation given = orient_by_file_normals(cloud);
     CHECK_FALSE(given.oriented.has_value());
-    CHECK_MESSAGE(contains(given.note, "The normals of the file are not used, since "), given.note);
+    CHECK_MESSAGE(contains(given.note, "The normals of the file are not used, because "), given.note);
     CHECK_MESSAGE(contains(given.note, why), given.note);
 }
 
@@ -84,13 +84,13 @@ TEST_CASE("given normals that contradict the points are refused") {
     Cloud cloud = cloud_of(solid);
     for (Vec3& normal : cloud.normals)
         if (random.uniform() < 0.5) normal = -normal;
-    check_refused(cloud, " % of the neighbouring ones point to opposite sides");
+    check_refused(cloud, " % of neighbouring normals point to opposite sides");
     for (Vec3& normal : cloud.normals) normal = Vec3::UnitZ();
-    check_refused(cloud, " % of the flat places they do not stand on the surface");
+    check_refused(cloud, " % of the flat places they are not perpendicular to the surface");
     for (std::size_t i = 0; i < cloud.normals.size(); ++i) cloud.normals[i] = solid.normals[i].unitOrthogonal();
-    check_refused(cloud, "at 100 % of the flat places they do not stand on the surface");
+    check_refused(cloud, "at 100 % of the flat places they are not perpendicular to the surface");
     for (std::size_t i = 0; i < cloud.normals.size(); ++i) cloud.normals[i] = random_direction(random);
-    check_refused(cloud, "they do not stand on the surface");
+    check_refused(cloud, "they are not perpendicular to the surface");
     cloud = cloud_of(solid);
     for (std::size_t i = 0; i < 600; ++i) cloud.normals[i].setZero();
     check_refused(cloud, "20 % of the points have none");
@@ -170,7 +170,7 @@ TEST_CASE("a place from which not all points can have been seen is not used") {
     cloud.sensor = Sensor{Vec3(0.5, -3.0, 4.0), true};
     const GivenOrientation given = orient_by_sensor(cloud);
     CHECK_FALSE(given.oriented.has_value());
-    CHECK_MESSAGE(contains(given.note, "The viewpoint 0.5 -3 4 of the file is not used, since "), given.note);
+    CHECK_MESSAGE(contains(given.note, "The viewpoint 0.5 -3 4 of the file is not used, because "), given.note);
     // The value that programs write by default needs no word, and is not believed inside of the cloud.
     cloud.sensor = Sensor{Vec3(0.0, 0.0, 0.0), false};
     CHECK_FALSE(orient_by_sensor(cloud).oriented.has_value());

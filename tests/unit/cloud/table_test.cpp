@@ -94,13 +94,13 @@ TEST_CASE("the usual names of coordinates are known, with their units, in any or
 
 TEST_CASE("a header that does not fit is never guessed past") {
     const Table table;
-    const std::string ask = " does not tell which columns are x, y and z; choose three columns by their names or by "
+    const std::string ask = " does not say which columns are x, y and z; choose three columns by their names or by "
                             "their numbers from 1";
     CHECK(table.error("a,b,c\n1,2,3\n") == "io.columns 6: a.csv:1: the header 'a', 'b', 'c'" + ask);
     CHECK(table.error("PointID,Code,Value\n1,2,3\n") == "io.columns 6: a.csv:1: the header 'PointID', 'Code', 'Value'" + ask);
     CHECK(table.error("longitude,latitude,height\n1,2,3\n").find(ask) != std::string::npos);
-    CHECK(table.error("P1,1,2,3\nP2,4,5,6\n").find("the first line holds words, and they do not tell") != std::string::npos);
-    CHECK(table.error("a scan of 2025\n1 2 3\n").find("the first line holds words") != std::string::npos);
+    CHECK(table.error("P1,1,2,3\nP2,4,5,6\n").find("the first line contains words, but they do not say") != std::string::npos);
+    CHECK(table.error("a scan of 2025\n1 2 3\n").find("the first line contains words") != std::string::npos);
     CHECK(table.error("x,y,z\n1,2,3,4\n") ==
           "io.syntax 6: a.csv:2: the header has 3 columns, the line 4; choose columns by their numbers from 1");
     CHECK(table.error("see x y z here\n1 2 3\n", {}, "a.xyz") ==
@@ -196,32 +196,32 @@ TEST_CASE("every wrong choice has a text of its own") {
     CHECK(table.error(text, {"X", "Y"}) ==
           "io.columns 6: a.csv: 2 columns chosen; choose 3 (x, y, z) or 6 (x, y, z, red, green, blue)");
     CHECK(table.error(text, {"X", "Y", "height"}) ==
-          "io.columns 6: a.csv:1: no column is called 'height'; choose of 'id', 'Z', 'X', 'Y' or a number from 1");
+          "io.columns 6: a.csv:1: no column has the name 'height'; choose of 'id', 'Z', 'X', 'Y' or a number from 1");
     CHECK(table.error("7,3,1,2\n", {"X", "Y", "Z"}) ==
-          "io.columns 6: a.csv:1: no column is called 'X'; the file seems to have no header, choose columns by their "
+          "io.columns 6: a.csv:1: no column has the name 'X'; the file seems to have no header; choose columns by their "
           "numbers from 1");
     CHECK(table.error(text, {"0", "1", "2"}) == "io.columns 6: a.csv: column 0 is chosen; count columns from 1");
     CHECK(table.error(text, {"1", "1", "2"}) ==
-          "io.columns 6: a.csv: column '1' is chosen twice; choose another one for each coordinate and colour");
+          "io.columns 6: a.csv: column '1' is chosen twice; choose a different column for each coordinate and colour");
     CHECK(table.error(text, {"Z", "X", "2"}) ==
-          "io.columns 6: a.csv: column '2' is chosen twice; choose another one for each coordinate and colour");
+          "io.columns 6: a.csv: column '2' is chosen twice; choose a different column for each coordinate and colour");
     CHECK(table.error(text, {"2", "3", "99999999999999999999"}) ==
-          "io.columns 6: a.csv:1: no column is called '99999999999999999999'; choose of 'id', 'Z', 'X', 'Y' or a number "
+          "io.columns 6: a.csv:1: no column has the name '99999999999999999999'; choose of 'id', 'Z', 'X', 'Y' or a number "
           "from 1");
     CHECK(table.error(text, {"2", "3", "9"}) ==
-          "io.syntax 6: a.csv:2: the line has 4 columns, column 9 is needed; a point needs x, y and z, divided by "
+          "io.syntax 6: a.csv:2: the line has 4 columns, column 9 is needed; a point needs x, y and z, separated by "
           "blanks, commas or semicolons; the file may be cut off");
     CHECK(table.error(text, {"X", "Y", "id", "Z", "2", "3"}) ==
-          "io.columns 6: a.csv: column '2' is chosen twice; choose another one for each coordinate and colour");
+          "io.columns 6: a.csv: column '2' is chosen twice; choose a different column for each coordinate and colour");
     CHECK(table.error("x,y,z,c\n1,2,3,4\n5,6,7,8\n", {"x", "y", "z", "c", "5", "6"}) ==
-          "io.syntax 6: a.csv:2: colour '' is no number from 0 up; choose three columns of coordinates only, or correct "
+          "io.syntax 6: a.csv:2: colour '' is not a number of at least 0; choose three columns of coordinates only, or correct "
           "the line");
     CHECK(table.error("x,y\n1,2,3\n", {"x", "y", "3"}) ==
           "io.syntax 6: a.csv:2: the header has 2 columns, the line 3; choose columns by their numbers from 1");
     for (const char* name : {"a.obj", "a.ply", "a.pcd"})
         CHECK(table.error("v 1 2 3\n", {"1", "2", "3"}, name) ==
               "io.columns 6: " + std::string(name) +
-                  ": columns can be chosen in text clouds only; leave the choice of columns out, or convert the cloud to "
+                  ": columns can be chosen only for text clouds; remove the choice of columns, or convert the cloud to "
                   ".csv");
 }
 

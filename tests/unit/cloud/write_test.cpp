@@ -47,7 +47,7 @@ TEST_CASE("a failed write names its cause and leaves nothing behind") {
     };
     const std::string accepted = "accepted are .pcd .ply .obj .xyz .txt .asc .pts .csv";
     CHECK(error("a.stl") ==
-          "io.format 6: a.stl: clouds are not written as '.stl'; " + accepted);
+          "io.format 6: a.stl: clouds cannot be written as '.stl'; " + accepted);
     CHECK(error("a") == "io.format 6: a: the file's name has no extension; " + accepted);
     CHECK(error("none/a.xyz") ==
           "io.write 6: none/a.xyz: cannot be written: No such file or directory; create the folder "

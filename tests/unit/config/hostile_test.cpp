@@ -56,9 +56,9 @@ TEST_CASE("aliases cannot hide depth or cycles") {
 
 TEST_CASE("binary junk is refused with the place of the first bad byte") {
     CHECK(test::error_of([] { parse(std::string("a: 1\nb: \0x\n", 11)); }) ==
-          "a.yaml:2:4: error: malformed YAML: the byte 0x00 is no text\n"
+          "a.yaml:2:4: error: malformed YAML: the byte 0x00 is not text\n"
           "    2 | b:  x\n"
-          "      |    ^  a configuration is a text file in UTF-8\n"
+          "      |    ^  a configuration must be a text file in UTF-8\n"
           "1 error; nothing was run");
     CHECK(code_of([] { parse("a: \xff\xfe\n"); }) == "config.yaml");
     CHECK(code_of([] { parse("a: \xc0\xaf\n"); }) == "config.yaml");      // overlong

@@ -72,7 +72,7 @@ TEST_CASE("a missing included file is told where it is named") {
     const Folder folder("missing");
     const auto file = folder.write("a.yaml", "include: [none.yaml, .]\n");
     CHECK(folder.shown(test::error_of([&] { load_yaml(file); })) ==
-          "DIR/a.yaml:1:11: error: cannot include 'DIR/none.yaml': there is no such file\n"
+          "DIR/a.yaml:1:11: error: cannot include 'DIR/none.yaml': the file does not exist\n"
           "    1 | include: [none.yaml, .]\n"
           "      |           ^~~~~~~~~  the name is relative to the including file\n"
           "DIR/a.yaml:1:22: error: cannot include 'DIR/': it is a folder\n"

@@ -110,7 +110,7 @@ TEST_CASE("bad choice, wrong number of items, wrong extension") {
           "a.yaml:5:7: error: 'axis' must have exactly 3 items, not 2\n"
           "    5 | axis: [0, 1]\n"
           "      |       ^  accepted: vector of 3 reals, default [0, 0, 1]\n"
-          "a.yaml:6:8: error: 'cloud': 'scan.las' is no file that can be used here; its name must end in "
+          "a.yaml:6:8: error: 'cloud': 'scan.las' cannot be used here; the file's name must end in "
           ".obj or "
           ".ply\n"
           "    6 | cloud: scan.las\n"
@@ -188,7 +188,7 @@ TEST_CASE("malformed YAML") {
                    "a: b: c\n") ==
           "a.yaml:2:5: error: malformed YAML: illegal map value\n"
           "    2 | a: b: c\n"
-          "      |     ^  text with ': ' in it belongs in quotes\n"
+          "      |     ^  put text that contains ': ' in quotes\n"
           "1 error; nothing was run");
     CHECK(error_in("name: x\n"
                    "levels: [1, 2\n"
@@ -264,7 +264,7 @@ TEST_CASE("tag, second document, list as a key") {
     CHECK(error_in("a: !!str 3\n") ==
           "a.yaml:1:4: error: the YAML tag 'tag:yaml.org,2002:str' is not supported\n"
           "    1 | a: !!str 3\n"
-          "      |    ^  write the value alone; quotes make a string\n"
+          "      |    ^  write the value without a tag; quotes make a string\n"
           "1 error; nothing was run");
     CHECK(error_in("a: 1\n---\nb: 1\n") ==
           "a.yaml:2:1: error: malformed YAML: a second document starts here\n"
@@ -274,7 +274,7 @@ TEST_CASE("tag, second document, list as a key") {
     CHECK(error_in("[1]: 2\n") ==
           "a.yaml:1:1: error: malformed YAML: a list or map cannot be a key\n"
           "    1 | [1]: 2\n"
-          "      | ^  text with braces or brackets belongs in quotes\n"
+          "      | ^  put text with braces or brackets in quotes\n"
           "1 error; nothing was run");
 }
 
@@ -303,7 +303,7 @@ TEST_CASE("malformed name of a variable") {
     CHECK(error_in("name: a${}\n") ==
           "a.yaml:1:7: error: '${' does not start the name of a variable\n"
           "    1 | name: a${}\n"
-          "      |       ^~~~  write ${NAME}, or $${ for the characters themselves\n"
+          "      |       ^~~~  write ${NAME}, or $${ for a literal '${'\n"
           "1 error; nothing was run");
 }
 
@@ -336,18 +336,16 @@ TEST_CASE("faults of overrides name the override") {
           "command line: 'x': error: malformed override: no '=' in it\n"
           "      note: write path.to.key=value\n"
           "command line: '+a=3': error: malformed override: it starts with '+'\n"
-          "      note: write path.to.key=value; any key of the schema may be given\n"
-          "command line: 'a..b=3': error: malformed override: 'a..b' is no dotted path\n"
+          "      note: write path.to.key=value; every key of the schema is allowed\n"
+          "command line: 'a..b=3': error: malformed override: 'a..b' is not a dotted path\n"
           "      note: write path.to.key=value\n"
-          "command line: 'schedule.1.steps=3': error: malformed override: 'schedule' is a list of 1, it has "
-          "no item "
-          "'1'\n"
+          "command line: 'schedule.1.steps=3': error: malformed override: 'schedule' is a list of 1; it has "
+          "no item '1'\n"
           "      note: items are numbered from 0 to 0\n"
-          "command line: 'velocity.type.a=3': error: malformed override: 'velocity.type' is a string, it has "
-          "no key "
-          "'a'\n"
+          "command line: 'velocity.type.a=3': error: malformed override: 'velocity.type' is a string; it has "
+          "no key 'a'\n"
           "command line: 'name=a: b': error: malformed YAML: expected a scalar, [list] or {map}\n"
-          "      note: text with ': ' or '- ' belongs in quotes\n"
+          "      note: put text with ': ' or '- ' in quotes\n"
           "command line: 'name=#x': error: malformed override: its value is a comment\n"
           "      note: put a value with '#' in quotes\n"
           "command line: 'velocity.k=[1': error: malformed YAML: end of sequence flow not found\n"

@@ -83,9 +83,9 @@ TEST_CASE("a value that stands in a file keeps its place, its key too") {
     const auto fault = [&](const std::string& path) {
         return test::error_of([&] { config::with_value(root, path, ConfigNode(1), sweep.entries()[1].position); });
     };
-    CHECK(fault("schedule.4.steps").find("a.yaml:2:1: error: 'schedule' is a list of 1, it has no item '4'") == 0);
+    CHECK(fault("schedule.4.steps").find("a.yaml:2:1: error: 'schedule' is a list of 1; it has no item '4'") == 0);
     CHECK(fault("velocity.alpha.x").find("a.yaml:2:1: error: 'velocity.alpha' is a real number") == 0);
-    CHECK(fault("velocity..alpha").find("a.yaml:2:1: error: 'velocity..alpha' is no dotted path") == 0);
+    CHECK(fault("velocity..alpha").find("a.yaml:2:1: error: 'velocity..alpha' is not a dotted path") == 0);
 }
 
 TEST_CASE("a value on one line reads back as an equal tree") {

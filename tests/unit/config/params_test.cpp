@@ -239,13 +239,13 @@ TEST_CASE("faulty declarations are refused") {
           "faulty declaration of parameters: parameter 'radius' has a bad default: 'radius': 1 is below the "
           "minimum 2");
     CHECK(declaration_fault([](S& s) { s.string("shape", &Shape::shape).at_least(2).doc("d"); }) ==
-          "faulty declaration of parameters: parameter 'shape' has a range but is no number");
+          "faulty declaration of parameters: parameter 'shape' has a range but is not a number");
     CHECK(declaration_fault([](S& s) {
               s.real("radius", &Shape::radius).doc("d");
               s.boolean("radius", &Shape::cut).doc("d");
           }) == "faulty declaration of parameters: parameter 'radius' is declared twice");
     CHECK(declaration_fault([](S& s) { s.real("a b", &Shape::radius).doc("d"); }) ==
-          "faulty declaration of parameters: parameter 'a b' has a name that is no identifier");
+          "faulty declaration of parameters: parameter 'a b' has a name that is not an identifier");
     CHECK(declaration_fault([](S& s) {
               s.choice("shape", &Shape::shape, {{"a", "b"}}).doc("d");
           }) ==
@@ -253,7 +253,7 @@ TEST_CASE("faulty declarations are refused") {
           "not an "
           "empty value");
     CHECK(declaration_fault([](S& s) { s.deprecated("old", "new"); }) ==
-          "faulty declaration of parameters: 'old' stands for 'new', which is no parameter");
+          "faulty declaration of parameters: 'old' is an old name of 'new', which is not a parameter");
     CHECK(declaration_fault([](S& s) { s.check([](const Shape&) { return true; }, ""); }) ==
           "faulty declaration of parameters: a cross check has no message");
 }
@@ -263,5 +263,5 @@ TEST_CASE("a strategy must not call a parameter 'type'") {
     schema.string("type", &Shape::shape).doc("d");
     CHECK(schema.schema().problems().empty());
     CHECK(schema.schema().problems(true) ==
-          std::vector<std::string>{"parameter 'type' has the name that picks the strategy"});
+          std::vector<std::string>{"parameter 'type' has the name 'type', which selects the strategy"});
 }

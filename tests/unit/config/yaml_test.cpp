@@ -133,7 +133,7 @@ TEST_CASE("a file that cannot be read is a fault of input") {
         FAIL("no error");
     } catch (const dsc::IoError& error) {
         CHECK(error.what() ==
-              missing + ": cannot read the configuration: there is no such file; name a readable YAML file");
+              missing + ": cannot read the configuration: the file does not exist; name a readable YAML file");
         CHECK(error.exit_code() == dsc::ExitCode::io);
     }
     CHECK(test::code_of([&] { dsc::config::load_yaml(folder.path()); }) == "io.open");

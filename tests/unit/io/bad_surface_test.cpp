@@ -130,7 +130,7 @@ TEST_CASE("bad obj") {
 TEST_CASE("bad off") {
     check_all({
         {"a.off", "PLY\n", "io.syntax",
-         "FILE:1: starts with 'PLY', not with OFF; check that the file is an OFF file"},
+         "FILE:1: the file starts with 'PLY', not with OFF; check that the file is an OFF file"},
         {"a.off", "# nothing else\n", "io.truncated",
          "FILE:1: the file ends where the word OFF should be; the file is incomplete: copy or export it "
          "again"},
@@ -180,11 +180,11 @@ TEST_CASE("bad ply: the header") {
         {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", "io.truncated",
          "FILE:3: the file ends before 'end_header'; the file is incomplete: copy or export it again"},
         {"a.ply", "ply\nend_header\n", "io.syntax",
-         "FILE:2: the header names no format; correct the line or export the file again"},
+         "FILE:2: the header has no format; correct the line or export the file again"},
         {"a.ply", replaced(ply_head, "ascii", "utf8") + body, "io.syntax",
          "FILE:2: 'utf8' is not a PLY format; correct the line or export the file again"},
         {"a.ply", replaced(ply_head, "1.0", "2.0") + body, "io.syntax",
-         "FILE:2: PLY version '2.0', known is 1.0; correct the line or export the file again"},
+         "FILE:2: PLY version '2.0'; only 1.0 is supported; correct the line or export the file again"},
         {"a.ply", replaced(ply_head, "property double y", "property quad y") + body, "io.syntax",
          "FILE:5: 'quad' is not a PLY type; correct the line or export the file again"},
         {"a.ply", replaced(ply_head, "property double y", "property double") + body, "io.syntax",
@@ -205,14 +205,14 @@ TEST_CASE("bad ply: the header") {
         {"a.ply", replaced(ply_head, "uchar int", "uchar float") + body, "io.syntax",
          "FILE:9: vertex indices are fractions; correct the line or export the file again"},
         {"a.ply", replaced(ply_head, "uchar int", "float int") + body, "io.syntax",
-         "FILE:8: a list counted in fractions; correct the line or export the file again"},
+         "FILE:8: the length of a list is not an integer; correct the line or export the file again"},
         {"a.ply", replaced(ply_head, "element vertex", "element vertices") + body, "io.syntax",
-         "FILE:9: the header names no element 'vertex'; correct the line or export the file again"},
+         "FILE:9: the header has no element 'vertex'; correct the line or export the file again"},
         {"a.ply", replaced(ply_head, "element face", "element nothing 5\nelement face") + body, "io.syntax",
          "FILE:10: element 'nothing' has no properties; correct the line or export the file again"},
         {"a.ply", replaced(ply_head, "vertex 3", "vertex 9000000000000000000") + body, "io.truncated",
-         "FILE:9: the header names 9000000000000000000 elements 'vertex', more than a file of 201 bytes can "
-         "hold; the file is incomplete: copy or export it again"},
+         "FILE:9: the header announces 9000000000000000000 elements 'vertex', more than a file of 201 bytes can "
+         "contain; the file is incomplete: copy or export it again"},
         {"a.ply", replaced(ply_head, "property double y", "property list uchar double y") + body, "io.syntax",
          "FILE:9: coordinate 'y' is a list; correct the line or export the file again"},
     });
@@ -292,16 +292,16 @@ TEST_CASE("bad stl") {
     const std::string facet = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n";
     check_all({
         {"a.stl", good.substr(0, 50), "io.truncated",
-         "FILE: a binary STL of 50 bytes has no room for its 84 bytes of header; the file is incomplete: "
+         "FILE: a binary STL of 50 bytes is too short for its 84 bytes of header; the file is incomplete: "
          "copy or export it again"},
         {"a.stl", good.substr(0, 150), "io.truncated",
-         "FILE: the header names 2 facets, 184 bytes in all, but the file has 150; the file is incomplete: "
+         "FILE: the header announces 2 facets, 184 bytes in total, but the file has 150; the file is incomplete: "
          "copy or export it again"},
         {"a.stl", good + "x", "io.count",
-         "FILE: the header names 2 facets, 184 bytes in all, but the file has 185; the file is incomplete: "
+         "FILE: the header announces 2 facets, 184 bytes in total, but the file has 185; the file is incomplete: "
          "copy or export it again"},
         {"a.stl", hostile, "io.truncated",
-         "FILE: the header names 4294967295 facets, 214748364834 bytes in all, but the file has 184; the "
+         "FILE: the header announces 4294967295 facets, 214748364834 bytes in total, but the file has 184; the "
          "file is incomplete: copy or export it again"},
         {"a.stl", inf, "io.not_finite",
          "FILE: facet 1 at byte 134 has a coordinate that is NaN or infinite; remove the facet or export the "

@@ -64,7 +64,7 @@ TEST_CASE("bad dsc") {
         "a.dsc", v4 + "t 0 1 2 99999999999 1\n", "io.index",
         "FILE:5: vertex index 99999999999 is out of range; indices count from 0; export the file again");
     check_bad("a.dsc", v4 + "t 0 1 2 3 -1\n", "io.syntax",
-              "FILE:5: label -1 is out of range; labels are 0 (outside) and up");
+              "FILE:5: label -1 is out of range; labels are 0 (outside) or larger");
     check_bad("a.dsc", v4 + "t 0 1 2 3 1.5\n", "io.syntax",
               "FILE:5: '1.5' is not an integer; correct the line or export the file again");
     check_bad("a.dsc", "v 0 0 0\nv 1 nan 0\n", "io.not_finite",
@@ -74,14 +74,14 @@ TEST_CASE("bad dsc") {
               "FILE:2: '#' is neither 'v' nor 't'; correct the line or export the file again");
     check_bad("a.dsc", "\n\n", "io.empty", "FILE: the file is empty; copy or export it again");
     check_bad("a.msh", "$MeshFormat\n", "io.write_only",
-              "FILE: Gmsh MSH 4.1 files are written here and not read; convert it with meshio to one of .vtu, .dsc, as "
+              "FILE: Gmsh MSH 4.1 files can be written but not read; convert it with meshio to one of .vtu, .dsc, as "
               "share/doc/formats.md shows");
     check_bad("a.MESH", "MeshVersionFormatted 2\n", "io.write_only",
-              "FILE: MEDIT mesh files are written here and not read; convert it with meshio to one of .vtu, .dsc, as "
+              "FILE: MEDIT mesh files can be written but not read; convert it with meshio to one of .vtu, .dsc, as "
               "share/doc/formats.md shows");
     check_bad(
         "a.tet", "x", "io.format",
-        "FILE: the extension is not that of a volume file; give it one of .vtu, .dsc or convert the file");
+        "FILE: the extension does not belong to a volume file; give it one of .vtu, .dsc or convert the file");
 }
 
 /// One tet with inline base64 arrays that zlib has packed, as older programs write it; without PointData.
@@ -127,9 +127,9 @@ TEST_CASE("a packed vtu whose headers lie is refused before VTK trusts them") {
               "io.syntax", header_of("Points"));
     check_bad(
         "a.vtu", changed(packed_vtu, "\"0.1\"", "\"180\""), "io.syntax",
-        "FILE: VTK file version '180', known are 0.1 to 2.9; check that it is a VTU file or export it again");
+        "FILE: VTK file version '180'; supported are 0.1 to 2.9; check that it is a VTU file or export it again");
     check_bad("a.vtu", changed(packed_vtu, "\"binary\"", "\"binbry\""), "io.syntax",
-              "FILE: array 'label' has format 'binbry', known are ascii, binary, appended; the file is "
+              "FILE: array 'label' has format 'binbry'; supported are ascii, binary, appended; the file is "
               "incomplete: copy or "
               "export it again");
     check_bad(
@@ -150,12 +150,12 @@ TEST_CASE("bad vtu") {
     VtuParts p;
     p.labels.clear();
     check_bad("a.vtu", p.text(), "io.no_labels",
-              "FILE: there is no cell array 'label' of one number a tet; add one: 0 outside, 1 the object, "
+              "FILE: there is no cell array 'label' with one number per tet; add one: 0 outside, 1 the object, "
               "further phases above");
     p = {};
     p.labels = "<DataArray type=\"Float64\" Name=\"label\" format=\"ascii\">0.5</DataArray>";
     check_bad("a.vtu", p.text(), "io.syntax",
-              "FILE: cell 0 has a label that is not an integer from 0 up; labels are 0 (outside) and up");
+              "FILE: cell 0 has a label that is not an integer of at least 0; labels are 0 (outside) or larger");
     p = {};
     p.corners = "0 1 2 4";
     check_bad("a.vtu", p.text(), "io.index", "FILE: cell 0: point index 4 of 4; export the file again");
@@ -164,7 +164,7 @@ TEST_CASE("bad vtu") {
     p = {};
     p.type = "12";
     check_bad("a.vtu", p.text(), "io.cell_type",
-              "FILE: cell 0 has type 12, only tets (10) are read; export the tets alone");
+              "FILE: cell 0 has type 12, only tets (10) are read; export only the tets");
     p = {};
     p.offsets = "3";
     check_bad("a.vtu", p.text(), "io.syntax",
@@ -174,7 +174,7 @@ TEST_CASE("bad vtu") {
     check_bad("a.vtu", p.text(), "io.count",
               "FILE: NumberOfPoints is '90000000000', more than a file of " +
                   std::to_string(p.text().size()) +
-                  " bytes can hold; the file is incomplete: copy or export it again");
+                  " bytes can contain; the file is incomplete: copy or export it again");
     p.counts = "NumberOfPoints=\"4\" NumberOfCells=\"0\"";
     p.labels = p.corners = p.offsets = p.type = "";
     check_bad("a.vtu", p.text(), "io.no_tets",

@@ -92,7 +92,7 @@ TEST_CASE("PLY: bytes only, and all three of them") {
                                    "0 0 0 1 2 3\n1 0 0 256 0 0\n0 1 0 0 0 0\n3 0 1 2\n"),
         [](const auto& file) { read_surface(file); });
     CHECK(bad.code == "io.syntax");
-    CHECK(bad.message == "FILE:14: colour 256 is no byte, 0 to 255; correct the line or export the file again");
+    CHECK(bad.message == "FILE:14: colour 256 is not a byte (0 to 255); correct the line or export the file again");
 }
 
 TEST_CASE("colours that do not fit are not written") {

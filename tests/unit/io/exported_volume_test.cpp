@@ -183,7 +183,7 @@ TEST_CASE("a label without a tag is refused, and medit holds it") {
     } catch (const GeometryError& error) {
         CHECK(error.code() == "volume.label");
         CHECK(std::string(error.what()) ==
-              "volume: tet 5 has the label 2147483647; .msh holds labels from 0 to 2147483646, write a .vtu or "
+              "volume: tet 5 has the label 2147483647; .msh can store labels from 0 to 2147483646, write a .vtu or "
               ".dsc");
     }
     CHECK(folder.files() == 0);

@@ -159,7 +159,7 @@ TEST_CASE("degenerate bodies do not disturb") {
 
 TEST_CASE("what cannot be drawn is refused") {
     CHECK_THROWS_WITH_AS(render(TriangleMesh{}),
-                         "picture: the mesh has no faces; a picture needs at least one", GeometryError);
+                         "picture: the mesh has no faces; at least one is needed", GeometryError);
     RenderOptions o;
     o.width = 0;
     CHECK_THROWS_WITH_AS(render(square(), o), "picture: size 0x768; each side may be 1 to 16384 pixels",

@@ -240,7 +240,7 @@ TEST_CASE("an unknown extension is refused by readers and writers") {
     const auto read = test::refusal(folder / "m.vtu", [&](const auto& file) { read_surface(file); });
     CHECK(read.code == "io.format");
     CHECK(read.message ==
-          "FILE: the extension is not that of a surface file; give it one of .obj, .ply, .off, .stl or "
+          "FILE: the extension does not belong to a surface file; give it one of .obj, .ply, .off, .stl or "
           "convert the file");
 }
 

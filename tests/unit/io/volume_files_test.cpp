@@ -115,7 +115,7 @@ TEST_CASE("a tet that is not exactly positive is not written") {
     const std::string text =
         place +
         ": not written, 2 tets of 6 not positive, the first is tet 2; orient the tets (adopt does) "
-        "or use units in which they do not vanish";
+        "or use units in which their volume is not rounded to 0";
     CHECK_THROWS_WITH_AS(write_volume(folder / "m.vtu", m), text.c_str(), GeometryError);
 
     // Flat by one unit in the last place of the largest coordinate: a plain determinant cannot tell, the

@@ -268,7 +268,7 @@ TEST_CASE("a lattice of too many cells along the box is refused") {
         FAIL("not refused");
     } catch (const ConfigError& error) {
         CHECK(error.code() == "lattice.size");
-        CHECK(std::string(error.what()).find("initial mesh 'x': the smallest cells go 5000") == 0);
+        CHECK(std::string(error.what()).find("initial mesh 'x': the box contains 5000") == 0);
     }
     CHECK_THROWS_AS(GradedLattice(with_cell(1e-300), {}, "x"), ConfigError);
 }

@@ -485,7 +485,7 @@ TEST_CASE("improvement: requests, limits and answers out of range") {
     std::vector<std::uint8_t> accept(2);
     Improvement::Select::act = [](std::span<std::uint8_t> a) { a[0] = 1; };
     CHECK(caught([&] { improvement->select(bench.context(), candidates, accept); }).text ==
-          who("improvement") + "select at step 5 gave candidate 1 the answer 255 where 0 or 1 is due" +
+          who("improvement") + "select at step 5 gave candidate 1 the answer 255 instead of 0 or 1" +
               report);
     Improvement::Select::act = [](std::span<std::uint8_t> a) { a[0] = 1, a[1] = 0; };
     CHECK(caught([&] { improvement->select(bench.context(), candidates, accept); }).text.empty());
@@ -572,7 +572,7 @@ TEST_CASE("filter: attributes that do not fit the points or are out of range") {
     CHECK(apply([](Filtered& f) { f.cloud.points[1].z() = no_number; }).text == gave + "point 1 a coordinate that is not finite" + report);
     CHECK(apply([](Filtered& f) { f.cloud.areas.assign(3, Vec3::Constant(no_number)); }).code == "strategy.not_finite");
     CHECK(apply([](Filtered& f) { f.cloud.normals = {Vec3::UnitX(), Vec3(0, 0, 0.5), Vec3::UnitX()}; }).text ==
-          gave + "normal 1 the length 0.5; normals are unit vectors, or zero where they are unknown" + report);
+          gave + "normal 1 the length 0.5; normals are unit vectors, or zero if they are unknown" + report);
     CHECK(apply([](Filtered& f) { f.cloud.normals.assign(3, Vec3(0, 0, 1 + 1e-8)); }).text.empty());
     CHECK(apply([](Filtered& f) { f.cloud.confidence = {0, 1, 1.5}; }).code == "strategy.range");
     CHECK(apply([](Filtered& f) { f.cloud.confidence = {0, no_number, 1}; }).code == "strategy.range");
@@ -603,8 +603,8 @@ TEST_CASE("filter: a report that does not count what happened") {
     CHECK(apply([](Filtered&) {}).text.empty());
     CHECK(apply([](Filtered& f) { f.report.kept = 3; }).text ==
           who("filter") +
-              "apply reported 3 points as kept and 1 as removed, where it was given 3 and gave 2; a filter adds no points, and kept "
-              "and removed together are those given" +
+              "apply reported 3 points as kept and 1 as removed, but was given 3 and returned 2; a filter adds no points, and kept "
+              "and removed points together are the given points" +
               report);
     CHECK(apply([](Filtered& f) { f.report.removed = 0; }).code == "strategy.size");
     CHECK(apply([](Filtered& f) { f.report.removed = std::numeric_limits<std::size_t>::max(); }).code == "strategy.size");

@@ -62,7 +62,7 @@ TEST_CASE("columns: names and numbers, three or six of them, for a file alone") 
     const run::LoadedExperiment loaded = load_text(cloud("file: a.csv, columns: [x, 3, '2']"));
     CHECK(loaded.experiment.input->cloud.columns == std::vector<std::string>{"x", "3", "2"});
     CHECK(contains(run::resolved_text(loaded), "columns: [x, \"3\", \"2\"]"));
-    const std::string rule = "'columns' belongs to a 'file' and names 3 columns or 6";
+    const std::string rule = "'columns' requires 'file' and must name 3 or 6 columns";
     CHECK(contains(fault(cloud("file: a.csv, columns: [1, 2]")), rule));
     CHECK(contains(fault(cloud("sample: {}, columns: [1, 2, 3]")), rule));
     CHECK(contains(fault(cloud("file: a.csv, columns: [1, 2, 2.5]")), "must be a string, not 2.5"));
@@ -100,11 +100,11 @@ TEST_CASE("faults name the place and what is accepted") {
     CHECK(contains(fault(minimal, {"velocity.factor=2"}), "[-1, 1]"));
     CHECK(contains(fault(minimal, {"velocity.factor=2"}), "command line"));
     CHECK(contains(fault(minimal, {"schedule=[]"}), "schedule"));
-    CHECK(contains(fault(minimal, {"schedule=[{every: 2}]"}), "needs 'steps', 'refine' or both"));
+    CHECK(contains(fault(minimal, {"schedule=[{every: 2}]"}), "needs 'steps' or 'refine', or both"));
     CHECK(contains(fault(minimal, {"schedule=[{steps: 3, every: 2}]"}),
-                   "'every' belongs to an item with both"));
+                   "'every' must be given if an item has both"));
     CHECK(contains(fault(minimal, {"schedule=[{steps: 3, refine: {type: all}}]"}),
-                   "'every' belongs to an item with both"));
+                   "'every' must be given if an item has both"));
     CHECK(contains(fault(minimal, {"name=../x"}), "name must be 1 to 100 letters"));
     CHECK(contains(fault(minimal, {"name=.x"}), "name must be 1 to 100 letters"));
     CHECK(contains(fault(minimal, {"input={cloud: {}}"}), "exactly one of 'file' and 'sample'"));

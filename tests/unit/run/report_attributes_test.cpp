@@ -162,7 +162,7 @@ TEST_CASE("a page has six attributes at most and says so") {
     REQUIRE(scene.result()["attributes"].size() == 6);
     CHECK(scene.result()["attributes"][5]["name"] == "height_5");
     CHECK(scene.frame(1)["attributes"].size() == 6);
-    CHECK(scene.notes == std::vector<std::string>{"of the surface's 8 attributes it can be coloured by the first 6"});
+    CHECK(scene.notes == std::vector<std::string>{"of the surface's 8 attributes only these can be used as colours: the first 6"});
     CHECK(shown("[ply]", "[dsc]", 6).notes.empty());
 }
 

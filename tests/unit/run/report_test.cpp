@@ -305,7 +305,7 @@ TEST_CASE("warnings: what a reader must know") {
     CHECK(with("status", "stalled").find("stalled") != std::string::npos);
     CHECK(with("self_intersections", 3) == "Not valid: self-intersections: 3.");
     CHECK(with("surface_is_interface_of_volume", false).find("interface") != std::string::npos);
-    CHECK(with("clamped", 1) == "1 destination lay beyond the box and was held inside it.");
+    CHECK(with("clamped", 1) == "1 destination was outside the box and was moved inside.");
     CHECK(with("min_tet_quality", 1e-5).find("nearly flat") != std::string::npos);
     CHECK(with("components", 2) == "The surface has 2 components.");
 }

@@ -191,7 +191,7 @@ TEST_CASE("faults of a sweep file, all at once, with their places") {
 TEST_CASE("an override that would undo an earlier one is refused") {
     const Bench bench;
     CHECK(contains(bench.load_fault("axes: [{grid: {seed: [1, 2]}}]\nrepeat: 2\n"),
-                   ":4:9: error: 'seed' is set by an earlier axis already"));
+                   ":4:9: error: 'seed' is already set by an earlier axis"));
     CHECK(contains(bench.load_fault("set: {velocity.factor: 1}\naxes: [{list: [{velocity: {type: linear}}]}]\n"),
                    ":4:17: error: 'velocity' would undo 'velocity.factor', which is set before it"));
     CHECK(contains(bench.load_fault("axes: [{grid: {velocity.factor: [1], velocity: [{type: linear}]}}]\n"),
@@ -269,7 +269,7 @@ TEST_CASE("faults of points: all at once, each once, at the value in the sweep f
         "  - grid: {initial_mesh.cells: [6, 600, many], velocity.facter: [1, 2]}\n"
         "  - grid: {schedule.4.steps: [3]}\n");
     CAPTURE(message);
-    CHECK(contains(message, "DIR/sweep.yaml:5:12: error: 'schedule' is a list of 1, it has no item '4'"));
+    CHECK(contains(message, "DIR/sweep.yaml:5:12: error: 'schedule' is a list of 1; it has no item '4'"));
     CHECK(contains(message, "in the point {initial_mesh.cells: 6, velocity.facter: 1, schedule.4.steps: 3} and 5 others"));
     CHECK(contains(message, "DIR/sweep.yaml:4:48: error: unknown key 'facter'"));
     CHECK(contains(message, "4 errors; nothing was written"));
@@ -303,7 +303,7 @@ TEST_CASE("a file that is not there is a fault of input and output") {
 TEST_CASE("a folder with something else in it, or a damaged table, is refused") {
     const Bench bench;
     bench.folder.write("out/mine.txt", "precious");
-    CHECK(contains(bench.expand_fault(six), "DIR/out is not empty and no sweep"));
+    CHECK(contains(bench.expand_fault(six), "DIR/out is not empty and does not contain a sweep"));
     CHECK(bench.folder.read("out/mine.txt") == "precious");
     std::filesystem::remove(bench.folder.path() / "out/mine.txt");
     bench.folder.write("out/.jobs.tsv.4711-0.tmp", "ind");  // of a call that was killed

@@ -185,15 +185,15 @@ TEST_CASE("a surface against the cloud it came from") {
 TEST_CASE("nothing to measure is an error") {
     const TriangleMesh m = test::cube();
     CHECK_THROWS_WITH_AS(TriangleTree(TriangleMesh{}),
-                         "surface: the mesh has no faces; a distance needs at least one", GeometryError);
-    CHECK_THROWS_WITH_AS(evaluate_cloud(m, {}), "points: there are none; a distance needs at least one",
+                         "surface: the mesh has no faces; at least one is needed for a distance", GeometryError);
+    CHECK_THROWS_WITH_AS(evaluate_cloud(m, {}), "points: the set is empty; at least one point is needed for a distance",
                          GeometryError);
     TriangleMesh flat;
     flat.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
     flat.faces = {{0, 1, 2}};
     CHECK_THROWS_WITH_AS(
         evaluate(flat, m),
-        "surface: the mesh has no area to sample; it needs at least one face that is not degenerate",
+        "surface: the mesh has no area to sample; provide at least one face that is not degenerate",
         GeometryError);
     const std::vector<Vec3> bad = {{0, 0, 0}, {0, std::numeric_limits<double>::infinity(), 0}};
     CHECK_THROWS_WITH_AS(PointTree{bad}, "points: point 1 is NaN or infinite; remove it", GeometryError);

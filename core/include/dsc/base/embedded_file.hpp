@@ -1,11 +1,11 @@
 #pragma once
-// Files that share/cmake/dsc_embed.cmake makes part of a program or library: an installation may be moved anywhere.
+// Files that share/cmake/dsc_embed.cmake compiles into a program or library, so that an installation can be moved.
 
 #include <string_view>
 
 namespace dsc {
 
-/// One of them.
+/// One embedded file.
 struct EmbeddedFile {
     std::string_view path;  ///< "velocity/strategy.cpp"
     std::string_view text;

@@ -1,5 +1,5 @@
 #pragma once
-// The family of exceptions that the library throws. Library code throws, never prints and never exits.
+// The exceptions that the library throws. Library code throws; it never prints and never exits.
 
 #include <cstdint>
 #include <stdexcept>
@@ -11,8 +11,8 @@ namespace dsc {
 /// Exit codes of the `dsc` command; each error class belongs to one.
 enum class ExitCode : int { ok = 0, internal = 1, usage = 2, config = 3, plugin = 4, geometry = 5, io = 6, stopped = 75 };
 
-/// Base of all errors. `code` is stable and documented ("io.truncated"), `what()` is one message for a person that
-/// names file, place, cause and remedy.
+/// Base of all errors. `code` is stable and documented ("io.truncated"). `what()` is one message for a person; it names the
+/// file, the place, the cause and the remedy.
 class Error : public std::runtime_error {
 public:
     Error(ExitCode exit_code, std::string code, const std::string& message)
@@ -33,7 +33,7 @@ public:
     ~UsageError() override;
 };
 
-/// A wrong experiment; the message may hold several diagnostics, a line or more each.
+/// A wrong experiment. The message may contain several diagnostics of one or more lines each.
 class ConfigError : public Error {
 public:
     ConfigError(std::string code, const std::string& message) : Error(ExitCode::config, std::move(code), message) {}
@@ -54,7 +54,7 @@ public:
     ~StrategyError() override;
 };
 
-/// Geometry or numerics that cannot be worked with: inverted tets, coplanar clouds, non-manifold labels.
+/// Geometry or numbers that the program cannot use: inverted tets, coplanar clouds, non-manifold labels.
 class GeometryError : public Error {
 public:
     GeometryError(std::string code, const std::string& message) : Error(ExitCode::geometry, std::move(code), message) {}

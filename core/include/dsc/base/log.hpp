@@ -1,5 +1,5 @@
 #pragma once
-// Where the library's messages go: the application installs a sink, the library never prints.
+// Messages of the library: the application installs a sink for them; the library never prints.
 
 #include <functional>
 #include <string_view>
@@ -13,7 +13,7 @@ using LogSink = std::function<void(LogLevel, std::string_view)>;
 /// Installs the sink; an empty one drops all messages (the default). [setup]
 void set_log_sink(LogSink sink);
 
-/// Hands one line without newline to the sink. Safe from any thread. [parallel]
+/// Passes one line without newline to the sink. Safe from any thread. [parallel]
 void log(LogLevel level, std::string_view message);
 
 }  // namespace dsc

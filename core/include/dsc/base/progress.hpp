@@ -1,5 +1,5 @@
 #pragma once
-// Cooperative cancellation: whoever owns a long job hands out a token and may set it from a signal handler.
+// Cooperative cancellation: the caller of a long job creates a token and may set it from a signal handler.
 
 #include <atomic>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Counter-based random numbers: a value depends on its key and its index, never on who asked before.
+// Counter-based random numbers: a value depends only on its key and its index, not on the order of the calls.
 
 #include <array>
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace dsc {
 
-/// What a stream belongs to. Two streams with different keys are independent.
+/// Identifies a stream. Two streams with different keys are independent.
 struct RandomKey {
     std::uint64_t seed = 0;      ///< the experiment's seed
     std::uint64_t instance = 0;  ///< hash of the strategy's place in the experiment, see stream_id()

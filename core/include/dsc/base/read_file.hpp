@@ -1,5 +1,5 @@
 #pragma once
-// Reads a file as a whole.
+// Reads a complete file.
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// The saved state of an object as bytes: what checkpoints are made of. For the same build on the same kind of machine.
+// The saved state of an object as bytes, for checkpoints. Valid for the same build on the same kind of machine.
 
 #include <cstdint>
 #include <cstring>
@@ -11,7 +11,7 @@
 
 namespace dsc {
 
-/// What may be copied byte by byte: plain values, Eigen's vectors of fixed size too, whose copy constructors do no more.
+/// Types that may be copied byte by byte: plain values, and Eigen vectors of fixed size (their copy constructors only copy).
 template <class T>
 inline constexpr bool is_plain_state =
     std::is_standard_layout_v<T>&& std::is_trivially_destructible_v<T> && !std::is_pointer_v<T>;
@@ -42,8 +42,8 @@ private:
     std::string bytes_;
 };
 
-/// Reads them back in the same order. Throws IoError "state.damaged" where the bytes end too early; the text must live as
-/// long as the reader. [step]
+/// Reads the values back in the same order. Throws IoError "state.damaged" if the bytes end too early. The text must outlive
+/// the reader. [step]
 class StateReader {
 public:
     explicit StateReader(std::string_view bytes) : bytes_(bytes) {}

@@ -8,10 +8,10 @@
 
 namespace dsc {
 
-/// The root of a set is its smallest index, so it does not depend on the order of the unions.
+/// Disjoint sets. The root of a set is its smallest index, so it does not depend on the order of the unions.
 class UnionFind {
 public:
-    /// Each index is a set of its own. [parallel]
+    /// Each index is a separate set at first. [parallel]
     explicit UnionFind(std::size_t count) : parent_(count) {
         for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<std::uint32_t>(i);
     }
@@ -22,7 +22,7 @@ public:
         }
         return i;
     }
-    /// The root of both together.
+    /// Joins the two sets and returns the root of the result.
     std::uint32_t join(std::uint32_t a, std::uint32_t b) {
         if (parent_[a] == parent_[b]) return find(a);
         a = find(a);

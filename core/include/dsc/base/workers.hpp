@@ -1,5 +1,5 @@
 #pragma once
-// Threads over fixed blocks. The split into blocks never depends on the number of threads, so results do not either.
+// Threads that work on fixed blocks. The blocks do not depend on the number of threads, and neither do the results.
 
 #include <cstddef>
 #include <functional>
@@ -10,7 +10,7 @@ namespace dsc {
 /// A small pool of worker threads. One loop at a time. [step]
 class Workers {
 public:
-    /// `threads` 0 or 1: everything runs on the caller.
+    /// `threads` 0 or 1: everything runs on the calling thread.
     explicit Workers(unsigned threads = 1);
     ~Workers();
     Workers(const Workers&) = delete;
@@ -18,8 +18,8 @@ public:
 
     unsigned threads() const noexcept;
 
-    /// Calls body(begin, end) for the blocks [0, block), [block, 2 block), ... of [0, count), in any order, possibly at
-    /// the same time. The exception of the block with the lowest index is rethrown after all blocks ended.
+    /// Calls body(begin, end) for the blocks [0, block), [block, 2 block), ... of [0, count), in any order, possibly at the
+    /// same time. After all blocks have ended it rethrows the exception of the block with the lowest index.
     void for_blocks(std::size_t count, std::size_t block, const std::function<void(std::size_t, std::size_t)>& body);
 
 private:
@@ -27,7 +27,7 @@ private:
     std::unique_ptr<Pool> pool_;
 };
 
-/// The same loop where there may be no workers: without them it runs on the caller.
+/// The same loop with an optional pool: if `workers` is null, it runs on the calling thread.
 template <class Body>
 void for_blocks(Workers* workers, std::size_t count, std::size_t block, const Body& body) {
     if (workers != nullptr) {

@@ -1,5 +1,5 @@
 #pragma once
-// Brings a cloud into the units of the simulation, and the results back.
+// Converts a cloud to normalised units, and results back.
 
 #include <span>
 #include <string_view>
@@ -20,32 +20,31 @@ struct Transform {
     bool identity() const { return scale == 1.0 && centre == Vec3::Zero(); }
 };
 
-/// The box of the thesis: 3 units wide round the origin.
+/// The box of the thesis: 3 units wide, centred at the origin.
 inline Box3 simulation_box() { return {Vec3::Constant(-1.5), Vec3::Constant(1.5)}; }
 
 struct Normalized {
     std::vector<Vec3> points;  ///< in normalised units, in the order of the cloud
     Transform transform;
-    std::vector<Colour> colours{};  ///< empty, or one a point
+    std::vector<Colour> colours{};  ///< empty, or one per point
     std::vector<Vec3> normals{};       ///< empty, or one per point; unit vectors
     std::vector<Vec3> areas{};         ///< empty, or one per point, in squared normalised units
     std::vector<double> confidence{};  ///< empty, or one per point
     Orientation orientation{};         ///< in normalised units
 };
 
-/// Refuses points that bound no volume: fewer than 4, all equal, all on a line, all on a plane; "all on" is
-/// decided by exact predicates, and clouds count as flat that are thinner than 1e-9 of their diagonal or than
-/// the rounding of their coordinates. `name` opens the message. Throws GeometryError "cloud.few",
-/// "cloud.equal", "cloud.collinear", "cloud.coplanar", "cloud.non_finite". [setup]
+/// Refuses points that bound no volume: fewer than 4, all equal, all on a line, all on a plane. Exact predicates decide this.
+/// Clouds thinner than 1e-9 of their diagonal, or than the rounding of their coordinates, also count as flat. The message
+/// begins with `name`. Throws GeometryError "cloud.few", "cloud.equal", "cloud.collinear", "cloud.coplanar",
+/// "cloud.non_finite". [setup]
 void require_volume(std::span<const Vec3> points, std::string_view name);
 
-/// The thesis' normalisation: the centre of the cloud's box goes to the origin, its largest half-extent
-/// becomes `scale_target`. Throws as require_volume, and GeometryError "cloud.scale" unless it is above 0 and
-/// at most 1.5. [setup]
+/// The normalisation of the thesis: moves the centre of the cloud's box to the origin and scales its largest half-extent to
+/// `scale_target`. Throws as require_volume, and GeometryError "cloud.scale" unless it is above 0 and at most 1.5. [setup]
 Normalized normalize(const Cloud& cloud, double scale_target = 0.9);
 
-/// Leaves the coordinates as they are, with the identity as transform. Throws as require_volume, and
-/// GeometryError "cloud.outside_box" unless `box` holds every point. [setup]
+/// Keeps the coordinates, with the identity as transform. Throws as require_volume, and GeometryError "cloud.outside_box"
+/// unless `box` contains every point. [setup]
 Normalized keep_coordinates(const Cloud& cloud, const Box3& box = simulation_box());
 
 }  // namespace dsc::cloud

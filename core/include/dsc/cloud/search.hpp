@@ -16,9 +16,8 @@ struct Neighbour {
     double distance = 0.0;
 };
 
-/// A kd-tree. Distances are sqrt(dx*dx + dy*dy + dz*dz) in double; points are ordered by their squares, of
-/// equal ones the lowest index comes first. Queries must be finite. All const methods may be called from
-/// several threads at once.
+/// A kd-tree. Distances are sqrt(dx*dx + dy*dy + dz*dz) in double. Points are ordered by the squares; of equal ones the lowest
+/// index comes first. Queries must be finite. All const methods may be called from several threads at once.
 class NearestSearch {
 public:
     /// Copies the points. Throws GeometryError "cloud.empty" without points, "cloud.non_finite". [setup]

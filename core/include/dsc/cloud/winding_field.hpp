@@ -1,5 +1,5 @@
 #pragma once
-// The winding number of area vectors, by clusters: 1 inside a solid, 0 outside, 1/2 on its surface.
+// The winding number of area vectors, computed by clusters: 1 inside a solid, 0 outside, 1/2 on its surface.
 
 #include <cstddef>
 #include <memory>
@@ -17,14 +17,13 @@ namespace dsc::cloud {
 ///   w(x)       = 1/(4 pi) sum_j mu_j . d / rho^3                              (A mu at the positions),
 ///   -grad w(x) = 1/(4 pi) sum_j [mu_j / rho^3 - 3 (mu_j . d) d / rho^5]       (G mu at the positions),
 ///   (A^T r)_j  = 1/(4 pi) sum_i r_i (y_j - x_i) / rho^3.
-/// Sources that are far from a group of targets count as one, at their weighted mean. The sums are taken in float after
-/// moving and scaling the positions, so coordinates may be large; errors of w of 0.01 are
-/// usual, and they fall with `opening`. The same bits come out for any number of threads and with registers of any
-/// width.
+/// Sources that are far from a group of targets are replaced by one source at their weighted mean. The sums are computed in
+/// float after the positions are moved and scaled, so coordinates may be large. Errors of w of 0.01 are usual; they decrease
+/// with `opening`. The result has the same bits for any number of threads and any width of the registers.
 class WindingField {
 public:
-    /// `weights`: one per position, positive, such as areas; they say where the middle of a cluster is. A cluster is taken
-    /// together where its radius is below `opening` times the distance from all targets of a group; 0: never. Throws
+    /// `weights`: one positive number per position, such as an area; they define the centre of a cluster. A cluster is used as
+    /// one source if its radius is below `opening` times the distance from all targets of a group; 0: never. Throws
     /// GeometryError "cloud.empty" without positions, "cloud.non_finite", "cloud.large" above 2^31 - 1 positions. [setup]
     WindingField(std::span<const Vec3> positions, std::span<const double> weights, double opening = 0.5);
     ~WindingField();
@@ -38,18 +37,18 @@ public:
     /// Vectors mu_j, in squared units. Zero before the first call. [step]
     void set_vectors(std::span<const Vec3> vectors);
 
-    /// w at the positions, their own smoothing as that of the targets. [step]
+    /// w at the positions; the smoothing of the targets is that of the positions. [step]
     void winding(std::span<double> w, Workers* workers = nullptr);
-    /// -grad w at the positions, likewise: along the normal that points out of the solid. Per unit of length. [step]
+    /// -grad w at the positions, with the same smoothing: along the normal that points out of the solid. Unit 1/length. [step]
     void gradient(std::span<Vec3> g, Workers* workers = nullptr);
-    /// A^T r, in 1 / squared units, for one number per position. The vectors stay as they are. [step]
+    /// A^T r, in 1 / squared units, for one number per position. The vectors do not change. [step]
     void adjoint(std::span<const double> r, std::span<Vec3> g, Workers* workers = nullptr);
 
-    /// w at other places. `smoothing`: one length per point, or empty for 0. Throws GeometryError "cloud.non_finite",
+    /// w at other points. `smoothing`: one length per point, or empty for 0. Throws GeometryError "cloud.non_finite",
     /// "cloud.large". [step]
     void evaluate(std::span<const Vec3> points, std::span<const double> smoothing, std::span<double> w,
                   Workers* workers = nullptr) const;
-    /// -grad w at other places. Throws as evaluate. [step]
+    /// -grad w at other points. Throws as evaluate. [step]
     void evaluate_gradient(std::span<const Vec3> points, std::span<const double> smoothing, std::span<Vec3> g,
                            Workers* workers = nullptr) const;
 
@@ -58,7 +57,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// The field of a cloud's samples; `smoothing` counts in their widths. Throws as the constructor. [setup]
+/// The field of a cloud's samples; `smoothing` is in units of their widths. Throws as the constructor. [setup]
 WindingField winding_field(std::span<const SurfaceSample> samples, double smoothing = 0.5);
 
 }  // namespace dsc::cloud

@@ -1,5 +1,5 @@
 #pragma once
-// Diagnostics: collects every fault of a configuration, so that a user sees all of them at once.
+// Diagnostics: collects every fault of a configuration, so that a user sees all faults at once.
 
 #include <cstddef>
 #include <dsc/config/source.hpp>
@@ -11,7 +11,7 @@ namespace dsc::config {
 
 enum class Severity { warning, error };
 
-/// One fault. The hint is printed behind the caret, the notes on lines of their own.
+/// One fault. The hint is printed after the caret; each note is printed on its own line.
 struct Diagnostic {
     Severity severity = Severity::error;
     std::string code;  ///< stable: "config.unknown_key"
@@ -28,7 +28,7 @@ struct Diagnostic {
 ///       |     ^~~~~  did you mean 'alpha'? (real, (0, 1], default 0.2)
 ///       note: accepted keys: alpha, beta
 /// ```
-/// A value from the command line or made by code has no line to show; its hint is a note.
+/// A value from the command line or made by code has no line to show; its hint becomes a note.
 std::string format(const Diagnostic& diagnostic);
 
 /// Collects diagnostics. [setup]
@@ -43,10 +43,10 @@ public:
     bool has_errors() const noexcept { return errors_ > 0; }
     /// In the order in which they were found.
     const std::vector<Diagnostic>& all() const noexcept { return all_; }
-    /// All of one severity, text by text, sorted by place within each file; beyond 100 only their number.
+    /// Texts of all diagnostics of one severity, sorted by place within each file; after 100 only their number.
     std::string text(Severity severity) const;
-    /// Throws ConfigError with all errors and a last line "N errors; nothing was run". Its code is that of
-    /// the only error, or "config.invalid" for several. Does nothing without errors.
+    /// Throws ConfigError with all errors and the last line "N errors; nothing was run". Its code is the code of the only
+    /// error, or "config.invalid" for several. Does nothing if there is no error.
     void throw_if_errors() const;
 
 private:
@@ -54,8 +54,7 @@ private:
     std::size_t errors_ = 0;
 };
 
-/// Throws ConfigError with the one diagnostic, in the same form. For a fault after which nothing else can be
-/// judged.
+/// Throws ConfigError with this one diagnostic, in the same form. For a fault after which nothing else can be checked.
 [[noreturn]] void fail(std::string code, SourcePosition position, std::string message, std::string hint = {},
                        std::vector<std::string> notes = {});
 

@@ -1,6 +1,5 @@
 #pragma once
-// FieldBuilder: the words that complete the declaration of one parameter. Handed out by ParamSchema
-// (params.hpp).
+// FieldBuilder: completes the declaration of one parameter. ParamSchema (params.hpp) returns it.
 
 #include <cstddef>
 #include <dsc/config/schema.hpp>
@@ -16,7 +15,7 @@ class FieldBuilder {
 public:
     FieldBuilder(Schema& schema, std::size_t index) : schema_(&schema), index_(index) {}
 
-    /// Both ends belong to the range, until open_low() or open_high() exclude one.
+    /// Both ends belong to the range, unless open_low() or open_high() excludes one.
     FieldBuilder& range(double low, double high) { return at_least(low).at_most(high); }
     FieldBuilder& at_least(double low) { return field().minimum = Bound{low, false}, *this; }
     FieldBuilder& at_most(double high) { return field().maximum = Bound{high, false}, *this; }
@@ -24,13 +23,13 @@ public:
     FieldBuilder& less(double high) { return field().maximum = Bound{high, true}, *this; }
     FieldBuilder& open_low() { return field().minimum.value().open = true, *this; }
     FieldBuilder& open_high() { return field().maximum.value().open = true, *this; }
-    /// Least and greatest number of items of a list.
+    /// Smallest and largest number of items of a list.
     FieldBuilder& size(std::size_t least, std::size_t greatest = std::numeric_limits<std::size_t>::max());
-    /// "1" for a pure number, "length" for normalised units, "mean edges", "steps", "radians", "seconds", ...
+    /// "1" for a pure number, "length" for normalised units, "target lengths (L)", "steps", "radians", "seconds", ...
     FieldBuilder& unit(std::string text) { return field().unit = std::move(text), *this; }
     /// What the parameter does, for the person who writes the experiment.
     FieldBuilder& doc(std::string text) { return field().doc = std::move(text), *this; }
-    /// Must be given; the struct's value is no default then.
+    /// The parameter must be given; the struct's value is then not a default.
     FieldBuilder& required();
     /// May stay unset (`null`). Implied by a std::optional member.
     FieldBuilder& optional();
@@ -40,12 +39,12 @@ public:
     }
     /// Accepted items of a list of strings.
     FieldBuilder& choices(std::vector<std::string> list) { return field().choices = std::move(list), *this; }
-    /// A list of strings takes integers, too, as their digits.
+    /// A list of strings also accepts integers, as their digits.
     FieldBuilder& or_integers() { return tag("or_integers"); }
     FieldBuilder& tag(std::string name) { return field().tags.push_back(std::move(name)), *this; }
-    /// Time or memory grow with it: tests leave it at or below its default.
+    /// Time or memory grows with it: tests keep it at or below its default.
     FieldBuilder& costly() { return tag("costly"); }
-    /// Not for the first page of the documentation.
+    /// The first page of the documentation leaves it out.
     FieldBuilder& advanced() { return tag("advanced"); }
 
 private:

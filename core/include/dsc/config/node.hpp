@@ -1,5 +1,5 @@
 #pragma once
-// ConfigNode: an immutable tree of configuration values that remembers where each of them was written.
+// ConfigNode: an immutable tree of configuration values that remembers where each value was written.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,14 +15,14 @@ namespace dsc::config {
 
 enum class NodeType { null, boolean, integer, real, string, list, map };
 
-/// "a boolean", "a list", ...: the type as it reads in a message.
+/// "a boolean", "a list", ...: the type as messages name it.
 std::string_view type_name(NodeType type);
 
 struct ConfigEntry;
 struct NodeFactory;
 
-/// A value of a configuration: null, a scalar, a list, or a map that keeps the order of its keys. Copies
-/// share the tree, nothing can change it. Nodes made by code convert from the plain types:
+/// A value of a configuration: null, a scalar, a list, or a map that keeps the order of its keys. Copies share the tree;
+/// nothing can change it. Plain types convert to nodes:
 /// `ConfigNode::map({{"type", "grid"}, {"cells", 30}, {"axis", ConfigNode::list({0.0, 0.0, 1.0})}})`. [setup]
 class ConfigNode {
 public:
@@ -40,7 +40,7 @@ public:
 
     static ConfigNode list(std::vector<ConfigNode> items);
     static ConfigNode list();
-    /// Keys must differ; throws ConfigError "config.duplicate_key" otherwise.
+    /// Keys must differ, else throws ConfigError "config.duplicate_key".
     static ConfigNode map(std::vector<ConfigEntry> entries);
     static ConfigNode map();
 
@@ -56,9 +56,9 @@ public:
 
     /// The value; another type throws ConfigError "config.type" with the node's position.
     bool as_boolean() const;
-    /// Also a real number that is exactly an integer (1e3), at most 2^53 in magnitude.
+    /// Also accepts a real number that is exactly an integer (1e3), at most 2^53 in magnitude.
     std::int64_t as_integer() const;
-    /// Also an integer.
+    /// Also accepts an integer.
     double as_real() const;
     const std::string& as_string() const;
     const std::vector<ConfigNode>& items() const;     ///< of a list
@@ -66,7 +66,7 @@ public:
 
     /// Number of items or entries, 0 for a scalar.
     std::size_t size() const noexcept;
-    /// The value at `key` of a map; nullptr where it is absent or this is no map. Valid as long as this node.
+    /// The value at `key` of a map; nullptr if it is absent or this is not a map. Valid as long as this node.
     const ConfigNode* find(std::string_view key) const noexcept;
     const ConfigEntry* find_entry(std::string_view key) const noexcept;
     /// The value at `key`; throws ConfigError "config.missing" with the position of this node.
@@ -77,14 +77,14 @@ public:
     /// Dotted path from the root, "schedule.0.steps"; empty at the root.
     std::string path() const;
     const SourcePosition& position() const noexcept;
-    /// True for a scalar written in quotes (or as a block), which is a string whatever it looks like.
+    /// True for a scalar written in quotes (or as a block). It is always a string.
     bool quoted() const noexcept;
 
     /// The same value with another place.
     ConfigNode placed(SourcePosition position, bool quoted = false) const;
     /// The same tree with the paths of all its nodes starting at `path`.
     ConfigNode with_path(const std::string& path) const;
-    /// A copy of a map with `key` replaced in its place, or added at the end. Null counts as an empty map.
+    /// A copy of a map with `key` replaced at its place, or added at the end. Null counts as an empty map.
     ConfigNode with(const std::string& key, ConfigNode value) const;
     ConfigNode with(const std::string& key, ConfigNode value, SourcePosition key_position) const;
     /// A copy of a map without `key`.
@@ -93,7 +93,7 @@ public:
     /// end.
     ConfigNode with_item(std::size_t index, ConfigNode value) const;
 
-    /// Equal values in equal order; an integer differs from a real number. Places do not count.
+    /// Equal values in equal order. An integer differs from a real number. Places are not compared.
     friend bool operator==(const ConfigNode& a, const ConfigNode& b);
     friend bool operator!=(const ConfigNode& a, const ConfigNode& b) { return !(a == b); }
 

@@ -1,7 +1,6 @@
 #pragma once
-// ParamSchema<T>: declares the parameters of a strategy once, bound to the members of a plain struct.
-// Validation, documentation, the editor's schema and the struct a strategy works with all come from this one
-// declaration.
+// ParamSchema<T>: declares the parameters of a strategy once, bound to the members of a plain struct. Validation,
+// documentation, the editor's schema and the strategy's struct all come from this one declaration.
 
 #include <array>
 #include <cstdint>
@@ -19,18 +18,18 @@
 
 namespace dsc::config {
 
-/// A nested strategy as a parameter: which one and with what. An empty type means none.
+/// A nested strategy as a parameter: its id and its parameters. An empty type means none.
 struct StrategyConfig {
     std::string type;
-    ConfigNode params;  ///< a map without `type`; resolved where it comes out of ParamSchema::read
+    ConfigNode params;  ///< a map without `type`; resolved if it comes from ParamSchema::read
     bool empty() const noexcept { return type.empty(); }
 };
 
-/// `{type: ID, parameters...}` of a strategy, null for none; and back.
+/// Converts a strategy to `{type: ID, parameters...}`, or null for none.
 ConfigNode strategy_node(const StrategyConfig& strategy);
 StrategyConfig strategy_from(const ConfigNode& node);
 
-/// Throws PluginError "plugin.schema" with all of schema.problems(), if any.
+/// Throws PluginError "plugin.schema" with all of schema.problems() if there are any.
 void require_sound(const Schema& schema);
 
 /// Binds the members of `T` to named parameters.
@@ -38,14 +37,14 @@ void require_sound(const Schema& schema);
 /// ```
 /// struct Params { double alpha = 0.2; std::optional<double> radius; config::StrategyConfig curvature; };
 /// static void declare(config::ParamSchema<Params>& s) {
-///     s.real("alpha", &Params::alpha).range(0, 1).open_low().unit("1").doc("Part of the way in a step.");
+///     s.real("alpha", &Params::alpha).range(0, 1).open_low().unit("1").doc("Fraction of the distance per step.");
 ///     s.real("radius", &Params::radius).greater(0).unit("length").doc("Radius; unset: nearest point.");
 ///     s.strategy("curvature", &Params::curvature, "curvature").optional().doc("None: no smoothing.");
 ///     s.check([](const Params& p) { return p.alpha < 1 || p.radius; }, "alpha 1 needs a radius");
 /// }
 /// ```
-/// Defaults are the members of `defaults`, a value-initialised T unless given. A member of type std::optional
-/// may stay unset. The parameters of a strategy must not be called "type". [setup]
+/// Defaults are the members of `defaults`, by default a value-initialised T. A member of type std::optional may stay unset. The
+/// parameters of a strategy must not be called "type". [setup]
 template <class T>
 class ParamSchema {
 public:
@@ -61,7 +60,7 @@ public:
         return scalar(std::move(name), member, FieldType::boolean);
     }
 
-    /// A member of any integer type; values that it cannot hold are refused.
+    /// A member of any integer type; values that the type cannot represent are refused.
     template <class Integer>
     FieldBuilder integer(std::string name, Integer T::*member) {
         return scalar(std::move(name), member, FieldType::integer);
@@ -119,7 +118,7 @@ public:
         return scalar(std::move(name), member, FieldType::string_list);
     }
 
-    /// A nested struct, declared by `declare(ParamSchema<U>&)`; its defaults are those it has inside T.
+    /// A nested struct, declared by `declare(ParamSchema<U>&)`; its defaults are the values inside T.
     template <class U, class Declare>
     FieldBuilder object(std::string name, U T::*member, Declare declare) {
         auto inner = nested<U>(bindings_->defaults.*member, declare);
@@ -163,7 +162,7 @@ public:
             });
     }
 
-    /// A strategy of `kind`. Required where the struct's default is empty, unless optional() follows.
+    /// A strategy of `kind`. Required if the struct's default is empty, unless optional() follows.
     FieldBuilder strategy(std::string name, StrategyConfig T::*member, std::string kind) {
         Field f = field(std::move(name), FieldType::strategy);
         f.kind = std::move(kind);
@@ -189,7 +188,7 @@ public:
             });
     }
 
-    /// A condition on the whole struct, told to the user as `message` where it does not hold.
+    /// A condition on the whole struct. If it is false, the user reads `message`.
     void check(std::function<bool(const T&)> holds, std::string message) {
         schema_->check({[bindings = bindings_, holds = std::move(holds)](const ConfigNode& node) {
                             return holds(bindings->read(node));
@@ -206,16 +205,15 @@ public:
         require_sound(*schema_);
         return *schema_;
     }
-    /// The same, shared; outlives this binder.
+    /// The same as a shared pointer; outlives this binder.
     std::shared_ptr<const Schema> shared_schema() const {
         require_sound(*schema_);
         return schema_;
     }
 
-    /// The struct of a resolved map; what the map lacks keeps its default. Keys that are no parameters are
-    /// passed over.
+    /// The struct of a resolved map; members that the map lacks keep their defaults. Keys that are not parameters are ignored.
     T read(const ConfigNode& resolved) const { return bindings_->read(resolved); }
-    /// The map of a struct, all members written out.
+    /// The map of a struct with all members written out.
     ConfigNode write(const T& value) const { return bindings_->write(value); }
 
 private:
@@ -296,7 +294,7 @@ private:
     struct is_list : std::false_type {};
     template <class V>
     struct is_list<std::vector<V>> : std::true_type {};
-    /// Eigen indexes by a signed type, std::array by an unsigned one.
+    /// Eigen uses a signed index type, std::array an unsigned one.
     template <class V, class = void>
     struct Index {
         using type = std::size_t;
@@ -410,8 +408,8 @@ private:
     friend class ParamSchema;
 };
 
-/// Validates `given` against the struct's declaration and reads it; throws ConfigError with all faults. For
-/// tests and for programs that use a strategy without an experiment. [setup]
+/// Validates `given` against the struct's declaration and reads it. Throws ConfigError with all faults. For tests and for
+/// programs that use a strategy without an experiment. [setup]
 template <class T>
 T read_params(const ConfigNode& given, const StrategyLookup& lookup = NoStrategies(),
               const std::string& owner = "the parameters") {

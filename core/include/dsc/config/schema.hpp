@@ -1,6 +1,6 @@
 #pragma once
-// Schema: what a map of the configuration may hold. Type-erased, so that hosts, editors and documentation can
-// read it; authors of strategies declare theirs through ParamSchema (params.hpp).
+// Schema: the accepted keys of a map of the configuration. It is type-erased, so that hosts, editors and documentation can read
+// it. Authors of strategies declare theirs with ParamSchema (params.hpp).
 
 #include <cstdint>
 #include <dsc/config/diagnostics.hpp>
@@ -21,12 +21,12 @@ enum class FieldType {
     real,
     string,
     choice,  ///< a string out of `choices`
-    file,    ///< a path; a relative one counts from the folder of the file that names it
+    file,    ///< a path; a relative path starts at the folder of the file that names it
     vec3,    ///< a list of three real numbers
     integer_list,
     real_list,
-    string_list,    ///< out of `choices` where there are any
-    object,         ///< a map with a schema of its own
+    string_list,    ///< each item is one of `choices` if there are any
+    object,         ///< a map with its own schema
     object_list,    ///< a list of such maps
     strategy,       ///< `{type: ID, parameters...}` of `kind`
     strategy_list,  ///< a list of such maps
@@ -49,30 +49,30 @@ struct Field {
     FieldType type = FieldType::string;
     std::string doc;  ///< one or more sentences, never empty
     std::string
-        unit;  ///< "1", "length", "mean edges", "steps", "radians", ...; empty where it makes no sense
+        unit;  ///< "1", "length", "target lengths (L)", "steps", "radians", ...; empty if it does not apply
     std::optional<Bound> minimum;  ///< of a number, of every component or item
     std::optional<Bound> maximum;
     std::optional<std::size_t> min_size;  ///< of a list
     std::optional<std::size_t> max_size;
     std::vector<std::string> choices;
     std::vector<std::string> extensions;   ///< of a file, with the dot; empty for any
-    bool required = false;                 ///< must be given, has no default
-    bool optional = false;                 ///< may stay unset, which `null` says explicitly
+    bool required = false;                 ///< must be given; has no default
+    bool optional = false;                 ///< may stay unset; `null` says so explicitly
     ConfigNode default_value;              ///< null for a required or an unset optional field
-    std::vector<std::string> tags;         ///< "advanced": not for the first page of the documentation; "costly"; "or_integers"
+    std::vector<std::string> tags;         ///< "advanced": not on the first page of the documentation; "costly"; "or_integers"
     std::shared_ptr<const Schema> object;  ///< of an object or of each item of an object_list
     std::string kind;                      ///< of a strategy or of each item of a strategy_list
-    std::int64_t storage_min = std::numeric_limits<std::int64_t>::min();  ///< what the bound member can hold
+    std::int64_t storage_min = std::numeric_limits<std::int64_t>::min();  ///< range of the bound member's type
     std::int64_t storage_max = std::numeric_limits<std::int64_t>::max();
 
     bool has_tag(std::string_view tag) const;
-    /// "(0, 1]", "at least 1", "above 0", or empty without a bound.
+    /// "(0, 1]", "at least 1", "above 0"; empty without a bound.
     std::string range_text() const;
-    /// "real, (0, 1], default 0.2": what the field accepts, on one line.
+    /// "real, (0, 1], default 0.2": the accepted values, on one line.
     std::string summary() const;
 };
 
-/// An old name of a field that is still accepted, with a warning.
+/// An old name of a field that is still accepted with a warning.
 struct Deprecation {
     std::string old_name;
     std::string new_name;
@@ -81,7 +81,7 @@ struct Deprecation {
 /// A condition on several fields, called with the resolved map.
 struct CrossCheck {
     std::function<bool(const ConfigNode& resolved)> holds;
-    std::string message;  ///< what must hold, as a sentence
+    std::string message;  ///< the condition that must hold, as a sentence
 };
 
 /// The fields of a map, in the order of their declaration.
@@ -96,13 +96,12 @@ public:
     Field& field(std::size_t index) { return fields_.at(index); }
     const std::vector<Deprecation>& deprecations() const noexcept { return deprecations_; }
     const std::vector<CrossCheck>& checks() const noexcept { return checks_; }
-    /// nullptr where there is no such field.
+    /// nullptr if there is no such field.
     const Field* find(std::string_view name) const noexcept;
     std::vector<std::string> names() const;
 
-    /// Faults of the declaration itself: a field without doc, a name twice, a default outside its range, a
-    /// bound on a string. Empty for a sound schema. A strategy's parameters must not be called "type"
-    /// besides.
+    /// Faults of the declaration itself: a field without doc, a repeated name, a default outside its range, a bound on a
+    /// string; for a strategy also a parameter called "type". Empty for a sound schema.
     std::vector<std::string> problems(bool of_strategy = false) const;
 
 private:
@@ -115,25 +114,24 @@ private:
 class StrategyLookup {
 public:
     virtual ~StrategyLookup() = default;
-    /// The parameters of a strategy, nullptr where the kind has no such id. Valid as long as the lookup.
+    /// The schema of a strategy's parameters; nullptr if the kind has no such id. Valid as long as the lookup.
     virtual const Schema* find_schema(const std::string& kind, const std::string& id) const = 0;
     /// All ids of a kind, sorted.
     virtual std::vector<std::string> ids(const std::string& kind) const = 0;
 };
 
-/// A lookup without any strategy, for schemas that nest none.
+/// A lookup without any strategy, for schemas without nested strategies.
 class NoStrategies : public StrategyLookup {
 public:
     const Schema* find_schema(const std::string&, const std::string&) const override { return nullptr; }
     std::vector<std::string> ids(const std::string&) const override { return {}; }
 };
 
-/// Checks `node` (a map, or null for an empty one) against the schema and returns the resolved map: all
-/// fields in the order of the schema with their defaults written out (null for an unset optional one), nested
-/// objects and strategies likewise, numbers in the field's type, relative file names made absolute. Faults
-/// are added to `diagnostics`, all of them: unknown keys, wrong types, values out of range, unknown
-/// strategies, missing keys, failed cross checks. After an error the result is good for nothing but further
-/// checks. `owner` names the map in messages. Throws StrategyError if a cross check throws. [setup]
+/// Checks `node` (a map, or null for an empty map) against the schema and returns the resolved map. It contains all fields in
+/// the order of the schema; defaults are written out (null for an unset optional field), also in nested objects and strategies;
+/// numbers have the type of the field; relative file names are made absolute. All faults are added to `diagnostics`: unknown
+/// keys, wrong types, values out of range, unknown strategies, missing keys, failed cross checks. After an error the result is
+/// useful only for further checks. `owner` names the map in messages. Throws StrategyError if a cross check throws. [setup]
 ConfigNode validate(const ConfigNode& node, const Schema& schema, const StrategyLookup& lookup,
                     Diagnostics& diagnostics, const std::string& owner = "the experiment");
 

@@ -7,14 +7,14 @@
 
 namespace dsc::config {
 
-/// The text that nodes point into, kept alive by them so that a message can show the line.
+/// A text that nodes refer to. They keep it alive so that a message can show the line.
 struct SourceText {
     enum class Kind { file, command_line };
     Kind kind = Kind::file;
-    std::string name;  ///< the file as the user named it, or "command line"
-    std::string text;  ///< whole content, UTF-8; for the command line the override itself
+    std::string name;  ///< the file name as the user wrote it, or "command line"
+    std::string text;  ///< complete content, UTF-8; for the command line the override itself
 
-    /// Line `number` (1-based) without its end, empty beyond the last line.
+    /// Line `number` (1-based) without its end; empty after the last line.
     std::string_view line(int number) const;
 };
 
@@ -23,9 +23,9 @@ struct SourcePosition {
     std::shared_ptr<const SourceText> source;  ///< empty for a value made by code
     int line = 0;
     int column = 0;
-    int length = 0;  ///< characters to underline, at least 1 where the position is known
+    int length = 0;  ///< number of characters to underline, at least 1 if the position is known
 
-    /// False for a value made by code (a default, a programmatic configuration).
+    /// False for a value made by code (a default, a configuration built in a program).
     bool known() const noexcept { return source != nullptr; }
     /// True for a value given on the command line.
     bool from_command_line() const noexcept;

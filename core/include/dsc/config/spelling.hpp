@@ -1,5 +1,5 @@
 #pragma once
-// Did-you-mean: the accepted word that a mistyped one is closest to.
+// Did-you-mean: finds the accepted word that is closest to a mistyped word.
 
 #include <cstddef>
 #include <optional>
@@ -13,8 +13,8 @@ namespace dsc::config {
 /// two neighbouring characters.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to `word` with a distance of at most max(2, length / 3), never all of the word; the
-/// first of several. Empty where none is near.
+/// The candidate nearest to `word`: the distance is at most max(2, length / 3) and less than the length of the word; of equal
+/// distances the first. Empty if no candidate is near.
 std::optional<std::string> closest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "a, b, c".

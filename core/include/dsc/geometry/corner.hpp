@@ -1,5 +1,5 @@
 #pragma once
-// What one corner of a triangle contributes to the differential geometry of a surface.
+// Contributions of one corner of a triangle to the differential geometry of a surface.
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,13 @@
 
 namespace dsc::geometry {
 
-/// Angle at `a` of triangle abc, in [0, pi]; 0 where an edge at `a` has no length. [parallel]
+/// Angle at `a` of triangle abc, in [0, pi]; 0 if an edge at `a` has length 0. [parallel]
 inline double corner_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
     return std::atan2((b - a).cross(c - a).norm(), (b - a).dot(c - a));
 }
 
-/// Cotangent of the angle at `a`, held within +-`limit` so that a degenerate triangle weighs much but not
-/// infinitely; 0 where an edge at `a` has no length. [parallel]
+/// Cotangent of the angle at `a`, limited to +-`limit` so that a degenerate triangle has a large but finite weight; 0 if an
+/// edge at `a` has length 0. [parallel]
 inline double corner_cotangent(const Vec3& a, const Vec3& b, const Vec3& c, double limit) {
     const double cosine = (b - a).dot(c - a);
     const double sine = (b - a).cross(c - a).norm();
@@ -21,9 +21,8 @@ inline double corner_cotangent(const Vec3& a, const Vec3& b, const Vec3& c, doub
     return cosine > 0 ? limit : cosine < 0 ? -limit : 0.0;
 }
 
-/// The part of triangle abc that belongs to `a`: its Voronoi cell where the triangle is acute, else half of
-/// the triangle where the obtuse angle is at `a`, a quarter where it is not [Meyer2003]. The three parts of a
-/// triangle add up to its area. [parallel]
+/// The part of the area of triangle abc that belongs to `a` [Meyer2003]: the Voronoi cell if the triangle is acute; half of the
+/// area if the obtuse angle is at `a`; else a quarter of the area. The three parts of a triangle add up to its area. [parallel]
 inline double mixed_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double area = 0.5 * (b - a).cross(c - a).norm();
     if ((b - a).dot(c - a) <= 0) return 0.5 * area;

@@ -1,5 +1,5 @@
 #pragma once
-// Exact geometric predicates on doubles: a floating filter decides nearly always, exact arithmetic the rest.
+// Exact geometric predicates on doubles: a floating filter decides most cases, exact arithmetic decides the rest.
 
 #include <cstdint>
 
@@ -14,7 +14,7 @@ int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 /// Sign of the 2-D determinant [b-a, c-a] of the points' coordinates (axis0, axis1), exact.
 int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int axis0, int axis1);
 
-/// How often this thread's orient3d calls needed exact arithmetic.
+/// Number of orient3d calls of this thread that needed exact arithmetic.
 std::uint64_t exact_fallbacks() noexcept;
 
 }  // namespace dsc::geometry

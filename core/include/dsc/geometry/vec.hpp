@@ -1,5 +1,5 @@
 #pragma once
-// Vectors and boxes of the whole project.
+// Vectors and boxes that the whole project uses.
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -7,7 +7,7 @@
 
 namespace dsc {
 
-/// A point or a vector in space. 24 bytes, no over-alignment, so it may stand in std::vector and in plain structs.
+/// A point or a vector in space. 24 bytes without over-alignment, so std::vector and plain structs can store it.
 using Vec3 = Eigen::Vector3d;
 
 /// Axis-parallel box; empty when low > high.

@@ -1,5 +1,5 @@
 #pragma once
-// Hook `filter`: takes a cloud with its attributes and returns one.
+// Hook `filter`: takes a cloud with its attributes and returns a cloud.
 
 #include <cstdint>
 
@@ -11,12 +11,12 @@
 
 namespace dsc::hooks {
 
-/// What a filter may look at besides the cloud.
+/// What a filter may read in addition to the cloud.
 struct FilterContext {
     std::uint64_t seed = 0;
     std::uint64_t instance = 0;  ///< stream id of this filter's place in the experiment
     const CancelToken* cancel = nullptr;
-    Workers* workers = nullptr;  ///< for loops of its own (dsc::for_blocks); null: one thread
+    Workers* workers = nullptr;  ///< for the filter's own loops (dsc::for_blocks); null: one thread
 };
 
 /// Drops points (and reports how many and why), moves them, or adds attributes. Lengths are in the units of the file.
@@ -24,8 +24,9 @@ class CloudFilter : public Strategy {
 public:
     ~CloudFilter() override;
 
-    /// The filtered cloud: every attribute is empty or has one entry per point, points are finite, at least one is left.
-    /// report.kept is the number of returned points, report.kept + report.removed that of the given ones. [setup]
+    /// Returns the filtered cloud. Every attribute is empty or has one entry per point; points are finite; at least one point
+    /// is left. report.kept is the number of returned points; report.kept + report.removed is the number of given points.
+    /// [setup]
     virtual cloud::Filtered apply(const cloud::Cloud& cloud, const FilterContext& context) = 0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// What the host tells a strategy. Everything is in normalised units (the box is [-1.5, 1.5]^3 unless an initial mesh says
-// otherwise); `to_input` leads back to the units of the input.
+// What the host passes to a strategy. Everything is in normalised units; the box is [-1.5, 1.5]^3 unless an initial mesh sets
+// another one. The inverse of `to_normalised` leads back to the units of the input.
 
 #include <cstdint>
 #include <iosfwd>
@@ -25,39 +25,40 @@ struct Range {
     std::size_t size() const { return end - begin; }
 };
 
-/// Constant for the length of one step.
+/// Constant during one step.
 struct StepContext {
     std::uint64_t step = 0;
     const surface::SurfaceView& surface;
     const cloud::TargetCloud* cloud = nullptr;  ///< null when the experiment has no input cloud
-    std::span<const cloud::Neighbour> nearest = {};  ///< cloud point nearest to each view vertex; empty where nobody has looked yet
+    std::span<const cloud::Neighbour> nearest = {};  ///< nearest cloud point of each view vertex; empty if not searched yet
     double target_length = 0.0;                 ///< L
     Box3 box;
-    cloud::Transform to_normalised;             ///< input to normalised units; the identity without input
+    cloud::Transform to_normalised;             ///< from the units of the input to normalised units; the identity without input
     std::uint64_t seed = 0;
     std::uint64_t instance = 0;                 ///< stream id of this strategy's place in the experiment
     const CancelToken* cancel = nullptr;
-    Workers* workers = nullptr;                 ///< for a strategy's own loops outside evaluate() (dsc::for_blocks); null: one thread
-    std::uint64_t planned_steps = 0;            ///< number of the run's last step: as the velocity tells, else that of the schedule; 0: unknown
+    Workers* workers = nullptr;                 ///< for own loops outside evaluate() (dsc::for_blocks); null: one thread
+    std::uint64_t planned_steps = 0;            ///< last step of the run, from the velocity or the schedule; 0: unknown
     std::span<const double> target_lengths = {};  ///< target length of each view vertex; empty where it is L everywhere
-    /// For each point of the cloud the nearest place of the surface; filled in the step calls of a velocity that
-    /// needs_faces_of_points(), empty elsewhere and without a cloud.
+    /// For each point of the cloud the nearest place on the surface. It is filled in the step calls of a velocity with
+    /// needs_faces_of_points(), and empty in all other calls and without a cloud.
     std::span<const surface::FacePoint> faces_of_points = {};
-    std::span<const Attribute> attributes = {};   ///< what strategies have published, carried to this surface
+    std::span<const Attribute> attributes = {};   ///< what strategies have published, transferred to this surface
 
-    /// The point of the cloud, which must be there, nearest to a view vertex: from `nearest`, or searched. [parallel]
+    /// The point of the cloud nearest to a view vertex, from `nearest` or by a search. There must be a cloud. [parallel]
     cloud::Neighbour nearest_point(std::size_t vertex) const {
         return nearest.empty() ? cloud->search().nearest(surface.positions[vertex]) : nearest[vertex];
     }
     /// The target length at a view vertex. [parallel]
     double target_length_at(std::size_t vertex) const { return target_lengths.empty() ? target_length : target_lengths[vertex]; }
 
-    /// The random stream of one element (a birth id) in this step. Order and thread count do not matter. [parallel]
+    /// The random stream of one element (a birth id) in this step. It does not depend on the order of calls or the number of
+    /// threads. [parallel]
     RandomStream random(std::uint64_t element) const { return RandomStream(RandomKey{seed, instance, step, element}); }
     bool cancelled() const { return cancel != nullptr && cancel->cancelled(); }
 };
 
-/// Base of all strategies: state that must survive a checkpoint. Empty by default.
+/// Base of all strategies: state that must survive a checkpoint. By default there is no such state.
 class Strategy {
 public:
     Strategy() = default;
@@ -65,9 +66,9 @@ public:
     Strategy(const Strategy&) = delete;
     Strategy& operator=(const Strategy&) = delete;
 
-    /// Writes whatever evaluate() depends on beyond parameters and context. [step]
+    /// Writes everything that evaluate() depends on, except parameters and context. [step]
     virtual void save(std::ostream& out) const;
-    /// Reads it back; throws on damaged input. [step]
+    /// Reads the state back. Throws on damaged input. [step]
     virtual void load(std::istream& in);
 };
 

@@ -7,13 +7,13 @@
 
 namespace dsc::hooks {
 
-/// Name and value; names are snake_case, the same in every step.
+/// Name and value. Names are snake_case and the same in every step.
 using Figures = std::vector<std::pair<std::string, double>>;
 
-/// What a user must know before trusting a result, and what can be done.
+/// What a user must know before trusting a result, and what the user can do about it.
 struct Warning {
     std::string code;  ///< "topology.doubtful": stable, for programs
-    std::string text;  ///< whole sentences
+    std::string text;  ///< complete sentences
 };
 using Warnings = std::vector<Warning>;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Hook `improvement`: which repairs a step tries, in which order, on which tets.
+// Hook `improvement`: which repairs a step tries, in which order, on which tets (method.md, section 6).
 
 #include <span>
 #include <string>
@@ -10,24 +10,25 @@
 
 namespace dsc::hooks {
 
-/// Proposes; the kernel re-evaluates each request at its turn and owns the invariants. [step]
+/// Requests repairs. The kernel evaluates each request at its turn and keeps the invariants. [step]
 class Improvement : public Strategy {
 public:
     ~Improvement() override;
 
-    /// Called once a repair round. Appends requests in the order in which they shall be tried.
+    /// Called once per repair round. Appends requests in the order in which the kernel shall try them.
     virtual void propose(const StepContext& context, const mesh::RepairRound& round, std::vector<mesh::Request>& out) = 0;
 
     /// Cosine between unit normals above which neighbouring interface faces count as flat.
     virtual double flatness() const { return 0.995; }
 
     virtual mesh::TopologyLimits topology_limits() const { return {}; }
-    /// All candidates of a step as one batch; sets accept[i] to 1 for those that may happen. Sizes are equal.
+    /// Receives all candidates of a step as one batch. Sets accept[i] to 1 for those that may be committed. Sizes are equal.
     virtual void select(const StepContext& context, std::span<const mesh::TopologyCandidate> candidates,
                         std::span<std::uint8_t> accept);
 
-    /// Names of the classes that Request::repair_class counts by: differing, snake_case, at most repair_class_limit. Where there
-    /// are any, events.jsonl and summary.json tell how many requests of each were made and committed. [setup]
+    /// Names of the classes by which requests are counted (Request::repair_class): different names, snake_case, at most
+    /// repair_class_limit. If there are any, events.jsonl and summary.json contain the numbers of requests made and committed
+    /// per class. [setup]
     virtual std::vector<std::string> repair_classes() const { return {}; }
 };
 

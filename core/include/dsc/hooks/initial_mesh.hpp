@@ -1,5 +1,5 @@
 #pragma once
-// Hook `initial_mesh`: the labelled box that a run starts from.
+// Hook `initial_mesh`: makes the labelled box with which a run starts.
 
 #include <string>
 
@@ -10,24 +10,24 @@
 
 namespace dsc::hooks {
 
-/// Reads the files that a generator's parameters name, in any format that the host knows; the host brings it.
+/// Reads the files that a generator's parameters name, in any format that the host supports. The host provides it.
 class MeshFiles {
 public:
     virtual ~MeshFiles();
-    /// A labelled tet mesh (.dsc, .vtu), as it is in the file. Throws IoError. [setup]
+    /// Returns a labelled tet mesh (.dsc, .vtu) exactly as the file contains it. Throws IoError. [setup]
     virtual mesh::TetMesh read_volume(const std::string& file) const = 0;
-    /// A surface (.obj, .ply, .off, .stl), as it is in the file. Throws IoError. [setup]
+    /// Returns a surface (.obj, .ply, .off, .stl) exactly as the file contains it. Throws IoError. [setup]
     virtual surface::TriangleMesh read_surface(const std::string& file) const = 0;
 };
 
-/// What a generator may look at.
+/// What a generator may read.
 struct InitialMeshContext {
     const cloud::TargetCloud* cloud = nullptr;
     std::uint64_t seed = 0;
     std::uint64_t instance = 0;
     const CancelToken* cancel = nullptr;
-    const MeshFiles* files = nullptr;  ///< null where the host reads no files
-    Workers* workers = nullptr;        ///< for loops of its own (dsc::for_blocks); null: one thread
+    const MeshFiles* files = nullptr;  ///< null if the host reads no files
+    Workers* workers = nullptr;        ///< for the generator's own loops (dsc::for_blocks); null: one thread
 };
 
 /// Returns plain arrays; the kernel validates and adopts them. [setup]
@@ -35,11 +35,11 @@ class InitialMesh : public Strategy {
 public:
     ~InitialMesh() override;
     virtual mesh::TetMesh build(const InitialMeshContext& context) = 0;
-    /// What there is to say about the mesh that build() made last, for summary.json.
+    /// Figures of the mesh that the last build() made, for summary.json.
     virtual Figures figures() const { return {}; }
-    /// What is doubtful about it, for the terminal, summary.json and the report. [setup]
+    /// Warnings about that mesh, for the terminal, summary.json and the report. [setup]
     virtual Warnings warnings() const { return {}; }
-    /// CPU seconds of the parts of build(), for summary.json; they differ from run to run. [setup]
+    /// CPU seconds of the parts of build(), for summary.json; they differ between runs. [setup]
     virtual Figures seconds() const { return {}; }
 };
 

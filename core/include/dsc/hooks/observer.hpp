@@ -1,12 +1,12 @@
 #pragma once
-// Hook `observer`: reads reports, adds figures to metrics.csv and summary.json, changes nothing.
+// Hook `observer`: reads the state after each step, adds figures to metrics.csv and summary.json, changes nothing.
 
 #include <dsc/hooks/context.hpp>
 #include <dsc/hooks/figures.hpp>
 
 namespace dsc::hooks {
 
-/// Figures of the run so far, handed to observers after each step.
+/// Figures of the run so far; the host passes them to observers after each step.
 struct StepFigures {
     std::uint64_t step = 0;
     std::size_t interface_vertices = 0;
@@ -18,11 +18,11 @@ struct StepFigures {
 class Observer : public Strategy {
 public:
     ~Observer() override;
-    /// The state before the first step. [step]
+    /// Called with the state before the first step. [step]
     virtual void begin(const StepContext& context) = 0;
-    /// After each step: figures for the step's row of metrics.csv. [step]
+    /// Called after each step. Returns figures for the step's row of metrics.csv. [step]
     virtual Figures step(const StepContext& context, const StepFigures& figures) = 0;
-    /// After the last step: figures for summary.json. [step]
+    /// Called after the last step. Returns figures for summary.json. [step]
     virtual Figures end(const StepContext& context) = 0;
 };
 

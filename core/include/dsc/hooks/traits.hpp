@@ -1,14 +1,14 @@
 #pragma once
-// What a strategy promises of itself beyond its parameters; `dsc plugin check` holds it to that.
+// Properties that a strategy promises besides its parameters; `dsc plugin check` tests them.
 
 namespace dsc::hooks {
 
-/// A strategy whose promises differ from these has a member `static constexpr dsc::hooks::Traits traits = {.rigid = false};`.
+/// A strategy with other properties has a member `static constexpr dsc::hooks::Traits traits = {.rigid = false};`.
 struct Traits {
-    /// Answers depend on the experiment's seed, through StepContext::random(). Of all others the seed changes nothing.
+    /// The answers depend on the experiment's seed, through StepContext::random(). If false, the seed has no influence.
     bool stochastic = false;
-    /// A velocity or curvature that moves and turns with the surface and the cloud; false where a parameter names a place or
-    /// a direction.
+    /// The answers of a velocity or curvature move and rotate with the surface and the cloud; false if a parameter is a place
+    /// or a direction.
     bool rigid = true;
 };
 

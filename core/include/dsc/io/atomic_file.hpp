@@ -1,5 +1,5 @@
 #pragma once
-// Files that appear whole or not at all.
+// Files that are complete or absent.
 
 #include <filesystem>
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace dsc::io {
 
-/// dsc::replace_file(): whole or not at all, attributes and links are kept. Throws IoError "io.write". [step]
+/// dsc::replace_file(): the file is complete or unchanged; attributes and links are kept. Throws IoError "io.write". [step]
 void write_file(const std::filesystem::path& file, std::string_view content);
 
-/// Whether the folder is empty but for temporary files that write_file() left when its process was killed, and for a file
-/// `but`. [step]
+/// Whether the folder is empty, apart from the file `but` and from temporary files that write_file() left when its process was
+/// killed. [step]
 bool nothing_but_leftovers(const std::filesystem::path& folder, std::error_code& error, std::string_view but = {});
 
-/// Removes such files from the folder, if it is one; nobody may be writing in it. [step]
+/// Removes these temporary files if `folder` is a folder. No process may be writing into it. [step]
 void remove_leftovers(const std::filesystem::path& folder);
 
 }  // namespace dsc::io

@@ -1,5 +1,5 @@
 #pragma once
-// The table of file formats: who reads and writes what, by extension.
+// The table of file formats: which formats can be read and written, by extension.
 
 #include <filesystem>
 #include <span>
@@ -12,24 +12,24 @@ namespace dsc::io {
 struct Format {
     std::string_view extension;  ///< lower case with its dot: ".obj"
     std::string_view name;       ///< for a person: "Wavefront OBJ"
-    bool surface = false;        ///< read_surface and write_surface take it
-    bool volume = false;         ///< write_volume takes it, and read_volume unless write_only
-    bool write_only = false;     ///< other programs read it back (share/doc/formats.md)
+    bool surface = false;        ///< read_surface and write_surface support it
+    bool volume = false;         ///< write_volume supports it, and so does read_volume unless write_only
+    bool write_only = false;     ///< only other programs read it (share/doc/formats.md)
 };
 
-/// All rows, in the order in which they are listed to a person. [parallel]
+/// All rows, in the order in which a person sees them. [parallel]
 std::span<const Format> formats();
 
-/// The row of a file's extension, upper or lower case; null when there is none. [parallel]
+/// The row of a file's extension, in upper or lower case; null if there is none. [parallel]
 const Format* find_format(const std::filesystem::path& file);
 
 /// ".obj, .ply, .off, .stl" for messages. [parallel]
 std::string surface_extensions();
 
-/// ".vtu, .dsc, .msh, .mesh" for messages: what write_volume takes. [parallel]
+/// ".vtu, .dsc, .msh, .mesh" for messages: the extensions that write_volume accepts. [parallel]
 std::string volume_extensions();
 
-/// ".vtu, .dsc" for messages: what read_volume takes. [parallel]
+/// ".vtu, .dsc" for messages: the extensions that read_volume accepts. [parallel]
 std::string readable_volume_extensions();
 
 }  // namespace dsc::io

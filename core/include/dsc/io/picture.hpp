@@ -16,7 +16,7 @@ class Workers;
 
 namespace dsc::io {
 
-/// Rows from the top, three bytes (red, green, blue; sRGB) a pixel.
+/// Rows from the top; three bytes (red, green, blue; sRGB) per pixel.
 struct Image {
     int width = 0;
     int height = 0;
@@ -31,22 +31,22 @@ struct Image {
 
 enum class View { front, back, left, right, top, bottom, iso };
 
-/// The view of a name as on the command line; empty when there is none. [parallel]
+/// The view with a name of the command line; empty if there is none. [parallel]
 std::optional<View> view_from_name(std::string_view name);
 
 enum class UpAxis { y, z };
 
-/// The values that the two ends of a ramp of colours show.
+/// The values at the two ends of a colour scale.
 struct ColourBounds {
     double low = 0.0;
     double high = 0.0;
 };
 
-/// The quantiles 0.01 and 0.99 of the finite values, so that a few stray ones do not leave all others in one colour; zeros
-/// without a finite value.
+/// The quantiles 0.01 and 0.99 of the finite values, so that a few extreme values do not give all others the same colour; zeros
+/// if no value is finite.
 ColourBounds colour_bounds(std::span<const double> values);
 
-/// Where a finite value is between the bounds: 0 at `low` and below, 1 at `high` and above. [parallel]
+/// Position of a finite value between the bounds: 0 at `low` and below, 1 at `high` and above. [parallel]
 double colour_part(double value, const ColourBounds& bounds);
 
 struct RenderOptions {
@@ -54,16 +54,17 @@ struct RenderOptions {
     int width = 1024;       ///< 1 to 16384
     int height = 768;       ///< 1 to 16384
     bool edges = false;     ///< draw the edges of the triangles
-    UpAxis up = UpAxis::y;  ///< what "top" means
+    UpAxis up = UpAxis::y;  ///< the axis that points up
     bool ambient_occlusion = true;
-    /// One per point, or none: the outside gets the colours of the report's viewer between their colour_bounds(), blue for
-    /// low and red for high, and is plain where a value is not finite.
+    /// One value per point, or none. The outside gets the colours of the report's viewer between colour_bounds() of the values:
+    /// blue for low, red for high, the plain colour where a value is not finite.
     std::span<const double> values = {};
     Workers* workers = nullptr;  ///< the picture does not depend on it
 };
 
-/// Orthographic picture of the mesh, fitted to the frame, the same bytes every time. Throws GeometryError as
-/// surface::require_sound(), "surface.empty" without faces, "surface.size" when the values do not fit, UsageError "picture.size". [step]
+/// Orthographic picture of the mesh, fitted to the frame; the bytes are always the same. Throws GeometryError as
+/// surface::require_sound(), "surface.empty" without faces, "surface.size" for a wrong number of values, UsageError
+/// "picture.size". [step]
 Image render(const surface::TriangleMesh& mesh, const RenderOptions& options = {});
 
 /// Writes a PNG, atomically. Throws IoError "io.write". [step]

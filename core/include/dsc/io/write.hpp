@@ -1,6 +1,6 @@
 #pragma once
-// Writers of surfaces and volumes. Atomic: the file appears whole under its name, or the old one stays and
-// IoError tells why.
+// Writers of surfaces and volumes. They are atomic: either the complete file appears under its name, or the old file stays and
+// an IoError gives the reason.
 
 #include <dsc/io/data_array.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
@@ -10,31 +10,31 @@
 
 namespace dsc::io {
 
-/// Further arrays of a volume; only .vtu has room for them, the others leave them out.
+/// Additional arrays of a volume; only .vtu can store them, the other formats leave them out.
 struct VolumeData {
     std::vector<DataArray> cells;
     std::vector<DataArray> points;
 };
 
-/// Writes .obj or .off (shortest decimal text that reads back to the same double), .ply (binary, doubles) or
-/// .stl (binary floats). An STL holds floats only: where the mesh is farther from the origin than it is
-/// large, its centre is subtracted before the cast and named in the header, and read_surface() adds it again.
-/// Colours and `normals` (unit vectors, one per point, or none) are written to .obj and .ply, the latter as floats in .ply; `points`
-/// to .ply as further properties of the vertices, doubles under their names; the other formats leave them out.
+/// Writes .obj or .off (shortest decimal text that reads back to the same double), .ply (binary, doubles) or .stl (binary
+/// floats). An STL stores only floats: if the mesh is farther from the origin than it is large, its centre is subtracted before
+/// the conversion and named in the header, and read_surface() adds it again. .obj and .ply store colours and `normals` (unit
+/// vectors, one per point, or none); in .ply the normals are floats. .ply also stores `points` as further properties of the
+/// vertices, as doubles under their names. The other formats leave all these out.
 ///
-/// Throws IoError "io.format", "io.write", and GeometryError as surface::require_sound(), "surface.colours" where there is
-/// neither no colour nor one a point, "surface.size" when an array or the normals do not fit. [setup]
+/// Throws IoError "io.format", "io.write", and GeometryError as surface::require_sound(), "surface.colours" if there are
+/// colours but not one per point, "surface.size" for an array or normals of a wrong size. [setup]
 void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh, const std::vector<DataArray>& points = {},
                    const std::vector<Vec3>& normals = {});
 
-/// Writes .dsc (shortest decimal text that reads back to the same double), .vtu (doubles, zlib, cell arrays
-/// "label" and "quality" first), .msh (Gmsh 4.1, the same text; a label is the physical group "label_N" with
-/// the tag N + 1, as tags count from 1) or .mesh (MEDIT, the same text; a label is a reference). Every tet must
-/// be exactly positive in the numbers that are written.
+/// Writes .dsc (shortest decimal text that reads back to the same double), .vtu (doubles, zlib, cell arrays "label" and
+/// "quality" first), .msh (Gmsh 4.1, the same text; a label is the physical group "label_N" with the tag N + 1, because tags
+/// count from 1) or .mesh (MEDIT, the same text; a label is a reference). Every tet must be exactly positive in the numbers
+/// that are written.
 ///
-/// Throws IoError "io.format", "io.write"; GeometryError "volume.inverted" (naming the first tet and the
-/// count), "volume.index", "volume.not_finite", "volume.size" when labels or arrays do not fit,
-/// "volume.label" for a label that the format cannot hold. [setup]
+/// Throws IoError "io.format", "io.write"; GeometryError "volume.inverted" (naming the first tet and the count),
+/// "volume.index", "volume.not_finite", "volume.size" for labels or arrays of a wrong size, "volume.label" for a label that the
+/// format cannot store. [setup]
 void write_volume(const std::filesystem::path& file, const mesh::TetMesh& mesh, const VolumeData& data = {});
 
 }  // namespace dsc::io

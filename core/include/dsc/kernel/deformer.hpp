@@ -1,5 +1,5 @@
 #pragma once
-// Moves the interface of a complex to its destinations as far as no tet inverts, repairs the mesh, and goes on.
+// Moves the interface of a complex towards its destinations as far as no tet inverts, and repairs the mesh in between.
 
 #include <functional>
 #include <memory>
@@ -16,20 +16,20 @@
 
 namespace dsc::kernel {
 
-/// Limits of the kernel; lengths in target lengths, volumes in regular tets of edge L.
+/// Limits of the kernel. Lengths are in target lengths, volumes in regular tets of edge L (method.md, section 3).
 struct DeformerOptions {
     double quality_floor = 1e-3;     ///< no commit leaves a touched tet below min(floor, its value before)
     double free_path = 0.5;          ///< fraction of the way to the first inversion that one move may take
-    unsigned max_rounds = 50;        ///< repair rounds a step
-    unsigned stall_rounds = 5;       ///< rounds in which the distance left must fall by stall_ratio
+    unsigned max_rounds = 50;        ///< repair rounds per step
+    unsigned stall_rounds = 5;       ///< rounds in which the remaining distance must fall by stall_ratio
     double stall_ratio = 0.01;
-    double max_edit_distance = 0.5;  ///< by which one edit may move the interface
-    double max_edit_volume = 1.0;    ///< by which one edit may change a phase
+    double max_edit_distance = 0.5;  ///< largest distance by which one edit may move the interface
+    double max_edit_volume = 1.0;    ///< largest volume by which one edit may change a phase
     bool audit = false;              ///< compare the queues with a full scan each round; throws GeometryError on a difference
-    std::uint64_t drop_wake_up = 0;  ///< for tests of the audit: the n-th wake-up is lost; 0: none is
+    std::uint64_t drop_wake_up = 0;  ///< for tests of the audit: the n-th wake-up is dropped; 0: none
 };
 
-/// The decisions that the kernel leaves to others.
+/// The decisions that the kernel leaves to its caller.
 struct RepairPolicy {
     /// Appends the requests of a round. Empty: no repair.
     std::function<void(const mesh::RepairRound&, std::vector<mesh::Request>&)> propose;
@@ -37,96 +37,99 @@ struct RepairPolicy {
     std::function<void(std::span<const mesh::TopologyCandidate>, std::span<std::uint8_t>)> select;
     mesh::TopologyLimits topology;
     double flatness = 0.995;
-    bool size_edits = true;  ///< told to `propose`: false where a refinement owns the sizing
-    std::optional<mesh::CreaseRule> creases;  ///< that edits leave; empty: they may remove any
-    std::optional<double> quality_floor;      ///< of this step, instead of the one of the options
+    bool size_edits = true;  ///< passed to `propose`: false if a refinement owns the sizing
+    std::optional<mesh::CreaseRule> creases;  ///< rule for creases that edits must keep; empty: edits may remove any crease
+    std::optional<double> quality_floor;      ///< for this step, instead of the value in the options
 };
 
-/// Edge to become one vertex: `kept` stays and lies at `place` then.
+/// An edge that becomes one vertex: `kept` stays and lies at `place` afterwards.
 struct CollapseTo {
     mesh::VertexId kept = mesh::none, removed = mesh::none;
     Vec3 place = Vec3::Zero();
 };
 
-/// Interface edge to take the other diagonal of its two faces, whose unit normals have at least this cosine between them.
+/// An interface edge to be flipped; the cosine between the unit normals of its two faces must be at least `flatness`.
 struct FlipTo {
     mesh::VertexId a = mesh::none, b = mesh::none;
     double flatness = 0.995;
 };
 
-/// Movable vertex to lie elsewhere.
+/// A movable vertex and its destination.
 struct MoveTo {
     mesh::VertexId vertex = mesh::none;
     Vec3 place = Vec3::Zero();
 };
 
-/// What refine() shall do, in this order.
+/// What refine() shall do, in this order (method.md, section 7).
 struct RefineRequests {
-    std::vector<std::array<mesh::VertexId, 3>> split_faces;  ///< longest edge, midpoint
-    std::vector<std::array<mesh::VertexId, 2>> split_edges;  ///< midpoint
+    std::vector<std::array<mesh::VertexId, 3>> split_faces;  ///< by its longest edge, at the midpoint
+    std::vector<std::array<mesh::VertexId, 2>> split_edges;  ///< at the midpoint
     std::vector<CollapseTo> collapses;
     std::vector<FlipTo> flips;
     std::vector<MoveTo> moves;
-    bool owns_sizing = false;  ///< L stays what it is, whatever is split
-    std::optional<mesh::CreaseRule> creases;  ///< that collapses and flips leave
+    bool owns_sizing = false;  ///< L is not changed by splits
+    std::optional<mesh::CreaseRule> creases;  ///< rule for creases that collapses and flips must keep
 };
 
-/// No collapse, flip or move of a refinement, and no split of one that owns the sizing, leaves a touched tet below
-/// min(this, its quality before). Steps that such a refinement goes with have it as their floor too, so that a volume that is
-/// written has 0.02 at least; the rest is for rounding.
+/// Floor of a refinement: its collapses, flips and moves, and the splits of a refinement that owns the sizing, leave no touched
+/// tet below min(this, its quality before). It is also the floor of the steps of such a series, so that every tet of a written
+/// volume has at least 0.02; the rest is for rounding.
 inline constexpr double refinement_floor = 0.0201;
 
 /// Owns a complex and advances it. Results do not depend on the workers' thread count.
 class Deformer {
 public:
-    /// L becomes the mean interface edge of the complex. `workers`, which must live longer, share the work of a step; null: one
-    /// thread.
+    /// L becomes the mean interface edge of the complex. `workers` share the work of a step and must outlive this object; null:
+    /// one thread.
     explicit Deformer(mesh::Complex complex, const DeformerOptions& options = {}, Workers* workers = nullptr);
     ~Deformer();
     Deformer(Deformer&&) noexcept;
     Deformer& operator=(Deformer&&) noexcept;
 
     const mesh::Complex& complex() const;
-    /// L: constant between refinements.
+    /// L; constant between refinements.
     double target_length() const;
     std::uint64_t step_count() const;
 
-    /// L from now on, the same everywhere; above 0. [step]
+    /// Sets L for the whole interface; above 0. [step]
     void set_target_length(double length);
-    /// A target length, above 0, for each of these vertices, which are those of the interface; L becomes their mean. A vertex
-    /// made by a split gets the mean of the edge's ends, after a collapse the kept end's length stays. All bounds of an edit,
-    /// and the limits of topology changes, read the length at their place. Sizes are equal. [step]
+    /// Sets a target length, above 0, for each of these vertices, which must be all interface vertices; L becomes their mean. A
+    /// vertex made by a split gets the mean of the edge's ends; after a collapse the kept end keeps its length. The bounds of
+    /// an edit and the limits of topology changes use the local length. Sizes are equal. [step]
     void set_target_lengths(std::span<const mesh::VertexId> vertices, std::span<const double> lengths);
-    /// The lengths at these interface vertices; empty where L is the same everywhere.
+    /// The lengths at these interface vertices; empty if L is the same everywhere.
     std::vector<double> target_lengths(std::span<const mesh::VertexId> vertices) const;
 
-    /// A number for each of these vertices, those of the interface, carried on like target lengths. Sizes are equal. [step]
+    /// Sets a number for each of these vertices, which must be all interface vertices. Edits treat it like target lengths.
+    /// Sizes are equal. [step]
     void set_attribute(std::string_view name, std::span<const mesh::VertexId> vertices, std::span<const double> values);
-    /// Names, in the order in which they were set first.
+    /// Names of the attributes in the order in which they were first set.
     std::vector<std::string> attributes() const;
-    /// The value of the attribute at each of these vertices, NaN off the interface; empty if no attribute has this name.
+    /// The value of the attribute at each of these vertices; NaN for vertices off the interface. Empty if no attribute has this
+    /// name.
     std::vector<double> attribute(std::string_view name, std::span<const mesh::VertexId> vertices) const;
 
-    /// Between steps: the complex, lengths, attributes, the step counter, and what the kernel remembers of refusals and
-    /// events. [step]
+    /// Saves the state between two steps: the complex, lengths, attributes, the step counter, and what the kernel remembers of
+    /// refusals and events. [step]
     void save(StateWriter& out) const;
-    /// The saved one goes on: its next step is the one that it would have been. Throws IoError "state.damaged". [setup]
+    /// Continues from a saved state: its next step is the step that the saved Deformer would have made. Throws IoError
+    /// "state.damaged". [setup]
     static Deformer load(StateReader& in, const DeformerOptions& options = {}, Workers* workers = nullptr);
 
-    /// One step: `vertices[i]` wants to move by `displacements[i]`, counted from where it is now; not movable vertices
-    /// are ignored. The rest of the motion that cannot be reached is dropped and counted. [step]
+    /// Makes one step: `vertices[i]` shall move by `displacements[i]` from its position now. Vertices that are not movable are
+    /// ignored. Motion that cannot be reached is dropped and counted. [step]
     StepReport step(std::span<const mesh::VertexId> vertices, std::span<const Vec3> displacements,
                     const RepairPolicy& policy);
 
-    /// Requests whose simplex is gone by their turn are skipped, as are those that an invariant forbids. If anything was split
-    /// and the sizing is not owned, L becomes the new mean interface edge, the same everywhere. [step]
+    /// Skips requests whose simplex no longer exists and requests that an invariant forbids. If something was split and the
+    /// sizing is not owned, L becomes the new mean interface edge, the same everywhere. [step]
     RefineReport refine(const RefineRequests& requests);
-    /// The same for splits alone. [step]
+    /// The same for splits only. [step]
     RefineReport refine(std::span<const std::array<mesh::VertexId, 3>> faces,
                         std::span<const std::array<mesh::VertexId, 2>> edges);
 
-    /// Relabels tets at a plugin's request: box vertices and irregular results refused or unpinched as in adopt; events
-    /// go to `events`. [step]
+    /// Relabels tets for a refinement (method.md, section 8.6). Tets with a box vertex are refused; irregular vertices are
+    /// unpinched as in adopt. Events are appended to `events`. [step]
     std::size_t relabel(std::span<const mesh::TetId> tets, std::span<const mesh::Label> labels,
                         const RepairPolicy& policy, std::vector<Event>& events);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a step or a refinement did, in numbers.
+// Figures of a step or a refinement.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace dsc::kernel {
 
-/// Per operation: how often asked for, committed, refused by reason.
+/// Per operation: how often it was requested, committed, and refused by reason.
 struct OperationCounts {
     std::uint64_t tried = 0;
     std::uint64_t committed = 0;
@@ -21,33 +21,33 @@ struct OperationCounts {
     OperationCounts& operator+=(const OperationCounts& other);
 };
 using OperationTable = std::array<OperationCounts, mesh::operation_count>;
-/// The same by Request::repair_class.
+/// The same per Request::repair_class.
 using RepairClassTable = std::array<OperationCounts, mesh::repair_class_limit>;
 
-/// A topology change, a row of events.jsonl.
+/// A change of topology; one line of events.jsonl.
 struct Event {
     enum class Kind : std::uint8_t { merge, split, handle_opened, handle_closed, vanished, born, unpinched };
     Kind kind = Kind::merge;
     std::uint64_t step = 0;
     Vec3 place = Vec3::Zero();  ///< centroid of the relabelled tets, normalised units
-    mesh::Label label = 0;      ///< the label that they had
+    mesh::Label label = 0;      ///< label of the tets before
     std::size_t tets = 0;
     double volume = 0.0;     ///< normalised units
-    double thickness = 0.0;  ///< in target lengths; 0 where it has no meaning
+    double thickness = 0.0;  ///< in target lengths; 0 if it does not apply
 };
 std::string_view name(Event::Kind kind);
 
-/// CPU-independent account of one step of the Deformer.
+/// What one step of the Deformer did; the counts do not depend on the CPU.
 struct StepReport {
     unsigned rounds = 0;
     std::size_t requested = 0;       ///< vertices with a displacement
     std::size_t arrived = 0;
     std::size_t clamped = 0;         ///< destinations moved back into the box shrunk by 2 L
-    double dropped_motion = 0.0;     ///< summed distance to destinations that was given up
-    double edit_distance = 0.0;      ///< summed movement of the interface by edits
-    double edit_volume = 0.0;        ///< summed volume by which edits changed phases
-    double relabelled_volume = 0.0;  ///< summed volume of relabelled tets, topology changes included
-    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule for creases aside, for a tet close to the quality floor
+    double dropped_motion = 0.0;     ///< sum of the distances to destinations that were not reached
+    double edit_distance = 0.0;      ///< sum of the distances by which edits moved the interface
+    double edit_volume = 0.0;        ///< sum of the volumes by which edits changed phases
+    double relabelled_volume = 0.0;  ///< sum of the volumes of relabelled tets, topology changes included
+    std::uint64_t crease_exceptions = 0;  ///< edits that ignored the rule for creases because a tet was close to the quality floor
     OperationTable operations{};
     RepairClassTable repair_classes{};
     std::vector<Event> events;
@@ -60,9 +60,9 @@ struct StepReport {
 struct RefineReport {
     std::size_t requested = 0;
     std::size_t committed = 0;
-    OperationCounts splits, collapses, flips, moves;  ///< of which these are the parts, and why the rest was refused
+    OperationCounts splits, collapses, flips, moves;  ///< counts of each kind of request, and why requests were refused
     bool length_changed = false;
-    std::uint64_t crease_exceptions = 0;  ///< edits that set the rule aside for a tet close to the quality floor
+    std::uint64_t crease_exceptions = 0;  ///< edits that ignored the rule because a tet was close to the quality floor
 };
 
 }  // namespace dsc::kernel

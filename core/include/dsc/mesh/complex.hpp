@@ -1,9 +1,10 @@
 #pragma once
-// The labelled tetrahedral complex: compact tets with neighbours, vertices with a seed tet, no stored edges or faces.
+// The labelled tetrahedral complex (method.md, sections 1 and 2): compact tets with neighbours, vertices with a seed tet. It
+// stores no edges or faces.
 //
-// A tet (v0,v1,v2,v3) is positive: orient3d(v0,v1,v2,v3) == 1, always and exactly. Face i is the one opposite vertex i.
-// Everything is derived from labels: a face is interface when its two tets carry different labels, a box face when its
-// tet's label is not 0. Three primitives change a complex, each keeps it valid: replace(), move(), relabel().
+// A tet (v0,v1,v2,v3) is positive: orient3d(v0,v1,v2,v3) == 1, always and exactly. Face i is opposite vertex i. Labels define
+// the interface: a face belongs to it if its two tets have different labels, a face on the box if its tet's label is not 0.
+// Three primitives change a complex: replace(), move() and relabel(). Each keeps it valid.
 
 #include <array>
 #include <cstdint>
@@ -27,7 +28,7 @@ using TetId = std::uint32_t;
 
 /// No vertex, no tet, no neighbour (a face on the box).
 inline constexpr std::uint32_t none = 0xffffffffU;
-/// Stands for the vertex that an Edit creates, before it has an id.
+/// Id of the vertex that an Edit creates, before the vertex exists.
 inline constexpr VertexId created_vertex = 0xfffffffeU;
 
 /// Local vertex indices of face i, counter-clockwise seen from outside a positive tet.
@@ -44,7 +45,7 @@ struct Tet {
 inline TetId neighbour_tet(std::uint32_t code) { return code >> 2U; }
 inline unsigned neighbour_face(std::uint32_t code) { return code & 3U; }
 
-/// Local index of v in the tet, 4 if it is not there.
+/// Local index of v in the tet; 4 if the tet does not contain v.
 inline unsigned index_of(const Tet& tet, VertexId v) {
     for (unsigned i = 0; i < 4; ++i) {
         if (tet.v[i] == v) return i;
@@ -53,9 +54,9 @@ inline unsigned index_of(const Tet& tet, VertexId v) {
 }
 inline bool has_vertex(const Tet& tet, VertexId v) { return index_of(tet, v) < 4; }
 
-/// The tets round an edge ab in rotation order. tets[i] holds a, b, link[i], link[i+1] and
-/// orient3d(a, b, link[i], link[i+1]) == 1. Closed: link has as many entries as tets (indices wrap); open (an edge on
-/// the box): one more.
+/// The tets round an edge ab in rotation order. tets[i] has the vertices a, b, link[i], link[i+1], and orient3d(a, b, link[i],
+/// link[i+1]) == 1. A closed ring has as many link entries as tets (indices wrap); an open ring (an edge on the box) has one
+/// more.
 struct EdgeRing {
     std::vector<TetId> tets;
     std::vector<VertexId> link;
@@ -68,8 +69,8 @@ struct NewTet {
     Label label;
 };
 
-/// A cavity and what fills it: every local operation is one of these. Reuse one object; nothing is allocated once its
-/// arrays have grown.
+/// A cavity and the tets that fill it (method.md, section 4.1); every local operation is one edit. Reuse one object: nothing is
+/// allocated after its arrays have grown.
 struct Edit {
     std::vector<TetId> removed;
     std::vector<NewTet> added;
@@ -82,7 +83,7 @@ struct Edit {
     // Filled by Complex::link(): neighbours of the added tets. An entry is a code 4*tet+face outside the cavity, none,
     // or virtual_code + 4*i+face for added tet i.
     std::vector<std::array<std::uint32_t, 4>> neighbours;
-    // Filled by the caller's evaluation; replace() computes them when empty.
+    // Filled by the caller's evaluation. If it is empty, replace() computes them.
     std::vector<float> qualities;
 
     static constexpr std::uint32_t virtual_code = 0x80000000U;
@@ -95,7 +96,7 @@ public:
     Complex() = default;
 
     // ---- sizes and plain reads ------------------------------------------------------------------------------------
-    /// Slots include dead entries: loop over slots and test alive.
+    /// Slots include dead entries: loop over the slots and test whether each is alive.
     std::size_t vertex_slots() const { return vertices_.size(); }
     std::size_t tet_slots() const { return tets_.size(); }
     std::size_t vertex_count() const { return vertices_.size() - free_vertices_.size(); }
@@ -108,29 +109,29 @@ public:
     Label label(TetId t) const { return labels_[t]; }
     /// Volume-length quality in (0, 1], cached.
     float quality(TetId t) const { return qualities_[t]; }
-    /// Least quality of all tets, 2 without any. Reads 4 bytes a tet.
+    /// Least quality of all tets; 2 if there is no tet. Reads 4 bytes per tet.
     float least_quality() const;
-    /// Value of the change clock when the tet was made, moved or relabelled last.
+    /// Value of the change clock when the tet was last made, moved or relabelled.
     std::uint32_t date(TetId t) const { return dates_[t]; }
-    /// Value of the change clock when the tet's slot was filled last: differs when another tet took the slot.
+    /// Value of the change clock when the tet's slot was last filled; it differs if another tet took the slot.
     std::uint32_t birth_date(TetId t) const { return birth_dates_[t]; }
-    /// Value of the change clock when any tet of the vertex' star changed last.
+    /// Value of the change clock when a tet of the vertex' star last changed.
     std::uint32_t vertex_date(VertexId v) const { return vertices_[v].date; }
-    /// Counts the committed changes.
+    /// The change clock: the number of committed changes.
     std::uint32_t clock() const { return clock_; }
-    /// Order in which vertices came into being; survives renumbering and resuming.
+    /// Number of the vertex in the order of creation; it survives renumbering and resuming.
     std::uint32_t birth(VertexId v) const { return vertices_[v].birth; }
 
     Box3 box() const { return box_; }
     bool on_box(VertexId v) const { return vertices_[v].on_box != 0; }
-    /// Number of different labels in the star, the outside of the box counting as 0; capped at 3.
+    /// Number of different labels in the star, with 0 for the outside of the box; at most 3.
     unsigned phases(VertexId v) const { return vertices_[v].phases; }
     bool on_interface(VertexId v) const { return vertices_[v].phases > 1; }
-    /// Interface, not on the box, not where three labels meet.
+    /// On the interface, not on the box, exactly two labels.
     bool movable(VertexId v) const { return vertices_[v].phases == 2 && vertices_[v].on_box == 0; }
-    /// All interface vertices, in no promised order (sort by birth).
+    /// All interface vertices, in unspecified order (sort by birth).
     std::span<const VertexId> interface_vertices() const { return interface_; }
-    /// Label behind face i: of the neighbour, or 0 outside the box.
+    /// Label on the other side of face i: that of the neighbour, or 0 outside the box.
     Label label_across(TetId t, unsigned face) const {
         const std::uint32_t code = tets_[t].n[face];
         return code == none ? 0 : labels_[neighbour_tet(code)];
@@ -139,32 +140,33 @@ public:
     double volume(TetId t) const;
 
     // ---- walks ----------------------------------------------------------------------------------------------------
-    /// All tets that contain v, the seed first; `places` leads from a tet to its place in `out`. [parallel]
+    /// All tets that contain v, the seed first; `places` maps a tet to its place in `out`. [parallel]
     void star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
-    /// The same with a table of the complex' own. [step]
+    /// The same with a table that belongs to the complex. [step]
     void star(VertexId v, std::vector<TetId>& out) const { star(v, out, places_); }
     TetId seed(VertexId v) const { return vertices_[v].seed; }
     /// The ring of edge (a, b), both vertices of tet t. [parallel]
     void ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const;
-    /// A tet that contains both, none if a and b are not joined. [step]
+    /// A tet that contains both vertices; none if a and b are not joined. [step]
     TetId find_edge(VertexId a, VertexId b) const;
 
     // ---- the three primitives -------------------------------------------------------------------------------------
-    /// Computes the added tets' neighbours. False if the added tets do not fill the cavity's boundary exactly (a face
-    /// used twice, a hole, a change of the box). Changes nothing but the edit. [step]
+    /// Computes the neighbours of the added tets. False if the added tets do not fill the boundary of the cavity exactly (a
+    /// face used twice, a hole, a change of the box). Changes only the edit. [step]
     bool link(Edit& edit) const;
-    /// Commits a linked edit whose tets are positive. Returns the id of the created vertex or none. [step]
+    /// Commits a linked edit; its tets must be positive. Returns the id of the created vertex, or none. [step]
     VertexId replace(Edit& edit);
-    /// Moves a vertex; `star` are its tets, all positive at the new position. [step]
+    /// Moves a vertex; `star` are its tets, which must all be positive at the new position. [step]
     void move(VertexId v, const Vec3& position, std::span<const TetId> star);
-    /// The same where the tets' qualities at the new position are known, in the order of the star. [step]
+    /// The same with known qualities of the tets at the new position, in the order of the star. [step]
     void move(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities) {
         place(v, position, star, qualities);
         note_change(star);
     }
-    /// The parts of it, for many vertices without common tets: they may be placed at the same time [parallel], then their
-    /// stars dated at the same time, each with a later value of the clock than it has now, tets that the change list lacks
-    /// going to `changed` [parallel]; at last note_changes() sets the clock and takes the lists, one after the other [step].
+    /// The parts of move(), for many vertices without common tets. First place the vertices, which may run in parallel
+    /// [parallel]. Then date their stars, also in parallel: each with a value of the clock that is later than now; tets that
+    /// are not yet in the change list go to `changed` [parallel]. Finally note_changes() sets the clock and takes the lists,
+    /// one after the other [step].
     void place(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities);
     void date_star(std::span<const TetId> star, std::uint32_t clock, std::vector<TetId>& changed);
     void note_changes(std::uint32_t clock, std::span<const TetId> changed);
@@ -175,22 +177,23 @@ public:
     std::span<const TetId> last_added() const { return last_added_; }
 
     // ---- change tracking ------------------------------------------------------------------------------------------
-    /// Tets made, moved or relabelled since the last call of take_changes(), each once; may hold dead ids.
+    /// Tets made, moved or relabelled since the last call of take_changes(), each once; may include dead ids.
     std::span<const TetId> changes() const { return changes_; }
-    /// Hands the change list over and starts a new one.
+    /// Moves the change list to `out` and starts a new one.
     void take_changes(std::vector<TetId>& out);
 
     // ---- making and copying ---------------------------------------------------------------------------------------
-    /// Builds from arrays that are already positive, conforming and box-filling (see adopt() for files).
-    /// `neighbours` as in Tet::n.
+    /// Builds a complex from arrays that are already positive, conforming and box-filling (for files see adopt()). `neighbours`
+    /// as in Tet::n.
     static Complex assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::span<const Label> labels,
                             Workers* workers = nullptr);
-    /// Compact arrays, vertices in birth order, tets in the order of their sorted births: the same complex gives the
-    /// same bytes whatever its slots. `ids`, if given, receives the complex' vertex of each point.
+    /// Compact arrays: vertices in birth order, tets in the order of their sorted births. The same complex gives the same
+    /// bytes, whatever its slots. `ids`, if given, receives the complex' vertex of each point.
     TetMesh to_mesh(std::vector<VertexId>* ids = nullptr) const;
-    /// All of it, slots, clocks and change list too: what is loaded goes on as the saved one would. [step]
+    /// Saves everything, including slots, clocks and the change list: a loaded complex continues exactly as the saved one.
+    /// [step]
     void save(StateWriter& out) const;
-    /// Throws IoError "state.damaged" for bytes that are no complex. [setup]
+    /// Throws IoError "state.damaged" if the bytes are not a complex. [setup]
     static Complex load(StateReader& in);
 
 private:
@@ -199,7 +202,7 @@ private:
         TetId seed;
         std::uint32_t birth;
         std::uint32_t date;
-        std::uint32_t interface_slot : 29;  // index into interface_, no_slot if not there
+        std::uint32_t interface_slot : 29;  // index into interface_; no_slot if it is not there
         std::uint32_t phases : 2;
         std::uint32_t on_box : 1;
     };
@@ -234,7 +237,7 @@ private:
     std::vector<VertexId> relabelled_;
     mutable std::vector<TetId> star_scratch_;
     mutable TetIndex places_;
-    std::uint32_t taken_clock_ = 0;  // when the change list was taken last: tets of a later date are listed
+    std::uint32_t taken_clock_ = 0;  // clock when the change list was last taken; tets of a later date are in the list
     std::uint32_t clock_ = 0;
     std::uint32_t next_birth_ = 0;
     Box3 box_;

@@ -19,22 +19,22 @@ using FaceKey = std::array<std::uint32_t, 3>;
 struct FaceUse {
     std::uint32_t second, third;  ///< of the key
     std::uint32_t code;           ///< 4 * tet + face
-    bool odd;                     ///< the key is an odd permutation of the face's vertices as in face_vertices
+    bool odd;                     ///< the key is an odd permutation of the vertices in face_vertices
 };
 
-/// All faces of a tet mesh, grouped by their first vertex; 64 bytes a tet.
+/// All faces of a tet mesh, grouped by their first vertex; 64 bytes per tet.
 struct FaceTable {
     std::vector<std::size_t> start;  ///< uses of the faces with first vertex v: uses[start[v] .. start[v + 1])
     std::vector<FaceUse> uses;
 };
 
-/// Deals the faces out by their first vertex, unsorted. `corners(t)` points to the four vertices, all below `points`, of one of
-/// `tets` tets, or is null: such a tet has no faces.
+/// Groups the faces by their first vertex, unsorted. `corners(t)` points to the four vertices of tet t, all below `points`, or
+/// is null if the tet has no faces. There are `tets` tets.
 template <class Corners>
 FaceTable deal_faces(std::size_t points, std::size_t tets, const Corners& corners) {
     FaceTable table;
     std::vector<std::size_t>& start = table.start;
-    start.assign(points + 2, 0);  // of the uses with first vertex v at v + 1 while they are dealt out
+    start.assign(points + 2, 0);  // number of uses with first vertex v, stored at v + 1 while the faces are grouped
     for (std::size_t t = 0; t < tets; ++t) {
         const std::array<std::uint32_t, 4>* v = corners(t);
         if (v == nullptr) continue;
@@ -63,8 +63,9 @@ FaceTable deal_faces(std::size_t points, std::size_t tets, const Corners& corner
     return table;
 }
 
-/// Calls visit(FaceKey, std::span<const FaceUse>) once for every face whose first vertex is in [begin, end), in the order of the
-/// keys, its uses in the order of their codes. Ranges that do not overlap may be visited at the same time. [parallel]
+/// Calls visit(FaceKey, std::span<const FaceUse>) once for every face whose first vertex is in [begin, end): the faces in the
+/// order of the keys, the uses in the order of their codes. Ranges that do not overlap may be visited at the same time.
+/// [parallel]
 template <class Visit>
 void visit_faces(FaceTable& table, std::size_t begin, std::size_t end, const Visit& visit) {
     for (std::size_t first = begin; first < end; ++first) {

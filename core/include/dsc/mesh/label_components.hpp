@@ -1,5 +1,5 @@
 #pragma once
-// Islands and cavities of labelled vertices: which there are, which stay.
+// Islands and cavities of labelled vertices: finds them and decides which ones stay.
 
 #include <array>
 #include <cstddef>
@@ -10,21 +10,21 @@
 
 namespace dsc::mesh {
 
-/// What becomes of components of the outside that are enclosed. Those below the least volume never stay.
+/// What to do with enclosed components of the outside. Cavities below the least volume never stay.
 enum class CavityPolicy {
-    automatic,  ///< those stay that are certain and that points of the cloud lie at
+    automatic,  ///< a cavity stays if it is certain and points of the cloud lie at its shell
     keep,
     fill
 };
 
-/// Which components stay. Lengths in the mesh's units.
+/// Decides which components stay. Lengths are in the mesh's units.
 struct ComponentOptions {
     CavityPolicy cavities = CavityPolicy::automatic;
-    bool remove_islands = true;  ///< of the inside, below the least volume; the largest one stays in any case
-    double width = 0;            ///< local width of the cloud, its median
+    bool remove_islands = true;  ///< remove components of the inside below the least volume; the largest component always stays
+    double width = 0;            ///< median local width of the cloud
     double least_volume = 30;    ///< in cubes of the width
-    double certain = 0.2;        ///< an automatic cavity has a value below the negative of this
-    std::size_t least_points = 12;  ///< nearest to the shell of an automatic cavity
+    double certain = 0.2;        ///< an automatic cavity must have a value below minus this number
+    std::size_t least_points = 12;  ///< least number of points nearest to the shell of an automatic cavity
 };
 
 /// Points of a cloud and, for each of them, a vertex near it.
@@ -33,25 +33,25 @@ struct PlacedPoints {
     std::span<const std::uint32_t> vertices;
 };
 
-/// One component of the inside, or one cavity, as it was found.
+/// One component of the inside, or one cavity, before any change.
 struct LabelComponent {
-    bool inside = true;  ///< else a cavity
-    bool kept = true;    ///< else it was given the other label
-    double volume = 0;   ///< sum of its vertices' shares
+    bool inside = true;  ///< false: a cavity
+    bool kept = true;    ///< false: it was given the other label
+    double volume = 0;   ///< sum of the volumes of its vertices
     Vec3 place = Vec3::Zero();  ///< mean of the vertices
     std::size_t vertices = 0;
-    double peak = 0;         ///< largest distance of its values from 0
-    std::size_t points = 0;  ///< nearest to its shell; counted only where CavityPolicy::automatic needs them
+    double peak = 0;         ///< largest absolute value
+    std::size_t points = 0;  ///< nearest to its shell; counted only if CavityPolicy::automatic needs it
 };
 
-/// Gives the other label to islands and cavities that do not stay: their vertices get 1e-3 of the other sign. Islands
-/// are removed first, so a cavity is judged with the room they leave.
+/// Gives the other label to islands and cavities that do not stay: their vertices get 1e-3 with the other sign. Islands are
+/// removed first, so the rule for a cavity already takes their removal into account.
 ///
-/// A value above 0 is inside; vertices of a label are connected along edges; the tets fill a box. One value and one
-/// volume per point (GradedLattice::volumes()). A point of the cloud belongs to the shell that cuts the edges of the
-/// tets round its vertex nearest to it, by linear interpolation of the values before; to none where no edge is cut.
-/// Returns all components of the inside and all cavities, by their lowest vertices. What was enclosed by a component
-/// that did not stay is listed as it was found; it counts as kept where its label is the same. O(T). [step]
+/// A value above 0 is inside; vertices of a label are connected along edges; the tets fill a box. One value and one volume per
+/// point (GradedLattice::volumes()). A point of the cloud belongs to the shell that cuts the edges round its nearest vertex, by
+/// linear interpolation of the values before; it belongs to no shell if no edge is cut. Returns all components of the inside
+/// and all cavities, by their lowest vertices. A component inside a component that did not stay is listed as it was before; it
+/// counts as kept if its label is the same afterwards. O(T). [step]
 std::vector<LabelComponent> settle_components(std::span<const Vec3> points,
                                               std::span<const std::array<std::uint32_t, 4>> tets,
                                               std::span<double> values, std::span<const double> volumes,

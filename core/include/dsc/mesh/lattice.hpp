@@ -1,5 +1,5 @@
 #pragma once
-// A box of tets that are small where they are asked to be and grow away from there.
+// A box of tets that are small where this is wanted and become larger with the distance.
 
 #include <dsc/base/progress.hpp>
 #include <dsc/geometry/vec.hpp>
@@ -10,20 +10,20 @@
 
 namespace dsc::mesh {
 
-/// Tets of the finest cells: five of each cell by itself, or those of all larger cells.
+/// Tets of the finest cells: parity cuts each cell into five tets; bcc uses the tets of all larger cells.
 enum class LatticePattern { parity, bcc };
 
 /// Sizes of a lattice, in the mesh's units.
 struct LatticeOptions {
-    int cells = 30;              ///< finest cells along the box
+    int cells = 30;              ///< number of finest cells along the box
     std::optional<double> cell;  ///< edge of the finest cells, instead of `cells`
-    double box = 1.5;            ///< half the edge of the box, at least
+    double box = 1.5;            ///< half the edge of the box; the box may become larger
     Vec3 box_centre = Vec3::Zero();
-    int layers = 2;       ///< of finest cells on each side of what is refined, from 2
-    double growth = 2.0;  ///< of the cells from layer to layer on average, 1 to 2
+    int layers = 2;       ///< layers of finest cells on each side of the refined places, at least 2
+    double growth = 2.0;  ///< average growth of the cells from layer to layer, 1 to 2
     LatticePattern finest = LatticePattern::parity;
 
-    /// Finest cells along the box before they are rounded up to a number that the octree can have.
+    /// Number of finest cells along the box, before it is rounded up to a number that the octree allows.
     double wanted_cells() const;
 };
 
@@ -32,15 +32,15 @@ inline constexpr int least_lattice_cells = 4, most_lattice_cells = 1024;
 
 /// Edge of the finest cells. [parallel]
 double finest_cell(const LatticeOptions& options);
-/// The box as it will be made: at least as large as wanted, the size of the finest cells is kept. [parallel]
+/// The box as it will be made: at least the wanted size; the size of the finest cells is kept. [parallel]
 Box3 box_of(const LatticeOptions& options);
 
-/// Whether all tets in the ball of this centre and radius will certainly have the same label.
+/// Whether all tets in the ball of this centre and radius certainly have the same label.
 using SameWithin = std::function<bool(const Vec3& centre, double radius)>;
 
-/// A balanced octree, its cells filled with tets of a few well-shaped kinds [LabelleShewchuk2007], all positive, with
-/// label 0; cells where `same` is false, and `layers` round them, are of the finest size. `name` is the generator named in
-/// messages. Throws CancelledError, ConfigError "lattice.size" for a mesh that would be too large. [setup]
+/// Makes a balanced octree and fills its cells with tets of a few well-shaped kinds [LabelleShewchuk2007], all positive, with
+/// label 0. Cells where `same` is false, and `layers` around them, have the finest size. Messages use `name` for the generator.
+/// Throws CancelledError, ConfigError "lattice.size" for a mesh that would be too large. [setup]
 TetMesh make_lattice(const LatticeOptions& options, const SameWithin& same, std::string_view name,
                      const CancelToken* cancel = nullptr);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The star of one vertex as a labelled graph, in the complex as it is, with trial labels, or as an edit would leave it:
-// is the vertex regular, and what does it add to the interface's Euler number?
+// The star of one vertex as a labelled graph: in the complex as it is, with trial labels, or as it would be after an edit. It
+// answers whether the vertex is regular and what it adds to the interface's Euler number (method.md, sections 2 and 4.1).
 
 #include <cstdint>
 #include <span>
@@ -10,22 +10,22 @@
 
 namespace dsc::mesh {
 
-/// Nodes are the tets of the star, joined through faces that contain the vertex; a box vertex has one more node, the
-/// outside with label 0. Reuse one object: nothing is allocated once its arrays have grown.
+/// Nodes are the tets of the star; faces that contain the vertex join them. A box vertex has one more node: the outside, with
+/// label 0. Reuse one object: nothing is allocated after its arrays have grown.
 class LocalStar {
 public:
     explicit LocalStar(const Complex& complex) : complex_(complex) {}
 
-    /// The star as it is.
+    /// The star in the complex as it is.
     void build(VertexId v);
-    /// The star as it is, but with `trial` for the tets in `region`.
+    /// The same, but with label `trial` for the tets in `region`.
     void build(VertexId v, std::span<const TetId> region, Label trial);
     /// The star of v (which may be created_vertex) after a linked edit.
     void build(VertexId v, const Edit& edit);
 
-    /// For every label present its tets form one face-connected group, and all the others together form one.
+    /// Whether, for every label in the star, its tets form one face-connected group and all other tets form one group.
     bool regular();
-    /// Groups of face-connected equal labels.
+    /// Number of groups of face-connected equal labels.
     unsigned groups();
     /// Group of each node, valid after groups(); node order is that of nodes().
     std::span<const std::uint32_t> group_of() const { return group_; }
@@ -36,7 +36,8 @@ public:
     const std::array<std::uint32_t, 4>& neighbours(std::size_t node) const { return adjacent_[node]; }
 
     bool on_interface() const;
-    /// Six times the vertex' share of V - E + F of the interface: 6 - 3 (interface edges) + 2 (interface faces), 0 off it.
+    /// Six times the vertex' share of V - E + F of the interface: 6 - 3 (interface edges) + 2 (interface faces); 0 off the
+    /// interface.
     int euler_share() const;
 
 private:

@@ -1,13 +1,13 @@
 #pragma once
-// A small table from tets to their places in a list. A star's worth of it stays in the first cache, where one mark per tet
-// of the mesh would miss; and with a table each, several threads may walk the same complex.
+// A small table from tets to their places in a list. The table of a star fits into the first-level cache; a mark per tet of the
+// mesh would not. If each thread has its own table, several threads can walk through the same complex.
 
 #include <cstdint>
 #include <vector>
 
 namespace dsc::mesh {
 
-/// Open addressing, at most half full. Reuse one object: clear() costs nothing, memory grows with the longest list only.
+/// Open addressing, at most half full. Reuse one object: clear() costs nothing, and memory grows only with the longest list.
 class TetIndex {
 public:
     static constexpr std::uint32_t absent = 0xffffffffU;
@@ -23,7 +23,7 @@ public:
     }
     std::uint32_t size() const { return size_; }
 
-    /// Gives t the next place. False if it has one.
+    /// Gives t the next place. False if t already has a place.
     bool insert(std::uint32_t t) {
         const std::size_t at = slot_of(t);
         if (keys_[at] == (stamp_ | t)) return false;
@@ -32,7 +32,7 @@ public:
         if (2 * size_ > keys_.size()) grow();
         return true;
     }
-    /// Place of t, `absent` without one.
+    /// Place of t; `absent` if it has none.
     std::uint32_t find(std::uint32_t t) const {
         const std::size_t at = slot_of(t);
         return keys_[at] == (stamp_ | t) ? places_[at] : absent;
@@ -40,10 +40,10 @@ public:
     bool contains(std::uint32_t t) const { return keys_[slot_of(t)] == (stamp_ | t); }
 
 private:
-    // A key is a tet below the stamp of the list that it was put in: keys of other stamps are free slots.
+    // A key is the tet's id plus the stamp of its list; keys with another stamp are free slots.
     static constexpr std::uint64_t stamp_step = std::uint64_t{1} << 32U;
 
-    // The slot of t, or the free one where it would go. Multiplication by 2^32 / golden ratio spreads neighbouring ids.
+    // The slot of t, or the free slot for it. Multiplication by 2^32 / golden ratio spreads neighbouring ids.
     std::size_t slot_of(std::uint32_t t) const {
         const std::size_t mask = keys_.size() - 1;
         std::size_t at = ((t * std::uint64_t{0x9e3779b1U}) >> 12U) & mask;

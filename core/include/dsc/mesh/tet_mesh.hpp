@@ -1,5 +1,5 @@
 #pragma once
-// A labelled tetrahedral mesh as plain arrays: what generators return and files hold.
+// A labelled tetrahedral mesh as plain arrays: generators return it and files contain it.
 
 #include <array>
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace dsc::mesh {
 
-/// Material of a tet: 0 is outside, 1 the object, others further phases.
+/// Phase of a tet: 0 is outside, 1 is the object, further numbers are further phases.
 using Label = std::int32_t;
 
-/// Plain arrays; nothing is promised about orientation or conformity until a Complex adopts them.
+/// Plain arrays. Orientation and conformity are not guaranteed until a Complex adopts them.
 struct TetMesh {
     std::vector<Vec3> points;
     std::vector<std::array<std::uint32_t, 4>> tets;  ///< indices into points
-    std::vector<Label> labels;                       ///< one a tet
+    std::vector<Label> labels;                       ///< one per tet
 };
 
 }  // namespace dsc::mesh

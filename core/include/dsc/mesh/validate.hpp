@@ -1,5 +1,5 @@
 #pragma once
-// The whole truth about a complex by a full scan: for tests, `dsc info` and the audit, never on a hot path.
+// Checks a complex by a full scan: for tests, `dsc info` and the audit. It is too slow for the steps of a run.
 
 #include <string>
 #include <vector>
@@ -18,8 +18,8 @@ struct ComplexReport {
     bool valid() const { return faults.empty(); }
 };
 
-/// Checks exact orientation, symmetry of the adjacency, seeds, caches (quality, phases, interface list), that box
-/// faces are box faces, that every interface vertex is regular. [step]
+/// Checks exact orientation, symmetry of the adjacency, seeds, caches (quality, phases, interface list), that vertices of box
+/// faces are marked, that the volumes add up to the box, and that every interface vertex is regular. [step]
 ComplexReport validate(const Complex& complex);
 
 /// Counts of the interface of a complex: shells, genus summed over shells, Euler number, by a full scan.

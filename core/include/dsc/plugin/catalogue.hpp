@@ -1,6 +1,5 @@
 #pragma once
-// Catalogue: all strategies that a host has, and the way to make one. Setup: what a strategy's constructor
-// gets.
+// Catalogue: all strategies of a host, and how to create one. Setup: what a strategy's constructor receives.
 
 #include <cstdint>
 #include <dsc/config/params.hpp>
@@ -24,18 +23,18 @@ struct PluginInfo {
     std::filesystem::path file;  ///< without symbolic links
 };
 
-/// A strategy and the plugin that brought it; both live as long as the catalogue.
+/// A strategy and the plugin that contains it; both live as long as the catalogue.
 struct StrategyInfo {
     const StrategyRecord* strategy = nullptr;
     const PluginInfo* plugin = nullptr;
 };
 
-/// The host implements it; everyone else sees only this.
+/// The host implements it; all other code uses only this interface.
 class Catalogue : public config::StrategyLookup {
 public:
     ~Catalogue() override;
 
-    /// Empty where the kind has no such id. [setup]
+    /// Empty if the kind has no such id. [setup]
     virtual std::optional<StrategyInfo> find(Kind kind, const std::string& id) const = 0;
     /// All strategies, sorted by kind and id. [setup]
     virtual std::vector<StrategyInfo> list() const = 0;
@@ -47,13 +46,12 @@ public:
     /// Sorted; empty for an unknown kind. [setup]
     std::vector<std::string> ids(const std::string& kind) const override;
 
-    /// Makes the strategy `config.type` with its parameters; what they lack gets its default. `path` is its
-    /// place in the experiment ("velocity", "velocity.curvature"): messages name it and random streams hang
-    /// on it.
+    /// Creates the strategy `config.type` with its parameters; missing parameters get their defaults. `path` is its place in
+    /// the experiment ("velocity", "velocity.curvature"); messages name it and random streams depend on it.
     ///
-    /// The result is checked: whatever the strategy throws or returns wrongly ends in a StrategyError that
-    /// names it (see guarded.hpp), and the contexts that it sees carry its own instance number. Throws
-    /// PluginError "plugin.unknown_strategy", ConfigError for wrong parameters, StrategyError. [setup]
+    /// The result is guarded: whatever the strategy throws or returns wrongly becomes a StrategyError that names it (see
+    /// guarded.hpp), and its contexts contain its own instance number. Throws PluginError "plugin.unknown_strategy",
+    /// ConfigError for wrong parameters, StrategyError. [setup]
     template <class Hook>
     std::unique_ptr<Hook> create(const config::StrategyConfig& config, const std::string& path) const {
         return std::unique_ptr<Hook>(static_cast<Hook*>(create(kind_of<Hook>(), config, path).release()));
@@ -62,18 +60,18 @@ public:
                                             const std::string& path) const;
 };
 
-/// Handed to a strategy's constructor. [setup]
+/// Passed to a strategy's constructor. [setup]
 class Setup {
 public:
     Setup(const Catalogue& catalogue, std::string path);
 
     /// Place in the experiment.
     const std::string& path() const noexcept { return path_; }
-    /// The number of this place, which its random streams hang on.
+    /// The number of this place; the random streams depend on it.
     std::uint64_t instance() const noexcept { return instance_; }
 
-    /// Makes a nested strategy; `name` is the parameter that holds it. nullptr where `config` is empty.
-    /// Throws as Catalogue::create.
+    /// Creates a nested strategy; `name` is the parameter that contains it. nullptr if `config` is empty. Throws as
+    /// Catalogue::create.
     template <class Hook>
     std::unique_ptr<Hook> create(std::string_view name, const config::StrategyConfig& config) const {
         if (config.empty()) return nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-// The door of a plugin: one constant of plain bytes that the host reads before any code of the plugin runs.
+// The entry of a plugin: one constant of plain bytes that the host reads before any code of the plugin runs.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,11 +18,11 @@ inline constexpr std::uint32_t entry_magic = 0x31435344U;
 /// Name of the symbol that every plugin exports.
 inline constexpr const char* entry_symbol = "dsc_plugin_entry";
 
-/// What a plugin says about itself. Texts are stored in place and end with a zero byte, so that the host can
-/// read all but `enroll` from the file without loading it.
+/// What a plugin declares about itself. Texts are stored inside the struct and end with a zero byte, so that the host can read
+/// everything except `enroll` from the file without loading it.
 struct PluginEntry {
     std::uint32_t magic;        ///< entry_magic
-    std::uint32_t struct_size;  ///< sizeof(PluginEntry) as the plugin's compiler saw it
+    std::uint32_t struct_size;  ///< sizeof(PluginEntry) in the plugin's build
     std::uint16_t abi_major;
     std::uint16_t abi_minor;
     std::uint32_t reserved;  ///< 0
@@ -43,7 +43,7 @@ constexpr void set_text(char (&to)[N], std::string_view text) {
 }
 }  // namespace detail
 
-/// The entry of the translation unit that calls it; meant for DSC_PLUGIN.
+/// The entry for the calling translation unit; used by DSC_PLUGIN.
 constexpr PluginEntry make_entry(void (*enroll)(Registrar&), std::string_view name, std::string_view version,
                                  std::string_view license, std::string_view summary,
                                  std::string_view authors = {}) {
@@ -66,7 +66,7 @@ constexpr PluginEntry make_entry(void (*enroll)(Registrar&), std::string_view na
 
 extern "C" DSC_PLUGIN_EXPORT const dsc::plugin::PluginEntry dsc_plugin_entry;
 
-/// Makes a library a plugin; once in it, outside all namespaces. The name is [a-z][a-z0-9_]*, the library is
+/// Makes a library a plugin. Write it once per library, outside all namespaces. The name is [a-z][a-z0-9_]*, the library is
 /// libdsc_NAME.so.
 ///
 /// ```

@@ -1,6 +1,5 @@
 #pragma once
-// The fingerprint: what must agree between the builds of a plugin and of its host, as text
-// "key=value;key=value".
+// The fingerprint: properties that the builds of a plugin and of its host must share, as text "key=value;key=value".
 
 #include <Eigen/Core>
 #include <string>
@@ -49,11 +48,11 @@
 #define DSC_FINGERPRINT_BUILD "debug"
 #endif
 
-/// Major: any change that old plugins cannot follow. Minor: virtual functions or fields added at the end.
+/// Major: any change that breaks old plugins. Minor: virtual functions or fields added at the end.
 #define DSC_ABI_MAJOR 2
 #define DSC_ABI_MINOR 0
 
-/// Of the translation unit in which it stands. `align` changes with -mavx, which moves every Eigen member.
+/// The fingerprint of the translation unit that contains it. `align` changes with -mavx, which moves every Eigen member.
 #define DSC_FINGERPRINT \
     "abi_major=" DSC_TEXT(DSC_ABI_MAJOR) ";cxx11abi=" DSC_FINGERPRINT_CXX11ABI                             \
     ";eigen=" DSC_TEXT(EIGEN_WORLD_VERSION) "." DSC_TEXT(EIGEN_MAJOR_VERSION)                              \
@@ -66,7 +65,7 @@ namespace dsc::plugin {
 /// The fingerprint of the core library. [parallel]
 std::string_view core_fingerprint() noexcept;
 
-/// One key in which two fingerprints differ; a side that lacks the key has an empty value there.
+/// One key with different values in two fingerprints; the value is empty on a side that lacks the key.
 struct FingerprintDifference {
     std::string key;
     std::string plugin;
@@ -74,11 +73,11 @@ struct FingerprintDifference {
     bool hard = false;  ///< memory layouts may differ: the plugin must not be used
 };
 
-/// The keys that differ, in the order of the host's text, then those only the plugin has. Hard keys are
-/// abi_major, cxx11abi, eigen, align, real, index, dbgstl and san; all others are soft. [parallel]
+/// The keys that differ, in the order of the host's text, then the keys that only the plugin has. Hard keys are abi_major,
+/// cxx11abi, eigen, align, real, index, dbgstl and san; all others are soft. [parallel]
 std::vector<FingerprintDifference> compare_fingerprints(std::string_view plugin, std::string_view host);
 
-/// An address inside the core library, by which its file can be found at run time. [parallel]
+/// An address inside the core library; it serves to find the library's file at run time. [parallel]
 const void* core_address() noexcept;
 
 }  // namespace dsc::plugin

@@ -1,6 +1,6 @@
 #pragma once
-// Calls into strategies: whatever one throws or returns wrongly becomes an error that says which strategy of
-// which plugin it was, in which hook and at which step. Catalogue::create wraps every strategy this way.
+// Guarded calls into strategies: whatever a strategy throws or returns wrongly becomes an error that names the strategy, its
+// plugin, the hook and the step. Catalogue::create wraps every strategy this way.
 
 #include <cstdint>
 #include <dsc/base/error.hpp>
@@ -11,7 +11,7 @@
 
 namespace dsc::plugin {
 
-/// Who a strategy is, for messages.
+/// Names a strategy in messages.
 struct Identity {
     Kind kind{};
     std::string id;
@@ -19,20 +19,20 @@ struct Identity {
     std::string plugin;   ///< name
     std::string version;  ///< of the plugin
     std::string file;     ///< of the plugin
-    std::string place;    ///< "a.yaml:6:11" where its parameters stand; empty for parameters made by code
+    std::string place;    ///< "a.yaml:6:11", the place of its parameters; empty for parameters made by code
 
     /// "velocity 'point_cloud' (plugin point_cloud 0.1.0, FILE, at 'velocity' in the experiment, a.yaml:6:11)".
     std::string describe() const;
 };
 
-/// Which call it was.
+/// Identifies the call.
 struct Call {
     const Identity& who;
     std::string_view hook;              ///< "evaluate", ...
-    std::optional<std::uint64_t> step;  ///< empty outside of steps
+    std::optional<std::uint64_t> step;  ///< empty outside a step
 };
 
-/// A fault of a strategy that is already attributed; passes through outer guards unchanged.
+/// A fault of a strategy that already names it; outer guards pass it on unchanged.
 class StrategyFailure : public StrategyError {
 public:
     StrategyFailure(std::string code, const std::string& message) : StrategyError(std::move(code), message) {}
@@ -43,12 +43,11 @@ public:
 /// "strategy.not_finite", "strategy.size", "strategy.range", "strategy.outside".
 [[noreturn]] void fail(const Call& call, std::string code, std::string_view cause, std::string_view remedy);
 
-/// To be called in a catch block. CancelledError, ConfigError and StrategyFailure go on unchanged, outside of
-/// steps IoError and GeometryError too (they concern the user's files); everything else becomes
-/// StrategyFailure "strategy.threw".
+/// Call it in a catch block. CancelledError, ConfigError and StrategyFailure are rethrown unchanged; outside steps so are
+/// IoError and GeometryError, because they concern the user's files. Everything else becomes StrategyFailure "strategy.threw".
 [[noreturn]] void rethrow_attributed(const Call& call);
 
-/// While it lives, this thread is inside of that call. [parallel]
+/// Marks that this thread is inside that call, during the lifetime of the object. [parallel]
 class Inside {
 public:
     explicit Inside(const Call& call) noexcept;
@@ -60,7 +59,7 @@ private:
     const Call* outer_;
 };
 
-/// The call into a strategy that this thread is in, the innermost: "DESCRIPTION: HOOK at step N"; empty outside. [parallel]
+/// The innermost call into a strategy that this thread is in: "DESCRIPTION: HOOK at step N"; empty outside a call. [parallel]
 std::string current_call();
 
 /// Runs `body`, a call into a strategy. [parallel]

@@ -1,5 +1,5 @@
 #pragma once
-// The seven kinds of strategies, as their names stand in an experiment.
+// The seven kinds of strategies and their names in an experiment.
 
 #include <array>
 #include <cstdint>

@@ -8,8 +8,8 @@
 
 namespace dsc::plugin {
 
-/// Declares the keys of a Params derived from mesh::LatticeOptions. `where` is what the finest cells are at, for the
-/// documentation. [setup]
+/// Declares the keys of a Params derived from mesh::LatticeOptions. `where` says for the documentation where the finest cells
+/// are. [setup]
 template <class Params>
 void declare_lattice(config::ParamSchema<Params>& schema, const std::string& where) {
     using Options = mesh::LatticeOptions;
@@ -18,42 +18,40 @@ void declare_lattice(config::ParamSchema<Params>& schema, const std::string& whe
         .range(mesh::least_lattice_cells, mesh::most_lattice_cells)
         .unit("1")
         .costly()
-        .doc("Finest cells along the box; the box grows to the next number that the octree can have.");
+        .doc("Number of finest cells along the box. The box grows to the next number that the octree allows.");
     schema.real("cell", static_cast<std::optional<double> Params::*>(&Options::cell))
         .greater(0)
         .unit("length")
-        .doc("Edge of the finest cells; unset: that of 'cells' in the box.");
+        .doc("Edge of the finest cells; unset: the edge that results from 'cells'.");
     schema.real("box", static_cast<double Params::*>(&Options::box))
         .greater(0)
         .unit("length")
-        .doc("Half the edge of the box, at least.");
+        .doc("Half the edge of the box; the box may become larger.");
     schema.vec3("box_centre", static_cast<Vec3 Params::*>(&Options::box_centre))
         .unit("length")
         .doc("Centre of the box.");
     schema.integer("layers", static_cast<int Params::*>(&Options::layers))
         .range(2, 64)
         .unit("1")
-        .doc("Layers of finest cells on each side of " + where + ".");
+        .doc("Number of layers of finest cells on each side of " + where + ".");
     schema.real("growth", static_cast<double Params::*>(&Options::growth))
         .range(1, 2)
         .unit("1")
         .doc(
-            "How much larger the cells are from one layer to the next, on average: 2 doubles them with every "
-            "layer, "
-            "1.26 with every third; 1 keeps all cells of the finest size.");
+            "How much larger the cells become from one layer to the next, on average: 2 doubles them with every layer, "
+            "1.26 with every third layer; 1 keeps all cells at the finest size.");
     schema
         .choice("finest", static_cast<mesh::LatticePattern Params::*>(&Options::finest),
                 {{"parity", mesh::LatticePattern::parity}, {"bcc", mesh::LatticePattern::bcc}})
         .doc(
-            "Tets of the finest cells: 'parity' are the five of each cell of a grid, with flat walls between "
-            "cells; 'bcc' are those of the body-centred lattice, better shaped and rougher where they are "
-            "labelled.");
+            "Tets of the finest cells: 'parity' cuts each cell of a grid into five tets, with flat walls between cells; "
+            "'bcc' uses the body-centred lattice, whose tets have better shapes but make a rougher interface.");
     schema.check(
         [](const Params& p) {
             const double cells = p.wanted_cells();
             return cells >= mesh::least_lattice_cells && cells <= mesh::most_lattice_cells;
         },
-        "cell must go at least " + std::to_string(mesh::least_lattice_cells) + " and at most " +
+        "cell must fit at least " + std::to_string(mesh::least_lattice_cells) + " and at most " +
             std::to_string(mesh::most_lattice_cells) + " times into twice the box");
 }
 

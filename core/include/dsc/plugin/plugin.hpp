@@ -1,5 +1,5 @@
 #pragma once
-// All that the author of a plugin includes.
+// The header that the author of a plugin includes.
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>

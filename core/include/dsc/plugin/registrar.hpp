@@ -1,5 +1,5 @@
 #pragma once
-// Registrar: a plugin's enroll function tells it which strategies the library holds.
+// Registrar: a plugin's enroll function registers the strategies of the library with it.
 
 #include <dsc/config/params.hpp>
 #include <dsc/hooks/traits.hpp>
@@ -25,15 +25,15 @@ struct StrategyRecord {
     hooks::Traits traits{};
 };
 
-/// Belongs to a host; nothing is registered behind its back.
+/// The host owns it; strategies are registered in no other way.
 class Registrar {
 public:
     virtual ~Registrar();
 
-    /// Registers `T`: a class derived from one hook, with a struct `T::Params`, a function
-    /// `static void T::declare(config::ParamSchema<Params>&)` and a constructor
-    /// `T(const Params&, const Setup&)`; it may have a member `static constexpr hooks::Traits traits`.
-    /// Throws PluginError for a malformed or repeated id and for a faulty declaration. [setup]
+    /// Registers `T`: a class derived from one hook, with a struct `T::Params`, a function `static void
+    /// T::declare(config::ParamSchema<Params>&)` and a constructor `T(const Params&, const Setup&)`. It may have a member
+    /// `static constexpr hooks::Traits traits`. Throws PluginError for a malformed or repeated id and for a faulty declaration.
+    /// [setup]
     template <class T>
     void add(std::string id, std::string summary) {
         config::ParamSchema<typename T::Params> params;

@@ -1,5 +1,5 @@
 #pragma once
-// The parameters by which a generator of initial meshes is told its shapes: one for short, then a list.
+// The parameters that describe the shapes of a generator of initial meshes: a preset for one shape, and a list.
 
 #include <dsc/config/params.hpp>
 #include <dsc/mesh/shapes.hpp>
@@ -10,7 +10,7 @@ namespace dsc::plugin {
 
 /// Base of the Params of a generator. [setup]
 struct ShapeParams {
-    /// Short for one shape of label 1: `cube` by barycentres, `sphere` by vertices, as the original's files.
+    /// Preset for one shape of label 1: `cube` by barycentres, `sphere` by vertices, as in the files of the original program.
     enum class Preset { cube, sphere, none };
     Preset shape = Preset::cube;
     double half_width = 1.0;
@@ -19,7 +19,7 @@ struct ShapeParams {
     std::vector<mesh::Shape> shapes;
     bool project = false;
 
-    /// The preset's shape, if any, then the list.
+    /// The preset's shape if there is one, then the list.
     std::vector<mesh::Shape> all() const;
 };
 
@@ -35,9 +35,8 @@ void declare_shapes(config::ParamSchema<Params>& schema) {
         .choice("shape", static_cast<Preset Params::*>(&Params::shape),
                 {{"cube", Preset::cube}, {"sphere", Preset::sphere}, {"none", Preset::none}})
         .doc(
-            "A first shape of label 1: 'cube' holds tets by their barycentres, 'sphere' those with all four "
-            "vertices "
-            "inside.");
+            "A first shape of label 1: 'cube' contains the tets whose barycentre is inside, 'sphere' those with all four "
+            "vertices inside.");
     schema.real("half_width", static_cast<double Params::*>(&Params::half_width))
         .greater(0)
         .unit("length")
@@ -51,12 +50,11 @@ void declare_shapes(config::ParamSchema<Params>& schema) {
         .doc("Centre of the first shape.");
     schema.list("shapes", static_cast<std::vector<mesh::Shape> Params::*>(&Params::shapes), declare_shape)
         .doc(
-            "Further shapes, applied in their order: each gives the tets inside it its label or cuts them "
-            "away.");
+            "Further shapes, applied in order: each gives the tets inside it its label or cuts them away.");
     schema.boolean("project", static_cast<bool Params::*>(&Params::project))
         .doc(
-            "Takes the interface's vertices to the shapes' surface, whatever the shapes' rules say; without it "
-            "the interface is made of the lattice's own faces, in steps.");
+            "Moves the vertices of the interface onto the surface of the shapes, for every rule; without it the interface "
+            "consists of faces of the lattice and is stepped.");
 }
 
 }  // namespace dsc::plugin

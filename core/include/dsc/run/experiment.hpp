@@ -1,5 +1,5 @@
 #pragma once
-// An experiment: the typed form of a configuration, and the way from a file with overrides to it.
+// An experiment: the typed form of a configuration, and how a file with overrides is turned into it.
 
 #include <cstdint>
 #include <dsc/config/diagnostics.hpp>
@@ -24,12 +24,12 @@ struct SampleInput {
     double outliers = 0.0;
 };
 
-/// Where the points come from: exactly one of `file` and `sample`.
+/// Source of the points: exactly one of `file` and `sample`.
 struct CloudInput {
     std::optional<std::string> file;  ///< absolute
-    std::vector<std::string> columns;  ///< of a text cloud (cloud::ReadOptions); empty: by its header, else the first three
+    std::vector<std::string> columns;  ///< of a text cloud (cloud::ReadOptions); empty: by the header, else the first three
     std::optional<SampleInput> sample;
-    std::vector<config::StrategyConfig> filters;  ///< of kind "filter", in the order in which they work
+    std::vector<config::StrategyConfig> filters;  ///< of kind "filter", in the order in which they are applied
 };
 
 /// The thesis' normalisation.
@@ -39,13 +39,13 @@ struct NormalizeInput {
 
 struct Input {
     CloudInput cloud;
-    std::optional<NormalizeInput> normalize;  ///< empty: the coordinates stay as they are
+    std::optional<NormalizeInput> normalize;  ///< empty: the coordinates are not changed
 };
 
-/// What ends a series of steps before their number is reached.
+/// What ends a series of steps before its number of steps is reached.
 enum class Until { finished };  ///< the velocity's finished()
 
-/// An item of the schedule: steps, a refinement, or steps with a refinement after every so many of them.
+/// An item of the schedule: steps, a refinement, or steps with a refinement after a number of them.
 struct Series {
     std::optional<std::uint32_t> steps;
     std::optional<std::uint32_t> every;
@@ -53,26 +53,27 @@ struct Series {
     std::optional<Until> until;
 };
 
-/// When a series of steps ends early.
+/// The rule that ends a series of steps early.
 struct Stop {
-    double speed = 1.0e-3;  ///< mean edges a step
+    double speed = 1.0e-3;  ///< current mean edges per step
     std::uint32_t patience = 3;
 };
 
-/// When the state of the run is saved, besides where it is stopped.
+/// When the state of the run is saved, besides the moment when it is stopped.
 struct CheckpointOutput {
     std::uint32_t every = 20;  ///< steps
-    std::uint32_t keep = 2;    ///< the last ones
+    std::uint32_t keep = 2;    ///< number of saved states that are kept
 };
 /// States for ParaView.
 struct SeriesOutput {
     std::uint32_t every = 10;
 };
 
-/// Which part of the surface is written: without the faces that have a vertex too far from the points or with too little support.
+/// The part of the surface that is written: without faces that have a vertex too far from the points or with too little
+/// support.
 struct TrimOutput {
     double distance = 2.0;  ///< spacings of the points
-    double support = 0.0;   ///< of the velocity's attribute of this name
+    double support = 0.0;   ///< least value of the velocity's attribute of this name
 };
 
 struct Output {
@@ -85,7 +86,7 @@ struct Output {
     std::optional<bool> normals;
 };
 
-/// Everything that a run depends on, defaults included.
+/// Everything on which a run depends, defaults included.
 struct Experiment {
     std::uint32_t format = 1;  ///< key `dsc`
     std::string name;
@@ -110,31 +111,31 @@ std::shared_ptr<const config::Schema> experiment_schema();
 struct LoadedExperiment {
     Experiment experiment;
     config::ConfigNode resolved;  ///< all defaults written out, file names absolute
-    std::string warnings;         ///< text of the diagnostics that are no errors, empty for none
-    std::shared_ptr<InputFiles> files = std::make_shared<InputFiles>();  ///< what the experiment reads, each file once
+    std::string warnings;         ///< text of the warnings; empty if there are none
+    std::shared_ptr<InputFiles> files = std::make_shared<InputFiles>();  ///< the files that the experiment reads, each read once
 };
 
-/// Looks up strategies once the plugins that the experiment names are loaded: gets the absolute paths of `plugins:`
-/// and returns a lookup that lives longer than the call.
+/// Provides the lookup of strategies after the plugins of the experiment are loaded: receives the absolute paths of `plugins:`
+/// and returns a lookup that outlives the call.
 using PluginLoader = std::function<const config::StrategyLookup&(const std::vector<std::string>&)>;
 
-/// Reads `file`, applies the overrides, loads the plugins and validates. Throws ConfigError with every fault that was
-/// found, IoError for an unreadable file, and what the loader throws. [setup]
+/// Reads `file`, applies the overrides, loads the plugins and validates. Throws ConfigError with every fault found, IoError for
+/// an unreadable file, and what the loader throws. [setup]
 LoadedExperiment load_experiment(const std::string& file, std::span<const std::string> overrides,
                                  const PluginLoader& load_plugins, const config::YamlOptions& options = {});
 
 /// The same for a tree made by code. [setup]
 LoadedExperiment resolve_experiment(const config::ConfigNode& root, const PluginLoader& load_plugins);
 
-/// The input of a resolved configuration; `lookup` knows its filters. Empty without one. Throws ConfigError, also for a filter
-/// that the lookup does not know. [setup]
+/// The input of a resolved configuration; `lookup` knows its filters. Empty if there is no input. Throws ConfigError, also for
+/// a filter that the lookup does not know. [setup]
 std::optional<Input> input_of(const config::ConfigNode& resolved, const config::StrategyLookup& lookup);
 
-/// What `--print-config` prints and config.resolved.yaml holds.
+/// The text that `--print-config` prints and config.resolved.yaml contains.
 std::string resolved_text(const LoadedExperiment& loaded);
 
-/// SHA-256 (64 hex digits) of the canonical resolved configuration. A file parameter counts by its content, not its
-/// name, so do plugins. Throws IoError for a file that cannot be read. [setup]
+/// SHA-256 (64 hex digits) of the canonical resolved configuration. A file parameter is hashed by its content instead of its
+/// name, and so are plugins. Throws IoError for a file that cannot be read. [setup]
 std::string config_hash(const LoadedExperiment& loaded, const config::StrategyLookup& lookup);
 
 /// Files that the experiment names in its input and its strategies' parameters, in the order of the schema. [setup]

@@ -1,5 +1,5 @@
 #pragma once
-// From the input of an experiment to the cloud that strategies see.
+// Makes the cloud that strategies see from the input of an experiment.
 
 #include <cstddef>
 #include <dsc/base/progress.hpp>
@@ -15,12 +15,12 @@
 
 namespace dsc::run {
 
-/// What became of the input.
+/// What happened to the input.
 struct InputReport {
     std::string source;       ///< file or shape
     std::string format;       ///< "OBJ", ..., or "sample"
-    std::size_t points = 0;   ///< of the source
-    std::size_t dropped = 0;  ///< not finite, left out by the reader
+    std::size_t points = 0;   ///< number of points in the source
+    std::size_t dropped = 0;  ///< points that are not finite; the reader left them out
     std::vector<cloud::FilterReport> filters;
     double filter_seconds = 0.0;  ///< CPU seconds
     double filter_wall_seconds = 0.0;
@@ -32,12 +32,13 @@ struct LoadedInput {
     cloud::Cloud cloud;  ///< filtered, in the input's units
     cloud::TargetCloud target;
     InputReport report;
-    std::vector<Vec3> removed{};  ///< points of the file that no filter left where they were, in normalised units
+    std::vector<Vec3> removed{};  ///< points of the file that a filter removed or moved, in normalised units
 };
 
-/// Reads (through `files`) or samples, filters and normalises. `seed` is that of the experiment; `catalogue` makes the filters, which see
-/// `workers` (null: one thread) and `cancel` (may be null). The result depends on neither. Throws IoError, GeometryError as the
-/// parts of the cloud module, and as Catalogue::create and the filters: PluginError, StrategyError, CancelledError. [setup]
+/// Reads (through `files`) or samples, filters and normalises. `seed` is the seed of the experiment. `catalogue` creates the
+/// filters, which may use `workers` (null: one thread) and `cancel` (may be null). The result depends on neither. Throws
+/// IoError, GeometryError as the parts of the cloud module, and as Catalogue::create and the filters: PluginError,
+/// StrategyError, CancelledError. [setup]
 LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Catalogue& catalogue, InputFiles& files,
                        Workers* workers = nullptr, const CancelToken* cancel = nullptr);
 

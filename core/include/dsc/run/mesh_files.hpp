@@ -1,5 +1,5 @@
 #pragma once
-// The readers that a host hands to generators of initial meshes.
+// The readers that a host passes to generators of initial meshes.
 
 #include <dsc/hooks/initial_mesh.hpp>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where a result comes from: versions, machine, inputs and plugins by content.
+// The origin of a result: versions, machine, inputs and plugins by content.
 
 #include <dsc/plugin/catalogue.hpp>
 #include <dsc/run/experiment.hpp>
@@ -18,13 +18,13 @@ struct Usage {
 };
 Usage process_usage();
 
-/// `text` with the user's home folder (`home`, without a slash at its end) written as "~" wherever a path in it begins
-/// with it; as it is where `home` is empty or "/".
+/// Returns `text` with the user's home folder (`home`, without a slash at its end) replaced by "~" wherever a path begins with
+/// it. Unchanged if `home` is empty or "/".
 std::string without_home(std::string text, const std::string& home);
 
-/// Text of provenance.json: no name of a user or a host, no environment; files of the current folder by their relative
-/// names, the home folder as "~". `finished` is empty while the run goes on. `wall_seconds` counts from its start. Throws
-/// IoError for an input or plugin that cannot be read. [setup]
+/// Text of provenance.json. It contains no name of a user or a host and no environment; files of the current folder have
+/// relative names, the home folder is "~". `finished` is empty while the run continues. `wall_seconds` counts from its start.
+/// Throws IoError for an input or plugin that cannot be read. [setup]
 std::string provenance_json(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
                             const std::string& hash, const std::vector<std::string>& command,
                             unsigned threads, const std::string& started, const std::string& finished,

@@ -1,5 +1,5 @@
 #pragma once
-// The main job: the experiment that turns a cloud into a surface and a volume, with few knobs.
+// The main task: the experiment that turns a cloud into a surface and a volume, with few options.
 
 #include <cstdint>
 #include <dsc/cloud/statistics.hpp>
@@ -20,13 +20,13 @@ std::string_view detail_name(Detail detail);
 struct ReconstructOptions {
     Detail detail = Detail::medium;
     std::vector<std::string> columns{};  ///< of a text cloud (cloud::ReadOptions)
-    std::optional<double> edge_length{};    ///< in the units of the input, in place of `detail`
-    std::optional<std::uint64_t> vertices{};  ///< that the surface may have, in place of `detail`
+    std::optional<double> edge_length{};    ///< in the units of the input; replaces `detail`
+    std::optional<std::uint64_t> vertices{};  ///< wanted number of vertices of the surface; replaces `detail`
     std::optional<double> noise{};          ///< standard deviation of the points across the surface, in spacings; empty: it is measured
     bool trim = false;                      ///< write the surface without the parts that no points support
 };
 
-/// The experiment in configs/reconstruct, low.yaml, medium.yaml or high.yaml, with `file`, an absolute name, as its cloud. [setup]
+/// The experiment in configs/reconstruct (low.yaml, medium.yaml or high.yaml) with the cloud `file`, an absolute name. [setup]
 config::ConfigNode reconstruction_of(const std::string& file, const ReconstructOptions& options = {});
 
 }  // namespace dsc::run

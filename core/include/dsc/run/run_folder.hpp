@@ -1,5 +1,5 @@
 #pragma once
-// The folder of a run: who may be replaced, what stands in it, and when a result counts as finished.
+// The folder of a run: which folders may be replaced, what they contain, and when a result counts as finished.
 
 #include <filesystem>
 #include <fstream>
@@ -12,32 +12,32 @@ namespace dsc::run {
 
 class RunLock;
 
-/// Writes in such an order that nothing half-done looks finished: status.json says "running" first and "done" last,
-/// result/ appears whole by a rename. A folder whose run failed holds no result, no summary and no picture.
+/// Writes in an order that never makes an incomplete run look finished: status.json says "running" first and "done" last;
+/// result/ appears complete by a rename. The folder of a failed run contains no result, no summary and no picture.
 class RunFolder {
 public:
     /// claimed() and clear(Keep::nothing). [setup]
     explicit RunFolder(std::filesystem::path folder);
 
-    /// Creates the folder, or takes over a run folder of ours, and owns it from then on; changes nothing in it.
-    /// Throws UsageError "run.folder" for a file or any other folder that is not empty, UsageError "run.busy" where another
-    /// run owns it, IoError "run.folder" when it cannot be made. [setup]
+    /// Creates the folder, or takes over an existing run folder, and owns it from then on; changes nothing in it. Throws
+    /// UsageError "run.folder" for a file or any other folder that is not empty, UsageError "run.busy" if another run owns it,
+    /// IoError "run.folder" if it cannot be created. [setup]
     static RunFolder claimed(std::filesystem::path folder);
     ~RunFolder();
     RunFolder(RunFolder&&) noexcept;
     RunFolder& operator=(RunFolder&&) = delete;
 
-    /// What stays of a run that was there before: nothing, or for a run that goes on all but results. Files that no run
-    /// writes stay always, temporary ones that a killed run has left never do. [setup]
+    /// What to keep of an earlier run: nothing, or, for a run that is continued, everything except results. Files that no run
+    /// writes are always kept; temporary files of a killed run never are. [setup]
     enum class Keep { nothing, progress };
     void clear(Keep keep) const;
 
-    /// Who owns the folder now, "process 4711 on HOST"; empty where no run does. [setup]
+    /// The present owner of the folder, "process 4711 on HOST"; empty if no run owns it. [setup]
     static std::string owner(const std::filesystem::path& folder);
 
-    /// Whether `folder` is a run folder of ours.
+    /// Whether `folder` is a run folder of this program.
     static bool is_ours(const std::filesystem::path& folder);
-    /// What status.json says of the run; nothing where the folder is none of ours.
+    /// The run's state in status.json; empty if the folder is not a run folder of this program.
     struct Status {
         std::string state;  ///< running, done, stopped, failed
         std::string hash;   ///< of its resolved experiment
@@ -50,17 +50,17 @@ public:
     /// Writes a file of the folder atomically. Throws IoError. [step]
     void write(std::string_view name, std::string_view content) const;
 
-    /// Makes an empty folder in it and returns its path. Throws IoError. [step]
+    /// Creates an empty folder in it and returns its path. Throws IoError. [step]
     std::filesystem::path make(std::string_view name) const;
 
     /// The folder in which results are written before publish_results() renames it to result/.
     std::filesystem::path staging() const { return folder_ / ".result.part"; }
-    /// Makes an empty staging folder. [step]
+    /// Creates an empty staging folder. [step]
     void open_staging() const;
-    /// The staged files become result/. [step]
+    /// Renames the staging folder to result/. [step]
     void publish_results() const;
 
-    /// Removes everything that looks like a result. [step]
+    /// Removes all results. [step]
     void remove_results() const;
 
 private:

@@ -1,5 +1,5 @@
 #pragma once
-// How thick the solid is under each vertex of its surface.
+// The thickness of the solid under each vertex of its surface.
 
 #include <vector>
 
@@ -8,9 +8,9 @@
 
 namespace dsc::surface {
 
-/// Fills `out` with the distance from each vertex, against its normal, to the first face that the ray meets, where that face looks
-/// the other way by at least `opposite`, a cosine; infinity where it does not, or where none is nearer than `most`. Faces round
-/// the vertex do not count. So a sheet has its thickness everywhere, and the sides of a crease have none to each other.
+/// Fills `out` with the distance from each vertex, against its normal, to the first face that the ray meets. That face must
+/// face away by at least `opposite`, a cosine; else, and if no face is nearer than `most`, the value is infinity. Faces round
+/// the vertex are ignored. So a thin sheet has a thickness everywhere, but the two sides of a crease have none between them.
 /// `workers`, null for one thread, share the search and do not change the result. [step]
 void measure_thickness(const SurfaceView& view, double most, double opposite, std::vector<double>& out, Workers* workers = nullptr);
 

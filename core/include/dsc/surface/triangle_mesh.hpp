@@ -1,5 +1,5 @@
 #pragma once
-// A triangle mesh as plain arrays: what surface files hold.
+// A triangle mesh as plain arrays, as surface files contain it.
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace dsc::surface {
 struct TriangleMesh {
     std::vector<Vec3> points;
     std::vector<std::array<std::uint32_t, 3>> faces;  ///< indices into points
-    std::vector<std::array<std::uint8_t, 3>> colours{};  ///< empty, or one RGB a point
+    std::vector<std::array<std::uint8_t, 3>> colours{};  ///< empty, or one RGB per point
 };
 
 }  // namespace dsc::surface
