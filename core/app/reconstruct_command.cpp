@@ -251,7 +251,7 @@ void add_reconstruct(CLI::App& app, Context& context) {
     command->add_flag("--strict", arguments->strict,
                       "Exit with code 5 if there are warnings about the result; the result is still written");
     command->add_flag("--print-config", arguments->print_config, "Print the experiment that would be run, and run nothing");
-    command->add_option("--keep-run", arguments->keep_run, "Folder in which the run folder is kept");
+    command->add_option("--keep-run", arguments->keep_run, "Keep the run folder under this name");
     command
         ->add_option("--threads", arguments->threads,
                      "Number of threads; default: all. The result does not depend on it")
