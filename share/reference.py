@@ -14,13 +14,13 @@ import sys
 import generated
 
 KINDS = {
-    "initial_mesh": ("Initial meshes", "what a run starts from; key `initial_mesh`"),
-    "velocity": ("Velocities", "where the interface wants to go; key `velocity`"),
-    "curvature": ("Curvatures", "how curved the interface is; a parameter of some velocities"),
+    "initial_mesh": ("Initial meshes", "the labelled volume mesh that a run starts from; key `initial_mesh`"),
+    "velocity": ("Velocities", "the displacement of each interface vertex in a step; key `velocity`"),
+    "curvature": ("Curvatures", "the curvature of the interface; a parameter of some velocities"),
     "refinement": ("Refinements", "which faces and edges are split, collapsed or flipped; key `refine` of an item of the `schedule`"),
-    "improvement": ("Improvements", "which repairs a step tries; key `improvement`"),
+    "improvement": ("Improvements", "the repairs that a step tries; key `improvement`"),
     "observer": ("Observers", "figures for `metrics.csv` and `summary.json`; items of `observers`"),
-    "filter": ("Filters", "what becomes of the cloud before the run; items of `input.cloud.filters`"),
+    "filter": ("Filters", "operations on the cloud before the run; items of `input.cloud.filters`"),
 }
 
 
