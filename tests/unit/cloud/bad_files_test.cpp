@@ -179,7 +179,7 @@ TEST_CASE("bad PCD headers") {
     CHECK(error(pcd("99999999999", "ascii")) ==
           "io.syntax 6: a.pcd:6: '99999999999' is not a count between 0 and 2147483647" + again);
     CHECK(error(pcd("3", "ascii", "x y w")) ==
-          "io.syntax 6: a.pcd:10: a point needs the fields x, y and z exactly once; 'z' is not" + again);
+          "io.syntax 6: a.pcd:10: a point needs the fields x, y and z exactly once; 'z' does not occur exactly once" + again);
     CHECK(error(pcd("3", "ascii", "x y z", "8 8")) ==
           "io.syntax 6: a.pcd:3: SIZE has 2 values, FIELDS has 3" + again);
     CHECK(error(pcd("3", "ascii", "x y z", "8 8 3")) ==
