@@ -16,7 +16,7 @@ namespace {
 
 /// If the labels are doubtful, the cloud is oriented again: all points take part in the first stage, with more iterations;
 /// the last attempt also has more iterations in the second stage.
-constexpr std::array<cloud::OrientOptions, 2> retries = {{{.all_points = true, .coarse_iterations = 60, .fine_iterations = 12},
+const std::array<cloud::OrientOptions, 2> retries = {{{.all_points = true, .coarse_iterations = 60, .fine_iterations = 12},
                                                           {.all_points = true, .coarse_iterations = 60, .fine_iterations = 40}}};
 
 /// CPU seconds of this process since the last call.
