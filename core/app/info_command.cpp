@@ -149,14 +149,11 @@ ordered_json surface_properties(const std::string& file) {
 ordered_json cloud_figures(const Content& content, Workers& workers) {
     const std::vector<Vec3>& points = content.cloud->points;
     const cloud::NearestSearch search(points);
-    std::vector<cloud::Neighbour> neighbours;
     double spacing = 0.0;
     std::size_t repeated = 0;
-    for (const Vec3& p : points) {
-        search.k_nearest(p, 2, neighbours);
-        const double distance = neighbours.size() < 2 ? 0.0 : neighbours[1].distance;
+    for (const double distance : cloud::distances_to_nearest(search, &workers)) {
         spacing += distance;
-        if (neighbours.size() > 1 && distance == 0.0) ++repeated;
+        if (points.size() > 1 && distance == 0.0) ++repeated;
     }
     ordered_json figures = {{"points", points.size()},
                             {"coloured", !content.cloud->colours.empty()},

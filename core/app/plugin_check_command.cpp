@@ -59,7 +59,7 @@ std::filesystem::path find_strategy(const CheckArguments& arguments, const host:
     }
     if (!file.empty()) return file;
     const auto near = config::closest(arguments.target, ids);
-    throw UsageError("usage.strategy", "there is no file and no strategy '" + arguments.target + "'" +
+    throw UsageError("usage.strategy", "'" + arguments.target + "' is neither a file nor the name of a strategy" +
                                            (near ? "; did you mean '" + *near + "'?" : "") +
                                            "; dsc plugin list shows all strategies");
 }

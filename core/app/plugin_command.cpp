@@ -72,7 +72,7 @@ int describe(const PluginArguments& arguments) {
     }
     if (found.empty()) {
         const auto near = config::closest(arguments.id, ids);
-        throw UsageError("usage.strategy", "there is no strategy '" + arguments.id + "'" +
+        throw UsageError("usage.strategy", "'" + arguments.id + "' is not the name of a strategy" +
                                                (arguments.kind.empty() ? "" : " of kind " + arguments.kind) +
                                                (near ? "; did you mean '" + *near + "'?" : "") +
                                                "; dsc plugin list shows all strategies");

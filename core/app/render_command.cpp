@@ -64,8 +64,8 @@ Coloured read_coloured(const RenderArguments& arguments) {
                                          (names.empty() ? "none" : names));
 }
 
-/// The same axis as in the picture and the report of a run: z points up in the built-in shapes, y in most models from files. A
-/// file does not contain the axis, so the log states which one was used.
+/// The axis that the picture and the report of a run use: z for the built-in shapes, y for models from files. A file does not
+/// state its axis, so the log reports the axis that was chosen.
 io::UpAxis up_axis(const RenderArguments& arguments) {
     if (arguments.up != "auto") return arguments.up == "z" ? io::UpAxis::z : io::UpAxis::y;
     const bool z = std::filesystem::is_directory(arguments.input) && run::stands_along_z(arguments.input);

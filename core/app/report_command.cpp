@@ -44,7 +44,7 @@ int execute(const ReportArguments& arguments) {
 }  // namespace
 
 void add_report(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("report", "Write a page that shows a run, or compares several runs");
+    CLI::App* command = app.add_subcommand("report", "Write a page that shows one run or compares several runs");
     const auto arguments = std::make_shared<ReportArguments>();
     command->add_option("DIR", arguments->folders, "Folders of finished runs")->required();
     command

@@ -6,7 +6,7 @@
 
 namespace dsc::app {
 
-/// State, files and figures of a run, from its folder. Throws IoError "io.no_run" for a folder that is not a run folder. [setup]
+/// Reads the state, the files and the figures of a run from its folder. Throws IoError "io.no_run" for a folder that is not a run folder. [setup]
 nlohmann::ordered_json run_figures(const std::filesystem::path& folder);
 
 }  // namespace dsc::app

@@ -47,7 +47,7 @@ int expand(const ExpandArguments& arguments) {
     std::string text = points_text(sweep.points.size()) + ": " + std::to_string(done.added) + " new, " +
                        std::to_string(done.kept) + " kept";
     if (done.others > 0) {
-        text += "; the table contains " + std::to_string(done.others) + " more, which are no longer part of the sweep";
+        text += "; the table also contains " + std::to_string(done.others) + " points that are not in the sweep any more";
     }
     log(LogLevel::info, text);
     data_out() << (fs::path(arguments.folder) / "jobs.tsv").string() << "\n";

@@ -67,7 +67,7 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
     CHECK(said({"sample", "torus", "--nose", "0.1", "-o", "a.xyz"}) ==
           "error: dsc sample has no option '--nose'; did you mean '--noise'?; see dsc sample --help\n");
     CHECK(cli.dsc({"plugin", "describe", "point_clod"}).err ==
-          "error: there is no strategy 'point_clod'; did you mean 'point_cloud'?; dsc plugin list shows "
+          "error: 'point_clod' is not the name of a strategy; did you mean 'point_cloud'?; dsc plugin list shows "
           "all strategies\n");
 }
 

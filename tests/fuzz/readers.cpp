@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <dsc/base/error.hpp>
 #include <dsc/cloud/read.hpp>
 #include <dsc/config/overrides.hpp>
@@ -11,53 +10,27 @@
 #include <dsc/run/sweep.hpp>
 #include <dsc/surface/measure.hpp>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
+
+#include "../unit/cloud/files.hpp"
 
 namespace dsc::fuzz {
 namespace {
-
-namespace fs = std::filesystem;
 
 void require(bool holds, const char* what) {
     if (!holds) throw std::logic_error(what);
 }
 
-/// A folder of this process, removed at its end.
-class Folder {
-public:
-    Folder() {
-        std::string pattern = (fs::temp_directory_path() / "dsc_fuzz_XXXXXX").string();
-        require(::mkdtemp(pattern.data()) != nullptr, "no folder for the input");
-        path_ = pattern;
-    }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    fs::path with(const std::string& name, std::string_view bytes) const {
-        fs::remove(path_ / name);  // some file systems wait for the disk when a file is cut and written again
-        std::ofstream(path_ / name, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        return path_ / name;
-    }
-
-private:
-    fs::path path_;
-};
-
-fs::path as_file(const std::string& extension, std::string_view bytes) {
-    static const Folder folder;
-    return folder.with("input" + extension, bytes);
+std::filesystem::path as_file(const std::string& extension, std::string_view bytes) {
+    static const test::Folder folder;
+    return folder.write("input" + extension, bytes);
 }
 
 bool finite(const Vec3& p) { return p.allFinite(); }
 
-void read_cloud_file(const std::string& extension, std::string_view bytes) {
+void read_cloud_bytes(const std::string& extension, std::string_view bytes) {
     cloud::ReadReport report;
-    const cloud::Cloud cloud = cloud::read_cloud(as_file(extension, bytes), &report);
+    const cloud::Cloud cloud = cloud::parse_cloud("input" + extension, std::string(bytes), &report);
     const std::size_t points = cloud.points.size();
     require(points > 0, "a cloud without points");
     require(std::all_of(cloud.points.begin(), cloud.points.end(), finite), "a point that is not finite");
@@ -124,11 +97,11 @@ void read_sweep(std::string_view bytes) {
 }
 
 constexpr std::array<Reader, 14> all = {{
-    {"cloud_obj", [](std::string_view bytes) { read_cloud_file(".obj", bytes); }},
-    {"cloud_ply", [](std::string_view bytes) { read_cloud_file(".ply", bytes); }},
-    {"cloud_pcd", [](std::string_view bytes) { read_cloud_file(".pcd", bytes); }},
-    {"cloud_xyz", [](std::string_view bytes) { read_cloud_file(".xyz", bytes); }},
-    {"cloud_csv", [](std::string_view bytes) { read_cloud_file(".csv", bytes); }},
+    {"cloud_obj", [](std::string_view bytes) { read_cloud_bytes(".obj", bytes); }},
+    {"cloud_ply", [](std::string_view bytes) { read_cloud_bytes(".ply", bytes); }},
+    {"cloud_pcd", [](std::string_view bytes) { read_cloud_bytes(".pcd", bytes); }},
+    {"cloud_xyz", [](std::string_view bytes) { read_cloud_bytes(".xyz", bytes); }},
+    {"cloud_csv", [](std::string_view bytes) { read_cloud_bytes(".csv", bytes); }},
     {"surface_obj", [](std::string_view bytes) { read_surface_file(".obj", bytes); }},
     {"surface_ply", [](std::string_view bytes) { read_surface_file(".ply", bytes); }},
     {"surface_off", [](std::string_view bytes) { read_surface_file(".off", bytes); }},

@@ -1,4 +1,6 @@
 // Normals and noise from the neighbours of points.
+#include <dsc/base/median.hpp>
+
 #include "local_shape.hpp"
 
 #include <Eigen/Eigenvalues>

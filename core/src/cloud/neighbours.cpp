@@ -100,11 +100,4 @@ std::vector<double> label_widths(const Neighbours& neighbours, Workers* workers)
     return out;
 }
 
-double median_of(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 }  // namespace dsc::cloud

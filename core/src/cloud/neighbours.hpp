@@ -38,7 +38,4 @@ std::vector<double> median_reaches(const Neighbours& neighbours, Workers* worker
 /// Per point: the square root of the area that it represents, as Statistics::label_width. [setup]
 std::vector<double> label_widths(const Neighbours& neighbours, Workers* workers);
 
-/// The upper median; 0 without values.
-double median_of(std::vector<double> values);
-
 }  // namespace dsc::cloud

@@ -223,7 +223,7 @@ void hide_grid_comments(std::string& bytes, const FileCheck& check) {
 
 }  // namespace
 
-Cloud read_pcd(const std::string& file, const std::string& bytes, ReadReport& report, std::vector<std::string>& names) {
+Cloud read_pcd(const std::string& file, std::string bytes, ReadReport& report, std::vector<std::string>& names) {
     const FileCheck check = check_pcd(file, bytes);
     report.points = check.points;
     report.format = "PCD";
@@ -235,11 +235,12 @@ Cloud read_pcd(const std::string& file, const std::string& bytes, ReadReport& re
         int version = 0, encoding = 0;
         unsigned place = 0;
         std::istringstream header(bytes.substr(0, check.body));
+        bytes.erase(0, check.body);
         const int result = reader.readHeader(header, blob, origin, orientation, version, encoding, place);
         if (result < 0) return result;
-        const char* const body = bytes.data() + check.body;
-        if (encoding != 0) return reader.readBodyBinary(reinterpret_cast<const unsigned char*>(body), blob, version, encoding == 2, 0);
-        std::istringstream text(std::string(body, bytes.size() - check.body));
+        if (encoding != 0)
+            return reader.readBodyBinary(reinterpret_cast<const unsigned char*>(bytes.data()), blob, version, encoding == 2, 0);
+        std::istringstream text(std::move(bytes));
         return reader.readBodyASCII(text, blob, version);
     });
 }

@@ -91,7 +91,7 @@ Cloud parse_cloud(const std::filesystem::path& path, std::string bytes, ReadRepo
     std::vector<std::string> names;
     Cloud cloud;
     if (extension == ".pcd") {
-        cloud = read_pcd(file, bytes, filled, names);
+        cloud = read_pcd(file, std::move(bytes), filled, names);
     } else if (extension == ".ply") {
         cloud = read_ply(file, std::move(bytes), filled, names);
     } else {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <dsc/base/median.hpp>
 #include <dsc/cloud/search.hpp>
 
 namespace dsc::cloud {

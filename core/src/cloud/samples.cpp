@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <dsc/base/median.hpp>
 #include <dsc/cloud/orientation.hpp>
 #include <dsc/geometry/order.hpp>
 

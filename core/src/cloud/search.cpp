@@ -179,4 +179,18 @@ bool NearestSearch::within(const Vec3& p, double radius) const {
     return result.any;
 }
 
+std::vector<double> distances_to_nearest(const NearestSearch& search, Workers* workers) {
+    const std::span<const Vec3> points = search.points();
+    std::vector<double> out(points.size(), 0.0);
+    if (points.size() < 2) return out;
+    for_blocks(workers, points.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        std::vector<Neighbour> two;
+        for (std::size_t i = begin; i < end; ++i) {
+            search.k_nearest(points[i], 2, two);
+            out[i] = two[1].distance;
+        }
+    });
+    return out;
+}
+
 }  // namespace dsc::cloud

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <dsc/base/median.hpp>
 #include <dsc/base/union_find.hpp>
 #include <dsc/cloud/search.hpp>
 #include <dsc/run/coverage.hpp>
@@ -56,32 +57,11 @@ struct FarPoint {
     double distance;
 };
 
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-/// From each point to the nearest other one; zero for a single point.
-std::vector<double> distances_to_nearest(const std::vector<Vec3>& places, Workers* workers) {
-    std::vector<double> out(places.size(), 0.0);
-    if (places.size() < 2) return out;
-    const cloud::NearestSearch search(places);
-    for_blocks(workers, places.size(), 1024, [&](std::size_t begin, std::size_t end) {
-        std::vector<cloud::Neighbour> two;
-        for (std::size_t i = begin; i < end; ++i) {
-            search.k_nearest(places[i], 2, two);
-            out[i] = two[1].distance;
-        }
-    });
-    return out;
-}
-
 std::vector<PointGroup> groups_of(const std::vector<FarPoint>& far, double width, Workers* workers) {
     if (far.empty() || !(width > 0.0)) return {};
     std::vector<Vec3> places;
     for (const FarPoint& p : far) places.push_back(p.place);
-    const std::vector<double> nearest = distances_to_nearest(places, workers);
+    const std::vector<double> nearest = cloud::distances_to_nearest(cloud::NearestSearch(places), workers);
     Pieces pieces(places, group_cell * width);
     std::map<std::uint32_t, std::vector<std::size_t>> members;
     for (std::size_t i = 0; i < far.size(); ++i) members[pieces.of(i)].push_back(i);
@@ -98,7 +78,7 @@ std::vector<PointGroup> groups_of(const std::vector<FarPoint>& far, double width
         }
         group.points = points.size();
         group.diameter = box.diagonal();
-        group.spacing = median(std::move(apart));
+        group.spacing = median_of(std::move(apart));
     }
     std::stable_sort(groups.begin(), groups.end(), [](const PointGroup& a, const PointGroup& b) { return a.points > b.points; });
     return groups;

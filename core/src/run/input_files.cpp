@@ -27,7 +27,7 @@ const ReadCloud& InputFiles::cloud(const std::filesystem::path& file, const std:
     if (known.cloud && known.columns == columns) return *known.cloud;
     std::string content = known.content ? std::move(*known.content) : read_file(file);
     known.content.reset();
-    known.sha256 = run::sha256(content);
+    if (known.sha256.empty()) known.sha256 = run::sha256(content);
     ReadCloud read;
     read.cloud = cloud::parse_cloud(file, std::move(content), &read.report, {columns});
     known.columns = columns;

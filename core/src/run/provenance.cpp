@@ -14,7 +14,6 @@
 #include <dsc/base/version.hpp>
 #include <dsc/plugin/fingerprint.hpp>
 #include <dsc/run/provenance.hpp>
-#include <dsc/run/sha256.hpp>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>

@@ -11,7 +11,6 @@
 #include <dsc/io/series.hpp>
 #include <dsc/run/experiment.hpp>
 #include <dsc/run/input.hpp>
-#include <dsc/run/sha256.hpp>
 #include <dsc/surface/decimate.hpp>
 #include <dsc/surface/distance.hpp>
 #include <dsc/surface/measure.hpp>

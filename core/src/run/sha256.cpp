@@ -3,7 +3,6 @@
 
 #include <array>
 #include <dsc/base/error.hpp>
-#include <dsc/base/read_file.hpp>
 #include <dsc/run/sha256.hpp>
 #include <memory>
 
@@ -24,7 +23,5 @@ std::string sha256(std::string_view bytes) {
     }
     return text;
 }
-
-std::string sha256_of_file(const std::filesystem::path& file) { return sha256(read_file(file)); }
 
 }  // namespace dsc::run

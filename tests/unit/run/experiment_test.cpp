@@ -32,9 +32,6 @@ bool contains(const std::string& text, const std::string& part) {
 TEST_CASE("sha256 of known texts") {
     CHECK(run::sha256("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
     CHECK(run::sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-    const Folder folder;
-    CHECK(run::sha256_of_file(folder.write("abc", "abc")) == run::sha256("abc"));
-    CHECK_THROWS_AS(run::sha256_of_file(folder.path() / "none"), IoError);
 }
 
 TEST_CASE("the schema of format 1 is sound") { CHECK(run::experiment_schema()->problems().empty()); }

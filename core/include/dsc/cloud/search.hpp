@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <dsc/base/workers.hpp>
 #include <dsc/geometry/vec.hpp>
 
 namespace dsc::cloud {
@@ -44,5 +45,8 @@ private:
     struct Tree;
     std::unique_ptr<Tree> tree_;
 };
+
+/// Per point of the search: the distance to the nearest other point; 0 for a point that is the only one. [setup]
+std::vector<double> distances_to_nearest(const NearestSearch& search, Workers* workers);
 
 }  // namespace dsc::cloud
