@@ -2,25 +2,18 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <dsc/base/error.hpp>
 #include <dsc/base/replace_file.hpp>
 #include <dsc/cloud/read.hpp>
 #include <dsc/io/formats.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/surface/surface_view.hpp>
+#include <dsc/text/words.hpp>
 #include <nlohmann/json.hpp>
 
 namespace dsc::app {
 
 namespace fs = std::filesystem;
-
-std::string extension_of(const fs::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
 
 Content read_any(const fs::path& file, const std::vector<std::string>& columns) {
     const auto read_cloud = [&] {
@@ -42,7 +35,7 @@ Content read_any(const fs::path& file, const std::vector<std::string>& columns) 
         content.surface = io::read_surface(file);
         return content;
     } catch (const IoError& error) {
-        const std::string extension = extension_of(file);
+        const std::string extension = text::lower_case_extension(file);
         if (error.code() != "io.no_faces" || (extension != ".obj" && extension != ".ply")) throw;
     }
     return read_cloud();

@@ -35,9 +35,6 @@ void add_columns(CLI::App& command, std::vector<std::string>& columns);
 /// Throws IoError "io.no_result" for a folder without one, UsageError "file.no_surface" for a cloud.
 surface::TriangleMesh read_any_surface(const std::filesystem::path& path);
 
-/// The extension in lower case, with its dot.
-std::string extension_of(const std::filesystem::path& file);
-
 /// Whether the text is UTF-8, as JSON and experiments need it.
 bool is_utf8(const std::string& text);
 

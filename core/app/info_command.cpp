@@ -8,6 +8,7 @@
 #include <dsc/cloud/statistics.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/run/measure.hpp>
+#include <dsc/text/words.hpp>
 #include <filesystem>
 #include <memory>
 #include <thread>
@@ -135,7 +136,7 @@ void add_orientation(const cloud::Cloud& cloud, Workers& workers, ordered_json& 
 
 /// Properties of the points of a surface file that can also be read as a cloud; empty for other files.
 ordered_json surface_properties(const std::string& file) {
-    const std::string extension = extension_of(file);
+    const std::string extension = text::lower_case_extension(file);
     if (extension != ".ply" && extension != ".obj") return nullptr;
     try {
         cloud::ReadReport report;

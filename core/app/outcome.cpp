@@ -1,6 +1,6 @@
 #include "outcome.hpp"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>

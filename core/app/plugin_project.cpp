@@ -6,6 +6,7 @@
 #include <dsc/base/version.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/plugin/entry.hpp>
+#include <dsc/text/words.hpp>
 #include <map>
 
 #include "plugin_templates.hpp"
@@ -62,11 +63,8 @@ std::string filled(const EmbeddedFile& file, const Values& values) {
 }  // namespace
 
 void require_plugin_name(const std::string& name) {
-    const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
     constexpr std::size_t longest = sizeof(plugin::PluginEntry::name) - 1;
-    if (!name.empty() && name[0] >= 'a' && name[0] <= 'z' && std::all_of(name.begin(), name.end(), plain) &&
-        name.size() <= longest)
-        return;
+    if (text::is_id(name) && name.size() <= longest) return;
     throw UsageError("usage.plugin_name", "'" + name + "' cannot be the name of a plugin; use lower case letters, digits and _, "
                                               "with a letter first, at most " + std::to_string(longest));
 }

@@ -1,6 +1,6 @@
 #include "progress.hpp"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/core.h>
 
 #include <chrono>
 #include <memory>

@@ -9,6 +9,7 @@
 #include <dsc/run/input_files.hpp>
 #include <dsc/run/reconstruct.hpp>
 #include <dsc/run/runner.hpp>
+#include <dsc/text/words.hpp>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -96,7 +97,7 @@ config::ConfigNode wanted(const std::vector<Target>& list, bool volume,
 
 fs::path source_of(const Target& target, const run::RunOutcome& outcome) {
     for (const fs::path& file : target.volume ? outcome.volumes : outcome.surfaces) {
-        if (extension_of(file) == "." + target.format) return file;
+        if (text::lower_case_extension(file) == "." + target.format) return file;
     }
     throw Error(ExitCode::internal, "reconstruct.format", "the run did not write ." + target.format);
 }
@@ -155,7 +156,7 @@ fs::path plain_name(const fs::path& cloud, std::optional<TemporaryFolder>& links
     const fs::path whole = fs::absolute(cloud);
     if (is_utf8(whole.string())) return whole;
     links.emplace();
-    const fs::path link = links->path() / ("cloud" + extension_of(cloud));
+    const fs::path link = links->path() / ("cloud" + text::lower_case_extension(cloud));
     fs::create_symlink(whole, link);
     return link;
 }

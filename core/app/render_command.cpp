@@ -6,6 +6,7 @@
 #include <dsc/io/picture.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/run/report.hpp>
+#include <dsc/text/words.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -49,7 +50,7 @@ struct Coloured {
 Coloured read_coloured(const RenderArguments& arguments) {
     std::filesystem::path file = arguments.input;
     if (std::filesystem::is_directory(file)) file = file / "result" / "surface.ply";
-    if (extension_of(file) != ".ply") {
+    if (text::lower_case_extension(file) != ".ply") {
         throw UsageError("usage.colour", file.string() + ": --colour needs numbers per vertex, which only a .ply contains; "
                                          "give a .ply file");
     }
@@ -91,7 +92,7 @@ int paint(const RenderArguments& arguments, io::RenderOptions& options) {
 }
 
 int execute(const RenderArguments& arguments) {
-    if (extension_of(arguments.output) != ".png") {
+    if (text::lower_case_extension(arguments.output) != ".png") {
         throw UsageError("usage.format",
                          arguments.output + ": pictures are written as .png; give a .png file with -o");
     }

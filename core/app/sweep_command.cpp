@@ -3,6 +3,7 @@
 #include <dsc/base/log.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/run/sweep.hpp>
+#include <dsc/text/words.hpp>
 #include <memory>
 
 #include "commands.hpp"
@@ -27,24 +28,22 @@ struct CollectArguments {
     std::string output;
 };
 
-std::string points_text(std::size_t count) { return std::to_string(count) + (count == 1 ? " point" : " points"); }
-
 int expand(const ExpandArguments& arguments) {
     if (arguments.folder.empty() && !arguments.check)
         throw UsageError("usage.output", "-o DIR, the folder for the points, is missing; add it, or use --check to write "
                                          "nothing");
     const run::Sweep sweep = run::load_sweep(arguments.file);
     if (sweep.repeated > 0)
-        log(LogLevel::warning, arguments.file + ": " + points_text(sweep.repeated) +
+        log(LogLevel::warning, arguments.file + ": " + text::counted(sweep.repeated, "point") +
                                    " left out because they equal earlier points");
     Plugins plugins(arguments.plugins);
     const std::vector<std::string> experiments = run::sweep_experiments(sweep, plugins.loader(), plugins.host());
     if (arguments.check) {
-        data_out() << arguments.file << ": valid, " << points_text(sweep.points.size()) << "\n";
+        data_out() << arguments.file << ": valid, " << text::counted(sweep.points.size(), "point") << "\n";
         return 0;
     }
     const run::Expansion done = run::expand_sweep(sweep, experiments, arguments.folder);
-    std::string text = points_text(sweep.points.size()) + ": " + std::to_string(done.added) + " new, " +
+    std::string text = text::counted(sweep.points.size(), "point") + ": " + std::to_string(done.added) + " new, " +
                        std::to_string(done.kept) + " kept";
     if (done.others > 0) {
         text += "; the table also contains " + std::to_string(done.others) + " points that are not in the sweep any more";
@@ -58,7 +57,7 @@ int collect(const CollectArguments& arguments) {
     if (!arguments.output.empty()) require_output(arguments.output, arguments.folder);
     run::SweepStates states;
     const std::string table = run::collect_sweep(arguments.folder, states);
-    log(LogLevel::info, points_text(states.points) + ": " + std::to_string(states.done) + " done, " +
+    log(LogLevel::info, text::counted(states.points, "point") + ": " + std::to_string(states.done) + " done, " +
                             std::to_string(states.failed) + " failed, " + std::to_string(states.unfinished) +
                             " unfinished, " + std::to_string(states.missing) + " not started");
     if (arguments.output.empty()) {

@@ -17,16 +17,17 @@ Finding = namedtuple("Finding", "rule path line text")
 # Who may include whom in core. An app may use everything; nobody may use the app.
 BELOW = {
     "base": set(),
-    "geometry": {"base"},
-    "mesh": {"base", "geometry"},
-    "kernel": {"base", "geometry", "mesh"},
-    "surface": {"base", "geometry", "mesh"},
-    "cloud": {"base", "geometry"},
-    "config": {"base"},
-    "io": {"base", "geometry", "mesh", "surface", "cloud"},
-    "hooks": {"base", "geometry", "mesh", "surface", "cloud", "config"},
-    "plugin": {"base", "geometry", "mesh", "surface", "cloud", "config", "hooks"},
-    "run": {"base", "geometry", "mesh", "kernel", "surface", "cloud", "config", "io", "hooks", "plugin"},
+    "text": {"base"},
+    "geometry": {"base", "text"},
+    "mesh": {"base", "text", "geometry"},
+    "kernel": {"base", "text", "geometry", "mesh"},
+    "surface": {"base", "text", "geometry", "mesh"},
+    "cloud": {"base", "text", "geometry"},
+    "config": {"base", "text"},
+    "io": {"base", "text", "geometry", "mesh", "surface", "cloud"},
+    "hooks": {"base", "text", "geometry", "mesh", "surface", "cloud", "config"},
+    "plugin": {"base", "text", "geometry", "mesh", "surface", "cloud", "config", "hooks"},
+    "run": {"base", "text", "geometry", "mesh", "kernel", "surface", "cloud", "config", "io", "hooks", "plugin"},
 }
 FOR_STRATEGIES = BELOW["plugin"] | {"plugin"}
 

@@ -14,7 +14,7 @@ CLEAN = {
     "core/include/dsc/base/error.hpp": "#pragma once\n",
     "core/src/mesh/complex.cpp": "#include <dsc/base/error.hpp>\n#include \"mesh/rings.hpp\"\n// std::cout is for others\n",
     "core/src/mesh/walks.cpp": "namespace dsc::mesh {\nnamespace {\nconstexpr int most = 3;\nusing Row = int;\nint turn(int a) {\n}  // namespace\n",
-    "core/src/mesh/CMakeLists.txt": "dsc_module(mesh SOURCES complex.cpp USES base geometry LINK Boost::headers)\n",
+    "core/src/mesh/CMakeLists.txt": "dsc_module(mesh SOURCES complex.cpp USES base text geometry LINK Boost::headers)\n",
     "core/src/cloud/read.cpp": "#include <pcl/io/pcd_io.h>\n",
     "core/src/io/vtu.cpp": "#include <vtkPoints.h>\n#include <OpenMesh/Core/Mesh/Handles.hh>\n",
     "core/app/main.cpp": "#include <CLI/CLI.hpp>\n#include <dsc/run/experiment.hpp>\nint main() { std::cout << 1; }\n",
@@ -41,6 +41,8 @@ PLANTED = {
     ],
     "core_direction": [
         ("core/src/geometry/quality.cpp", "#include <dsc/mesh/complex.hpp>"),
+        ("core/src/base/error.cpp", "#include <dsc/text/words.hpp>"),
+        ("core/include/dsc/text/words.hpp", "#pragma once\n#include <dsc/geometry/vec.hpp>"),
         ("core/include/dsc/kernel/deformer.hpp", "#pragma once\n#include <dsc/hooks/improvement.hpp>"),
         ("core/src/mesh/adopt.cpp", "#include \"surface/half_edges.hpp\""),
         ("core/src/run/experiment.cpp", "#include \"../../../strategies/velocity/normal/strategy.hpp\""),
@@ -48,6 +50,7 @@ PLANTED = {
     ],
     "declared_direction": [
         ("core/src/base/CMakeLists.txt", "dsc_module(base SOURCES\n  a.cpp USES geometry)"),
+        ("core/src/text/CMakeLists.txt", "dsc_module(text SOURCES words.cpp USES base geometry LINK fmt::fmt)"),
         ("core/src/cloud/CMakeLists.txt", "dsc_module(cloud USES base mesh LINK ${PCL_LIBRARIES} SOURCES a.cpp)"),
     ],
     "strategy_direction": [

@@ -2,9 +2,10 @@
 #include "attributes.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <initializer_list>
+
+#include <dsc/text/words.hpp>
 
 #include "formats.hpp"
 
@@ -15,12 +16,6 @@ namespace {
 constexpr double unit_squared_tolerance = 1e-6;
 constexpr double written_unit_tolerance = 0.01;  // of the length; programs write at least two digits
 constexpr double intensity_tail = 0.01;
-
-std::string in_lower_case(std::string_view name) {
-    std::string out(name);
-    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return out;
-}
 
 std::optional<std::size_t> place_of(const std::vector<std::string>& names, std::string_view name) {
     const auto found = std::find(names.begin(), names.end(), name);
@@ -52,7 +47,7 @@ std::optional<std::size_t> first_name(const std::vector<std::string>& names, std
 
 std::vector<std::string> all_in_lower_case(std::span<const std::string> names) {
     std::vector<std::string> out;
-    for (const std::string& name : names) out.push_back(in_lower_case(name));
+    for (const std::string& name : names) out.push_back(text::lower_case(name));
     return out;
 }
 

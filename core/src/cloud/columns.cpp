@@ -2,11 +2,11 @@
 #include "columns.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include <dsc/base/error.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/words.hpp>
 
-#include "text.hpp"
 
 namespace dsc::cloud {
 
@@ -34,19 +34,12 @@ std::string unquoted(std::string_view column) {
     return text;
 }
 
-std::string lower(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return out;
-}
-
 /// The column with that name: first by the exact spelling, then without regard to case.
 std::optional<std::size_t> find_name(const std::vector<std::string>& header, const std::string& name) {
     auto found = std::find(header.begin(), header.end(), name);
     if (found == header.end())
         found = std::find_if(header.begin(), header.end(),
-                             [&](const std::string& other) { return lower(other) == lower(name); });
+                             [&](const std::string& other) { return text::lower_case(other) == text::lower_case(name); });
     if (found == header.end()) return std::nullopt;
     return static_cast<std::size_t>(found - header.begin());
 }
@@ -66,7 +59,7 @@ std::optional<std::array<std::size_t, 3>> find_names(const std::vector<std::stri
 /// "Points:0" is points0.
 std::string plain_name(const std::string& name) {
     std::string plain;
-    for (const char c : lower(name.substr(0, name.find_first_of("[(")))) {
+    for (const char c : text::lower_case(name.substr(0, name.find_first_of("[(")))) {
         if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) plain += c;
     }
     return plain;
@@ -99,14 +92,14 @@ std::optional<std::array<std::size_t, 3>> find_usual(const std::vector<std::stri
 
 bool is_number(const std::string& column) {
     std::size_t value = 0;
-    return parse_count(column, value);
+    return text::parse_count(column, value);
 }
 
 std::string listed(const std::vector<std::string>& names) {
     constexpr std::size_t most = 12;
     std::string text;
     for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
-        text += (i > 0 ? ", " : "") + in_quotes(names[i]);
+        text += (i > 0 ? ", " : "") + text::in_quotes(names[i]);
     return names.size() > most ? text + ", ..." : text;
 }
 
@@ -122,13 +115,13 @@ char separator_of(std::string_view line, bool tabs) {
 void split_columns(std::string_view line, char separator, std::vector<std::string>& columns) {
     columns.clear();
     if (separator == ' ') {
-        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line))
+        for (std::string_view word = text::next_word(line); !word.empty(); word = text::next_word(line))
             columns.push_back(unquoted(word));
         return;
     }
-    while (!trim(line).empty()) {
+    while (!text::trim(line).empty()) {
         const std::size_t end = find_outside_quotes(line, separator);
-        columns.push_back(unquoted(trim(line.substr(0, end))));
+        columns.push_back(unquoted(text::trim(line.substr(0, end))));
         line.remove_prefix(end == std::string_view::npos ? line.size() : end + 1);
     }
 }
@@ -146,7 +139,7 @@ std::optional<std::vector<std::size_t>> ColumnChoice::resolve(const std::vector<
     std::vector<std::size_t> columns;
     for (const std::string& wanted : options_.columns) {
         std::size_t number = 0;
-        if (parse_count(wanted, number)) {
+        if (text::parse_count(wanted, number)) {
             if (number == 0) throw IoError("io.columns", file_, "", "column 0 is chosen", "count columns from 1");
             columns.push_back(number - 1);
         } else if (const auto found = find_name(header, wanted)) {
@@ -163,7 +156,7 @@ void ColumnChoice::take(const std::vector<std::size_t>& columns) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
         const auto end = columns.begin() + static_cast<std::ptrdiff_t>(i);
         if (std::find(columns.begin(), end, columns[i]) != end)
-            throw IoError("io.columns", file_, "", "column " + in_quotes(options_.columns[i]) + " is chosen twice",
+            throw IoError("io.columns", file_, "", "column " + text::in_quotes(options_.columns[i]) + " is chosen twice",
                           "choose a different column for each coordinate and colour");
     }
     std::copy_n(columns.begin(), 3, coordinates_.begin());
@@ -197,7 +190,7 @@ void ColumnChoice::require_names(const std::vector<std::string>& header, std::si
     if (chosen() ? !wants_names_ || knows(header) : knows(header) || find_usual(header).has_value()) return;
     double value = 0.0;
     const bool numbers = std::any_of(header.begin(), header.end(), [&](const std::string& word) {
-        return parse_number(word, value) == Number::ok;
+        return text::parse_number(word, value) == text::Number::ok;
     });
     if (!chosen()) {
         throw IoError("io.columns", file_, std::to_string(line),
@@ -207,7 +200,7 @@ void ColumnChoice::require_names(const std::vector<std::string>& header, std::si
     }
     std::string missing;
     resolve(header, missing);
-    throw IoError("io.columns", file_, std::to_string(line), "no column has the name " + in_quotes(missing),
+    throw IoError("io.columns", file_, std::to_string(line), "no column has the name " + text::in_quotes(missing),
                   numbers ? "the file seems to have no header; choose columns by their numbers from 1"
                           : "choose of " + listed(header) + " or a number from 1");
 }

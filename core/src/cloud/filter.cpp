@@ -10,11 +10,11 @@
 #include <tuple>
 
 #include <dsc/cloud/search.hpp>
+#include <dsc/text/numbers.hpp>
 
 #include "filtering.hpp"
 #include "order.hpp"
 #include "pcl_filters.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
@@ -74,7 +74,7 @@ Filtered remove_duplicates(const Cloud& cloud, const DuplicatesOptions& options)
     const std::string filter = "duplicates";
     const Box3 box = checked_box(cloud, filter);
     require_option(options.tolerance >= 0.0 && options.tolerance <= 1.0, cloud, filter,
-                   "tolerance is " + short_number(options.tolerance) + "; it must lie in [0, 1]");
+                   "tolerance is " + text::rounded(options.tolerance) + "; it must lie in [0, 1]");
     if (!options.sort) return take(cloud, filter, first_of_each(cloud.points, options.tolerance * box.diagonal()));
     // The points are ordered before the first of each is chosen, so the choice does not depend on the order of the input.
     const std::vector<std::size_t> order = lexicographic_order(cloud);
@@ -95,7 +95,7 @@ Filtered remove_clusters(const Cloud& cloud, const ClustersOptions& options) {
     const std::string filter = "clusters";
     checked_box(cloud, filter);
     require_option(options.closer > 0.0 && options.closer < 1.0, cloud, filter,
-                   "closer is " + short_number(options.closer) + "; it must lie between 0 and 1");
+                   "closer is " + text::rounded(options.closer) + "; it must lie between 0 and 1");
     const double even = std::sqrt(std::acos(-1.0) / around);
     const NearestSearch search(cloud.points);
     std::vector<bool> keep(cloud.points.size(), true);
@@ -115,7 +115,7 @@ Filtered voxel_grid(const Cloud& cloud, const VoxelGridOptions& options) {
     const std::string filter = "voxel_grid";
     const Box3 box = checked_box(cloud, filter);
     require_option(options.size >= 1e-9 && options.size <= 1.0, cloud, filter,
-                   "size is " + short_number(options.size) + "; it must lie in [1e-9, 1]");
+                   "size is " + text::rounded(options.size) + "; it must lie in [1e-9, 1]");
     const double edge = options.size * box.diagonal();
     struct Entry {
         std::array<std::int64_t, 3> cell;
@@ -161,7 +161,7 @@ Filtered remove_statistical_outliers(const Cloud& cloud, const StatisticalOutlie
     require_option(options.neighbours >= 1 && options.neighbours <= 1000, cloud, filter,
                    "neighbours is " + std::to_string(options.neighbours) + "; it must lie in [1, 1000]");
     require_option(options.deviations >= 0.0 && std::isfinite(options.deviations), cloud, filter,
-                   "deviations is " + short_number(options.deviations) + "; it must be at least 0");
+                   "deviations is " + text::rounded(options.deviations) + "; it must be at least 0");
     // PCL reads beyond its buffer if a cloud has no more points than requested neighbours.
     const std::size_t neighbours = std::min(options.neighbours, cloud.points.size() - 1);
     if (neighbours == 0) return take(cloud, filter, std::vector<bool>(cloud.points.size(), true));
@@ -172,7 +172,7 @@ Filtered remove_radius_outliers(const Cloud& cloud, const RadiusOutliersOptions&
     const std::string filter = "radius_outliers";
     const Box3 box = checked_box(cloud, filter);
     require_option(options.radius > 0.0 && options.radius <= 1.0, cloud, filter,
-                   "radius is " + short_number(options.radius) + "; it must be above 0 and at most 1");
+                   "radius is " + text::rounded(options.radius) + "; it must be above 0 and at most 1");
     require_option(options.neighbours >= 1 && options.neighbours <= 1000, cloud, filter,
                    "neighbours is " + std::to_string(options.neighbours) + "; it must lie in [1, 1000]");
     return take(cloud, filter, radius_inliers(recentred(cloud, box), options.radius, options.neighbours));

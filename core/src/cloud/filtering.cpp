@@ -6,9 +6,9 @@
 #include <string>
 
 #include <dsc/base/error.hpp>
+#include <dsc/text/words.hpp>
 
 #include "checks.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
@@ -47,7 +47,7 @@ Cloud pick(const Cloud& cloud, std::span<const std::size_t> indices) {
     const std::size_t points = cloud.points.size();
     for (const std::size_t i : indices)
         if (i >= points)
-            throw std::out_of_range("point " + std::to_string(i) + " of a cloud of " + counted(points, "point"));
+            throw std::out_of_range("point " + std::to_string(i) + " of a cloud of " + text::counted(points, "point"));
     Cloud result;
     result.points = picked(cloud.points, points, indices);
     result.colours = picked(cloud.colours, points, indices);
@@ -64,7 +64,7 @@ Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<s
     if (kept.empty())
         throw GeometryError("cloud.filtered_out", named(cloud.source) + ": filter " + filter +
                                                       " removes all " +
-                                                      counted(cloud.points.size(), "point") +
+                                                      text::counted(cloud.points.size(), "point") +
                                                       "; relax its options or leave it out");
     Filtered result;
     result.cloud = pick(cloud, kept);

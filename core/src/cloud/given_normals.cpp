@@ -8,12 +8,12 @@
 #include <dsc/cloud/normalize.hpp>
 #include <dsc/cloud/search.hpp>
 #include <dsc/cloud/winding_field.hpp>
+#include <dsc/text/numbers.hpp>
 
 #include "checks.hpp"
 #include "normal_consistency.hpp"
 #include "one_sided.hpp"
 #include "orient_samples.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
@@ -42,7 +42,7 @@ double share_of(std::size_t part, std::size_t all) {
     return all == 0 ? 1.0 : static_cast<double>(part) / static_cast<double>(all);
 }
 
-std::string percent(double share) { return short_number(std::round(1000.0 * share) / 10.0) + " %"; }
+std::string percent(double share) { return text::rounded(std::round(1000.0 * share) / 10.0) + " %"; }
 
 /// Places where at most a quarter of the neighbours have a turned plane: not on creases, at corners or in thick noise.
 std::vector<std::uint8_t> flat_places(const ScaledSamples& samples) {
@@ -262,7 +262,7 @@ GivenOrientation orient_by_sensor(const Cloud& cloud, const OrientOptions& optio
     if (!stated && bounding_box(cloud.points).contains(at)) return out;
     const ScaledSamples samples = scaled_samples(cloud.points, workers);
     const Vec3 place = (at - samples.centre) / samples.diagonal;
-    const std::string viewpoint = "viewpoint " + short_number(at.x()) + " " + short_number(at.y()) + " " + short_number(at.z());
+    const std::string viewpoint = "viewpoint " + text::rounded(at.x()) + " " + text::rounded(at.y()) + " " + text::rounded(at.z());
     const auto refuse = [&](const std::string& why) {
         if (stated) out.note = "The " + viewpoint + " of the file is not used, because " + why + ".";
         return out;

@@ -8,9 +8,9 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/cloud/target.hpp>
+#include <dsc/text/numbers.hpp>
 
 #include "filtering.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
@@ -149,11 +149,11 @@ Filtered remove_hidden(const Cloud& cloud, const HiddenOptions& options, const C
     require_option(options.views >= 1 && options.views <= 10000, cloud, filter,
                    "views is " + std::to_string(options.views) + "; it must lie in [1, 10000]");
     require_option(options.radius > 0.0 && options.radius <= 10.0, cloud, filter,
-                   "radius is " + short_number(options.radius) + "; it must be above 0 and at most 10");
+                   "radius is " + text::rounded(options.radius) + "; it must be above 0 and at most 10");
     require_option(options.depth > 0.0 && options.depth <= 10.0, cloud, filter,
-                   "depth is " + short_number(options.depth) + "; it must be above 0 and at most 10");
+                   "depth is " + text::rounded(options.depth) + "; it must be above 0 and at most 10");
     require_option(options.share >= 0.0 && options.share < 1.0, cloud, filter,
-                   "share is " + short_number(options.share) + "; it must be at least 0 and below 1");
+                   "share is " + text::rounded(options.share) + "; it must be at least 0 and below 1");
     const std::vector<std::size_t> counts = count_views(discs_of(cloud, box.centre(), options), options.views, cancel);
     const double bound = options.share * static_cast<double>(options.views);
     std::vector<bool> keep(counts.size());

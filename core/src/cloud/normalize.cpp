@@ -8,9 +8,10 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/predicates.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/words.hpp>
 
 #include "checks.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
@@ -34,7 +35,7 @@ std::size_t largest(std::span<const Vec3> points, const Measure& measure) {
 std::string interval(const Box3& box) {
     std::string text;
     for (int k = 0; k < 3; ++k)
-        text += (k ? " x [" : "[") + short_number(box.low[k]) + ", " + short_number(box.high[k]) + "]";
+        text += (k ? " x [" : "[") + text::rounded(box.low[k]) + ", " + text::rounded(box.high[k]) + "]";
     return text;
 }
 
@@ -60,14 +61,14 @@ Box3 require_finite(std::span<const Vec3> points, std::string_view name) {
 void require_volume(std::span<const Vec3> points, std::string_view name) {
     const std::string who = named(name);
     if (points.size() < 4)
-        throw GeometryError("cloud.few", who + ": the cloud has " + counted(points.size(), "point") + "; " +
+        throw GeometryError("cloud.few", who + ": the cloud has " + text::counted(points.size(), "point") + "; " +
                                              std::string(volume_remedy));
     const Box3 box = require_finite(points, name);
     const auto refuse = [&](const char* code, const char* what) {
         const Vec3 size = box.size();
         throw GeometryError(code, who + ": all " + std::to_string(points.size()) + " points " + what +
-                                      " (extent " + short_number(size.x()) + " x " + short_number(size.y()) +
-                                      " x " + short_number(size.z()) + "); " + std::string(volume_remedy));
+                                      " (extent " + text::rounded(size.x()) + " x " + text::rounded(size.y()) +
+                                      " x " + text::rounded(size.z()) + "); " + std::string(volume_remedy));
     };
     // Below 1e-100 the squares of differences underflow. Flat means: below the tolerance, or below the rounding of coordinates
     // far from the origin.
@@ -117,8 +118,8 @@ Normalized normalize(const Cloud& cloud, double scale_target) {
     const double most = simulation_box().high.x();
     if (!(scale_target > 0.0 && scale_target <= most))
         throw GeometryError("cloud.scale", named(cloud.source) + ": the normalisation scale is " +
-                                               short_number(scale_target) +
-                                               "; choose one above 0 and at most " + short_number(most) +
+                                               text::rounded(scale_target) +
+                                               "; choose one above 0 and at most " + text::rounded(most) +
                                                ", 0.9 by default");
     require_volume(cloud.points, cloud.source);
     const Box3 box = bounding_box(cloud.points);
@@ -141,7 +142,7 @@ Normalized keep_coordinates(const Cloud& cloud, const Box3& box) {
                              static_cast<std::size_t>(first - cloud.points.begin());
         throw GeometryError("cloud.outside_box",
                             named(cloud.source) + ": cloud outside the box: " + std::to_string(outside) +
-                                " of " + counted(cloud.points.size(), "point") + ", the first is point " +
+                                " of " + text::counted(cloud.points.size(), "point") + ", the first is point " +
                                 std::to_string(first - cloud.points.begin()) + "; the cloud spans " +
                                 interval(bounding_box(cloud.points)) + ", the box is " + interval(box) +
                                 "; normalise the cloud (normalize: {scale: 0.9}) or scale it into the box");

@@ -9,6 +9,7 @@
 #include <dsc/cloud/normalize.hpp>
 #include <dsc/cloud/statistics.hpp>
 #include <dsc/cloud/winding_field.hpp>
+#include <dsc/text/words.hpp>
 
 #include "cells.hpp"
 #include "checks.hpp"
@@ -16,7 +17,6 @@
 #include "one_sided.hpp"
 #include "orient_samples.hpp"
 #include "samples.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
@@ -281,8 +281,8 @@ OrientedPoints orient_by_normals(std::span<const Vec3> points, std::span<const V
                                  const CancelToken* cancel, std::string_view name) {
     require_volume(points, name);
     if (normals.size() != points.size())
-        throw GeometryError("cloud.normals", named(name) + ": there are " + counted(normals.size(), "normal") + " for " +
-                                                 counted(points.size(), "point") + "; let the filter orient estimate them");
+        throw GeometryError("cloud.normals", named(name) + ": there are " + text::counted(normals.size(), "normal") + " for " +
+                                                 text::counted(points.size(), "point") + "; let the filter orient estimate them");
     std::vector<Vec3> unit(normals.size());
     for (std::size_t i = 0; i < normals.size(); ++i) {
         const bool already = std::abs(normals[i].squaredNorm() - 1.0) < unit_tolerance;  // then every bit is kept

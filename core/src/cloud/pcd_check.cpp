@@ -7,10 +7,11 @@
 #include <vector>
 
 #include <dsc/base/error.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/words.hpp>
 
 #include "formats.hpp"
 #include "header.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
@@ -66,10 +67,10 @@ public:
         while (next_header_line(rest_, line)) {
             ++line_;
             std::string_view rest = line;
-            const std::string_view key = next_word(rest);
+            const std::string_view key = text::next_word(rest);
             if (key.empty() || key.front() == '#') continue;
             std::vector<std::string_view> values;
-            for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest))
+            for (std::string_view word = text::next_word(rest); !word.empty(); word = text::next_word(rest))
                 values.push_back(word);
             entry(key, values);
             if (key == "DATA") {
@@ -86,8 +87,8 @@ private:
 
     std::size_t count(std::string_view word, std::size_t most) const {
         std::size_t value = 0;
-        if (!parse_count(word, value) || value > most)
-            fail(in_quotes(word) + " is not a count between 0 and " + std::to_string(most));
+        if (!text::parse_count(word, value) || value > most)
+            fail(text::in_quotes(word) + " is not a count between 0 and " + std::to_string(most));
         return value;
     }
 
@@ -97,9 +98,9 @@ private:
             "VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
         const std::string_view name = key == "COLUMNS" ? "FIELDS" : key;
         const auto place = std::find(order.begin(), order.end(), name);
-        if (place == order.end()) fail(in_quotes(key) + " is not an entry of a PCD header");
+        if (place == order.end()) fail(text::in_quotes(key) + " is not an entry of a PCD header");
         const auto rank = place - order.begin() + 1;
-        if (rank <= rank_) fail(in_quotes(key) + " occurs twice or in the wrong order");
+        if (rank <= rank_) fail(text::in_quotes(key) + " occurs twice or in the wrong order");
         rank_ = rank;
 
         if (name == "FIELDS") {
@@ -107,16 +108,16 @@ private:
             if (values.empty()) fail("FIELDS names no field");
         } else if (name == "SIZE" || name == "TYPE" || name == "COUNT") {
             if (values.size() != header_.fields.size())
-                fail(std::string(name) + " has " + counted(values.size(), "value") + ", FIELDS has " +
+                fail(std::string(name) + " has " + text::counted(values.size(), "value") + ", FIELDS has " +
                      std::to_string(header_.fields.size()));
             for (std::size_t i = 0; i < values.size(); ++i) column(header_.fields[i], name, values[i]);
             seen_ += name == "COUNT" ? 0 : 1;
         } else if (name == "VIEWPOINT") {
-            if (values.size() != 7) fail("VIEWPOINT has " + counted(values.size(), "value") + ", it needs 7");
+            if (values.size() != 7) fail("VIEWPOINT has " + text::counted(values.size(), "value") + ", it needs 7");
             viewpoint(values);
         } else if (name != "VERSION") {
             if (values.size() != 1)
-                fail(std::string(name) + " has " + counted(values.size(), "value") + ", it needs 1");
+                fail(std::string(name) + " has " + text::counted(values.size(), "value") + ", it needs 1");
             if (name == "WIDTH") width_ = count(values[0], most_points);
             if (name == "HEIGHT") height_ = count(values[0], most_points);
             if (name == "POINTS") header_.points = count(values[0], most_points);
@@ -131,7 +132,7 @@ private:
     void viewpoint(const std::vector<std::string_view>& values) {
         Vec3 place;
         for (int k = 0; k < 3; ++k)
-            if (parse_number(values[static_cast<std::size_t>(k)], place[k]) != Number::ok) return;
+            if (text::parse_number(values[static_cast<std::size_t>(k)], place[k]) != text::Number::ok) return;
         header_.sensor = Sensor{place, !place.isZero(0.0)};
     }
 
@@ -139,17 +140,17 @@ private:
         if (name == "SIZE") {
             field.size = count(value, 8);
             if (field.size != 1 && field.size != 2 && field.size != 4 && field.size != 8)
-                fail("field " + in_quotes(field.name) + " has size " + std::string(value) +
+                fail("field " + text::in_quotes(field.name) + " has size " + std::string(value) +
                      "; supported are 1, 2, 4 and 8");
         } else if (name == "TYPE") {
             field.type = value.front();
             if (value.size() != 1 || std::string_view("FIU").find(field.type) == std::string_view::npos ||
                 (field.type == 'F' && field.size < 4))
-                fail("field " + in_quotes(field.name) + " has the unknown type " + in_quotes(value) + " of " +
-                     counted(field.size, "byte"));
+                fail("field " + text::in_quotes(field.name) + " has the unknown type " + text::in_quotes(value) + " of " +
+                     text::counted(field.size, "byte"));
         } else {
             field.count = count(value, 100000);
-            if (field.count == 0) fail("field " + in_quotes(field.name) + " has count 0");
+            if (field.count == 0) fail("field " + text::in_quotes(field.name) + " has count 0");
         }
     }
 
@@ -163,7 +164,7 @@ private:
             const auto named = [&](const Field& field) { return field.name == axis; };
             const auto found = std::find_if(header_.fields.begin(), header_.fields.end(), named);
             if (std::count_if(header_.fields.begin(), header_.fields.end(), named) != 1 || found->count != 1)
-                fail("a point needs the fields x, y and z exactly once; " + in_quotes(axis) + " does not occur exactly once");
+                fail("a point needs the fields x, y and z exactly once; " + text::in_quotes(axis) + " does not occur exactly once");
         }
         // In a depth image the scanner's own position is the origin; elsewhere 0 0 0 is the default that programs write.
         if (header_.sensor && has_height_ && height_ > 1) header_.sensor->stated = true;
@@ -195,23 +196,23 @@ void check_ascii_rows(const std::string& file, const PcdHeader& header) {
         if (line.back() == '\r') line.remove_suffix(1);
         std::size_t column = 0;
         std::size_t field = 0, left = header.fields[0].count;
-        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line), ++column) {
+        for (std::string_view word = text::next_word(line); !word.empty(); word = text::next_word(line), ++column) {
             if (column >= columns) break;
             double value = 0.0;
             const std::string_view name = header.fields[field].name;
             if ((name == "x" || name == "y" || name == "z") &&
-                parse_number(word, value) == Number::not_a_number)
+                text::parse_number(word, value) == text::Number::not_a_number)
                 not_a_number(file, number, word, "write its true coordinate");
             if (--left == 0 && ++field < header.fields.size()) left = header.fields[field].count;
         }
         if (column < columns)
             throw IoError("io.truncated", file, std::to_string(number),
-                          "the point has " + counted(column, "value") + ", the header requires " +
+                          "the point has " + text::counted(column, "value") + ", the header requires " +
                               std::to_string(columns),
                           "the file may be cut off, write it again");
         ++points;
     }
-    if (points < header.points) truncated(file, counted(header.points, "point"), points);
+    if (points < header.points) truncated(file, text::counted(header.points, "point"), points);
 }
 
 void check_compressed(const std::string& file, const PcdHeader& header) {
@@ -220,7 +221,7 @@ void check_compressed(const std::string& file, const PcdHeader& header) {
             header_error(file, header.lines, "a padding field '_' in compressed data cannot be read");
     std::array<std::uint32_t, 2> sizes{};  // compressed, uncompressed
     const std::size_t wanted = header.points * header.step();
-    if (header.body.size() < sizeof sizes) truncated(file, counted(header.points, "point"), 0);
+    if (header.body.size() < sizeof sizes) truncated(file, text::counted(header.points, "point"), 0);
     std::memcpy(sizes.data(), header.body.data(), sizeof sizes);
     if (header.body.size() - sizeof sizes < sizes[0])
         throw IoError("io.truncated", file, "",
@@ -231,7 +232,7 @@ void check_compressed(const std::string& file, const PcdHeader& header) {
     if (sizes[1] != wanted || wanted / 100 > sizes[0])
         throw IoError("io.syntax", file, "",
                       "the compressed data claim to have " + std::to_string(sizes[1]) +
-                          " bytes, the header's " + counted(header.points, "point") + " need " +
+                          " bytes, the header's " + text::counted(header.points, "point") + " need " +
                           std::to_string(wanted),
                       "the file is damaged, write it again");
 }
@@ -245,12 +246,12 @@ FileCheck check_pcd(const std::string& file, std::string_view bytes) {
         check_ascii_rows(file, header);
     } else if (header.data == "binary") {
         const std::size_t held = header.body.size() / header.step();
-        if (held < header.points) truncated(file, counted(header.points, "point"), held);
+        if (held < header.points) truncated(file, text::counted(header.points, "point"), held);
     } else if (header.data == "binary_compressed") {
         check_compressed(file, header);
     } else {
         header_error(file, header.lines,
-                     in_quotes(header.data) +
+                     text::in_quotes(header.data) +
                          " is not a kind of PCD data; supported are ascii, binary and binary_compressed");
     }
     FileCheck check{header.points};

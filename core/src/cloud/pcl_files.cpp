@@ -17,10 +17,10 @@
 #include <pcl/io/ply_io.h>
 
 #include <dsc/base/error.hpp>
+#include <dsc/text/words.hpp>
 
 #include "attributes.hpp"
 #include "formats.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
@@ -149,7 +149,7 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
         get[k] = getter(field->datatype);
         if (!get[k])
             throw IoError("io.format", file, "",
-                          "field " + in_quotes(field->name) + " has a type that is not supported",
+                          "field " + text::in_quotes(field->name) + " has a type that is not supported",
                           "save the coordinates as float or double");
         data[k] = blob.data.data() + field->offset;
     }
@@ -169,7 +169,7 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
     report.dropped_non_finite = check.points - cloud.points.size();
     if (cloud.points.empty())
         throw IoError("io.non_finite", file, "",
-                      "all " + counted(check.points, "point") + " have NaN or infinite coordinates",
+                      "all " + text::counted(check.points, "point") + " have NaN or infinite coordinates",
                       "save a cloud with finite coordinates");
     return cloud;
 }

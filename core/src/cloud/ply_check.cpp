@@ -4,10 +4,11 @@
 #include <vector>
 
 #include <dsc/base/error.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/words.hpp>
 
 #include "formats.hpp"
 #include "header.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
@@ -63,7 +64,7 @@ public:
         while (next_header_line(rest_, line)) {
             ++line_;
             std::string_view rest = line;
-            const std::string_view key = next_word(rest);
+            const std::string_view key = text::next_word(rest);
             if (key == "comment") continue;
             if (key == "end_header") {
                 if (!format) fail("the header has no line 'format'");
@@ -79,11 +80,11 @@ public:
             } else if (key == "property") {
                 read_property(rest);
             } else if (key == "obj_info") {
-                const std::string_view what = next_word(rest);
+                const std::string_view what = text::next_word(rest);
                 if (what == "num_cols" || what == "num_rows")
                     header_.grid_comments.push_back(static_cast<std::size_t>(line.data() - begin_) + line.find(key));
             } else {
-                fail(in_quotes(key) + " is not an entry of a PLY header");
+                fail(text::in_quotes(key) + " is not an entry of a PLY header");
             }
         }
         throw IoError("io.truncated", file_, "", "the PLY header has no line 'end_header'",
@@ -101,7 +102,7 @@ private:
     }
 
     void read_format(std::string_view rest) {
-        const std::string_view name = next_word(rest);
+        const std::string_view name = text::next_word(rest);
         if (name == "ascii")
             header_.format = Format::ascii;
         else if (name == "binary_little_endian")
@@ -109,44 +110,44 @@ private:
         else if (name == "binary_big_endian")
             header_.format = Format::big;
         else
-            fail(in_quotes(name) +
+            fail(text::in_quotes(name) +
                  " is not a PLY format; supported are ascii, binary_little_endian and binary_big_endian");
     }
 
     void read_element(std::string_view rest) {
         Element element;
-        element.name = next_word(rest);
-        const std::string_view count = next_word(rest);
+        element.name = text::next_word(rest);
+        const std::string_view count = text::next_word(rest);
         if (element.name == "range_grid") grid();
-        if (!parse_count(count, element.count) || element.count > most_points)
-            fail(in_quotes(count) + " is not a count between 0 and " + std::to_string(most_points));
+        if (!text::parse_count(count, element.count) || element.count > most_points)
+            fail(text::in_quotes(count) + " is not a count between 0 and " + std::to_string(most_points));
         for (const Element& other : header_.elements)
-            if (other.name == element.name) fail("element " + in_quotes(element.name) + " occurs twice");
+            if (other.name == element.name) fail("element " + text::in_quotes(element.name) + " occurs twice");
         header_.elements.push_back(element);
     }
 
     std::string_view read_type(std::string_view word) const {
         for (const Type& type : types)
             if (word == type.name || word == type.alias) return type.name;
-        fail(in_quotes(word) + " is not a PLY type");
+        fail(text::in_quotes(word) + " is not a PLY type");
     }
 
     void read_property(std::string_view rest) {
         if (header_.elements.empty()) fail("a property comes before the first element");
         Element& element = header_.elements.back();
         Property property;
-        std::string_view word = next_word(rest);
+        std::string_view word = text::next_word(rest);
         if (word == "list") {
-            property.count_type = read_type(next_word(rest));
+            property.count_type = read_type(text::next_word(rest));
             if (property.count_type.substr(0, 5) == "float")
                 fail("the length of a list is not an integer");
-            word = next_word(rest);
+            word = text::next_word(rest);
         }
         property.type = read_type(word);
-        property.name = next_word(rest);
+        property.name = text::next_word(rest);
         if (property.name.empty()) fail("a property has no name");
         for (const Property& other : element.properties)
-            if (other.name == property.name) fail("property " + in_quotes(property.name) + " occurs twice");
+            if (other.name == property.name) fail("property " + text::in_quotes(property.name) + " occurs twice");
         element.properties.push_back(property);
     }
 
@@ -166,7 +167,7 @@ void check_vertex(const std::string& file, const Element& vertex) {
     std::vector<std::size_t> bytes;  // positions of red, green, blue; their order is checked by name
     for (std::size_t i = 0; i < vertex.properties.size(); ++i) {
         const Property& p = vertex.properties[i];
-        if (!p.count_type.empty()) refuse("the points have a list, " + in_quotes(p.name));
+        if (!p.count_type.empty()) refuse("the points have a list, " + text::in_quotes(p.name));
         if (p.name == "x" || p.name == "y" || p.name == "z") ++axes;
         if (p.type != "uint8") continue;
         std::string_view colour = p.name;
@@ -188,8 +189,8 @@ void check_vertex(const std::string& file, const Element& vertex) {
 
 [[noreturn]] void cut(const std::string& file, const Element& element, std::size_t held) {
     truncated(file,
-              element.name == "vertex" ? counted(element.count, "point")
-                                       : std::to_string(element.count) + " of " + in_quotes(element.name),
+              element.name == "vertex" ? text::counted(element.count, "point")
+                                       : std::to_string(element.count) + " of " + text::in_quotes(element.name),
               held);
 }
 
@@ -235,28 +236,28 @@ void check_binary(const std::string& file, const PlyHeader& header) {
 
 void check_line(const std::string& file, std::size_t number, const Element& element, std::string_view line) {
     const auto value = [&](std::string_view what) {
-        const std::string_view word = next_word(line);
+        const std::string_view word = text::next_word(line);
         double ignored = 0.0;
         if (word.empty())
             throw IoError(
                 "io.truncated", file, std::to_string(number),
-                "the line ends before " + in_quotes(what) + " of element " + in_quotes(element.name),
+                "the line ends before " + text::in_quotes(what) + " of element " + text::in_quotes(element.name),
                 "the file may be cut off, write it again");
-        if (parse_number(word, ignored) == Number::not_a_number) not_a_number(file, number, word, "save the cloud again");
+        if (text::parse_number(word, ignored) == text::Number::not_a_number) not_a_number(file, number, word, "save the cloud again");
         return word;
     };
     for (const Property& p : element.properties) {
         std::size_t count = 1;
         if (!p.count_type.empty()) {
             const std::string_view word = value(p.name);
-            if (!parse_count(word, count))
-                header_error(file, number, in_quotes(word) + " is not the length of a list");
+            if (!text::parse_count(word, count))
+                header_error(file, number, text::in_quotes(word) + " is not the length of a list");
         }
         for (std::size_t i = 0; i < count; ++i) value(p.name);  // ends with the line at the latest
     }
-    if (!trim(line).empty())
+    if (!text::trim(line).empty())
         header_error(file, number,
-                     "the line has more values than element " + in_quotes(element.name) + " has properties");
+                     "the line has more values than element " + text::in_quotes(element.name) + " has properties");
 }
 
 void check_ascii_body(const std::string& file, const PlyHeader& header) {
@@ -283,7 +284,7 @@ FileCheck check_ply(const std::string& file, std::string_view bytes) {
     check_vertex(file, *vertex);
     for (const Element& element : header.elements)
         if (element.properties.empty() && element.count > 0)
-            throw IoError("io.syntax", file, "", "element " + in_quotes(element.name) + " has no properties",
+            throw IoError("io.syntax", file, "", "element " + text::in_quotes(element.name) + " has no properties",
                           "save the cloud again");
     if (header.format == Format::ascii)
         check_ascii_body(file, header);

@@ -2,29 +2,21 @@
 #include <dsc/cloud/read.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <vector>
 
 #include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
+#include <dsc/text/words.hpp>
 
 #include "attributes.hpp"
 #include "formats.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
 namespace {
 
 constexpr std::string_view readable = ".pcd .ply .obj .xyz .txt .asc .pts .csv";
-
-std::string lower_extension(const std::filesystem::path& path) {
-    std::string text = path.extension().string();
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& extension) {
     const std::string file = path.string();
@@ -38,7 +30,7 @@ std::string lower_extension(const std::filesystem::path& path) {
                           ".ply, or save it as PLY with CloudCompare");
     throw IoError("io.format", file, "",
                   extension.empty() ? "the file's name has no extension"
-                                    : in_quotes(extension) + " is not a supported cloud format",
+                                    : text::in_quotes(extension) + " is not a supported cloud format",
                   "accepted are " + std::string(readable));
 }
 
@@ -54,13 +46,13 @@ void require_columns(const std::string& file, bool table, const ReadOptions& opt
         throw IoError("io.columns", file, "", "columns can be chosen only for text clouds",
                       "remove the choice of columns, or convert the cloud to .csv");
     if (count != 3 && count != 6)
-        throw IoError("io.columns", file, "", counted(count, "column") + " chosen",
+        throw IoError("io.columns", file, "", text::counted(count, "column") + " chosen",
                       "choose 3 (x, y, z) or 6 (x, y, z, red, green, blue)");
 }
 
 /// The extension, in lower case.
 std::string require_cloud_file(const std::filesystem::path& path, const ReadOptions& options) {
-    std::string extension = lower_extension(path);
+    std::string extension = text::lower_case_extension(path);
     if (extension != ".pcd" && extension != ".ply" && extension != ".obj" && !is_table(extension)) refuse(path, extension);
     require_columns(path.string(), is_table(extension), options);
     return extension;
@@ -76,7 +68,7 @@ void require_text(const std::string& file, std::string_view bytes) {
 std::string_view cloud_extensions() { return readable; }
 
 bool is_cloud_file(const std::filesystem::path& path) {
-    const std::string extension = lower_extension(path);
+    const std::string extension = text::lower_case_extension(path);
     return extension == ".obj" || extension == ".ply" || extension == ".pcd" || is_table(extension);
 }
 

@@ -7,22 +7,25 @@
 
 #include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/words.hpp>
 
 #include "attributes.hpp"
 #include "formats.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
 double coordinate(const std::string& file, std::size_t line, std::string_view word) {
     double value = 0.0;
-    switch (parse_number(word, value)) {
-        case Number::ok:
+    switch (text::parse_number(word, value)) {
+        case text::Number::ok:
             return value;
-        case Number::not_finite:
-            throw IoError("io.non_finite", file, std::to_string(line), in_quotes(word) + " is not a finite number",
+        case text::Number::not_finite:
+        case text::Number::too_large:
+            throw IoError("io.non_finite", file, std::to_string(line), text::in_quotes(word) + " is not a finite number",
                           "remove the point or write its true coordinates");
-        case Number::not_a_number:
+        case text::Number::not_a_number:
             break;
     }
     not_a_number(file, line, word, "a point needs three numbers");
@@ -30,7 +33,7 @@ double coordinate(const std::string& file, std::size_t line, std::string_view wo
 
 void not_a_number(const std::string& file, std::size_t line, std::string_view word, std::string_view remedy) {
     const bool comma = word.find(',') != std::string_view::npos;
-    throw IoError("io.syntax", file, std::to_string(line), in_quotes(word) + " is not a number",
+    throw IoError("io.syntax", file, std::to_string(line), text::in_quotes(word) + " is not a number",
                   comma ? decimal_comma_remedy : remedy);
 }
 
@@ -56,9 +59,9 @@ public:
     void add(const std::string& file, std::size_t line, std::string_view rest) {
         Vec3 normal = Vec3::Zero();
         for (int k = 0; k < 3; ++k) {
-            const std::string_view word = next_word(rest);
+            const std::string_view word = text::next_word(rest);
             if (word.empty()) throw_short(file, line);
-            if (parse_number(word, normal[k]) == Number::not_a_number) coordinate(file, line, word);
+            if (text::parse_number(word, normal[k]) == text::Number::not_a_number) coordinate(file, line, word);
         }
         normals_.push_back(direction_of(normal));
     }
@@ -66,7 +69,7 @@ public:
     /// The corners of a face that name a point and a normal: "7//3", "7/1/3"; negative numbers count backwards from the last.
     /// Anything else is ignored, because faces are not needed for a cloud.
     void add_corners(std::string_view rest, std::size_t points) {
-        for (std::string_view word = next_word(rest); !word.empty() && word.front() != '#'; word = next_word(rest)) {
+        for (std::string_view word = text::next_word(rest); !word.empty() && word.front() != '#'; word = text::next_word(rest)) {
             const std::size_t first = word.find('/');
             const std::size_t last = word.rfind('/');
             if (first == std::string_view::npos || first == last) continue;
@@ -100,7 +103,7 @@ private:
         const bool backwards = !word.empty() && word.front() == '-';
         if (backwards) word.remove_prefix(1);
         std::size_t index = 0;
-        if (!parse_count(word, index) || index == 0 || (backwards && index > count)) return std::nullopt;
+        if (!text::parse_count(word, index) || index == 0 || (backwards && index > count)) return std::nullopt;
         return backwards ? count - index : index - 1;
     }
 
@@ -115,17 +118,17 @@ Cloud read_obj(const std::string& file, std::string_view text, std::vector<std::
     std::vector<Vec3> colours;
     std::size_t previous = 0;  // number of values in the previous v line
     ObjNormals normals;
-    Lines lines(text);
+    text::Lines lines(text);
     for (std::string_view line; lines.next(line);) {
         std::string_view rest = line;
-        const std::string_view keyword = next_word(rest);
+        const std::string_view keyword = text::next_word(rest);
         if (keyword == "vn") normals.add(file, lines.number(), rest);
         if (keyword == "f" && normals.any()) normals.add_corners(rest, cloud.points.size());
         if (keyword != "v") continue;
         std::array<double, 6> values{};
         std::size_t count = 0;
-        for (std::string_view word = next_word(rest); !word.empty() && word.front() != '#';
-             word = next_word(rest)) {
+        for (std::string_view word = text::next_word(rest); !word.empty() && word.front() != '#';
+             word = text::next_word(rest)) {
             const double value = coordinate(file, lines.number(), word);
             if (count < values.size()) values[count] = value;
             ++count;
@@ -134,7 +137,7 @@ Cloud read_obj(const std::string& file, std::string_view text, std::vector<std::
         if (count < 3 || count == 5 || cut)
             throw IoError(
                 "io.syntax", file, std::to_string(lines.number()),
-                "the vertex has " + counted(count, "number") +
+                "the vertex has " + text::counted(count, "number") +
                     (cut && count >= 3 ? ", the previous one has more" : ""),
                 "a 'v' line is 'v x y z' or 'v x y z r g b'; the file may be cut off, write it again");
         cloud.points.emplace_back(values[0], values[1], values[2]);

@@ -6,11 +6,13 @@
 
 #include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/words.hpp>
 
 #include "attributes.hpp"
 #include "columns.hpp"
 #include "formats.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
@@ -31,7 +33,7 @@ public:
 
     Cloud read() {
         for (std::string_view whole; lines_.next(whole);) {
-            const std::string_view line = trim(whole);
+            const std::string_view line = text::trim(whole);
             if (line.empty()) continue;
             if (const std::size_t mark = comment_mark(line); mark > 0) {
                 comment(line.substr(mark));
@@ -100,12 +102,12 @@ private:
         if (line.find(',') == std::string_view::npos || line.find_first_of(";\"") != std::string_view::npos) return;
         std::string_view rest = line, decimal;
         for (int k = 0; k < 3; ++k) {
-            std::string_view word = next_word(rest);
+            std::string_view word = text::next_word(rest);
             if (!word.empty() && word.back() == ',') word.remove_suffix(1);
             double value = 0.0;
-            if (has_decimal_comma(word)) {
+            if (text::has_decimal_comma(word)) {
                 if (decimal.empty()) decimal = word;
-            } else if (parse_number(word, value) != Number::ok) {
+            } else if (text::parse_number(word, value) != text::Number::ok) {
                 constexpr std::size_t looked_at = 1000;
                 return cloud_.points.size() < looked_at ? refuse_split_decimals(line) : void();
             }
@@ -135,7 +137,7 @@ private:
     /// The names of the columns may be in a comment above the points.
     void comment(std::string_view text) {
         if (!cloud_.points.empty()) return;
-        text = trim(text);
+        text = text::trim(text);
         split_columns(text, separator_of(text, choice_.chosen()), words_);
         if (choice_.knows(words_)) comment_ = words_;
     }
@@ -153,7 +155,7 @@ private:
         }
         const bool unfit = !header_.empty() && !choice_.chosen() && header_.size() != words_.size();
         if (choice_.wants_names() || unfit)
-            syntax("the header has " + counted(header_.size(), "column") + ", the line " + std::to_string(words_.size()),
+            syntax("the header has " + text::counted(header_.size(), "column") + ", the line " + std::to_string(words_.size()),
                    words_.size() == 2 * header_.size() ? decimal_comma_remedy : "choose columns by their numbers from 1");
         return false;
     }
@@ -177,7 +179,7 @@ private:
         std::size_t count = 0;
         const bool block_full =
             cloud_.points.empty() || (block_.any && cloud_.points.size() - block_.first == block_.count);
-        if (words_.size() != 1 || !block_full || !parse_count(line, count)) return false;
+        if (words_.size() != 1 || !block_full || !text::parse_count(line, count)) return false;
         check_announced();
         block_ = {true, lines_.number(), count, cloud_.points.size()};
         separator_.reset();
@@ -188,7 +190,7 @@ private:
         const std::size_t got = cloud_.points.size() - block_.first;
         if (!block_.any || got == block_.count) return;
         throw IoError(got < block_.count ? "io.truncated" : "io.syntax", file_, std::to_string(block_.line),
-                      "the count line announces " + counted(block_.count, "point") + ", the file has " +
+                      "the count line announces " + text::counted(block_.count, "point") + ", the file has " +
                           std::to_string(got),
                       got < block_.count ? "the file is cut off, write it again" : "correct the count");
     }
@@ -201,7 +203,7 @@ private:
         if (choice_.wants_names()) return true;  // the names must exist
         double value = 0.0;
         const std::string_view first = word(choice_.coordinates()[0]);
-        return parse_number(first, value) == Number::not_a_number && !has_decimal_comma(first);
+        return text::parse_number(first, value) == text::Number::not_a_number && !text::has_decimal_comma(first);
     }
 
     void point() {
@@ -209,7 +211,7 @@ private:
         const bool cut = !lines_.terminated() && words_.size() < previous_;
         const std::size_t last = *std::max_element(columns.begin(), columns.end());
         if (words_.size() <= last || cut)
-            syntax("the line has " + counted(words_.size(), "column") +
+            syntax("the line has " + text::counted(words_.size(), "column") +
                        (words_.size() <= last ? choice_.of_needed(last) : ", the previous one has more"),
                    "a point needs x, y and z, separated by blanks, commas or semicolons; the file may be cut off");
         Vec3 point;
@@ -234,12 +236,12 @@ private:
         Vec3 colour;
         for (int k = 0; k < 3; ++k) {
             const std::string_view text = word(columns[static_cast<std::size_t>(k)]);
-            if (parse_number(text, colour[k]) == Number::ok && colour[k] >= 0.0) {
+            if (text::parse_number(text, colour[k]) == text::Number::ok && colour[k] >= 0.0) {
                 whole_ = whole_ && text.find_first_not_of("+0123456789") == std::string_view::npos;
                 continue;
             }
             if (choice_.chosen())
-                syntax("colour " + in_quotes(text) + " is not a number of at least 0",
+                syntax("colour " + text::in_quotes(text) + " is not a number of at least 0",
                        "choose three columns of coordinates only, or correct the line");
             return;
         }
@@ -251,13 +253,13 @@ private:
         Vec3 normal = Vec3::Zero();
         bool whole = true;
         for (int k = 0; k < 3; ++k)
-            whole = parse_number(word(columns[static_cast<std::size_t>(k)]), normal[k]) == Number::ok && whole;
+            whole = text::parse_number(word(columns[static_cast<std::size_t>(k)]), normal[k]) == text::Number::ok && whole;
         cloud_.normals.push_back(whole ? direction_of(normal) : Vec3(Vec3::Zero()));
     }
 
     void named_intensity(std::size_t column) {
         double value = 0.0;
-        if (parse_number(word(column), value) == Number::ok) intensities_.push_back(value);
+        if (text::parse_number(word(column), value) == text::Number::ok) intensities_.push_back(value);
     }
 
     /// Without names: columns 4 to 6 of six, and 7 to 9 of nine.
@@ -270,8 +272,8 @@ private:
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::string& text = words_[3 * triple + 3 + k];
                 std::size_t count = 0;
-                bytes = bytes && parse_count(text, count) && count <= 255;
-                if (parse_number(text, values[static_cast<int>(k)]) != Number::ok) values = Vec3::Constant(infinite);
+                bytes = bytes && text::parse_count(text, count) && count <= 255;
+                if (text::parse_number(text, values[static_cast<int>(k)]) != text::Number::ok) values = Vec3::Constant(infinite);
             }
             guess.bytes += bytes ? 1U : 0U;
             guess.units += looks_like_unit(values) ? 1U : 0U;
@@ -298,7 +300,7 @@ private:
     static constexpr double infinite = std::numeric_limits<double>::infinity();
 
     const std::string& file_;
-    Lines lines_;
+    text::Lines lines_;
     ColumnChoice choice_;
     Cloud cloud_;
     Announced block_;

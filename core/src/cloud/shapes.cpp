@@ -3,10 +3,11 @@
 #include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/cloud/shapes.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/words.hpp>
 #include <string>
 
 #include "surfaces.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
@@ -31,12 +32,12 @@ std::unique_ptr<Shape> make_shape(std::string_view name) {
         if (shape.name == name) return shape.make();
     std::string accepted;
     for (const std::string_view known : names) accepted.append(accepted.empty() ? "" : ", ").append(known);
-    throw UsageError("shape.unknown", "unknown built-in shape " + in_quotes(name) + "; accepted are " + accepted);
+    throw UsageError("shape.unknown", "unknown built-in shape " + text::in_quotes(name) + "; accepted are " + accepted);
 }
 
 void require_fraction(bool valid, std::string_view what, double value, std::string_view range) {
     if (!valid)
-        throw UsageError("shape.option", std::string(what) + " is " + short_number(value) +
+        throw UsageError("shape.option", std::string(what) + " is " + text::rounded(value) +
                                              "; it must lie in " + std::string(range));
 }
 

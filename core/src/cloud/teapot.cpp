@@ -9,9 +9,11 @@
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/cloud/data_file.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/words.hpp>
 
 #include "surfaces.hpp"
-#include "text.hpp"
 
 namespace dsc::cloud {
 
@@ -35,17 +37,17 @@ Vec3 at(const Patch& patch, double u, double v) {
 std::vector<Patch> load_patches() {
     const std::filesystem::path path = data_file("teapot.bpt");
     const std::string text = read_file(path);
-    Lines lines(text);
+    text::Lines lines(text);
     std::string_view line;
     const auto numbers = [&](std::size_t count, double* values) {
         const bool any = lines.next(line);
         std::string_view rest = line;
         bool good = any;
         for (std::size_t k = 0; good && k < count; ++k)
-            good = parse_number(next_word(rest), values[k]) == Number::ok;
+            good = text::parse_number(text::next_word(rest), values[k]) == text::Number::ok;
         if (!good)
             throw IoError("io.syntax", path.string(), std::to_string(lines.number()),
-                          "the line does not have " + counted(count, "number"),
+                          "the line does not have " + text::counted(count, "number"),
                           "restore the file from the source tree");
     };
     double count = 0.0;

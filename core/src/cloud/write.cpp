@@ -3,36 +3,27 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
-#include <charconv>
 #include <cstring>
 #include <string>
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/replace_file.hpp>
 #include <dsc/cloud/read.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/words.hpp>
 
-#include "text.hpp"
 
 namespace dsc::cloud {
 namespace fs = std::filesystem;
 
 namespace {
 
-/// Shortest text that reads back as the same double.
-void append(std::string& text, double value) {
-    char digits[32];
-    const auto [end, error] = std::to_chars(digits, digits + sizeof digits, value);
-    static_cast<void>(error);  // 32 characters are enough for every double
-    text.append(digits, end);
-}
-
 void append_point(std::string& text, const Vec3& p) {
-    append(text, p.x());
+    text::append_number(text, p.x());
     text += ' ';
-    append(text, p.y());
+    text::append_number(text, p.y());
     text += ' ';
-    append(text, p.z());
+    text::append_number(text, p.z());
 }
 
 /// The attributes that are written besides the points.
@@ -44,7 +35,7 @@ struct Whole {
 void append_separated(std::string& text, const Vec3& v, char separator) {
     for (int k = 0; k < 3; ++k) {
         text += separator;
-        append(text, v[k]);
+        text::append_number(text, v[k]);
     }
 }
 
@@ -56,7 +47,7 @@ std::string obj_text(const Cloud& cloud, const Whole& whole) {
         if (whole.colours)
             for (const std::uint8_t c : cloud.colours[i]) {
                 text += ' ';
-                append(text, c / 255.0);
+                text::append_number(text, c / 255.0);
             }
         text += '\n';
     }
@@ -87,7 +78,7 @@ std::string csv_text(const Cloud& cloud, const Whole& whole) {
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
         for (int k = 0; k < 3; ++k) {
             if (k > 0) text += ',';
-            append(text, cloud.points[i][k]);
+            text::append_number(text, cloud.points[i][k]);
         }
         if (whole.colours)
             for (const std::uint8_t c : cloud.colours[i]) text.append(",").append(std::to_string(c));
@@ -148,9 +139,7 @@ std::string ply_bytes(const Cloud& cloud, const Whole& whole) {
 }  // namespace
 
 void write_cloud(const fs::path& path, const Cloud& cloud) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string extension = text::lower_case_extension(path);
     const auto one_each = [&](std::size_t size) { return !cloud.points.empty() && size == cloud.points.size(); };
     const Whole whole{one_each(cloud.colours.size()), one_each(cloud.normals.size())};
     if (extension == ".obj")
@@ -166,7 +155,7 @@ void write_cloud(const fs::path& path, const Cloud& cloud) {
     else
         throw IoError("io.format", path.string(), "",
                       extension.empty() ? "the file's name has no extension"
-                                        : "clouds cannot be written as " + in_quotes(extension),
+                                        : "clouds cannot be written as " + text::in_quotes(extension),
                       "accepted are " + std::string(cloud_extensions()));
 }
 

@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <dsc/base/error.hpp>
 #include <dsc/config/diagnostics.hpp>
+#include <dsc/text/utf8.hpp>
+#include <dsc/text/words.hpp>
 #include <numeric>
 #include <tuple>
 
-#include "config/text.hpp"
 
 namespace dsc::config {
 namespace {
@@ -29,8 +30,8 @@ std::size_t byte_offset(std::string_view text, std::size_t character) {
 Excerpt excerpt(std::string_view line, std::size_t column) {
     constexpr std::size_t widest = 120;
     constexpr std::size_t before = 60;
-    const std::string shown = printable(line);
-    if (character_count(shown) <= widest) return {shown, column};
+    const std::string shown = text::printable(line);
+    if (text::character_count(shown) <= widest) return {shown, column};
     const std::size_t first = column > before ? column - before : 0;
     const std::size_t begin = byte_offset(shown, first);
     const std::size_t end = byte_offset(shown, first + widest);
@@ -48,7 +49,7 @@ std::string caret_lines(const SourcePosition& position, const std::string& hint)
     const std::string_view line = position.source->line(position.line);
     const std::size_t column = position.column > 0 ? static_cast<std::size_t>(position.column) - 1 : 0;
     const Excerpt part = excerpt(line, column);
-    const std::size_t width = character_count(part.text);
+    const std::size_t width = text::character_count(part.text);
     const std::size_t room = width > part.column ? width - part.column : 1;
     const std::size_t length =
         std::clamp<std::size_t>(static_cast<std::size_t>(std::max(position.length, 1)), 1, room);
@@ -128,8 +129,7 @@ void Diagnostics::throw_if_errors() const {
                                        [](const Diagnostic& d) { return d.severity == Severity::error; });
         code = only->code;
     }
-    throw ConfigError(code, text(Severity::error) + std::to_string(errors_) +
-                                (errors_ == 1 ? " error" : " errors") + "; nothing was run");
+    throw ConfigError(code, text(Severity::error) + text::counted(errors_, "error") + "; nothing was run");
 }
 
 void fail(std::string code, SourcePosition position, std::string message, std::string hint,

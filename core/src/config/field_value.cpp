@@ -5,11 +5,11 @@
 #include <cmath>
 #include <dsc/config/spelling.hpp>
 #include <dsc/config/yaml.hpp>
+#include <dsc/text/words.hpp>
 #include <filesystem>
 #include <vector>
 
 #include "config/scalar.hpp"
-#include "config/text.hpp"
 #include "config/variables.hpp"
 
 namespace dsc::config {
@@ -147,7 +147,7 @@ private:
         if (std::find(field_.choices.begin(), field_.choices.end(), value) != field_.choices.end()) return;
         const auto near = closest(value, field_.choices);
         diagnostics_.error("config.bad_choice", place(node),
-                           "'" + path + "': " + quoted_text(value) + " is not one of " + join(field_.choices),
+                           "'" + path + "': " + text::in_quotes(value) + " is not one of " + join(field_.choices),
                            near ? "did you mean '" + *near + "'?" : "");
     }
 
@@ -160,7 +160,7 @@ private:
         const auto& accepted = field_.extensions;
         if (std::find(accepted.begin(), accepted.end(), extension) != accepted.end()) return;
         diagnostics_.error("config.file", place(node),
-                           "'" + path + "': " + quoted_text(file.string()) +
+                           "'" + path + "': " + text::in_quotes(file.string()) +
                                " cannot be used here; the file's name must end in " +
                                join(accepted, " or "));
     }
@@ -174,11 +174,11 @@ private:
         if (size >= least && size <= most) return;
         std::string wanted;
         if (least == most) {
-            wanted = "exactly " + items_text(least);
+            wanted = "exactly " + text::counted(least, "item");
         } else if (size < least) {
-            wanted = "at least " + items_text(least);
+            wanted = "at least " + text::counted(least, "item");
         } else {
-            wanted = "at most " + items_text(most);
+            wanted = "at most " + text::counted(most, "item");
         }
         diagnostics_.error("config.list_size", place(node),
                            "'" + path + "' must have " + wanted + ", not " + std::to_string(size),
@@ -227,7 +227,7 @@ std::string value_text(const ConfigNode& node) {
         case NodeType::real:
             return real_text(node.as_real());
         case NodeType::string:
-            return "the string " + quoted_text(node.as_string());
+            return "the string " + text::in_quotes(node.as_string());
         default:
             return std::string(type_name(node.type()));
     }

@@ -3,12 +3,12 @@
 #include <dsc/base/error.hpp>
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/config/node.hpp>
+#include <dsc/text/words.hpp>
 #include <unordered_set>
 #include <utility>
 #include <variant>
 
 #include "config/node_factory.hpp"
-#include "config/text.hpp"
 
 namespace dsc::config {
 
@@ -86,7 +86,7 @@ ConfigNode ConfigNode::map(std::vector<ConfigEntry> entries) {
     std::unordered_set<std::string_view> seen;
     for (const ConfigEntry& entry : entries) {
         if (!seen.insert(entry.key).second) {
-            fail("config.duplicate_key", entry.position, "duplicate key " + quoted_text(entry.key));
+            fail("config.duplicate_key", entry.position, "duplicate key " + text::in_quotes(entry.key));
         }
     }
     return NodeFactory::map(std::move(entries), {}).rebased(nullptr);
@@ -109,7 +109,7 @@ NodeType ConfigNode::type() const noexcept { return static_cast<NodeType>(data_-
 void ConfigNode::wrong_type(std::string_view wanted) const {
     const std::string name = path();
     fail("config.type", position(),
-         (name.empty() ? std::string("the value") : quoted_text(name)) + " is " +
+         (name.empty() ? std::string("the value") : text::in_quotes(name)) + " is " +
              std::string(type_name(type())) + ", not " + std::string(wanted));
 }
 
@@ -171,14 +171,14 @@ const ConfigNode* ConfigNode::find(std::string_view key) const noexcept {
 const ConfigNode& ConfigNode::at(std::string_view key) const {
     if (!is_map()) wrong_type("a map");
     if (const ConfigNode* found = find(key)) return *found;
-    fail("config.missing", position(), quoted_text(join_path(path(), key)) + " is missing");
+    fail("config.missing", position(), text::in_quotes(join_path(path(), key)) + " is missing");
 }
 
 const ConfigNode& ConfigNode::at(std::size_t index) const {
     const std::vector<ConfigNode>& list = items();
     if (index < list.size()) return list[index];
     fail("config.missing", position(),
-         quoted_text(join_path(path(), std::to_string(index))) + " is missing: the list has " +
+         text::in_quotes(join_path(path(), std::to_string(index))) + " is missing: the list has " +
              std::to_string(list.size()) + " items");
 }
 

@@ -4,11 +4,12 @@
 #include <dsc/base/error.hpp>
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/config/overrides.hpp>
+#include <dsc/text/utf8.hpp>
+#include <dsc/text/words.hpp>
 #include <string_view>
 #include <vector>
 
 #include "config/scalar.hpp"
-#include "config/text.hpp"
 
 namespace dsc::config {
 namespace {
@@ -88,7 +89,7 @@ public:
     ConfigNode apply(const ConfigNode& root) {
         const std::string& text = source_->text;
         const Placement placement("malformed override: ",
-                                  {source_, 1, 1, static_cast<int>(character_count(source_->text))});
+                                  {source_, 1, 1, static_cast<int>(text::character_count(source_->text))});
         const std::size_t equals = text.find('=');
         if (equals == std::string::npos) placement.refuse("no '=' in it", "write path.to.key=value");
         if (text[0] == '+' || text[0] == '~') {
@@ -97,10 +98,10 @@ public:
         }
         const std::vector<std::string> parts = split(std::string_view(text).substr(0, equals));
         if (parts.empty()) {
-            placement.refuse(quoted_text(text.substr(0, equals)) + " is not a dotted path", "write path.to.key=value");
+            placement.refuse(text::in_quotes(text.substr(0, equals)) + " is not a dotted path", "write path.to.key=value");
         }
         if (parts.size() > options_.max_depth) placement.refuse("its path is too long", "");
-        if (first_non_text(text)) placement.refuse("it contains bytes that are not text", "");
+        if (text::first_non_text(text)) placement.refuse("it contains bytes that are not text", "");
         if (text.find_first_of("\r\n") != std::string::npos) placement.refuse("it has more than one line", "");
         const ConfigNode value = parse_value(source_, equals + 1, options_);
         const bool lost = value.is_null() && !is_null_text(text.substr(equals + 1));
@@ -132,7 +133,7 @@ ConfigNode apply_overrides(const ConfigNode& root, std::span<const std::string> 
     }
     if (count > 0) {
         throw ConfigError(
-            code, faults + std::to_string(count) + (count == 1 ? " error" : " errors") + "; nothing was run");
+            code, faults + text::counted(count, "error") + "; nothing was run");
     }
     return tree;
 }
@@ -141,7 +142,7 @@ ConfigNode with_value(const ConfigNode& root, const std::string& path, const Con
                       const SourcePosition& key) {
     const Placement placement("", key);
     const std::vector<std::string> parts = split(path);
-    if (parts.empty()) placement.refuse(quoted_text(path) + " is not a dotted path", "write path.to.key: value");
+    if (parts.empty()) placement.refuse(text::in_quotes(path) + " is not a dotted path", "write path.to.key: value");
     if (parts.size() > YamlOptions{}.max_depth) placement.refuse("its path is too long", "");
     return placement.set(root, parts, value);
 }

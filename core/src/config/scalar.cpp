@@ -4,25 +4,15 @@
 #include <charconv>
 #include <cmath>
 #include <dsc/config/yaml.hpp>
+#include <dsc/text/words.hpp>
 #include <system_error>
 
-#include "config/text.hpp"
 
 namespace dsc::config {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-std::string lower(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return out;
-}
-
 std::size_t skip_digits(std::string_view text, std::size_t at) {
-    while (at < text.size() && is_digit(text[at])) ++at;
+    while (at < text.size() && text::is_digit(text[at])) ++at;
     return at;
 }
 
@@ -51,7 +41,7 @@ Number number_form(std::string_view text) {
 }
 
 bool is_infinity_or_nan(std::string_view text) {
-    std::string word = lower(text);
+    std::string word = text::lower_case(text);
     if (!word.empty() && (word[0] == '+' || word[0] == '-')) word.erase(0, 1);
     return word == ".inf" || word == ".nan";
 }
@@ -66,7 +56,7 @@ PlainScalar read_plain(std::string_view text) {
     if (is_null_text(text)) return {ConfigNode(), {}};
     if (text == "true") return {ConfigNode(true), {}};
     if (text == "false") return {ConfigNode(false), {}};
-    if (is_infinity_or_nan(text)) return {ConfigNode(), quoted_text(text) + " is not a finite number"};
+    if (is_infinity_or_nan(text)) return {ConfigNode(), text::in_quotes(text) + " is not a finite number"};
     const Number form = number_form(text);
     if (form == Number::none) return {ConfigNode(text), {}};
     const char* const begin = text.data();
@@ -77,7 +67,7 @@ PlainScalar read_plain(std::string_view text) {
     }
     double real = 0;
     if (std::from_chars(begin, end, real).ec != std::errc()) {
-        return {ConfigNode(), quoted_text(text) + " does not fit a double"};
+        return {ConfigNode(), text::in_quotes(text) + " does not fit a double"};
     }
     return {ConfigNode(real), {}};
 }
@@ -91,10 +81,10 @@ std::string number_hint(std::string_view text) {
     const std::string sign = negative ? "-" : "";
     std::string digits = repaired.substr(negative ? 1 : 0);
     if (const std::size_t comma = digits.find(','); comma != std::string::npos) digits[comma] = '.';
-    while (digits.size() > 1 && digits[0] == '0' && is_digit(digits[1])) digits.erase(0, 1);
+    while (digits.size() > 1 && digits[0] == '0' && text::is_digit(digits[1])) digits.erase(0, 1);
     if (!digits.empty() && digits[0] == '.') digits.insert(0, "0");
     if (const std::size_t dot = digits.find('.');
-        dot != std::string::npos && (dot + 1 == digits.size() || !is_digit(digits[dot + 1]))) {
+        dot != std::string::npos && (dot + 1 == digits.size() || !text::is_digit(digits[dot + 1]))) {
         digits.insert(dot + 1, "0");
     }
     repaired = sign + digits;
@@ -102,7 +92,7 @@ std::string number_hint(std::string_view text) {
 }
 
 std::string boolean_hint(std::string_view text) {
-    const std::string word = lower(text);
+    const std::string word = text::lower_case(text);
     if (text == "true" || text == "false") return "remove the quotes";
     if (word == "yes" || word == "on" || word == "y" || word == "true") return "write true";
     if (word == "no" || word == "off" || word == "n" || word == "false") return "write false";

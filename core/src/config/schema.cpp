@@ -4,20 +4,14 @@
 #include <dsc/config/schema.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/config/yaml.hpp>
+#include <dsc/text/words.hpp>
 #include <limits>
 #include <set>
 
 #include "config/field_value.hpp"
-#include "config/text.hpp"
 
 namespace dsc::config {
 namespace {
-
-bool is_name(const std::string& name) {
-    const auto letter = [](char c) { return c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-    const auto rest = [&](char c) { return letter(c) || (c >= '0' && c <= '9'); };
-    return !name.empty() && letter(name[0]) && std::all_of(name.begin(), name.end(), rest);
-}
 
 bool is_list_type(FieldType type) {
     switch (type) {
@@ -78,9 +72,9 @@ std::string held_text(const Field& field) {
 std::string size_text(const Field& field) {
     const std::size_t least = field.min_size.value_or(0);
     const std::size_t most = field.max_size.value_or(std::numeric_limits<std::size_t>::max());
-    if (least == most) return items_text(least);
-    if (most == std::numeric_limits<std::size_t>::max()) return least == 0 ? "" : "at least " + items_text(least);
-    return least == 0 ? "at most " + items_text(most) : std::to_string(least) + " to " + items_text(most);
+    if (least == most) return text::counted(least, "item");
+    if (most == std::numeric_limits<std::size_t>::max()) return least == 0 ? "" : "at least " + text::counted(least, "item");
+    return least == 0 ? "at most " + text::counted(most, "item") : std::to_string(least) + " to " + text::counted(most, "item");
 }
 
 /// ", 1 to 4 items, (0, 1]": the bounds of size and value.
@@ -94,7 +88,7 @@ std::string limits_text(const Field& field) {
 /// The faults of one field, without its place.
 std::vector<std::string> field_problems(const Field& field) {
     std::vector<std::string> faults;
-    if (!is_name(field.name)) faults.emplace_back("has a name that is not an identifier");
+    if (!text::is_identifier(field.name)) faults.emplace_back("has a name that is not an identifier");
     if (field.doc.empty()) faults.emplace_back("has no doc");
     const bool bounded = field.minimum || field.maximum;
     if (bounded && !is_numeric_type(field.type)) faults.emplace_back("has a range but is not a number");

@@ -1,7 +1,8 @@
 // Texts and places of configuration values.
 #include <dsc/config/source.hpp>
+#include <dsc/text/utf8.hpp>
+#include <dsc/text/words.hpp>
 
-#include "config/text.hpp"
 
 namespace dsc::config {
 
@@ -23,8 +24,8 @@ bool SourcePosition::from_command_line() const noexcept {
 
 std::string SourcePosition::describe() const {
     if (!known()) return "built in";
-    if (from_command_line()) return "command line: " + quoted_text(source->text);
-    std::string place = printable(source->name);
+    if (from_command_line()) return "command line: " + text::in_quotes(source->text);
+    std::string place = text::printable(source->name);
     if (line > 0) place += ":" + std::to_string(line) + ":" + std::to_string(column);
     return place;
 }

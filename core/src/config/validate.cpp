@@ -3,12 +3,13 @@
 #include <dsc/base/error.hpp>
 #include <dsc/config/schema.hpp>
 #include <dsc/config/spelling.hpp>
+#include <dsc/text/utf8.hpp>
+#include <dsc/text/words.hpp>
 #include <exception>
 #include <set>
 #include <utility>
 
 #include "config/field_value.hpp"
-#include "config/text.hpp"
 
 namespace dsc::config {
 namespace {
@@ -81,7 +82,7 @@ public:
             diagnostics_.error(
                 "config.wrong_type", position,
                 name + " must be a " + kind + " strategy {type: ID, ...}, not " + value_text(node),
-                bare ? "write {type: " + printable(node.as_string()) + "}" : "", {known_ids(kind)});
+                bare ? "write {type: " + text::printable(node.as_string()) + "}" : "", {known_ids(kind)});
             return node;
         }
         const ConfigNode* type = node.find("type");
@@ -101,7 +102,7 @@ public:
             const auto near = closest(id, lookup_.ids(kind));
             diagnostics_.error("config.unknown_strategy",
                                type->position().known() ? type->position() : position,
-                               "unknown " + kind + " " + quoted_text(id),
+                               "unknown " + kind + " " + text::in_quotes(id),
                                near ? "did you mean '" + *near + "'?" : kind_hint(id), {known_ids(kind)});
             return node;
         }
@@ -125,7 +126,7 @@ private:
     /// The kind to which an id belongs if it was used for another kind.
     std::string kind_hint(const std::string& id) const {
         for (const std::string& kind : known_kinds_) {
-            if (lookup_.find_schema(kind, id)) return quoted_text(id) + " is of the kind " + kind;
+            if (lookup_.find_schema(kind, id)) return text::in_quotes(id) + " is of the kind " + kind;
         }
         return {};
     }
@@ -177,7 +178,7 @@ private:
         }
         std::string accepted = names.empty() ? "no keys are accepted here" : "accepted keys: " + join(names);
         diagnostics_.error("config.unknown_key", entry.position.known() ? entry.position : map.fallback,
-                           "unknown key " + quoted_text(entry.key) + " in " + map.owner, hint,
+                           "unknown key " + text::in_quotes(entry.key) + " in " + map.owner, hint,
                            {std::move(accepted)});
     }
 
@@ -187,7 +188,7 @@ private:
             const bool fresh = std::find(places.begin(), places.end(), a.place) == places.end();
             if (a.key == key && fresh && places.size() < 3) places.push_back(a.place);
         }
-        return places.empty() ? "" : quoted_text(key) + " belongs to " + join(places, " or ");
+        return places.empty() ? "" : text::in_quotes(key) + " belongs to " + join(places, " or ");
     }
 
     ConfigNode resolve_field(const Field& field, const ConfigEntry* entry, const Map& map,
@@ -247,8 +248,8 @@ private:
         if (value.size() < least || value.size() > most) {
             diagnostics_.error("config.list_size", place,
                                "'" + path + "' must have " +
-                                   (value.size() < least ? "at least " + items_text(least)
-                                                         : "at most " + items_text(most)) +
+                                   (value.size() < least ? "at least " + text::counted(least, "item")
+                                                         : "at most " + text::counted(most, "item")) +
                                    ", not " + std::to_string(value.size()),
                                "accepted: " + field.summary());
         }
@@ -284,7 +285,7 @@ private:
         std::size_t first_at = std::string::npos;
         for (const ConfigEntry& entry : map.entries()) {
             if (!entry.value.position().known()) continue;
-            const std::size_t at = find_word(message, entry.key);
+            const std::size_t at = text::find_word(message, entry.key);
             if (at < first_at) {
                 first = &entry.value;
                 first_at = at;

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "config/text.hpp"
+#include <dsc/text/utf8.hpp>
+#include <dsc/text/words.hpp>
+
 
 namespace dsc::config {
 
@@ -25,12 +27,7 @@ std::string expand_variables(std::string_view text, const SourcePosition& positi
         }
         const std::size_t end = text.find('}', at);
         const std::string name(text.substr(at + 2, end == std::string_view::npos ? end : end - at - 2));
-        const bool is_name =
-            !name.empty() && (name[0] < '0' || name[0] > '9') &&
-            std::all_of(name.begin(), name.end(), [](char c) {
-                return c == '_' || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-            });
-        if (end == std::string_view::npos || !is_name) {
+        if (end == std::string_view::npos || !text::is_identifier(name)) {
             diagnostics.error("config.variable", position, "'${' does not start the name of a variable",
                               "write ${NAME}, or $${ for a literal '${'");
             return std::string(text);
@@ -46,7 +43,7 @@ std::string expand_variables(std::string_view text, const SourcePosition& positi
             diagnostics.error("config.variable", position,
                               "the environment variable '" + name + "' is not set",
                               "set it: export " + name + "=...", std::move(notes));
-        } else if (first_non_text(*value)) {
+        } else if (text::first_non_text(*value)) {
             diagnostics.error("config.variable", position,
                               "the environment variable '" + name + "' contains bytes that are not text");
         } else {

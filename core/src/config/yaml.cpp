@@ -6,6 +6,8 @@
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/config/yaml.hpp>
+#include <dsc/text/utf8.hpp>
+#include <dsc/text/words.hpp>
 #include <fstream>
 #include <iterator>
 #include <unordered_map>
@@ -13,7 +15,6 @@
 
 #include "config/node_factory.hpp"
 #include "config/scalar.hpp"
-#include "config/text.hpp"
 #include "config/yaml_reader.hpp"
 
 namespace dsc::config {
@@ -70,8 +71,8 @@ private:
         if (first != open_files_.end()) {
             std::vector<std::string> chain;
             for (auto open = first; open != open_files_.end(); ++open)
-                chain.push_back(printable(open->string()));
-            chain.push_back(printable(shown.string()));
+                chain.push_back(text::printable(open->string()));
+            chain.push_back(text::printable(shown.string()));
             fail("config.include", target.position(), "include cycle: " + join(chain, " -> "),
                  "a file cannot include itself");
         }
@@ -88,7 +89,7 @@ private:
         auto source = read_text(shown, options_, cause);
         if (!source) {
             diagnostics_.error("config.include", target.position(),
-                               "cannot include " + quoted_text(shown.string()) + ": " + cause,
+                               "cannot include " + text::in_quotes(shown.string()) + ": " + cause,
                                "the name is relative to the including file");
             return ConfigNode::map();
         }
@@ -99,7 +100,7 @@ private:
         if (node.is_map()) return node;
         if (!node.is_null()) {
             diagnostics_.error("config.include", target.position(),
-                               quoted_text(file.string()) + " contains " + std::string(type_name(node.type())) +
+                               text::in_quotes(file.string()) + " contains " + std::string(type_name(node.type())) +
                                    ", not a map of keys and values");
         }
         return ConfigNode::map();

@@ -15,8 +15,10 @@
 
 #include "config/node_factory.hpp"
 #include "config/scalar.hpp"
-#include "config/text.hpp"
 #include "config/variables.hpp"
+
+#include <dsc/text/utf8.hpp>
+#include <dsc/text/words.hpp>
 
 namespace dsc::config {
 namespace {
@@ -63,7 +65,7 @@ public:
         const std::size_t line_end = next_line == starts_.end() ? text.size() : *next_line - 1;
         if (first != '"' && first != '\'') {
             const std::size_t end = std::min(begin + value.size(), line_end);
-            return at(begin, character_count(text.substr(begin, end - begin)));
+            return at(begin, text::character_count(text.substr(begin, end - begin)));
         }
         const std::size_t close = closing_quote(begin);
         if (close >= text.size()) {
@@ -71,7 +73,7 @@ public:
             fail("config.yaml", at(begin, 1), "malformed YAML: the quote that starts here is not closed");
         }
         const std::size_t end = std::min(close + 1, line_end);
-        return at(begin, character_count(text.substr(begin, end - begin)));
+        return at(begin, text::character_count(text.substr(begin, end - begin)));
     }
 
     /// The character of the text at a position that this object made.
@@ -88,7 +90,7 @@ private:
         const std::size_t from = goes_on ? last_.offset : line_start;
         const int before = goes_on ? last_.column : 1;
         const std::string_view between = std::string_view(source_->text).substr(from, offset - from);
-        last_ = {line_start, offset, before + static_cast<int>(character_count(between))};
+        last_ = {line_start, offset, before + static_cast<int>(text::character_count(between))};
         return last_.column;
     }
 
@@ -258,7 +260,7 @@ private:
 
     void refuse_tag(const std::string& tag, const SourcePosition& position) {
         if (tag.empty() || tag == "?" || tag == "!") return;
-        fail("config.yaml", position, "the YAML tag " + quoted_text(tag) + " is not supported",
+        fail("config.yaml", position, "the YAML tag " + text::in_quotes(tag) + " is not supported",
              "write the value without a tag; quotes make a string");
     }
 
@@ -276,7 +278,7 @@ private:
         const auto [first, fresh] = frame.seen.emplace(key, position);
         if (!fresh) {
             job_.diagnostics->error("config.duplicate_key", position,
-                                    "duplicate key " + quoted_text(key) + ", first given in line " +
+                                    "duplicate key " + text::in_quotes(key) + ", first given in line " +
                                         std::to_string(first->second.line),
                                     "remove one of the two");
             return;
@@ -374,7 +376,7 @@ private:
 
 void refuse_non_text(const ReadJob& job, const Places& places) {
     const std::string& text = job.source->text;
-    const auto bad = first_non_text(std::string_view(text).substr(job.begin));
+    const auto bad = text::first_non_text(std::string_view(text).substr(job.begin));
     if (!bad) return;
     const std::size_t offset = job.begin + *bad;
     constexpr const char* digits = "0123456789abcdef";
@@ -397,7 +399,7 @@ ConfigNode read_yaml(const ReadJob& job) {
         parser.HandleNextDocument(builder);
     } catch (const YAML::Exception& error) {
         const SourcePosition position = builder.places().at(error.mark);
-        fail("config.yaml", position, "malformed YAML: " + printable(error.msg),
+        fail("config.yaml", position, "malformed YAML: " + text::printable(error.msg),
              builder.syntax_hint(position));
     }
     return builder.take();

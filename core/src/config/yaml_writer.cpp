@@ -5,21 +5,21 @@
 #include <dsc/base/error.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/config/yaml.hpp>
+#include <dsc/text/utf8.hpp>
+#include <dsc/text/words.hpp>
 #include <string>
 
 #include "config/scalar.hpp"
-#include "config/text.hpp"
 
 namespace dsc::config {
 namespace {
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_letter(char c) { return text::is_letter(c) || c == '_'; }
 
 /// Words that some YAML readers do not read as a string.
 bool is_special_word(std::string_view text) {
     static constexpr std::array words = {"true", "false", "null", "yes", "no", "on", "off", "y", "n"};
-    std::string lower;
-    for (const char c : text) lower += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    const std::string lower = text::lower_case(text);
     for (const char* word : words) {
         if (lower == word) return true;
     }
@@ -30,7 +30,7 @@ bool is_plain_string(std::string_view text) {
     if (text.empty() || (!is_letter(text[0]) && text[0] != '/') || is_special_word(text)) return false;
     for (const char c : text) {
         const bool harmless =
-            is_letter(c) || (c >= '0' && c <= '9') || c == '.' || c == '/' || c == '-' || c == '+';
+            is_letter(c) || text::is_digit(c) || c == '.' || c == '/' || c == '-' || c == '+';
         if (!harmless) return false;
     }
     return true;
@@ -59,7 +59,7 @@ std::string double_quoted(std::string_view text) {
 }
 
 std::string key_text(const std::string& key) {
-    if (!is_utf8(key)) throw ConfigError("config.text", "a key of the configuration is not UTF-8 text");
+    if (!text::is_utf8(key)) throw ConfigError("config.text", "a key of the configuration is not UTF-8 text");
     return is_plain_string(key) ? key : double_quoted(key);
 }
 
@@ -67,9 +67,9 @@ std::string key_text(const std::string& key) {
 std::string string_text(const ConfigNode& node) {
     std::string escaped;
     const std::string& text = node.as_string();
-    if (!is_utf8(text)) {
+    if (!text::is_utf8(text)) {
         throw ConfigError("config.text",
-                          quoted_text(node.path()) + " of the configuration is not UTF-8 text");
+                          text::in_quotes(node.path()) + " of the configuration is not UTF-8 text");
     }
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (text.compare(i, 2, "${") == 0) escaped += '$';

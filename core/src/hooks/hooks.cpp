@@ -9,6 +9,7 @@
 #include <dsc/hooks/observer.hpp>
 #include <dsc/hooks/refinement_policy.hpp>
 #include <dsc/hooks/velocity_field.hpp>
+#include <dsc/text/words.hpp>
 
 #include <algorithm>
 #include <iterator>
@@ -16,8 +17,7 @@
 namespace dsc::hooks {
 
 bool may_name_attribute(std::string_view name) {
-    const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; };
-    return !name.empty() && std::all_of(name.begin(), name.end(), plain) &&
+    return text::is_snake_case(name) &&
            std::find(std::begin(reserved_attributes), std::end(reserved_attributes), name) == std::end(reserved_attributes);
 }
 

@@ -1,8 +1,11 @@
 // The .dsc text format of the original method: "v x y z" and "t i j k l label" in any order, indices from 0.
 #include <limits>
 
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/words.hpp>
+
 #include "io/codecs.hpp"
-#include "io/text.hpp"
 
 namespace dsc::io {
 namespace {
@@ -12,19 +15,19 @@ struct LargestIndex {
     std::uint32_t index = 0;
 };
 
-std::uint32_t read_index(Tokens& tokens) {
+std::uint32_t read_index(text::Tokens& tokens) {
     const std::int64_t index = tokens.integer();
     if (index < 0 || index >= std::numeric_limits<std::uint32_t>::max()) {
-        fail("io.index", tokens.place(), "vertex index " + std::to_string(index) + " is out of range",
+        text::fail("io.index", tokens.place(), "vertex index " + std::to_string(index) + " is out of range",
              "indices count from 0; export the file again");
     }
     return static_cast<std::uint32_t>(index);
 }
 
-mesh::Label read_label(Tokens& tokens) {
+mesh::Label read_label(text::Tokens& tokens) {
     const std::int64_t label = tokens.integer();
     if (label < 0 || label > std::numeric_limits<mesh::Label>::max()) {
-        fail("io.syntax", tokens.place(), "label " + std::to_string(label) + " is out of range",
+        text::fail("io.syntax", tokens.place(), "label " + std::to_string(label) + " is out of range",
              "labels are 0 (outside) or larger");
     }
     return static_cast<mesh::Label>(label);
@@ -34,7 +37,7 @@ mesh::Label read_label(Tokens& tokens) {
 
 mesh::TetMesh decode_dsc(std::string_view content, std::string_view file) {
     mesh::TetMesh mesh;
-    Tokens tokens(content, file);
+    text::Tokens tokens(content, file);
     // The largest index decides whether all are in range, because vertices may follow the tets that use them.
     LargestIndex largest;
     for (std::string_view tag = tokens.next(); !tag.empty(); tag = tokens.next()) {
@@ -50,11 +53,11 @@ mesh::TetMesh decode_dsc(std::string_view content, std::string_view file) {
             mesh.tets.push_back(tet);
             mesh.labels.push_back(read_label(tokens));
         } else {
-            fail("io.syntax", tokens.place(), in_quotes(tag) + " is neither 'v' nor 't'", export_again);
+            text::fail("io.syntax", tokens.place(), text::in_quotes(tag) + " is neither 'v' nor 't'", text::export_again);
         }
     }
     if (!mesh.tets.empty() && largest.index >= mesh.points.size()) {
-        fail("io.index", {file, largest.line},
+        text::fail("io.index", {file, largest.line},
              "vertex index " + std::to_string(largest.index) + " of " + std::to_string(mesh.points.size()),
              "indices count from 0; export the file again");
     }
@@ -68,7 +71,7 @@ std::string encode_dsc(const mesh::TetMesh& mesh) {
         out += 'v';
         for (int k = 0; k < 3; ++k) {
             out += ' ';
-            append_number(out, p[k]);
+            text::append_number(out, p[k]);
         }
         out += '\n';
     }
@@ -76,7 +79,7 @@ std::string encode_dsc(const mesh::TetMesh& mesh) {
         out += 't';
         for (const std::uint32_t v : mesh.tets[t]) {
             out += ' ';
-            append_number(out, std::uint64_t{v});
+            text::append_number(out, std::uint64_t{v});
         }
         out += ' ';
         out += std::to_string(mesh.labels[t]);

@@ -1,6 +1,8 @@
 // The table of file formats.
 #include <dsc/io/formats.hpp>
 
+#include <dsc/text/words.hpp>
+
 #include <algorithm>
 #include <array>
 
@@ -34,10 +36,7 @@ std::string list(Predicate&& wanted) {
 std::span<const Format> formats() { return table; }
 
 const Format* find_format(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
+    const std::string extension = text::lower_case_extension(file);
     const auto found =
         std::find_if(table.begin(), table.end(), [&](const Format& f) { return f.extension == extension; });
     return found == table.end() ? nullptr : &*found;

@@ -1,12 +1,12 @@
 // Gmsh MSH 4.1 as text. Each label is a separate volume and the physical group "label_N", both with the tag N + 1, because tags
 // count from 1. The number of an element is that of its tet plus 1, so a reader can restore the order of the tets.
 #include <dsc/base/error.hpp>
+#include <dsc/text/numbers.hpp>
 
 #include <limits>
 #include <map>
 
 #include "io/codecs.hpp"
-#include "io/text.hpp"
 
 namespace dsc::io {
 namespace {
@@ -28,7 +28,7 @@ std::string tag_of(mesh::Label label) { return std::to_string(std::int64_t{label
 
 void append_point(std::string& out, const Vec3& p, char end) {
     for (int k = 0; k < 3; ++k) {
-        append_number(out, p[k]);
+        text::append_number(out, p[k]);
         out += k < 2 ? ' ' : end;
     }
 }
@@ -70,7 +70,7 @@ std::string encode_msh(const mesh::TetMesh& mesh) {
     append_counts(out, 1, mesh.points.size());
     out += "3 " + (groups.empty() ? "1" : tag_of(groups.begin()->first)) + " 0 " + std::to_string(mesh.points.size()) + '\n';
     for (std::size_t i = 1; i <= mesh.points.size(); ++i) {
-        append_number(out, std::uint64_t{i});
+        text::append_number(out, std::uint64_t{i});
         out += '\n';
     }
     for (const Vec3& p : mesh.points) append_point(out, p, '\n');
@@ -79,10 +79,10 @@ std::string encode_msh(const mesh::TetMesh& mesh) {
     for (const auto& [label, tets] : groups) {
         out += "3 " + tag_of(label) + " 4 " + std::to_string(tets.size()) + '\n';
         for (const std::size_t t : tets) {
-            append_number(out, std::uint64_t{t} + 1);
+            text::append_number(out, std::uint64_t{t} + 1);
             for (const std::uint32_t v : mesh.tets[t]) {
                 out += ' ';
-                append_number(out, std::uint64_t{v} + 1);
+                text::append_number(out, std::uint64_t{v} + 1);
             }
             out += '\n';
         }

@@ -3,12 +3,14 @@
 #include <array>
 #include <cmath>
 #include <dsc/base/log.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/words.hpp>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include "io/codecs.hpp"
-#include "io/text.hpp"
 
 namespace dsc::io {
 namespace {
@@ -48,7 +50,7 @@ public:
     surface::TriangleMesh read() {
         std::string_view line;
         while (lines_.next(line)) {
-            Fields fields(line.substr(0, line.find('#')));
+            text::Fields fields(line.substr(0, line.find('#')));
             const std::string_view keyword = fields.next();
             if (keyword.empty()) continue;
             if (keyword == "v")
@@ -56,7 +58,7 @@ public:
             else if (keyword == "f" || keyword == "fo")
                 face(fields);
             else if (std::find(skipped.begin(), skipped.end(), keyword) == skipped.end()) {
-                fail("io.syntax", lines_.place(), "unknown keyword " + in_quotes(keyword), export_again);
+                text::fail("io.syntax", lines_.place(), "unknown keyword " + text::in_quotes(keyword), text::export_again);
             } else {
                 note_geometry(keyword);
             }
@@ -74,25 +76,25 @@ private:
         const auto found = std::find(geometry.begin(), geometry.end(), keyword);
         if (found == geometry.end() || std::exchange(noted_[static_cast<std::size_t>(found - geometry.begin())], true)) return;
         log(LogLevel::warning, std::string(lines_.place().file) + ":" + std::to_string(lines_.place().line) + ": lines " +
-                                   in_quotes(keyword) + " are not read; only the vertices and faces of an OBJ file are read");
+                                   text::in_quotes(keyword) + " are not read; only the vertices and faces of an OBJ file are read");
     }
 
     /// Code for a line with too few numbers: truncated at the end of the file, malformed elsewhere.
     const char* short_line() const { return lines_.cut() ? "io.truncated" : "io.syntax"; }
-    const std::string& short_remedy() const { return lines_.cut() ? copy_again : export_again; }
+    std::string_view short_remedy() const { return lines_.cut() ? text::copy_again : text::export_again; }
 
-    void vertex(Fields& fields) {
+    void vertex(text::Fields& fields) {
         Vec3 p;
         for (int k = 0; k < 3; ++k) {
             const std::string_view field = fields.next();
             if (field.empty()) {
-                fail(short_line(), lines_.place(), "vertex with " + std::to_string(k) + " of 3 coordinates",
+                text::fail(short_line(), lines_.place(), "vertex with " + std::to_string(k) + " of 3 coordinates",
                      short_remedy());
             }
-            p[k] = parse_coordinate(field, lines_.place());
+            p[k] = text::read_coordinate(field, lines_.place());
         }
         if (mesh_.points.size() == std::numeric_limits<std::uint32_t>::max()) {
-            fail("io.count", lines_.place(), "more than 4294967295 vertices", "split the file");
+            text::fail("io.count", lines_.place(), "more than 4294967295 vertices", "split the file");
         }
         mesh_.points.push_back(p);
         if (colours_.size() + 1 == mesh_.points.size()) colour(fields);
@@ -100,22 +102,22 @@ private:
 
     /// Exactly three further numbers are a colour; a single one is a weight. After the first vertex without a colour no colours
     /// are read: a surface has all colours or none.
-    void colour(Fields& fields) {
+    void colour(text::Fields& fields) {
         Vec3 rgb;
         for (int k = 0; k < 3; ++k) {
-            if (!read_number(fields.next(), rgb[k])) return;
+            if (text::parse_number(fields.next(), rgb[k]) != text::Number::ok) return;
         }
         if (fields.next().empty()) colours_.push_back(rgb);
     }
 
-    void face(Fields& fields) {
+    void face(text::Fields& fields) {
         polygon_.clear();
         for (std::string_view field = fields.next(); !field.empty(); field = fields.next()) {
             polygon_.push_back(corner(field));
         }
         if (polygon_.size() < 3) {
-            fail(short_line(), lines_.place(),
-                 "face with " + counted(polygon_.size(), "corner") + ", at least 3 are needed",
+            text::fail(short_line(), lines_.place(),
+                 "face with " + text::counted(polygon_.size(), "corner") + ", at least 3 are needed",
                  short_remedy());
         }
         append_fan(mesh_, polygon_);
@@ -126,17 +128,17 @@ private:
         const std::size_t slash = field.find('/');
         if (slash != std::string_view::npos &&
             field.find_first_not_of("0123456789/-+", slash) != std::string_view::npos) {
-            fail("io.syntax", lines_.place(), in_quotes(field) + " is not a corner", export_again);
+            text::fail("io.syntax", lines_.place(), text::in_quotes(field) + " is not a corner", text::export_again);
         }
-        const std::int64_t index = parse_integer(field.substr(0, slash), lines_.place());
+        const std::int64_t index = text::read_integer(field.substr(0, slash), lines_.place());
         const auto count = static_cast<std::int64_t>(mesh_.points.size());
         if (index == 0)
-            fail("io.index", lines_.place(), "vertex index 0", "OBJ counts from 1; export the file again");
+            text::fail("io.index", lines_.place(), "vertex index 0", "OBJ counts from 1; export the file again");
         if (index < -count) {
-            fail("io.index", lines_.place(),
+            text::fail("io.index", lines_.place(),
                  "vertex index " + std::to_string(index) + " reaches back beyond the first of " +
                      std::to_string(count),
-                 export_again);
+                 text::export_again);
         }
         if (index > std::numeric_limits<std::uint32_t>::max())
             later_.push_back({lines_.place().line, index});
@@ -148,13 +150,13 @@ private:
     void check_later_vertices() {
         for (const LateCorner& r : later_) {
             if (r.index <= static_cast<std::int64_t>(mesh_.points.size())) continue;
-            fail("io.index", {lines_.place().file, r.line},
+            text::fail("io.index", {lines_.place().file, r.line},
                  "vertex index " + std::to_string(r.index) + " of " + std::to_string(mesh_.points.size()),
-                 export_again);
+                 text::export_again);
         }
     }
 
-    Lines lines_;
+    text::Lines lines_;
     std::array<bool, 5> noted_{};
     surface::TriangleMesh mesh_;
     std::vector<std::uint32_t> polygon_;
@@ -175,12 +177,12 @@ std::string encode_obj(const surface::TriangleMesh& mesh, const std::vector<Vec3
         out += 'v';
         for (int k = 0; k < 3; ++k) {
             out += ' ';
-            append_number(out, mesh.points[i][k]);
+            text::append_number(out, mesh.points[i][k]);
         }
         if (!mesh.colours.empty()) {
             for (const std::uint8_t c : mesh.colours[i]) {
                 out += ' ';
-                append_number(out, c / 255.0);
+                text::append_number(out, c / 255.0);
             }
         }
         out += '\n';
@@ -189,7 +191,7 @@ std::string encode_obj(const surface::TriangleMesh& mesh, const std::vector<Vec3
         out += "vn";
         for (int k = 0; k < 3; ++k) {
             out += ' ';
-            append_number(out, normal[k]);
+            text::append_number(out, normal[k]);
         }
         out += '\n';
     }
@@ -197,10 +199,10 @@ std::string encode_obj(const surface::TriangleMesh& mesh, const std::vector<Vec3
         out += 'f';
         for (const std::uint32_t v : face) {
             out += ' ';
-            append_number(out, std::uint64_t{v} + 1);
+            text::append_number(out, std::uint64_t{v} + 1);
             if (normals.empty()) continue;
             out += "//";
-            append_number(out, std::uint64_t{v} + 1);
+            text::append_number(out, std::uint64_t{v} + 1);
         }
         out += '\n';
     }

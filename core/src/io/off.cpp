@@ -3,8 +3,11 @@
 #include <array>
 #include <limits>
 
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/words.hpp>
+
 #include "io/codecs.hpp"
-#include "io/text.hpp"
 
 namespace dsc::io {
 namespace {
@@ -22,7 +25,7 @@ public:
         for (std::size_t i = 0; i < faces_; ++i) face(i, mesh);
         std::string_view line;
         if (content_line(line)) {
-            fail("io.count", lines_.place(), "data after the last of " + counted(faces_, "face"),
+            text::fail("io.count", lines_.place(), "data after the last of " + text::counted(faces_, "face"),
                  "the counts of the header are wrong: export the file again");
         }
         return mesh;
@@ -33,30 +36,30 @@ private:
     bool content_line(std::string_view& line) {
         while (lines_.next(line)) {
             line = line.substr(0, line.find('#'));
-            if (!std::all_of(line.begin(), line.end(), is_blank)) return true;
+            if (!std::all_of(line.begin(), line.end(), text::is_blank)) return true;
         }
         return false;
     }
 
-    Fields require_line(const std::string& what) {
+    text::Fields require_line(const std::string& what) {
         std::string_view line;
         if (!content_line(line)) {
-            fail("io.truncated", lines_.place(), "the file ends where " + what + " should be", copy_again);
+            text::fail("io.truncated", lines_.place(), "the file ends where " + what + " should be", text::copy_again);
         }
-        return Fields(line);
+        return text::Fields(line);
     }
 
     void header() {
         constexpr std::array<std::string_view, 5> known = {"OFF", "COFF", "NOFF", "CNOFF", "STOFF"};
-        Fields fields = require_line("the word OFF");
+        text::Fields fields = require_line("the word OFF");
         const std::string_view word = fields.next();
         if (std::find(known.begin(), known.end(), word) == known.end()) {
-            fail("io.syntax", lines_.place(), "the file starts with " + in_quotes(word) + ", not with OFF",
+            text::fail("io.syntax", lines_.place(), "the file starts with " + text::in_quotes(word) + ", not with OFF",
                  "check that the file is an OFF file");
         }
         std::string_view field = fields.next();
         if (field == "BINARY") {
-            fail("io.format", lines_.place(), "binary OFF is not read", "export the file as text");
+            text::fail("io.format", lines_.place(), "binary OFF is not read", "export the file as text");
         }
         if (field.empty()) {
             fields = require_line("the counts of vertices and faces");
@@ -69,35 +72,35 @@ private:
     /// Every vertex and every face takes at least six bytes, so a false count cannot make the program reserve too much memory.
     std::size_t count(std::string_view field, const char* what) {
         if (field.empty()) {
-            fail("io.syntax", lines_.place(), std::string("the number of ") + what + " is missing",
-                 export_again);
+            text::fail("io.syntax", lines_.place(), std::string("the number of ") + what + " is missing",
+                 text::export_again);
         }
-        const std::int64_t value = parse_integer(field, lines_.place());
+        const std::int64_t value = text::read_integer(field, lines_.place());
         if (value < 0 || static_cast<std::uint64_t>(value) > size_ / 6 + 1) {
-            fail("io.count", lines_.place(),
-                 std::to_string(value) + " " + what + " cannot be in a file of " + counted(size_, "byte"),
-                 copy_again);
+            text::fail("io.count", lines_.place(),
+                 std::to_string(value) + " " + what + " cannot be in a file of " + text::counted(size_, "byte"),
+                 text::copy_again);
         }
         return static_cast<std::size_t>(value);
     }
 
     Vec3 vertex(std::size_t i) {
-        Fields fields = require_line("vertex " + std::to_string(i) + " of " + std::to_string(vertices_));
+        text::Fields fields = require_line("vertex " + std::to_string(i) + " of " + std::to_string(vertices_));
         Vec3 p;
         for (int k = 0; k < 3; ++k) {
             const std::string_view field = fields.next();
             if (field.empty()) short_line("vertex with " + std::to_string(k) + " of 3 coordinates");
-            p[k] = parse_coordinate(field, lines_.place());
+            p[k] = text::read_coordinate(field, lines_.place());
         }
         return p;
     }
 
     void face(std::size_t i, surface::TriangleMesh& mesh) {
-        Fields fields = require_line("face " + std::to_string(i) + " of " + std::to_string(faces_));
-        const std::int64_t corners = parse_integer(fields.next(), lines_.place());
+        text::Fields fields = require_line("face " + std::to_string(i) + " of " + std::to_string(faces_));
+        const std::int64_t corners = text::read_integer(fields.next(), lines_.place());
         if (corners < 3) {
-            fail("io.syntax", lines_.place(),
-                 "face with " + std::to_string(corners) + " corners, at least 3 are needed", export_again);
+            text::fail("io.syntax", lines_.place(),
+                 "face with " + std::to_string(corners) + " corners, at least 3 are needed", text::export_again);
         }
         polygon_.clear();
         for (std::int64_t k = 0; k < corners; ++k) {
@@ -105,9 +108,9 @@ private:
             if (field.empty()) {
                 short_line("face with " + std::to_string(k) + " of " + std::to_string(corners) + " corners");
             }
-            const std::int64_t index = parse_integer(field, lines_.place());
+            const std::int64_t index = text::read_integer(field, lines_.place());
             if (index < 0 || index >= static_cast<std::int64_t>(vertices_)) {
-                fail("io.index", lines_.place(),
+                text::fail("io.index", lines_.place(),
                      "vertex index " + std::to_string(index) + " of " + std::to_string(vertices_),
                      "OFF counts from 0; export the file again");
             }
@@ -117,12 +120,12 @@ private:
     }
 
     [[noreturn]] void short_line(const std::string& cause) const {
-        fail(lines_.cut() ? "io.truncated" : "io.syntax", lines_.place(), cause,
-             lines_.cut() ? copy_again : export_again);
+        text::fail(lines_.cut() ? "io.truncated" : "io.syntax", lines_.place(), cause,
+             lines_.cut() ? text::copy_again : text::export_again);
     }
 
     std::size_t size_;
-    Lines lines_;
+    text::Lines lines_;
     std::size_t vertices_ = 0;
     std::size_t faces_ = 0;
     std::vector<std::uint32_t> polygon_;
@@ -137,13 +140,13 @@ surface::TriangleMesh decode_off(std::string_view content, std::string_view file
 std::string encode_off(const surface::TriangleMesh& mesh) {
     std::string out = "OFF\n";
     out.reserve(60 * mesh.points.size() + 24 * mesh.faces.size() + 64);
-    append_number(out, std::uint64_t{mesh.points.size()});
+    text::append_number(out, std::uint64_t{mesh.points.size()});
     out += ' ';
-    append_number(out, std::uint64_t{mesh.faces.size()});
+    text::append_number(out, std::uint64_t{mesh.faces.size()});
     out += " 0\n";
     for (const Vec3& p : mesh.points) {
         for (int k = 0; k < 3; ++k) {
-            append_number(out, p[k]);
+            text::append_number(out, p[k]);
             out += k < 2 ? ' ' : '\n';
         }
     }
@@ -151,7 +154,7 @@ std::string encode_off(const surface::TriangleMesh& mesh) {
         out += '3';
         for (const std::uint32_t v : face) {
             out += ' ';
-            append_number(out, std::uint64_t{v});
+            text::append_number(out, std::uint64_t{v});
         }
         out += '\n';
     }

@@ -8,11 +8,12 @@
 #include <utility>
 
 #include <dsc/base/log.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/words.hpp>
 
 #include "io/bytes.hpp"
 #include "io/codecs.hpp"
 #include "io/ply_header.hpp"
-#include "io/text.hpp"
 
 namespace dsc::io {
 namespace {
@@ -33,7 +34,7 @@ public:
     void skip_list(Type type, std::uint64_t count) {
         for (std::uint64_t i = 0; i < count; ++i) skip(type);
     }
-    Place place() const { return tokens_.place(); }
+    text::Place place() const { return tokens_.place(); }
     /// Least size of a value: one digit and one blank.
     static std::size_t least_size(Type) { return 2; }
     bool ended() { return tokens_.next().empty(); }
@@ -44,10 +45,10 @@ public:
     void end_element(std::string_view element) {
         if (first_of_element_ == 0 || !tokens_.more_on_line()) return;
         const bool short_line = tokens_.place().line != first_of_element_;
-        fail("io.syntax", {tokens_.place().file, first_of_element_},
-             std::string("the line has ") + (short_line ? "fewer" : "more") + " values than element " + in_quotes(element) +
+        text::fail("io.syntax", {tokens_.place().file, first_of_element_},
+             std::string("the line has ") + (short_line ? "fewer" : "more") + " values than element " + text::in_quotes(element) +
                  " has properties",
-             export_again);
+             text::export_again);
     }
 
 private:
@@ -57,7 +58,7 @@ private:
         return value;
     }
 
-    Tokens tokens_;
+    text::Tokens tokens_;
     std::size_t first_of_element_ = 0;  ///< its line; 0 before its first value
 };
 
@@ -75,7 +76,7 @@ public:
     double real(Type type) {
         const double value = any(type);
         if (!std::isfinite(value)) {
-            fail("io.not_finite", place(),
+            text::fail("io.not_finite", place(),
                  "the coordinate before byte " + std::to_string(at_) + " is NaN or infinite",
                  "remove the point and its faces or export the file again");
         }
@@ -96,7 +97,7 @@ public:
             case Type::uint32:
                 return take<std::uint32_t>();
             default:
-                fail("io.syntax", place(), "indices are fractions", export_again);
+                text::fail("io.syntax", place(), "indices are fractions", text::export_again);
         }
     }
     void skip(Type type) { skip_list(type, 1); }
@@ -104,7 +105,7 @@ public:
         require(count, size_of(type));
         at_ += count * size_of(type);
     }
-    Place place() const { return {file_, 0}; }
+    text::Place place() const { return {file_, 0}; }
     static std::size_t least_size(Type type) { return size_of(type); }
     void begin_element() {}
     void end_element(std::string_view) {}
@@ -123,10 +124,10 @@ private:
     }
     void require(std::uint64_t count, std::size_t size) {
         if (count <= (content_.size() - at_) / size) return;
-        fail("io.truncated", place(),
+        text::fail("io.truncated", place(),
              "the file ends at byte " + std::to_string(content_.size()) + " where " +
                  std::to_string(count * size) + " bytes should follow byte " + std::to_string(at_),
-             copy_again);
+             text::copy_again);
     }
 
     std::string_view content_;
@@ -138,7 +139,7 @@ private:
 template <class Body>
 class PlyReader {
 public:
-    PlyReader(const Header& header, Body body, std::size_t size, Place end_of_header, std::vector<DataArray>* further)
+    PlyReader(const Header& header, Body body, std::size_t size, text::Place end_of_header, std::vector<DataArray>* further)
         : header_(header), body_(std::move(body)), size_(size), header_place_(end_of_header), further_(further) {}
 
     surface::TriangleMesh read() {
@@ -154,7 +155,7 @@ public:
                 skip_element(element);
         }
         if (!body_.ended()) {
-            fail("io.count", body_.place(), "data after the last element",
+            text::fail("io.count", body_.place(), "data after the last element",
                  "the counts of the header are wrong: export the file again");
         }
         if (further_ != nullptr) {
@@ -174,24 +175,24 @@ private:
             for (const Property& p : element.properties)
                 least += Body::least_size(p.count ? *p.count : p.type);
             if (element.count > 0 && least == 0) {
-                fail("io.syntax", header_place_, "element " + in_quotes(element.name) + " has no properties",
-                     export_again);
+                text::fail("io.syntax", header_place_, "element " + text::in_quotes(element.name) + " has no properties",
+                     text::export_again);
             }
             if (least > 0 && element.count > size_ / least + 1) {
-                fail("io.truncated", header_place_,
+                text::fail("io.truncated", header_place_,
                      "the header announces " + std::to_string(element.count) + " elements " +
-                         in_quotes(element.name) + ", more than a file of " + counted(size_, "byte") +
+                         text::in_quotes(element.name) + ", more than a file of " + text::counted(size_, "byte") +
                          " can contain",
-                     copy_again);
+                     text::copy_again);
             }
             if (element.name == "vertex") {
                 vertex = true;
                 points_ = element.count;
             }
         }
-        if (!vertex) fail("io.syntax", header_place_, "the header has no element 'vertex'", export_again);
+        if (!vertex) text::fail("io.syntax", header_place_, "the header has no element 'vertex'", text::export_again);
         if (points_ > std::numeric_limits<std::uint32_t>::max()) {
-            fail("io.count", header_place_, "more than 4294967295 vertices", "split the file");
+            text::fail("io.count", header_place_, "more than 4294967295 vertices", "split the file");
         }
     }
 
@@ -206,7 +207,7 @@ private:
         const bool lists = std::any_of(element.properties.begin(), element.properties.end(),
                                        [](const Property& p) { return p.count && is_integer(p.type); });
         if (element.count > 0 && (lists || element.name == "edge")) {
-            log(LogLevel::warning, std::string(header_place_.file) + ": element " + in_quotes(element.name) + " (" +
+            log(LogLevel::warning, std::string(header_place_.file) + ": element " + text::in_quotes(element.name) + " (" +
                                        std::to_string(element.count) +
                                        ") is not read; only the elements 'vertex', 'face' and 'tristrips' of a PLY file are read");
         }
@@ -220,7 +221,7 @@ private:
     std::uint64_t list_size(const Property& p) {
         const std::int64_t count = body_.integer(*p.count);
         if (count < 0)
-            fail("io.count", body_.place(), "a list of " + std::to_string(count) + " values", export_again);
+            text::fail("io.count", body_.place(), "a list of " + std::to_string(count) + " values", text::export_again);
         return static_cast<std::uint64_t>(count);
     }
 
@@ -231,8 +232,8 @@ private:
         for (const Property& p : element.properties) {
             const int axis = p.name == "x" ? 0 : p.name == "y" ? 1 : p.name == "z" ? 2 : -1;
             if (axis >= 0 && p.count)
-                fail("io.syntax", header_place_, "coordinate " + in_quotes(p.name) + " is a list",
-                     export_again);
+                text::fail("io.syntax", header_place_, "coordinate " + text::in_quotes(p.name) + " is a list",
+                     text::export_again);
             if (axis >= 0) ++seen[static_cast<std::size_t>(axis)];
             axes.push_back(coloured && axis < 0 ? channel(p) : axis);
             if (further_ != nullptr && is_further(p)) {
@@ -242,8 +243,8 @@ private:
             }
         }
         if (seen != std::array<int, 3>{1, 1, 1}) {
-            fail("io.syntax", header_place_, "element 'vertex' needs each of the properties x, y, z once",
-                 export_again);
+            text::fail("io.syntax", header_place_, "element 'vertex' needs each of the properties x, y, z once",
+                 text::export_again);
         }
         mesh_.points.reserve(element.count);
         for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -290,8 +291,8 @@ private:
     std::uint8_t read_byte(Type type) {
         const std::int64_t value = body_.integer(type);
         if (value < 0 || value > 255) {
-            fail("io.syntax", body_.place(), "colour " + std::to_string(value) + " is not a byte (0 to 255)",
-                 export_again);
+            text::fail("io.syntax", body_.place(), "colour " + std::to_string(value) + " is not a byte (0 to 255)",
+                 text::export_again);
         }
         return static_cast<std::uint8_t>(value);
     }
@@ -307,10 +308,10 @@ private:
             if (!is_corners(p)) continue;
             ++lists;
             if (!is_integer(p.type))
-                fail("io.syntax", header_place_, "vertex indices are fractions", export_again);
+                text::fail("io.syntax", header_place_, "vertex indices are fractions", text::export_again);
         }
         if (lists != 1) {
-            fail("io.syntax", header_place_, "element " + in_quotes(element.name) + " needs one list vertex_indices", export_again);
+            text::fail("io.syntax", header_place_, "element " + text::in_quotes(element.name) + " needs one list vertex_indices", text::export_again);
         }
     }
 
@@ -354,7 +355,7 @@ private:
                 continue;
             }
             if (index < 0 || static_cast<std::uint64_t>(index) >= points_) {
-                fail("io.index", body_.place(), "strip: vertex index " + std::to_string(index) + " of " + std::to_string(points_),
+                text::fail("io.index", body_.place(), "strip: vertex index " + std::to_string(index) + " of " + std::to_string(points_),
                      "PLY counts from 0; export the file again");
             }
             polygon_.push_back(static_cast<std::uint32_t>(index));
@@ -371,16 +372,16 @@ private:
     void read_corners(const Property& p, std::uint64_t face) {
         const std::uint64_t count = list_size(p);
         if (count < 3) {
-            fail("io.syntax", body_.place(),
-                 "face " + std::to_string(face) + " with " + counted(count, "corner") +
+            text::fail("io.syntax", body_.place(),
+                 "face " + std::to_string(face) + " with " + text::counted(count, "corner") +
                      ", at least 3 are needed",
-                 export_again);
+                 text::export_again);
         }
         polygon_.clear();
         for (std::uint64_t k = 0; k < count; ++k) {
             const std::int64_t index = body_.integer(p.type);
             if (index < 0 || static_cast<std::uint64_t>(index) >= points_) {
-                fail("io.index", body_.place(),
+                text::fail("io.index", body_.place(),
                      "face " + std::to_string(face) + ": vertex index " + std::to_string(index) + " of " +
                          std::to_string(points_),
                      "PLY counts from 0; export the file again");
@@ -393,7 +394,7 @@ private:
     const Header& header_;
     Body body_;
     std::size_t size_;
-    Place header_place_;
+    text::Place header_place_;
     std::vector<DataArray>* further_;  ///< may be null
     std::uint64_t points_ = 0;
     surface::TriangleMesh mesh_;
@@ -404,7 +405,7 @@ private:
 
 surface::TriangleMesh decode_ply(std::string_view content, std::string_view file, std::vector<DataArray>* further) {
     const Header header = read_header(content, file);
-    const Place place{file, header.lines};
+    const text::Place place{file, header.lines};
     if (header.order) {
         const BinaryBody body(content, file, header.size, *header.order);
         return PlyReader(header, body, content.size(), place, further).read();

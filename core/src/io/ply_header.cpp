@@ -4,7 +4,9 @@
 #include <array>
 #include <utility>
 
-#include "io/text.hpp"
+#include <dsc/text/reading.hpp>
+#include <dsc/text/words.hpp>
+
 
 namespace dsc::io::ply {
 namespace {
@@ -36,10 +38,10 @@ public:
 
     Header read() {
         if (next_line() != "ply")
-            fail("io.syntax", place_, "the file does not start with 'ply'", "check that it is a PLY file");
+            text::fail("io.syntax", place_, "the file does not start with 'ply'", "check that it is a PLY file");
         bool format = false;
         while (true) {
-            Fields fields(next_line());
+            text::Fields fields(next_line());
             const std::string_view word = fields.next();
             if (word == "end_header") break;
             if (word == "format") {
@@ -50,10 +52,10 @@ public:
             } else if (word == "property") {
                 read_property(fields);
             } else if (word != "comment" && word != "obj_info" && !word.empty()) {
-                fail("io.syntax", place_, in_quotes(word) + " is not a word of a PLY header", export_again);
+                text::fail("io.syntax", place_, text::in_quotes(word) + " is not a word of a PLY header", text::export_again);
             }
         }
-        if (!format) fail("io.syntax", place_, "the header has no format", export_again);
+        if (!format) text::fail("io.syntax", place_, "the header has no format", text::export_again);
         header_.size = at_;
         header_.lines = place_.line;
         return std::move(header_);
@@ -63,7 +65,7 @@ private:
     std::string_view next_line() {
         const std::size_t end = content_.find('\n', at_);
         if (end == std::string_view::npos) {
-            fail("io.truncated", place_, "the file ends before 'end_header'", copy_again);
+            text::fail("io.truncated", place_, "the file ends before 'end_header'", text::copy_again);
         }
         std::string_view line = content_.substr(at_, end - at_);
         at_ = end + 1;
@@ -72,53 +74,53 @@ private:
         return line;
     }
 
-    void read_format(Fields& fields) {
+    void read_format(text::Fields& fields) {
         const std::string_view name = fields.next(), version = fields.next();
         if (name == "binary_little_endian")
             header_.order = std::endian::little;
         else if (name == "binary_big_endian")
             header_.order = std::endian::big;
         else if (name != "ascii")
-            fail("io.syntax", place_, in_quotes(name) + " is not a PLY format", export_again);
+            text::fail("io.syntax", place_, text::in_quotes(name) + " is not a PLY format", text::export_again);
         if (version != "1.0")
-            fail("io.syntax", place_, "PLY version " + in_quotes(version) + "; only 1.0 is supported", export_again);
+            text::fail("io.syntax", place_, "PLY version " + text::in_quotes(version) + "; only 1.0 is supported", text::export_again);
     }
 
-    void read_element(Fields& fields) {
+    void read_element(text::Fields& fields) {
         const std::string_view name = fields.next();
-        const std::int64_t count = parse_integer(fields.next(), place_);
+        const std::int64_t count = text::read_integer(fields.next(), place_);
         if (name.empty() || count < 0)
-            fail("io.syntax", place_, "an element needs a name and a count", export_again);
+            text::fail("io.syntax", place_, "an element needs a name and a count", text::export_again);
         header_.elements.push_back({name, static_cast<std::uint64_t>(count), {}});
     }
 
-    Type read_type(Fields& fields) {
+    Type read_type(text::Fields& fields) {
         const std::string_view name = fields.next();
         for (const TypeName& known : type_names) {
             if (known.name == name) return known.type;
         }
-        fail("io.syntax", place_, in_quotes(name) + " is not a PLY type", export_again);
+        text::fail("io.syntax", place_, text::in_quotes(name) + " is not a PLY type", text::export_again);
     }
 
-    void read_property(Fields& fields) {
+    void read_property(text::Fields& fields) {
         if (header_.elements.empty())
-            fail("io.syntax", place_, "a property before the first element", export_again);
+            text::fail("io.syntax", place_, "a property before the first element", text::export_again);
         Property property;
-        Fields ahead = fields;
+        text::Fields ahead = fields;
         if (ahead.next() == "list") {
             fields = ahead;
             property.count = read_type(fields);
             if (!is_integer(*property.count))
-                fail("io.syntax", place_, "the length of a list is not an integer", export_again);
+                text::fail("io.syntax", place_, "the length of a list is not an integer", text::export_again);
         }
         property.type = read_type(fields);
         property.name = fields.next();
-        if (property.name.empty()) fail("io.syntax", place_, "a property without a name", export_again);
+        if (property.name.empty()) text::fail("io.syntax", place_, "a property without a name", text::export_again);
         header_.elements.back().properties.push_back(property);
     }
 
     std::string_view content_;
-    Place place_;
+    text::Place place_;
     std::size_t at_ = 0;
     Header header_;
 };

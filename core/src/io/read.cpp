@@ -6,16 +6,17 @@
 #include <dsc/base/read_file.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/io/formats.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/words.hpp>
 
 #include "io/codecs.hpp"
-#include "io/text.hpp"
 
 namespace dsc::io {
 namespace {
 
 [[noreturn]] void unknown_format(const std::string& file, const std::string& what,
                                  const std::string& accepted) {
-    fail("io.format", {file, 0}, "the extension does not belong to a " + what + " file",
+    text::fail("io.format", {file, 0}, "the extension does not belong to a " + what + " file",
          "give it one of " + accepted + " or convert the file");
 }
 
@@ -23,12 +24,12 @@ namespace {
 std::string require_content(const std::filesystem::path& file) {
     std::string content = read_file(file);
     if (content.find_first_not_of(" \t\r\n") == std::string::npos) {
-        fail("io.empty", {file.string(), 0}, "the file is empty", "copy or export it again");
+        text::fail("io.empty", {file.string(), 0}, "the file is empty", "copy or export it again");
     }
     // In a binary STL these bytes may be part of the header.
     if (find_format(file)->extension == ".stl") return content;
     if (has_wide_byte_order_mark(content)) {
-        fail("io.format", {file.string(), 0}, std::string(wide_text_cause), std::string(wide_text_remedy));
+        text::fail("io.format", {file.string(), 0}, std::string(wide_text_cause), std::string(wide_text_remedy));
     }
     content.erase(0, content.size() - without_byte_order_mark(content).size());
     return content;
@@ -47,7 +48,7 @@ surface::TriangleMesh read_surface(const std::filesystem::path& file, std::vecto
                                  : format->extension == ".off" ? decode_off(content, name)
                                                                : decode_stl(content, name);
     if (mesh.faces.empty()) {
-        fail("io.no_faces", {name, 0}, "no faces among " + counted(mesh.points.size(), "point"),
+        text::fail("io.no_faces", {name, 0}, "no faces among " + text::counted(mesh.points.size(), "point"),
              "a surface is needed here; a cloud must be reconstructed first");
     }
     return mesh;
@@ -59,13 +60,13 @@ mesh::TetMesh read_volume(const std::filesystem::path& file, std::vector<DataArr
     const Format* format = find_format(file);
     if (format == nullptr || !format->volume) unknown_format(name, "volume", readable_volume_extensions());
     if (format->write_only) {
-        fail("io.write_only", {name, 0}, std::string(format->name) + " files can be written but not read",
+        text::fail("io.write_only", {name, 0}, std::string(format->name) + " files can be written but not read",
              "convert it with meshio to one of " + readable_volume_extensions() + ", as share/doc/formats.md shows");
     }
     const std::string content = require_content(file);
     mesh::TetMesh mesh = format->extension == ".dsc" ? decode_dsc(content, name) : decode_vtu(content, name, points);
     if (mesh.tets.empty()) {
-        fail("io.no_tets", {name, 0}, "no tets among " + counted(mesh.points.size(), "point"),
+        text::fail("io.no_tets", {name, 0}, "no tets among " + text::counted(mesh.points.size(), "point"),
              "a volume is needed here; export the file again");
     }
     return mesh;

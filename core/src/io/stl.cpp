@@ -2,17 +2,18 @@
 #include <dsc/base/byte_order_mark.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/measure.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/words.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <charconv>
 #include <optional>
 
 #include "io/bytes.hpp"
 #include "io/codecs.hpp"
-#include "io/text.hpp"
 
 namespace dsc::io {
 namespace {
@@ -44,7 +45,7 @@ surface::TriangleMesh join(const std::vector<Vec3>& corners) {
 Vec3 centre_of(std::string_view header) {
     Vec3 centre = Vec3::Zero();
     if (header.substr(0, centre_mark.size()) != centre_mark) return centre;
-    Fields fields(header.substr(centre_mark.size()));
+    text::Fields fields(header.substr(centre_mark.size()));
     for (int k = 0; k < 3; ++k) {
         const std::string_view field = fields.next();
         float value = 0.0F;
@@ -73,7 +74,7 @@ surface::TriangleMesh decode_binary(std::string_view content, std::string_view f
                     load_number<float>(content.data() + at, std::endian::little);
             }
             if (!p.allFinite()) {
-                fail("io.not_finite", {file, 0},
+                text::fail("io.not_finite", {file, 0},
                      "facet " + std::to_string(f) + " at byte " + std::to_string(facet) +
                          " has a coordinate that is NaN or infinite",
                      "remove the facet or export the file again");
@@ -91,9 +92,7 @@ surface::TriangleMesh decode_binary(std::string_view content, std::string_view f
 
 /// In upper or lower case, because some programs write the words in capitals.
 bool is_word(std::string_view found, std::string_view word) {
-    return found.size() == word.size() && std::equal(found.begin(), found.end(), word.begin(), [](unsigned char a, char b) {
-               return std::tolower(a) == b;
-           });
+    return text::lower_case(found) == word;
 }
 
 class TextStl {
@@ -103,7 +102,7 @@ public:
     surface::TriangleMesh read() {
         std::string_view line;
         while (content_line(line)) {
-            Fields fields(line);
+            text::Fields fields(line);
             const std::string_view word = fields.next();
             if (is_word(word, "facet"))
                 facet();
@@ -112,10 +111,10 @@ public:
             else if (is_word(word, "solid") && !open_)
                 open_ = true;
             else
-                fail("io.syntax", lines_.place(), in_quotes(word) + " where 'facet' or 'endsolid' should be",
-                     export_again);
+                text::fail("io.syntax", lines_.place(), text::in_quotes(word) + " where 'facet' or 'endsolid' should be",
+                     text::export_again);
         }
-        if (open_) fail("io.truncated", lines_.place(), "the file ends without 'endsolid'", copy_again);
+        if (open_) text::fail("io.truncated", lines_.place(), "the file ends without 'endsolid'", text::copy_again);
         return join(corners_);
     }
 
@@ -127,17 +126,17 @@ private:
         return false;
     }
 
-    Fields expect(std::string_view word) {
+    text::Fields expect(std::string_view word) {
         std::string_view line;
         if (!content_line(line)) {
-            fail("io.truncated", lines_.place(), "the file ends where '" + std::string(word) + "' should be",
-                 copy_again);
+            text::fail("io.truncated", lines_.place(), "the file ends where '" + std::string(word) + "' should be",
+                 text::copy_again);
         }
-        Fields fields(line);
+        text::Fields fields(line);
         const std::string_view found = fields.next();
         if (!is_word(found, word)) {
-            fail("io.syntax", lines_.place(),
-                 in_quotes(found) + " where '" + std::string(word) + "' should be", export_again);
+            text::fail("io.syntax", lines_.place(),
+                 text::in_quotes(found) + " where '" + std::string(word) + "' should be", text::export_again);
         }
         return fields;
     }
@@ -145,16 +144,16 @@ private:
     void facet() {
         expect("outer");
         for (int c = 0; c < 3; ++c) {
-            Fields fields = expect("vertex");
+            text::Fields fields = expect("vertex");
             Vec3 p;
             for (int k = 0; k < 3; ++k) {
                 const std::string_view field = fields.next();
                 if (field.empty()) {
-                    fail(lines_.cut() ? "io.truncated" : "io.syntax", lines_.place(),
+                    text::fail(lines_.cut() ? "io.truncated" : "io.syntax", lines_.place(),
                          "vertex with " + std::to_string(k) + " of 3 coordinates",
-                         lines_.cut() ? copy_again : export_again);
+                         lines_.cut() ? text::copy_again : text::export_again);
                 }
-                p[k] = parse_coordinate(field, lines_.place());
+                p[k] = text::read_coordinate(field, lines_.place());
             }
             corners_.push_back(p);
         }
@@ -162,7 +161,7 @@ private:
         expect("endfacet");
     }
 
-    Lines lines_;
+    text::Lines lines_;
     bool open_ = false;
     std::vector<Vec3> corners_;
 };
@@ -188,9 +187,8 @@ std::string header_of(const Vec3& centre) {
     std::string header = centre == Vec3::Zero() ? std::string("dsc surface") : std::string(centre_mark);
     if (centre != Vec3::Zero()) {
         for (int k = 0; k < 3; ++k) {
-            char buffer[24];
-            const auto end = std::to_chars(buffer, buffer + sizeof buffer, static_cast<float>(centre[k])).ptr;
-            header.append(buffer, end).append(" ");
+            text::append_number(header, static_cast<float>(centre[k]));
+            header += ' ';
         }
     }
     header.resize(header_size, ' ');
@@ -204,21 +202,21 @@ surface::TriangleMesh decode_stl(std::string_view content, std::string_view file
         content.size() >= data_start && content.size() == data_start + facet_size * facet_count(content);
     if (fits) return decode_binary(content, file);
     if (has_wide_byte_order_mark(content)) {
-        fail("io.format", {file, 0}, std::string(wide_text_cause), std::string(wide_text_remedy));
+        text::fail("io.format", {file, 0}, std::string(wide_text_cause), std::string(wide_text_remedy));
     }
     const std::string_view text = without_byte_order_mark(content);
     if (is_text_stl(text)) return TextStl(text, file).read();
     if (content.size() < data_start) {
-        fail("io.truncated", {file, 0},
-             "a binary STL of " + counted(content.size(), "byte") + " is too short for its " +
+        text::fail("io.truncated", {file, 0},
+             "a binary STL of " + text::counted(content.size(), "byte") + " is too short for its " +
                  std::to_string(data_start) + " bytes of header",
-             copy_again);
+             text::copy_again);
     }
     const std::uint64_t expected = data_start + facet_size * facet_count(content);
-    fail(expected > content.size() ? "io.truncated" : "io.count", {file, 0},
-         "the header announces " + counted(facet_count(content), "facet") + ", " + std::to_string(expected) +
+    text::fail(expected > content.size() ? "io.truncated" : "io.count", {file, 0},
+         "the header announces " + text::counted(facet_count(content), "facet") + ", " + std::to_string(expected) +
              " bytes in total, but the file has " + std::to_string(content.size()),
-         copy_again);
+         text::copy_again);
 }
 
 std::string encode_stl(const surface::TriangleMesh& mesh) {

@@ -4,7 +4,8 @@
 #include <vtkDoubleArray.h>
 #include <vtkObjectFactory.h>
 
-#include "io/text.hpp"
+#include <dsc/text/reading.hpp>
+
 
 namespace dsc::io {
 
@@ -37,7 +38,7 @@ CaptureScope::~CaptureScope() {
 bool CaptureScope::quiet() const { return capture_->text().empty(); }
 
 std::string CaptureScope::cause() const {
-    Lines lines(capture_->text(), "");
+    text::Lines lines(capture_->text(), "");
     for (std::string_view line; lines.next(line);) {
         const std::size_t colon = line.find("): ");
         if (colon != std::string_view::npos) return std::string(line.substr(colon + 3));
@@ -65,7 +66,7 @@ std::vector<Vec3> points_of(vtkPointSet& data, std::string_view file) {
         Vec3 p;
         data.GetPoints()->GetPoint(i, p.data());
         if (!p.allFinite()) {
-            fail("io.not_finite", {file, 0}, "point " + std::to_string(i) + " is NaN or infinite",
+            text::fail("io.not_finite", {file, 0}, "point " + std::to_string(i) + " is NaN or infinite",
                  "export the file again");
         }
         out.push_back(p);

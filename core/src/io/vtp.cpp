@@ -4,6 +4,8 @@
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/io/series.hpp>
 #include <dsc/surface/measure.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/words.hpp>
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -13,7 +15,6 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include "io/text.hpp"
 #include "io/vtk_tools.hpp"
 #include "io/vtu_check.hpp"
 
@@ -24,7 +25,7 @@ constexpr const char* colour_array = "colour";
 
 void require_surface_size(std::size_t count, std::size_t expected, const std::string& array) {
     if (count == expected) return;
-    throw GeometryError("surface.size", "surface: array " + in_quotes(array) + " has " + counted(count, "value") + " for " +
+    throw GeometryError("surface.size", "surface: array " + text::in_quotes(array) + " has " + text::counted(count, "value") + " for " +
                                             std::to_string(expected) + "; give one for each");
 }
 
@@ -83,7 +84,7 @@ std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& dat
     writer->SetHeaderTypeToUInt64();
     writer->WriteToOutputStringOn();
     if (writer->Write() == 0 || writer->GetErrorCode() != 0 || !capture.quiet())
-        fail("io.write", {file, 0}, "VTK cannot write it: " + capture.cause(), "leave the series out");
+        text::fail("io.write", {file, 0}, "VTK cannot write it: " + capture.cause(), "leave the series out");
     return writer->GetOutputString();
 }
 
@@ -91,22 +92,22 @@ std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& dat
 void read_faces(vtkPolyData& polygons, surface::TriangleMesh& mesh, std::string_view file) {
     const vtkIdType count = polygons.GetNumberOfPolys();
     if (polygons.GetNumberOfCells() != count)
-        fail("io.cell_type", {file, 0}, "it contains points, lines or strips", "export only the triangles");
+        text::fail("io.cell_type", {file, 0}, "it contains points, lines or strips", "export only the triangles");
     if (count == 0) return;
     vtkDataArray* offsets = polygons.GetPolys()->GetOffsetsArray();
     vtkDataArray* corners = polygons.GetPolys()->GetConnectivityArray();
-    if (offsets->GetNumberOfValues() != count + 1) fail("io.truncated", {file, 0}, "offsets are missing", copy_again);
+    if (offsets->GetNumberOfValues() != count + 1) text::fail("io.truncated", {file, 0}, "offsets are missing", text::copy_again);
     const vtkIdType size = corners->GetNumberOfValues();
     for (vtkIdType f = 0; f < count; ++f) {
         const auto begin = static_cast<vtkIdType>(offsets->GetTuple1(f)), end = static_cast<vtkIdType>(offsets->GetTuple1(f + 1));
         if (begin < 0 || end - begin != 3 || end > size) {
-            fail("io.cell_type", {file, 0}, "polygon " + std::to_string(f) + " does not have 3 corners", "export triangles");
+            text::fail("io.cell_type", {file, 0}, "polygon " + std::to_string(f) + " does not have 3 corners", "export triangles");
         }
         std::array<std::uint32_t, 3> face{};
         for (vtkIdType k = 0; k < 3; ++k) {
             const double index = corners->GetTuple1(begin + k);
             if (!(index >= 0.0) || index >= static_cast<double>(mesh.points.size())) {
-                fail("io.index", {file, 0},
+                text::fail("io.index", {file, 0},
                      "polygon " + std::to_string(f) + " refers to a point that is not one of " +
                          std::to_string(mesh.points.size()),
                      "export the file again");
@@ -133,7 +134,7 @@ surface::TriangleMesh decode_checked(const std::string& content, std::string_vie
     reader->SetInputString(with_point_data(content));
     reader->Update();
     if (reader->GetErrorCode() != 0 || !capture.quiet())
-        fail("io.syntax", {file, 0}, "VTK refuses it: " + capture.cause(), copy_again);
+        text::fail("io.syntax", {file, 0}, "VTK refuses it: " + capture.cause(), text::copy_again);
     vtkPolyData* polygons = reader->GetOutput();
     surface::TriangleMesh mesh;
     mesh.points = points_of(*polygons, file);
@@ -183,7 +184,7 @@ surface::TriangleMesh read_vtp(const std::filesystem::path& file, SurfaceData* d
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
-        fail("io.count", {name, 0}, std::string("VTK cannot read it: ") + error.what(), copy_again);
+        text::fail("io.count", {name, 0}, std::string("VTK cannot read it: ") + error.what(), text::copy_again);
     }
 }
 

@@ -1,6 +1,8 @@
 // VTK unstructured grids of tets with VTK's own XML reader and writer.
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/quality.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/words.hpp>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -21,7 +23,6 @@
 #include <limits>
 
 #include "io/codecs.hpp"
-#include "io/text.hpp"
 #include "io/vtk_tools.hpp"
 #include "io/vtu_check.hpp"
 
@@ -54,13 +55,13 @@ void read_tets(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view 
     vtkUnsignedCharArray* types = grid.GetCellTypesArray();
     if (types == nullptr || types->GetNumberOfValues() != count ||
         offsets->GetNumberOfValues() != count + 1) {
-        fail("io.truncated", {file, 0}, "cell types or offsets are missing", copy_again);
+        text::fail("io.truncated", {file, 0}, "cell types or offsets are missing", text::copy_again);
     }
     const vtkIdType size = corners->GetNumberOfValues();
     mesh.tets.reserve(static_cast<std::size_t>(count));
     for (vtkIdType t = 0; t < count; ++t) {
         if (types->GetValue(t) != VTK_TETRA) {
-            fail("io.cell_type", {file, 0},
+            text::fail("io.cell_type", {file, 0},
                  "cell " + std::to_string(t) + " has type " + std::to_string(types->GetValue(t)) +
                      ", only tets (10) are read",
                  "export only the tets");
@@ -68,7 +69,7 @@ void read_tets(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view 
         const auto begin = static_cast<vtkIdType>(offsets->GetTuple1(t)),
                    end = static_cast<vtkIdType>(offsets->GetTuple1(t + 1));
         if (begin < 0 || end - begin != 4 || end > size) {
-            fail("io.syntax", {file, 0},
+            text::fail("io.syntax", {file, 0},
                  "cell " + std::to_string(t) + " has offsets that do not name 4 corners",
                  "export the file again");
         }
@@ -76,7 +77,7 @@ void read_tets(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view 
         for (vtkIdType k = 0; k < 4; ++k) {
             const double index = corners->GetTuple1(begin + k);
             if (!(index >= 0.0) || index >= static_cast<double>(mesh.points.size())) {
-                fail("io.index", {file, 0},
+                text::fail("io.index", {file, 0},
                      "cell " + std::to_string(t) + ": point index " +
                          std::to_string(static_cast<long long>(index)) + " of " +
                          std::to_string(mesh.points.size()),
@@ -91,21 +92,21 @@ void read_tets(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view 
 void read_labels(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view file) {
     vtkDataArray* labels = grid.GetCellData()->GetArray("label");
     if (labels == nullptr || labels->GetNumberOfComponents() != 1) {
-        fail("io.no_labels", {file, 0}, "there is no cell array 'label' with one number per tet",
+        text::fail("io.no_labels", {file, 0}, "there is no cell array 'label' with one number per tet",
              "add one: 0 outside, 1 the object, further phases above");
     }
     if (labels->GetNumberOfTuples() != static_cast<vtkIdType>(mesh.tets.size())) {
-        fail("io.truncated", {file, 0},
+        text::fail("io.truncated", {file, 0},
              "cell array 'label' has " + std::to_string(labels->GetNumberOfTuples()) + " values for " +
-                 counted(mesh.tets.size(), "tet"),
-             copy_again);
+                 text::counted(mesh.tets.size(), "tet"),
+             text::copy_again);
     }
     mesh.labels.reserve(mesh.tets.size());
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         const double value = labels->GetTuple1(static_cast<vtkIdType>(t));
         if (!(value >= 0.0) || value > std::numeric_limits<mesh::Label>::max() ||
             value != std::floor(value)) {
-            fail("io.syntax", {file, 0},
+            text::fail("io.syntax", {file, 0},
                  "cell " + std::to_string(t) + " has a label that is not an integer of at least 0",
                  "labels are 0 (outside) or larger");
         }
@@ -120,7 +121,7 @@ mesh::TetMesh decode_checked(const std::string& content, std::string_view file, 
     reader->SetInputString(with_point_data(content));
     reader->Update();
     if (reader->GetErrorCode() != 0 || !capture.quiet())
-        fail("io.syntax", {file, 0}, "VTK refuses it: " + capture.cause(), copy_again);
+        text::fail("io.syntax", {file, 0}, "VTK refuses it: " + capture.cause(), text::copy_again);
     vtkUnstructuredGrid* grid = reader->GetOutput();
     mesh::TetMesh mesh;
     mesh.points = points_of(*grid, file);
@@ -139,7 +140,7 @@ mesh::TetMesh decode_vtu(const std::string& content, std::string_view file, std:
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
-        fail("io.count", {file, 0}, std::string("VTK cannot read it: ") + error.what(), copy_again);
+        text::fail("io.count", {file, 0}, std::string("VTK cannot read it: ") + error.what(), text::copy_again);
     }
 }
 
@@ -162,7 +163,7 @@ std::string encode_vtu(const mesh::TetMesh& mesh, const VolumeData& data, std::s
     writer->SetHeaderTypeToUInt64();
     writer->WriteToOutputStringOn();
     if (writer->Write() == 0 || writer->GetErrorCode() != 0 || !capture.quiet()) {
-        fail("io.write", {file, 0}, "VTK cannot write it: " + capture.cause(), "write a .dsc instead");
+        text::fail("io.write", {file, 0}, "VTK cannot write it: " + capture.cause(), "write a .dsc instead");
     }
     return writer->GetOutputString();
 }

@@ -9,13 +9,15 @@
 #include <string>
 #include <vector>
 
+#include <dsc/text/reading.hpp>
+#include <dsc/text/words.hpp>
+
 #include "io/bytes.hpp"
-#include "io/text.hpp"
 
 namespace dsc::io {
 namespace {
 
-bool is_space(char c) { return is_blank(c) || c == '\n'; }
+bool is_space(char c) { return text::is_blank(c) || c == '\n'; }
 
 std::size_t skip_space(std::string_view text, std::size_t at) {
     while (at < text.size() && is_space(text[at])) ++at;
@@ -98,10 +100,10 @@ public:
             for_tags(xml_, opening, [&](std::string_view tag, std::size_t end) {
                 const std::string_view format = attribute(tag, "format");
                 if (format != "ascii" && format != "binary" && format != "appended") {
-                    fail("io.syntax", place_,
-                         "array " + in_quotes(attribute(tag, "Name")) + " has format " + in_quotes(format) +
+                    text::fail("io.syntax", place_,
+                         "array " + text::in_quotes(attribute(tag, "Name")) + " has format " + text::in_quotes(format) +
                              "; supported are ascii, binary, appended",
-                         copy_again);
+                         text::copy_again);
                 }
                 if (!compressed_) return;
                 if (format == "binary") {
@@ -127,8 +129,8 @@ private:
                     version[2] >= '0' && version[2] <= '9';
         });
         if (known) return;
-        if (!found) fail("io.syntax", place_, "there is no element VTKFile", "check that it is a VTU file");
-        fail("io.syntax", place_, "VTK file version " + in_quotes(version) + "; supported are 0.1 to 2.9",
+        if (!found) text::fail("io.syntax", place_, "there is no element VTKFile", "check that it is a VTU file");
+        text::fail("io.syntax", place_, "VTK file version " + text::in_quotes(version) + "; supported are 0.1 to 2.9",
              "check that it is a VTU file or export it again");
     }
 
@@ -146,10 +148,10 @@ private:
                 const std::string_view value = attribute(tag, name);
                 const auto count = number(value);
                 if (count && *count / 100 <= content_.size()) return;
-                fail("io.count", place_,
-                     std::string(name) + " is " + in_quotes(value) + ", more than a file of " +
-                         counted(content_.size(), "byte") + " can contain",
-                     copy_again);
+                text::fail("io.count", place_,
+                     std::string(name) + " is " + text::in_quotes(value) + ", more than a file of " +
+                         text::counted(content_.size(), "byte") + " can contain",
+                     text::copy_again);
             });
         }
         for (const std::string_view name : {"NumberOfComponents", "NumberOfTuples"}) {
@@ -159,10 +161,10 @@ private:
                 const auto count = number(value);
                 const std::uint64_t most = name == "NumberOfTuples" ? 100 * content_.size() : 1000;
                 if (count && *count <= most && (*count > 0 || name == "NumberOfTuples")) return;
-                fail("io.count", place_,
-                     std::string(name) + " of array " + in_quotes(attribute(tag, "Name")) + " is " +
-                         in_quotes(value),
-                     copy_again);
+                text::fail("io.count", place_,
+                     std::string(name) + " of array " + text::in_quotes(attribute(tag, "Name")) + " is " +
+                         text::in_quotes(value),
+                     text::copy_again);
             });
         }
     }
@@ -196,15 +198,15 @@ private:
     }
 
     [[noreturn]] void refuse(std::string_view name) const {
-        fail("io.syntax", place_,
-             "the compressed array " + in_quotes(name) + " has a header that does not fit the file",
-             copy_again);
+        text::fail("io.syntax", place_,
+             "the compressed array " + text::in_quotes(name) + " has a header that does not fit the file",
+             text::copy_again);
     }
 
     std::string_view content_;
     std::string_view xml_;
     std::string_view appended_;
-    Place place_;
+    text::Place place_;
     bool compressed_ = false;
     bool wide_ = false;
     bool raw_ = false;

@@ -6,11 +6,12 @@
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/io/formats.hpp>
 #include <dsc/surface/measure.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/words.hpp>
 
 #include <limits>
 
 #include "io/codecs.hpp"
-#include "io/text.hpp"
 
 namespace dsc::io {
 namespace {
@@ -19,7 +20,7 @@ const Format& require_format(const std::filesystem::path& file, bool Format::*ki
                              const std::string& accepted) {
     const Format* format = find_format(file);
     if (format == nullptr || !(format->*kind)) {
-        fail("io.format", {file.string(), 0}, "a " + what + " cannot be written with this extension",
+        text::fail("io.format", {file.string(), 0}, "a " + what + " cannot be written with this extension",
              "use one of " + accepted);
     }
     return *format;
@@ -27,16 +28,16 @@ const Format& require_format(const std::filesystem::path& file, bool Format::*ki
 
 void require_volume_size(std::size_t count, std::size_t expected, const std::string& what) {
     if (count == expected) return;
-    throw GeometryError("volume.size", "volume: " + what + " has " + counted(count, "value") + " for " +
+    throw GeometryError("volume.size", "volume: " + what + " has " + text::counted(count, "value") + " for " +
                                            std::to_string(expected) + "; give one for each");
 }
 
 void check_arrays(const mesh::TetMesh& mesh, const VolumeData& data) {
     require_volume_size(mesh.labels.size(), mesh.tets.size(), "the array of labels");
     for (const DataArray& a : data.cells)
-        require_volume_size(a.values.size(), mesh.tets.size(), "cell array " + in_quotes(a.name));
+        require_volume_size(a.values.size(), mesh.tets.size(), "cell array " + text::in_quotes(a.name));
     for (const DataArray& a : data.points) {
-        require_volume_size(a.values.size(), mesh.points.size(), "point array " + in_quotes(a.name));
+        require_volume_size(a.values.size(), mesh.points.size(), "point array " + text::in_quotes(a.name));
     }
 }
 
@@ -63,7 +64,7 @@ void check_tets(const mesh::TetMesh& mesh, const std::string& file) {
     }
     if (wrong == 0) return;
     throw GeometryError("volume.inverted",
-                        file + ": not written, " + counted(wrong, "tet") + " of " +
+                        file + ": not written, " + text::counted(wrong, "tet") + " of " +
                             std::to_string(mesh.tets.size()) + " not positive, the first is tet " +
                             std::to_string(first) +
                             "; orient the tets (adopt does) or use units in which their volume is not rounded to 0");
@@ -71,19 +72,19 @@ void check_tets(const mesh::TetMesh& mesh, const std::string& file) {
 
 void require_colours(const surface::TriangleMesh& mesh) {
     if (mesh.colours.empty() || mesh.colours.size() == mesh.points.size()) return;
-    throw GeometryError("surface.colours", "surface: " + counted(mesh.colours.size(), "colour") + " for " +
-                                               counted(mesh.points.size(), "point") +
+    throw GeometryError("surface.colours", "surface: " + text::counted(mesh.colours.size(), "colour") + " for " +
+                                               text::counted(mesh.points.size(), "point") +
                                                "; give one for each or none");
 }
 
 void require_fit(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points, const std::vector<Vec3>& normals) {
     if (!normals.empty() && normals.size() != mesh.points.size())
-        throw GeometryError("surface.size", "surface: " + counted(normals.size(), "normal") + " for " +
-                                                counted(mesh.points.size(), "point") + "; give one for each or none");
+        throw GeometryError("surface.size", "surface: " + text::counted(normals.size(), "normal") + " for " +
+                                                text::counted(mesh.points.size(), "point") + "; give one for each or none");
     for (const DataArray& a : points) {
         if (a.values.size() == mesh.points.size()) continue;
-        throw GeometryError("surface.size", "surface: array " + in_quotes(a.name) + " has " + counted(a.values.size(), "value") +
-                                                " for " + counted(mesh.points.size(), "point") + "; give one for each");
+        throw GeometryError("surface.size", "surface: array " + text::in_quotes(a.name) + " has " + text::counted(a.values.size(), "value") +
+                                                " for " + text::counted(mesh.points.size(), "point") + "; give one for each");
     }
 }
 

@@ -12,21 +12,14 @@
 #include <dsc/mesh/unpinch.hpp>
 
 #include <dsc/base/union_find.hpp>
+#include <dsc/geometry/point_text.hpp>
+#include <dsc/text/numbers.hpp>
 
 namespace dsc::mesh {
 namespace {
 
 [[noreturn]] void refuse(std::string_view name, const std::string& code, const std::string& cause, const std::string& remedy) {
     throw GeometryError(code, std::string(name) + ": " + cause + "; " + remedy);
-}
-
-std::string point_text(const Vec3& p) {
-    const auto number = [](double x) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.6g", x);
-        return std::string(text);
-    };
-    return "(" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ")";
 }
 
 void check_arrays(const TetMesh& mesh, std::string_view name) {
@@ -109,7 +102,7 @@ void orient(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string
     }
     if (flat == 0) return;
     refuse(name, "mesh.flat_tet",
-           "tet " + std::to_string(first) + " at " + point_text(points[tets[first].v[0]]) + " has zero volume (" +
+           "tet " + std::to_string(first) + " at " + geometry::point_text(points[tets[first].v[0]]) + " has zero volume (" +
                std::to_string(flat) + " in total)",
            "remove flat tets, or write the coordinates with more digits");
 }
@@ -158,7 +151,7 @@ void join_faces(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::st
         same_side.add(found.same_side);
     }
     const auto face_text = [&](const Fault& fault) {
-        return "tet " + std::to_string(fault.tet) + " at " + point_text(points[fault.vertex]);
+        return "tet " + std::to_string(fault.tet) + " at " + geometry::point_text(points[fault.vertex]);
     };
     if (crowded.count > 0) {
         refuse(name, "mesh.crowded_face",
@@ -179,9 +172,8 @@ void check_volume(const std::vector<Vec3>& points, const std::vector<Tet>& tets,
     const Vec3 size = bounding_box(points).size();
     const double box = size.x() * size.y() * size.z();
     if (std::abs(sum - box) <= 1e-9 * box) return;
-    char text[96];
-    std::snprintf(text, sizeof text, "the tets' volumes add up to %.12g, their bounding box has %.12g", sum, box);
-    refuse(name, "mesh.volume", text, "the tets must fill an axis-parallel box without gaps or overlaps");
+    refuse(name, "mesh.volume",
+           "the tets' volumes add up to " + text::rounded(sum, 12) + ", their bounding box has " + text::rounded(box, 12), "the tets must fill an axis-parallel box without gaps or overlaps");
 }
 
 // Whether every face without a second tet lies exactly in one side of the box. Then the tets of every vertex are joined through
@@ -217,7 +209,7 @@ void check_stars(const Complex& c, std::string_view name) {
         c.star(v, star);
         if (star.size() == degree[v]) continue;
         refuse(name, "mesh.torn_star",
-               "the tets at vertex " + std::to_string(v) + " " + point_text(c.position(v)) + " are not joined through faces",
+               "the tets at vertex " + std::to_string(v) + " " + geometry::point_text(c.position(v)) + " are not joined through faces",
                "the mesh must be conforming");
     }
 }

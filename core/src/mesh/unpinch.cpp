@@ -7,6 +7,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/mesh/local_star.hpp>
 #include <dsc/mesh/vertex_split.hpp>
+#include <dsc/geometry/point_text.hpp>
 
 namespace dsc::mesh {
 namespace {
@@ -77,10 +78,8 @@ bool relabel_group(Complex& c, VertexId v, const Group& group) {
     labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
     std::string list;
     for (const Label l : labels) list += (list.empty() ? "" : ", ") + std::to_string(l);
-    char place[96];
-    std::snprintf(place, sizeof place, "(%.6g, %.6g, %.6g)", c.position(v).x(), c.position(v).y(), c.position(v).z());
     throw GeometryError("mesh.pinched", std::string(name) + ": labels " + list + " touch at vertex " + std::to_string(v) + " " +
-                                            place + " and cannot be separated; relabel the tets there");
+                                            geometry::point_text(c.position(v)) + " and cannot be separated; relabel the tets there");
 }
 
 }  // namespace

@@ -15,9 +15,6 @@ inline constexpr std::string_view report_it = "report this to the plugin's autho
 /// An entry of a list, as messages name it: "normal 3".
 inline std::string entry(std::string_view what, std::size_t index) { return std::string(what) + " " + std::to_string(index); }
 
-/// Whether the name is snake_case, as names of columns, keys and classes must be.
-bool plain_name(std::string_view name);
-
 /// Identifies the wrapped strategy.
 struct Attribution {
     Identity who;

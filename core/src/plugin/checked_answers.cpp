@@ -2,15 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <dsc/text/words.hpp>
+
 #include "plugin/checked.hpp"
 
 namespace dsc::plugin {
-
-bool plain_name(std::string_view name) {
-    return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-    });
-}
 
 void judge(const Call& current, const hooks::Attributes& attributes, std::size_t vertices) {
     std::vector<std::string_view> seen;
@@ -49,7 +45,7 @@ void judge(const Call& current, const std::optional<mesh::CreaseRule>& creases) 
 void judge(const Call& current, const hooks::Figures& figures) {
     std::vector<std::string_view> seen;
     for (const auto& [name, value] : figures) {
-        if (!plain_name(name) || std::find(seen.begin(), seen.end(), name) != seen.end()) {
+        if (!text::is_snake_case(name) || std::find(seen.begin(), seen.end(), name) != seen.end()) {
             fail(current, "strategy.range", "gave a figure the name '" + name + "'",
                  "names are snake_case and differ; report this to the plugin's authors");
         }
@@ -65,7 +61,7 @@ void judge(const Call& current, const hooks::Figures& figures) {
 void judge(const Call& current, const hooks::Warnings& warnings) {
     for (const hooks::Warning& warning : warnings) {
         const bool plain = std::all_of(warning.code.begin(), warning.code.end(), [](char c) {
-            return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+            return text::is_lower(c) || text::is_digit(c) || c == '_' || c == '.';
         });
         if (warning.code.empty() || !plain || warning.text.empty()) {
             fail(current, "strategy.range", "gave a warning with the code '" + warning.code + "' and the text '" + warning.text + "'",

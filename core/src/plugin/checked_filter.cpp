@@ -2,20 +2,17 @@
 #include <algorithm>
 #include <cmath>
 #include <dsc/config/yaml.hpp>
+#include <dsc/text/words.hpp>
 
 #include "plugin/checked.hpp"
 
 namespace dsc::plugin {
 namespace {
 
-std::string count_of(std::size_t count, std::string_view what) {
-    return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
-}
-
 void judge_size(const Call& current, std::string_view what, std::size_t size, std::size_t points) {
     if (size == 0 || size == points) return;
     fail(current, "strategy.size",
-         "gave " + std::to_string(size) + " " + std::string(what) + " for " + count_of(points, "point"),
+         "gave " + std::to_string(size) + " " + std::string(what) + " for " + text::counted(points, "point"),
          "an attribute is empty or has one entry per point; report this to the plugin's authors");
 }
 
@@ -102,7 +99,7 @@ void judge_report(const Call& current, const cloud::FilterReport& told, std::siz
     }
     if (!told.reasons.empty() && (!adds_up || rest != 0)) {
         fail(current, "strategy.size",
-             "gave reasons whose counts do not add up to the " + count_of(told.removed, "removed point"), report_it);
+             "gave reasons whose counts do not add up to the " + text::counted(told.removed, "removed point"), report_it);
     }
     for (const std::string& note : told.notes) {
         if (note.empty() || note.find('\n') != std::string::npos)

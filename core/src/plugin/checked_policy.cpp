@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <dsc/text/words.hpp>
+
 #include "plugin/checked.hpp"
 
 namespace dsc::plugin {
@@ -205,7 +207,7 @@ public:
                  report_it);
         }
         for (std::size_t i = 0; i < names.size(); ++i) {
-            if (plain_name(names[i]) && std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) ==
+            if (text::is_snake_case(names[i]) && std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) ==
                                             names.begin() + static_cast<std::ptrdiff_t>(i)) {
                 continue;
             }

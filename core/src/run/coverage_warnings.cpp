@@ -1,5 +1,5 @@
 // The warnings about the agreement of a surface with its points.
-#include <spdlog/fmt/fmt.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <dsc/run/coverage.hpp>

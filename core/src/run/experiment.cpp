@@ -4,6 +4,7 @@
 #include <dsc/config/overrides.hpp>
 #include <dsc/run/experiment.hpp>
 #include <dsc/run/sha256.hpp>
+#include <dsc/text/words.hpp>
 #include <filesystem>
 #include <set>
 
@@ -116,9 +117,7 @@ void require_files(const ConfigNode& resolved, const StrategyLookup& lookup) {
         return file;
     });
     if (!missing.has_errors()) return;
-    const std::size_t count = missing.error_count();
-    throw IoError("io.open", missing.text(config::Severity::error) + std::to_string(count) +
-                                 (count == 1 ? " error" : " errors") + "; nothing was run");
+    throw IoError("io.open", missing.text(config::Severity::error) + text::counted(missing.error_count(), "error") + "; nothing was run");
 }
 
 }  // namespace

@@ -1,18 +1,11 @@
 // Texts of metrics.csv and events.jsonl.
-#include <array>
-#include <charconv>
 #include <dsc/run/figures.hpp>
+#include <dsc/text/numbers.hpp>
 
 namespace dsc::run {
 namespace {
 
-std::string number(double value) {
-    std::array<char, 32> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-    return std::string(buffer.data(), end);
-}
-
-std::string number(const std::optional<double>& value) { return value ? number(*value) : std::string(); }
+std::string number(const std::optional<double>& value) { return value ? text::exact(*value) : std::string(); }
 
 }  // namespace
 
@@ -77,11 +70,11 @@ std::string event_line(const kernel::Event& event, const cloud::Transform& to_no
     const double scale = to_normalised.scale;
     std::string text = "{\"kind\":\"" + std::string(kernel::name(event.kind)) + "\"";
     text += ",\"step\":" + std::to_string(event.step);
-    text += ",\"place\":[" + number(place.x()) + "," + number(place.y()) + "," + number(place.z()) + "]";
+    text += ",\"place\":[" + text::exact(place.x()) + "," + text::exact(place.y()) + "," + text::exact(place.z()) + "]";
     text += ",\"label\":" + std::to_string(event.label);
     text += ",\"tets\":" + std::to_string(event.tets);
-    text += ",\"volume\":" + number(event.volume / (scale * scale * scale));
-    text += ",\"thickness\":" + number(event.thickness);
+    text += ",\"volume\":" + text::exact(event.volume / (scale * scale * scale));
+    text += ",\"thickness\":" + text::exact(event.thickness);
     return text + "}\n";
 }
 

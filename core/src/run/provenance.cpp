@@ -99,7 +99,8 @@ ordered_json versions() {
             {"openmesh", DSC_RUN_OPENMESH},
             {"vtk", DSC_RUN_VTK},
             {"embree", DSC_RUN_EMBREE},
-            {"yaml-cpp", DSC_RUN_YAML}};
+            {"yaml-cpp", DSC_RUN_YAML},
+            {"fmt", DSC_RUN_FMT}};
 }
 
 }  // namespace
@@ -182,7 +183,7 @@ std::string version_text() {
         EIGEN_MINOR_VERSION);
     text +=
         ", Boost " BOOST_LIB_VERSION ", PCL " DSC_RUN_PCL ", OpenMesh " DSC_RUN_OPENMESH ", VTK " DSC_RUN_VTK;
-    text += ", Embree " DSC_RUN_EMBREE ", yaml-cpp " DSC_RUN_YAML "\n";
+    text += ", Embree " DSC_RUN_EMBREE ", yaml-cpp " DSC_RUN_YAML ", fmt " DSC_RUN_FMT "\n";
     return text;
 }
 

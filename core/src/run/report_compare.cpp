@@ -3,6 +3,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/run/report.hpp>
+#include <dsc/text/words.hpp>
 #include <map>
 
 #include "report_html.hpp"
@@ -179,7 +180,7 @@ std::string comparison_html(std::span<const fs::path> run_folders, const plugin:
                                  section("The surfaces", viewers(columns, catalogue, workers)) +
                                  section("Convergence", tag("div", plots, "plots")) + section("Time by phase", times(columns)) +
                                  section("What differs in the experiments", differences(columns));
-        return report_page(std::to_string(columns.size()) + (columns.size() == 1 ? " run" : " runs") + " compared",
+        return report_page(text::counted(columns.size(), "run") + " compared",
                            "one column per run", body);
     });
 }

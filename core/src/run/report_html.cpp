@@ -2,34 +2,17 @@
 #include "report_html.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <dsc/base/error.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/utf8.hpp>
+#include <openssl/evp.h>
 #include <set>
 
 namespace dsc::run::html {
 namespace {
 
 constexpr std::string_view unreadable = "\xEF\xBF\xBD";
-
-/// Length of the well-formed UTF-8 sequence at the start of `s`; 0 if there is none.
-std::size_t utf8_length(std::string_view s) {
-    const auto byte = [&](std::size_t i) { return i < s.size() ? static_cast<unsigned char>(s[i]) : 0U; };
-    const auto tail = [&](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };
-    const unsigned first = byte(0), second = byte(1);
-    if (first < 0x80) return 1;
-    if (first >= 0xC2 && first <= 0xDF) return tail(1) ? 2 : 0;
-    if (first >= 0xE0 && first <= 0xEF) {
-        const bool overlong = first == 0xE0 && second < 0xA0, surrogate = first == 0xED && second > 0x9F;
-        return tail(1) && tail(2) && !overlong && !surrogate ? 3 : 0;
-    }
-    if (first >= 0xF0 && first <= 0xF4) {
-        const bool overlong = first == 0xF0 && second < 0x90, beyond = first == 0xF4 && second > 0x8F;
-        return tail(1) && tail(2) && tail(3) && !overlong && !beyond ? 4 : 0;
-    }
-    return 0;
-}
 
 void append_escaped(std::string& out, std::string_view character) {
     const char c = character.front();
@@ -56,7 +39,7 @@ std::string text(std::string_view raw) {
     std::string out;
     out.reserve(raw.size());
     while (!raw.empty()) {
-        const std::size_t length = utf8_length(raw);
+        const std::size_t length = dsc::text::character_length(raw);
         if (length == 0) {
             out += unreadable;
         } else {
@@ -112,24 +95,18 @@ std::string integer(double value) {
 }
 
 std::string real(double value) {
-    if (!std::isfinite(value)) return "-";
-    std::array<char, 32> out{};
-    std::snprintf(out.data(), out.size(), "%.4g", value);
-    return out.data();
+    return std::isfinite(value) ? dsc::text::rounded(value, 4) : "-";
 }
 
 std::string base64(std::string_view bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    out.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t bits = 0;
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-        for (std::size_t k = 0; k < 3; ++k) {
-            bits = (bits << 8U) | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-        }
-        for (std::size_t k = 0; k < 4; ++k) out += k <= count ? digits[(bits >> (18U - 6U * k)) & 63U] : '=';
+    constexpr std::size_t block = 3U << 20U;  // OpenSSL counts in int
+    std::string out((bytes.size() + 2) / 3 * 4 + 1, '\0');  // and ends its text with a zero
+    auto* to = reinterpret_cast<unsigned char*>(out.data());
+    for (; !bytes.empty(); bytes.remove_prefix(std::min(block, bytes.size()))) {
+        const auto* const from = reinterpret_cast<const unsigned char*>(bytes.data());
+        to += EVP_EncodeBlock(to, from, static_cast<int>(std::min(block, bytes.size())));
     }
+    out.pop_back();
     return out;
 }
 

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <limits>
 
+#include <dsc/text/numbers.hpp>
+
 #include "report_html.hpp"
 
 namespace dsc::run {
@@ -16,11 +18,7 @@ constexpr double width = 460, height = 250;
 constexpr double left = 58, right = 14, top = 34, bottom = 40;
 
 /// A coordinate on the page; a tenth of a unit is finer than print.
-std::string at(double value) {
-    std::array<char, 32> out{};
-    std::snprintf(out.data(), out.size(), "%.1f", value);
-    return out.data();
-}
+std::string at(double value) { return text::fixed(value, 1); }
 
 std::string label(double x, double y, const std::string& text, const char* classes, const char* anchor = "middle") {
     return "<text x=\"" + at(x) + "\" y=\"" + at(y) + "\" class=\"" + classes + "\" text-anchor=\"" + anchor + "\">" +
@@ -93,9 +91,7 @@ struct PlotAxis {
 std::string tick_text(double value) {
     if (value != 0.0 && std::abs(value) >= 10000.0 && value == std::floor(value) && std::abs(value) < 1e9)
         return html::integer(value);
-    std::array<char, 32> out{};
-    std::snprintf(out.data(), out.size(), "%.6g", value);
-    return out.data();
+    return text::rounded(value);
 }
 
 std::string frame(const PlotAxis& x, const PlotAxis& y, const std::string& title, const std::string& x_label) {

@@ -2,10 +2,10 @@
 #include "state_series.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
+#include <fmt/core.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/run/driver.hpp>
 #include <limits>
@@ -22,9 +22,7 @@ constexpr std::size_t written_block = 256;
 std::string extension_of(const std::string& kind) { return kind == "surface" ? ".vtp" : ".vtu"; }
 
 std::string file_name(const std::string& kind, std::uint64_t step) {
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%s_%06llu", kind.c_str(), static_cast<unsigned long long>(step));
-    return text.data() + extension_of(kind);
+    return fmt::format("{}_{:06}{}", kind, step, extension_of(kind));
 }
 
 /// The step in a file's name; empty for any other file.

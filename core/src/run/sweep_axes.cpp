@@ -10,6 +10,7 @@
 #include <dsc/config/schema.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/run/sweep.hpp>
+#include <dsc/text/numbers.hpp>
 #include <optional>
 
 namespace dsc::run {
@@ -60,9 +61,7 @@ std::optional<Range> read_range(const ConfigEntry& entry, bool counted, Diagnost
 
 /// Twelve digits, so that 0.0010000000000000002 becomes 0.001.
 double rounded(double value) {
-    std::array<char, 40> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 12).ptr;
-    std::from_chars(text.data(), end, value);
+    text::parse_number(text::rounded(value, 12), value);
     return value;
 }
 

@@ -3,6 +3,7 @@
 #include <dsc/config/overrides.hpp>
 #include <dsc/run/driver.hpp>
 #include <dsc/run/sweep.hpp>
+#include <dsc/text/words.hpp>
 #include <map>
 #include <optional>
 #include <set>
@@ -28,7 +29,7 @@ public:
         std::string text;
         for (std::size_t i = 0; i < list_.size() && i < most_shown; ++i) text += list_[i].text + note(list_[i]);
         if (list_.size() > most_shown) text += "... and " + std::to_string(list_.size() - most_shown) + " more\n";
-        text += std::to_string(list_.size()) + (list_.size() == 1 ? " error" : " errors") + "; nothing was written";
+        text += text::counted(list_.size(), "error") + "; nothing was written";
         if (only_files_) throw IoError("io.open", text);
         throw ConfigError("config.invalid", text);
     }
@@ -67,7 +68,7 @@ private:
     static std::string note(const Fault& fault) {
         const std::size_t others = fault.points - 1;
         return "      note: in the point " + fault.first +
-               (others == 0 ? "" : " and " + std::to_string(others) + (others == 1 ? " other" : " others")) + "\n";
+               (others == 0 ? "" : " and " + text::counted(others, "other")) + "\n";
     }
 
     std::vector<Fault> list_;

@@ -4,6 +4,7 @@
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/run/run_folder.hpp>
 #include <dsc/run/sweep.hpp>
+#include <dsc/text/words.hpp>
 #include <set>
 
 #include "sweep_table.hpp"
@@ -57,7 +58,7 @@ void require_unchanged(const Sweep& sweep, const std::vector<std::string>& exper
     }
     if (count == 0) return;
     throw UsageError("sweep.changed",
-                     std::to_string(count) + (count == 1 ? " point was" : " points were") + " started (" + first +
+                     text::counted(count, "point was", "points were") + " started (" + first +
                          (count == 1 ? "" : ", ...") +
                          ") and would now be another experiment: the base, 'set' or this dsc has changed; nothing was "
                          "written; expand into another folder with -o, or remove the folders of these points");

@@ -1,8 +1,8 @@
-#include <spdlog/fmt/fmt.h>
+#include <fmt/core.h>
 
 #include <array>
-#include <cctype>
 #include <dsc/conformance/check.hpp>
+#include <dsc/text/words.hpp>
 #include <nlohmann/json.hpp>
 
 namespace dsc::conformance {
@@ -10,12 +10,6 @@ namespace {
 
 constexpr std::array all_statuses = {Status::pass, Status::warn,  Status::skip,
                                      Status::fail, Status::crash, Status::timeout};
-
-std::string lower(std::string_view text) {
-    std::string result(text);
-    for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return result;
-}
 
 std::string xml(std::string_view text) {
     std::string out;
@@ -54,7 +48,7 @@ std::string junit_case(const Report& report, const Outcome& o) {
     } else {
         const char* element = o.status == Status::fail ? "failure" : "error";
         out += fmt::format("    <{} message=\"{}\" type=\"{}\"/>\n", element, xml(o.message),
-                           lower(name(o.status)));
+                           text::lower_case(name(o.status)));
     }
     return out + "  </testcase>\n";
 }
@@ -79,7 +73,7 @@ std::string sums(const Report& report) {
     std::string out = fmt::format("{} {} at level {}, seed {}:", report.file.filename().string(),
                                   report.passed() ? "passes" : "FAILS", name(report.level), report.seed);
     for (const Status status : all_statuses) {
-        if (report.count(status) > 0) out += fmt::format(" {} {}", report.count(status), lower(name(status)));
+        if (report.count(status) > 0) out += fmt::format(" {} {}", report.count(status), text::lower_case(name(status)));
     }
     return out + "\n";
 }
@@ -89,7 +83,7 @@ std::string json(const Report& report) {
     for (const Outcome& o : report.outcomes) {
         outcomes.push_back({{"test", o.test},
                             {"strategy", o.strategy},
-                            {"status", lower(name(o.status))},
+                            {"status", text::lower_case(name(o.status))},
                             {"message", o.message},
                             {"seconds", o.seconds}});
     }

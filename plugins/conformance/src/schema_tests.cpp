@@ -5,6 +5,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/config/yaml.hpp>
+#include <dsc/text/words.hpp>
 
 #include "test_table.hpp"
 
@@ -46,10 +47,7 @@ bool is_unit(const std::string& unit) {
 
 void lint_field(const Field& field, std::vector<std::string>& problems) {
     const std::string subject = "parameter '" + field.name + "' ";
-    const bool snake = !field.name.empty() && std::all_of(field.name.begin(), field.name.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-    });
-    if (!snake) problems.push_back(subject + "is not named in snake_case");
+    if (!text::is_snake_case(field.name)) problems.push_back(subject + "is not named in snake_case");
     if (field.doc.empty() || field.doc.back() != '.')
         problems.push_back(subject + "has a doc that is not a sentence");
     if (!field.unit.empty() && !is_unit(field.unit))

@@ -1,6 +1,6 @@
 #include "trace.hpp"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <bit>

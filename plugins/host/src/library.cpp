@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <dsc/base/error.hpp>
+#include <dsc/text/words.hpp>
 #include <string>
 #include <string_view>
 
@@ -11,12 +12,6 @@
 
 namespace dsc::host {
 namespace {
-
-bool is_plain_name(std::string_view name) {
-    return !name.empty() && name[0] >= 'a' && name[0] <= 'z' &&
-           std::all_of(name.begin(), name.end(),
-                       [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
-}
 
 // Stores what enroll() registers until all of it has been checked.
 class Staging : public plugin::Registrar {
@@ -26,7 +21,7 @@ public:
 protected:
     void enroll(plugin::StrategyRecord record) override {
         const std::string name = std::string(plugin::kind_name(record.kind)) + " '" + record.id + "'";
-        if (!is_plain_name(record.id)) {
+        if (!text::is_id(record.id)) {
             throw PluginError("plugin.enroll", "the id of " + name + " is not of the form [a-z][a-z0-9_]*");
         }
         if (record.summary.empty()) throw PluginError("plugin.enroll", name + " has no summary");
@@ -58,7 +53,7 @@ std::vector<plugin::StrategyRecord> enroll(const plugin::PluginEntry& entry,
                                            const std::filesystem::path& file) {
     const std::string remedy = "report this to the plugin's authors";
     const std::string name = text_of(entry.name);
-    if (!is_plain_name(name)) {
+    if (!text::is_id(name)) {
         refuse(file, "plugin.enroll", "has the name '" + name + "', which is not of the form [a-z][a-z0-9_]*",
                remedy);
     }

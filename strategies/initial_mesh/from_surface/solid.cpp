@@ -6,18 +6,14 @@
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/intersections.hpp>
 #include <dsc/surface/measure.hpp>
+#include <dsc/geometry/point_text.hpp>
+#include <dsc/text/words.hpp>
 
 namespace dsc::strategies::from_surface {
 namespace {
 
 [[noreturn]] void refuse(const std::string& file, const char* code, const std::string& cause, const std::string& remedy) {
     throw GeometryError(code, file + ": " + cause + "; " + remedy);
-}
-
-std::string place(const Vec3& p) {
-    char text[96];
-    std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", p.x(), p.y(), p.z());
-    return text;
 }
 
 /// A directed side of a face, stored with its points in ascending order.
@@ -48,8 +44,6 @@ Vec3 first_bad_edge(const surface::TriangleMesh& mesh) {
     return Vec3::Zero();
 }
 
-std::string edges(std::size_t count) { return std::to_string(count) + (count == 1 ? " edge" : " edges"); }
-
 }  // namespace
 
 surface::TriangleMesh require_solid(const surface::TriangleMesh& given, const std::string& file, std::size_t intersections,
@@ -59,27 +53,27 @@ surface::TriangleMesh require_solid(const surface::TriangleMesh& given, const st
     if (report.faces == 0) refuse(file, "surface.empty", "no face has three different corners", "export the surface again");
     if (report.boundary_edges > 0) {
         refuse(file, "surface.open",
-               "the surface is open: " + edges(report.boundary_edges) + " with one face, the first at " +
-                   place(first_bad_edge(mesh)),
+               "the surface is open: " + text::counted(report.boundary_edges, "edge") + " with one face, the first at " +
+                   geometry::point_text(first_bad_edge(mesh)),
                "close its holes, or reconstruct a surface from its points as a cloud");
     }
     if (report.nonmanifold_edges > 0) {
         refuse(file, "surface.not_manifold",
-               edges(report.nonmanifold_edges) + " with more than two faces, the first at " + place(first_bad_edge(mesh)),
+               text::counted(report.nonmanifold_edges, "edge") + " with more than two faces, the first at " + geometry::point_text(first_bad_edge(mesh)),
                "separate the parts that touch there");
     }
     if (report.misoriented_edges > 0) {
         refuse(file, "surface.misoriented",
-               edges(report.misoriented_edges) + " whose faces have opposite orientations, the first at " +
-                   place(first_bad_edge(mesh)),
+               text::counted(report.misoriented_edges, "edge") + " whose faces have opposite orientations, the first at " +
+                   geometry::point_text(first_bad_edge(mesh)),
                "orient all faces outwards");
     }
     const surface::IntersectionReport crossed = surface::self_intersections(mesh, 1, workers);
     if (crossed.count > intersections) {
         const auto& first = mesh.faces[crossed.pairs.front()[0]];
         refuse(file, "surface.self_intersecting",
-               std::to_string(crossed.count) + (crossed.count == 1 ? " pair" : " pairs") +
-                   " of faces intersect, the first at " + place(mesh.points[first[0]]) + ", and " +
+               text::counted(crossed.count, "pair") +
+                   " of faces intersect, the first at " + geometry::point_text(mesh.points[first[0]]) + ", and " +
                    std::to_string(intersections) + " are allowed",
                "remove them and export the surface again, or increase `intersections`: the solid then contains all points "
                "that the surface winds around");

@@ -7,6 +7,9 @@
 #include <dsc/plugin/lattice_params.hpp>
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/surface_view.hpp>
+#include <dsc/geometry/point_text.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/words.hpp>
 
 #include "features.hpp"
 #include "snapping.hpp"
@@ -42,18 +45,10 @@ double mitre(const Features& features, const Vec3& on_surface) {
     return features.corner(on_surface) ? 1.7320508 : 1.4142136;
 }
 
-std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
-}
-
 std::string topology(const surface::SurfaceReport& report) {
-    return std::to_string(report.shells) + (report.shells == 1 ? " shell" : " shells") + " of genus " +
+    return text::counted(report.shells, "shell") + " of genus " +
            std::to_string(report.genus);
 }
-
-std::string place(const Vec3& p) { return "(" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ")"; }
 
 }  // namespace
 
@@ -140,9 +135,9 @@ surface::TriangleMesh FromSurface::read(const hooks::InitialMeshContext& context
 mesh::TetMesh FromSurface::labelled(const Solid& solid, const Features& features, const hooks::InitialMeshContext& context) const {
     const Box3 box = mesh::box_of(params_), used = bounding_box(solid.surface().points);
     if ((used.low.array() <= box.low.array()).any() || (used.high.array() >= box.high.array()).any()) {
-        throw ConfigError("lattice.box", std::string(name) + ": " + params_.file + " extends from " + place(used.low) +
-                                             " to " + place(used.high) + ", beyond the box from " + place(box.low) +
-                                             " to " + place(box.high) + "; `fit` it into the box or make `box` larger");
+        throw ConfigError("lattice.box", std::string(name) + ": " + params_.file + " extends from " + geometry::point_text(used.low, 4) +
+                                             " to " + geometry::point_text(used.high, 4) + ", beyond the box from " + geometry::point_text(box.low, 4) +
+                                             " to " + geometry::point_text(box.high, 4) + "; `fit` it into the box or make `box` larger");
     }
     const double outside = reach * mesh::finest_cell(params_);
     mesh::TetMesh out = mesh::make_lattice(
@@ -169,13 +164,13 @@ mesh::TetMesh FromSurface::labelled(const Solid& solid, const Features& features
 
 void FromSurface::judge(const Deviation& found, double cell) const {
     const double distance = found.greatest() / cell;
-    log(LogLevel::info, std::string(name) + ": the surface and the mesh are at most " + number(distance) +
-                            " finest cells apart, " + number(found.greatest()));
+    log(LogLevel::info, std::string(name) + ": the surface and the mesh are at most " + text::rounded(distance, 4) +
+                            " finest cells apart, " + text::rounded(found.greatest(), 4));
     if (distance <= params_.tolerance) return;
     throw GeometryError("from_surface.tolerance",
-                        std::string(name) + ": " + params_.file + " and the mesh are " + number(distance) +
-                            " finest cells apart at " + place(found.farthest) + ", more than the tolerance of " +
-                            number(params_.tolerance) + "; use more `cells`, or allow a larger `tolerance`");
+                        std::string(name) + ": " + params_.file + " and the mesh are " + text::rounded(distance, 4) +
+                            " finest cells apart at " + geometry::point_text(found.farthest, 4) + ", more than the tolerance of " +
+                            text::rounded(params_.tolerance, 4) + "; use more `cells`, or allow a larger `tolerance`");
 }
 
 }  // namespace dsc::strategies

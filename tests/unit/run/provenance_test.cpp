@@ -99,7 +99,7 @@ TEST_CASE("provenance: everything that made the result, nobody who made it") {
         CHECK(json["usage"]["wall_s"] == 10.25);
         CHECK(json["usage"]["cpu_s"].get<double>() > 0.0);
         CHECK(json["usage"]["peak_rss_mb"].get<double>() > 1.0);
-        for (const char* name : {"dsc", "compiler", "build", "eigen", "boost", "pcl", "openmesh", "vtk", "embree", "yaml-cpp"}) {
+        for (const char* name : {"dsc", "compiler", "build", "eigen", "boost", "pcl", "openmesh", "vtk", "embree", "yaml-cpp", "fmt"}) {
             CAPTURE(name);
             CHECK_FALSE(json["versions"][name].get<std::string>().empty());
         }
