@@ -19,15 +19,16 @@ BELOW = {
     "base": set(),
     "text": {"base"},
     "geometry": {"base", "text"},
+    "decode": {"base", "text", "geometry"},
     "mesh": {"base", "text", "geometry"},
     "kernel": {"base", "text", "geometry", "mesh"},
     "surface": {"base", "text", "geometry", "mesh"},
-    "cloud": {"base", "text", "geometry"},
+    "cloud": {"base", "text", "geometry", "decode"},
     "config": {"base", "text"},
-    "io": {"base", "text", "geometry", "mesh", "surface", "cloud"},
-    "hooks": {"base", "text", "geometry", "mesh", "surface", "cloud", "config"},
-    "plugin": {"base", "text", "geometry", "mesh", "surface", "cloud", "config", "hooks"},
-    "run": {"base", "text", "geometry", "mesh", "kernel", "surface", "cloud", "config", "io", "hooks", "plugin"},
+    "io": {"base", "text", "geometry", "decode", "mesh", "surface", "cloud"},
+    "hooks": {"base", "text", "geometry", "decode", "mesh", "surface", "cloud", "config"},
+    "plugin": {"base", "text", "geometry", "decode", "mesh", "surface", "cloud", "config", "hooks"},
+    "run": {"base", "text", "geometry", "decode", "mesh", "kernel", "surface", "cloud", "config", "io", "hooks", "plugin"},
 }
 FOR_STRATEGIES = BELOW["plugin"] | {"plugin"}
 

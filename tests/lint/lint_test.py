@@ -42,6 +42,7 @@ PLANTED = {
     "core_direction": [
         ("core/src/geometry/quality.cpp", "#include <dsc/mesh/complex.hpp>"),
         ("core/src/base/error.cpp", "#include <dsc/text/words.hpp>"),
+        ("core/src/decode/obj.cpp", "#include <dsc/surface/triangle_mesh.hpp>"),
         ("core/include/dsc/text/words.hpp", "#pragma once\n#include <dsc/geometry/vec.hpp>"),
         ("core/include/dsc/kernel/deformer.hpp", "#pragma once\n#include <dsc/hooks/improvement.hpp>"),
         ("core/src/mesh/adopt.cpp", "#include \"surface/half_edges.hpp\""),
@@ -51,6 +52,7 @@ PLANTED = {
     "declared_direction": [
         ("core/src/base/CMakeLists.txt", "dsc_module(base SOURCES\n  a.cpp USES geometry)"),
         ("core/src/text/CMakeLists.txt", "dsc_module(text SOURCES words.cpp USES base geometry LINK fmt::fmt)"),
+        ("core/src/decode/CMakeLists.txt", "dsc_module(decode SOURCES obj.cpp USES cloud base)"),
         ("core/src/cloud/CMakeLists.txt", "dsc_module(cloud USES base mesh LINK ${PCL_LIBRARIES} SOURCES a.cpp)"),
     ],
     "strategy_direction": [

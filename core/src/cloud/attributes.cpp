@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include <dsc/text/words.hpp>
+#include <dsc/decode/obj.hpp>
 
 #include "formats.hpp"
 
@@ -107,7 +108,7 @@ std::vector<Colour> colours_from(const std::vector<Vec3>& values, bool whole) {
         for (int k = 0; k < 3; ++k) value[k] = std::isfinite(value[k]) ? std::max(value[k], 0.0) : 0.0;
         largest = std::max(largest, value.maxCoeff());
     }
-    return to_bytes(sound, !whole && largest <= 1.0 ? 1.0 : largest > 255.0 ? 65535.0 : 255.0);
+    return decode::colour_bytes(sound, !whole && largest <= 1.0 ? 1.0 : largest > 255.0 ? 65535.0 : 255.0);
 }
 
 std::vector<Colour> greys_from(const std::vector<double>& values) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <dsc/cloud/read.hpp>
+#include <dsc/text/reading.hpp>
 
 namespace dsc::cloud {
 
@@ -28,14 +29,11 @@ struct FileCheck {
 Cloud read_obj(const std::string& file, std::string_view text, std::vector<std::string>& names);
 Cloud read_table(const std::string& file, std::string_view text, const ReadOptions& options, std::vector<std::string>& names);
 
-/// Converts colours of a text to bytes; `largest_value` is full brightness.
-std::vector<std::array<std::uint8_t, 3>> to_bytes(const std::vector<Vec3>& colours, double largest_value);
-
 /// A coordinate of a text. Throws "io.syntax", "io.non_finite" naming the line.
-double coordinate(const std::string& file, std::size_t line, std::string_view word);
+double coordinate(std::string_view word, const text::Place& place);
 
 /// Throws for a word that is not a number; a decimal comma gets its own remedy.
-[[noreturn]] void not_a_number(const std::string& file, std::size_t line, std::string_view word, std::string_view remedy);
+[[noreturn]] void not_a_number(std::string_view word, const text::Place& place, std::string_view remedy);
 
 /// Check that a file contains everything that its header announces, before PCL reads it: PCL allocates what a header announces,
 /// and not all its readers notice a missing end.

@@ -8,10 +8,6 @@
 
 namespace dsc::cloud {
 
-/// Removes the next line from `rest`. Only LF ends it, because binary data may follow a header; a CR before it is dropped.
-/// False at the end and for a line without LF.
-bool next_header_line(std::string_view& rest, std::string_view& line);
-
 [[noreturn]] void header_error(const std::string& file, std::size_t line, const std::string& cause);
 
 /// "the header announces N points, the file contains M".

@@ -15,6 +15,10 @@
 
 namespace dsc::cloud {
 
+namespace {
+
+/// Removes the next line from `rest`. Only LF ends it, because binary data may follow a header; a CR before it is dropped.
+/// False at the end and for a line without LF.
 bool next_header_line(std::string_view& rest, std::string_view& line) {
     const std::size_t end = rest.find('\n');
     if (end == std::string_view::npos) return false;
@@ -23,18 +27,6 @@ bool next_header_line(std::string_view& rest, std::string_view& line) {
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     return true;
 }
-
-void header_error(const std::string& file, std::size_t line, const std::string& cause) {
-    throw IoError("io.syntax", file, std::to_string(line), cause, "save the cloud again");
-}
-
-void truncated(const std::string& file, const std::string& promised, std::size_t held) {
-    throw IoError("io.truncated", file, "",
-                  "the header announces " + promised + ", the file contains " + std::to_string(held),
-                  "the file is cut off, write it again");
-}
-
-namespace {
 
 struct Field {
     std::string_view name;
@@ -202,7 +194,7 @@ void check_ascii_rows(const std::string& file, const PcdHeader& header) {
             const std::string_view name = header.fields[field].name;
             if ((name == "x" || name == "y" || name == "z") &&
                 text::parse_number(word, value) == text::Number::not_a_number)
-                not_a_number(file, number, word, "write its true coordinate");
+                not_a_number(word, {file, number}, "write its true coordinate");
             if (--left == 0 && ++field < header.fields.size()) left = header.fields[field].count;
         }
         if (column < columns)

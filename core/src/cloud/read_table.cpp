@@ -29,7 +29,7 @@ struct Announced {
 class TableReader {
 public:
     TableReader(const std::string& file, std::string_view text, const ReadOptions& options)
-        : file_(file), lines_(text), choice_(file, options) {}
+        : file_(file), lines_(text, file), choice_(file, options) {}
 
     Cloud read() {
         for (std::string_view whole; lines_.next(whole);) {
@@ -87,7 +87,7 @@ private:
     };
 
     [[noreturn]] void syntax(const std::string& cause, std::string_view remedy) const {
-        throw IoError("io.syntax", file_, std::to_string(lines_.number()), cause, remedy);
+        text::fail("io.syntax", lines_.place(), cause, remedy);
     }
 
     static std::size_t comment_mark(std::string_view line) {
@@ -112,7 +112,7 @@ private:
                 return cloud_.points.size() < looked_at ? refuse_split_decimals(line) : void();
             }
         }
-        if (!decimal.empty()) not_a_number(file_, lines_.number(), decimal, "");
+        if (!decimal.empty()) not_a_number(decimal, lines_.place(), "");
     }
 
     void refuse_split_decimals(std::string_view line) const {
@@ -129,7 +129,7 @@ private:
         }
         for (const std::size_t k : {std::size_t{1}, std::size_t{3}}) {
             if (words[k].size() > 1 && words[k].front() == '0') {
-                not_a_number(file_, lines_.number(), words[k - 1] + "," + words[k], "");
+                not_a_number(words[k - 1] + "," + words[k], lines_.place(), "");
             }
         }
     }
@@ -219,7 +219,7 @@ private:
             const std::size_t column = columns[static_cast<std::size_t>(k)];
             if (word(column).empty())
                 syntax("column " + std::to_string(column + 1) + " is empty", "a point needs x, y and z");
-            point[k] = coordinate(file_, lines_.number(), word(column));
+            point[k] = coordinate(word(column), lines_.place());
         }
         cloud_.points.push_back(point);
         previous_ = words_.size();

@@ -32,12 +32,4 @@ std::string encode_msh(const mesh::TetMesh& mesh);
 /// Throws IoError "io.write" if VTK reports a failure.
 std::string encode_vtu(const mesh::TetMesh& mesh, const VolumeData& data, std::string_view file);
 
-/// Appends the fan of triangles of a polygon.
-template <class Indices>
-void append_fan(surface::TriangleMesh& mesh, const Indices& polygon) {
-    for (std::size_t k = 2; k < polygon.size(); ++k) {
-        mesh.faces.push_back({polygon[0], polygon[k - 1], polygon[k]});
-    }
-}
-
 }  // namespace dsc::io

@@ -6,6 +6,7 @@
 #include <dsc/text/numbers.hpp>
 #include <dsc/text/reading.hpp>
 #include <dsc/text/words.hpp>
+#include <dsc/decode/obj.hpp>
 
 #include "io/codecs.hpp"
 
@@ -116,7 +117,7 @@ private:
             }
             polygon_.push_back(static_cast<std::uint32_t>(index));
         }
-        append_fan(mesh, polygon_);
+        decode::append_fan(mesh.faces, polygon_);
     }
 
     [[noreturn]] void short_line(const std::string& cause) const {

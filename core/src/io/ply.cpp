@@ -10,15 +10,16 @@
 #include <dsc/base/log.hpp>
 #include <dsc/text/reading.hpp>
 #include <dsc/text/words.hpp>
+#include <dsc/decode/ply_header.hpp>
+#include <dsc/decode/obj.hpp>
 
 #include "io/bytes.hpp"
 #include "io/codecs.hpp"
-#include "io/ply_header.hpp"
 
 namespace dsc::io {
 namespace {
 
-using namespace ply;
+using namespace decode::ply;
 
 /// Values of a text body.
 class TextBody {
@@ -388,7 +389,7 @@ private:
             }
             polygon_.push_back(static_cast<std::uint32_t>(index));
         }
-        append_fan(mesh_, polygon_);
+        decode::append_fan(mesh_.faces, polygon_);
     }
 
     const Header& header_;

@@ -41,28 +41,29 @@ std::int64_t read_integer(std::string_view word, const Place& place) {
 }
 
 std::string_view Lines::take() {
-    const std::size_t end = rest_.find_first_of("\r\n");
-    const std::string_view line = rest_.substr(0, end);
-    terminated_ = end != std::string_view::npos;
-    if (terminated_) {
-        const bool both = rest_[end] == '\r' && end + 1 < rest_.size() && rest_[end + 1] == '\n';
-        rest_.remove_prefix(end + (both ? 2 : 1));
-    } else {
-        rest_ = {};
+    // The next line feed is looked for once, so that a text with line ends CR is not searched to its end for every line.
+    if (feed_ != std::string_view::npos && feed_ < at_) feed_ = text_.find('\n', at_);
+    std::string_view line = text_.substr(at_, feed_ == std::string_view::npos ? feed_ : feed_ - at_);
+    std::size_t end = feed_ == std::string_view::npos ? 0 : 1;  // number of its bytes
+    if (const std::size_t carriage = line.find('\r'); carriage != std::string_view::npos) {
+        end = carriage + 1 == line.size() ? end + 1 : 1;
+        line = line.substr(0, carriage);
     }
+    terminated_ = end > 0;
+    at_ += line.size() + end;
     ++taken_;
     return line;
 }
 
 bool Lines::next(std::string_view& line) {
-    if (rest_.empty()) return false;
+    if (at_ == text_.size()) return false;
     line = take();
     place_.line = taken_;
     if (!join_ || line.empty() || line.back() != '\\') return true;
     joined_.assign(line);
     while (!joined_.empty() && joined_.back() == '\\') {
         joined_.back() = ' ';
-        if (rest_.empty()) break;
+        if (at_ == text_.size()) break;
         joined_.append(take());
     }
     line = joined_;

@@ -52,6 +52,7 @@ const std::string xyz_remedy =
 const std::string finite_remedy = "is not a finite number; remove the point or write its true coordinates";
 const std::string cut = "; the file is cut off, write it again";
 const std::string again = "; save the cloud again";
+const std::string header = "; correct the line or export the file again";
 const std::string alone = "; save the points with only x, y and z";
 
 }  // namespace
@@ -250,23 +251,25 @@ TEST_CASE("bad PLY headers") {
     };
     REQUIRE(error(ply("ascii", "2")) == "no error");
     CHECK(error("PK\x03\x04\n") ==
-          "io.syntax 6: a.ply:1: the first line is not 'ply'; this is no PLY file, check its name");
+          "io.syntax 6: a.ply:1: the first line is not 'ply'; check that the file is a PLY file");
     CHECK(read_error(folder, "a.ply", "ply\nformat ascii 1.0\nelement vertex 2\n") ==
-          "io.truncated 6: a.ply: the PLY header has no line 'end_header'" + cut);
+          "io.truncated 6: a.ply:3: the PLY header has no line 'end_header'; the file is incomplete: copy or export it again");
     CHECK(error(ply("ascii", "0")) == "io.no_points 6: a.ply: the file has no points" + again);
     CHECK(error("ply\nformat ascii 1.0\nend_header\n") ==
           "io.no_points 6: a.ply: the file has no points" + again);
-    CHECK(error("ply\nend_header\n") == "io.syntax 6: a.ply:2: the header has no line 'format'" + again);
+    CHECK(error("ply\nend_header\n") == "io.syntax 6: a.ply:2: the header has no line 'format'" + header);
     CHECK(error("ply\nformat ascii 1.0\nproperty double x\n") ==
-          "io.syntax 6: a.ply:3: a property comes before the first element" + again);
+          "io.syntax 6: a.ply:3: a property comes before the first element" + header);
     CHECK(error(ply("ascii", "-2")) ==
-          "io.syntax 6: a.ply:3: '-2' is not a count between 0 and 2147483647" + again);
+          "io.syntax 6: a.ply:3: '-2' is not a count" + header);
     CHECK(error(ply("ascii", "99999999999999999999")) ==
-          "io.syntax 6: a.ply:3: '99999999999999999999' is not a count between 0 and 2147483647" + again);
+          "io.syntax 6: a.ply:3: '99999999999999999999' is not a count" + header);
+    CHECK(error(ply("ascii", "99999999999")) ==
+          "io.syntax 6: a.ply:3: 99999999999 elements 'vertex' are too many; at most 2147483647 can be read" + again);
     CHECK(error(ply("binary", "2")) ==
           "io.syntax 6: a.ply:2: 'binary' is not a PLY format; supported are ascii, binary_little_endian and "
           "binary_big_endian" +
-              again);
+              header);
     CHECK(error(ply("ascii", "2", "element empty 1000000000\n")) ==
           "io.syntax 6: a.ply: element 'empty' has no properties" + again);
     CHECK(error(ply("ascii", "2", "element vertex 3\n")) ==
@@ -274,9 +277,9 @@ TEST_CASE("bad PLY headers") {
     CHECK(error(ply("ascii", "2", "property float x\n")) ==
           "io.syntax 6: a.ply:7: property 'x' occurs twice" + again);
     CHECK(error(ply("ascii", "2", "", "property double x\nproperty real y\n")) ==
-          "io.syntax 6: a.ply:5: 'real' is not a PLY type" + again);
+          "io.syntax 6: a.ply:5: 'real' is not a PLY type" + header);
     CHECK(error(ply("ascii", "2", "wrong\n")) ==
-          "io.syntax 6: a.ply:7: 'wrong' is not an entry of a PLY header" + again);
+          "io.syntax 6: a.ply:7: 'wrong' is not an entry of a PLY header" + header);
     CHECK(error(ply("ascii", "2", "", "property double x\nproperty double y\n")) ==
           "io.format 6: a.ply: the points do not have each of x, y and z" + alone);
 }

@@ -49,7 +49,7 @@ private:
 class Lines {
 public:
     explicit Lines(std::string_view text, std::string_view file = {}, bool join_backslash = false)
-        : rest_(text), place_{file, 0}, join_(join_backslash) {}
+        : text_(text), feed_(text.find('\n')), place_{file, 0}, join_(join_backslash) {}
 
     /// False at the end of the text. The view is valid until the next call.
     bool next(std::string_view& line);
@@ -59,12 +59,14 @@ public:
     /// Whether the last line had a line end.
     bool terminated() const { return terminated_; }
     /// Whether the text is finished and its last line had no line end, as in a truncated file.
-    bool cut() const { return rest_.empty() && !terminated_; }
+    bool cut() const { return at_ == text_.size() && !terminated_; }
 
 private:
     std::string_view take();
 
-    std::string_view rest_;
+    std::string_view text_;
+    std::size_t at_ = 0;
+    std::size_t feed_;  ///< position of the next line feed; npos if there is none
     Place place_;
     std::size_t taken_ = 0;
     bool join_;

@@ -1,5 +1,5 @@
 #pragma once
-// The header of a PLY file.
+// The header of a PLY file, for clouds and for surfaces.
 
 #include <bit>
 #include <cstddef>
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dsc::io::ply {
+namespace dsc::decode::ply {
 
 enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
@@ -31,18 +31,20 @@ constexpr std::size_t size_of(Type type) {
     return 8;
 }
 
-inline bool is_integer(Type type) { return type != Type::float32 && type != Type::float64; }
+constexpr bool is_integer(Type type) { return type != Type::float32 && type != Type::float64; }
 
 struct Property {
     std::string_view name;
     Type type = Type::float32;
     std::optional<Type> count;  ///< of a list
+    std::size_t line = 0;
 };
 
 struct Element {
     std::string_view name;
     std::uint64_t count = 0;
-    std::vector<Property> properties;
+    std::size_t line = 0;
+    std::vector<Property> properties{};
 };
 
 struct Header {
@@ -50,9 +52,11 @@ struct Header {
     std::vector<Element> elements;
     std::size_t size = 0;  ///< number of bytes, including the line feed of end_header
     std::size_t lines = 0;
+    std::vector<std::size_t> grid_comments;  ///< positions of the words "obj_info" that give the size of a grid
 };
 
-/// Throws IoError "io.syntax", "io.truncated". The names refer to `content`.
+/// Reads the header at the start of `content`; the names refer to `content`. Elements and properties may repeat.
+/// Throws IoError "io.syntax", "io.truncated". `file` is used only in messages.
 Header read_header(std::string_view content, std::string_view file);
 
-}  // namespace dsc::io::ply
+}  // namespace dsc::decode::ply
