@@ -9,6 +9,7 @@
 #include <dsc/surface/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
 #include <memory>
+#include <fmt/core.h>
 
 #include "commands.hpp"
 #include "files.hpp"
@@ -57,8 +58,7 @@ int execute(const ConvertArguments& arguments) {
                                                       "with dsc reconstruct");
         }
         if (const std::size_t turned = mesh::orient(*content.volume); turned > 0) {
-            log(LogLevel::info, std::to_string(turned) + " tets of " + arguments.input +
-                                    " had negative orientation; they are written with positive orientation");
+            log(LogLevel::info, fmt::format("{} tets of {} had negative orientation; they are written with positive orientation", turned, arguments.input));
         }
         io::write_volume(arguments.output, *content.volume);
     } else if (content.cloud) {

@@ -8,6 +8,7 @@
 #include <dsc/plugin/entry.hpp>
 #include <dsc/text/words.hpp>
 #include <map>
+#include <fmt/core.h>
 
 #include "plugin_templates.hpp"
 #include "temporary_folder.hpp"
@@ -65,8 +66,7 @@ std::string filled(const EmbeddedFile& file, const Values& values) {
 void require_plugin_name(const std::string& name) {
     constexpr std::size_t longest = sizeof(plugin::PluginEntry::name) - 1;
     if (text::is_id(name) && name.size() <= longest) return;
-    throw UsageError("usage.plugin_name", "'" + name + "' cannot be the name of a plugin; use lower case letters, digits and _, "
-                                              "with a letter first, at most " + std::to_string(longest));
+    throw UsageError("usage.plugin_name", fmt::format("'{}' cannot be the name of a plugin; use lower case letters, digits and _, with a letter first, at most {}", name, longest));
 }
 
 std::vector<ProjectFile> plugin_project(const std::string& name, plugin::Kind kind) {

@@ -5,6 +5,7 @@
 #include <dsc/run/sweep.hpp>
 #include <dsc/text/words.hpp>
 #include <memory>
+#include <fmt/core.h>
 
 #include "commands.hpp"
 #include "files.hpp"
@@ -43,10 +44,9 @@ int expand(const ExpandArguments& arguments) {
         return 0;
     }
     const run::Expansion done = run::expand_sweep(sweep, experiments, arguments.folder);
-    std::string text = text::counted(sweep.points.size(), "point") + ": " + std::to_string(done.added) + " new, " +
-                       std::to_string(done.kept) + " kept";
+    std::string text = fmt::format("{}: {} new, {} kept", text::counted(sweep.points.size(), "point"), done.added, done.kept);
     if (done.others > 0) {
-        text += "; the table also contains " + std::to_string(done.others) + " points that are not in the sweep any more";
+        text += fmt::format("; the table also contains {} points that are not in the sweep any more", done.others);
     }
     log(LogLevel::info, text);
     data_out() << (fs::path(arguments.folder) / "jobs.tsv").string() << "\n";
@@ -57,9 +57,7 @@ int collect(const CollectArguments& arguments) {
     if (!arguments.output.empty()) require_output(arguments.output, arguments.folder);
     run::SweepStates states;
     const std::string table = run::collect_sweep(arguments.folder, states);
-    log(LogLevel::info, text::counted(states.points, "point") + ": " + std::to_string(states.done) + " done, " +
-                            std::to_string(states.failed) + " failed, " + std::to_string(states.unfinished) +
-                            " unfinished, " + std::to_string(states.missing) + " not started");
+    log(LogLevel::info, fmt::format("{}: {} done, {} failed, {} unfinished, {} not started", text::counted(states.points, "point"), states.done, states.failed, states.unfinished, states.missing));
     if (arguments.output.empty()) {
         data_out() << table;
     } else {

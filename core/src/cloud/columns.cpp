@@ -2,6 +2,7 @@
 #include "columns.hpp"
 
 #include <algorithm>
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/text/numbers.hpp>
@@ -206,7 +207,7 @@ void ColumnChoice::require_names(const std::vector<std::string>& header, std::si
 }
 
 std::string ColumnChoice::of_needed(std::size_t last) const {
-    return chosen() || named_ ? ", column " + std::to_string(last + 1) + " is needed" : "";
+    return chosen() || named_ ? fmt::format(", column {} is needed", last + 1) : "";
 }
 
 }  // namespace dsc::cloud

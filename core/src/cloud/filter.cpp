@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <fmt/core.h>
 
 #include <dsc/cloud/search.hpp>
 #include <dsc/text/numbers.hpp>
@@ -159,7 +160,7 @@ Filtered remove_statistical_outliers(const Cloud& cloud, const StatisticalOutlie
     const std::string filter = "statistical_outliers";
     const Box3 box = checked_box(cloud, filter);
     require_option(options.neighbours >= 1 && options.neighbours <= 1000, cloud, filter,
-                   "neighbours is " + std::to_string(options.neighbours) + "; it must lie in [1, 1000]");
+                   fmt::format("neighbours is {}; it must lie in [1, 1000]", options.neighbours));
     require_option(options.deviations >= 0.0 && std::isfinite(options.deviations), cloud, filter,
                    "deviations is " + text::rounded(options.deviations) + "; it must be at least 0");
     // PCL reads beyond its buffer if a cloud has no more points than requested neighbours.
@@ -174,7 +175,7 @@ Filtered remove_radius_outliers(const Cloud& cloud, const RadiusOutliersOptions&
     require_option(options.radius > 0.0 && options.radius <= 1.0, cloud, filter,
                    "radius is " + text::rounded(options.radius) + "; it must be above 0 and at most 1");
     require_option(options.neighbours >= 1 && options.neighbours <= 1000, cloud, filter,
-                   "neighbours is " + std::to_string(options.neighbours) + "; it must lie in [1, 1000]");
+                   fmt::format("neighbours is {}; it must lie in [1, 1000]", options.neighbours));
     return take(cloud, filter, radius_inliers(recentred(cloud, box), options.radius, options.neighbours));
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/text/words.hpp>
@@ -47,7 +48,7 @@ Cloud pick(const Cloud& cloud, std::span<const std::size_t> indices) {
     const std::size_t points = cloud.points.size();
     for (const std::size_t i : indices)
         if (i >= points)
-            throw std::out_of_range("point " + std::to_string(i) + " of a cloud of " + text::counted(points, "point"));
+            throw std::out_of_range(fmt::format("point {} of a cloud of {}", i, text::counted(points, "point")));
     Cloud result;
     result.points = picked(cloud.points, points, indices);
     result.colours = picked(cloud.colours, points, indices);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/cloud/target.hpp>
@@ -147,7 +148,7 @@ Filtered remove_hidden(const Cloud& cloud, const HiddenOptions& options, const C
     const std::string filter = "hidden";
     const Box3 box = checked_box(cloud, filter);
     require_option(options.views >= 1 && options.views <= 10000, cloud, filter,
-                   "views is " + std::to_string(options.views) + "; it must lie in [1, 10000]");
+                   fmt::format("views is {}; it must lie in [1, 10000]", options.views));
     require_option(options.radius > 0.0 && options.radius <= 10.0, cloud, filter,
                    "radius is " + text::rounded(options.radius) + "; it must be above 0 and at most 10");
     require_option(options.depth > 0.0 && options.depth <= 10.0, cloud, filter,

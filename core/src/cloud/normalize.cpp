@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/predicates.hpp>
@@ -51,8 +52,7 @@ Box3 require_finite(std::span<const Vec3> points, std::string_view name) {
         // Beyond this, squares and volumes of coordinates are outside the range of doubles.
         if (!(points[i].array().abs() <= 1e100).all())
             throw GeometryError("cloud.non_finite",
-                                named(name) + ": point " + std::to_string(i) +
-                                    " has a coordinate that is not finite or above 1e100; remove it");
+                                fmt::format("{}: point {} has a coordinate that is not finite or above 1e100; remove it", named(name), i));
         box.extend(points[i]);
     }
     return box;
@@ -66,9 +66,7 @@ void require_volume(std::span<const Vec3> points, std::string_view name) {
     const Box3 box = require_finite(points, name);
     const auto refuse = [&](const char* code, const char* what) {
         const Vec3 size = box.size();
-        throw GeometryError(code, who + ": all " + std::to_string(points.size()) + " points " + what +
-                                      " (extent " + text::rounded(size.x()) + " x " + text::rounded(size.y()) +
-                                      " x " + text::rounded(size.z()) + "); " + std::string(volume_remedy));
+        throw GeometryError(code, fmt::format("{}: all {} points {} (extent {} x {} x {}); {}", who, points.size(), what, text::rounded(size.x()), text::rounded(size.y()), text::rounded(size.z()), volume_remedy));
     };
     // Below 1e-100 the squares of differences underflow. Flat means: below the tolerance, or below the rounding of coordinates
     // far from the origin.
@@ -141,11 +139,7 @@ Normalized keep_coordinates(const Cloud& cloud, const Box3& box) {
                              static_cast<std::size_t>(std::count_if(first, cloud.points.end(), inside)) -
                              static_cast<std::size_t>(first - cloud.points.begin());
         throw GeometryError("cloud.outside_box",
-                            named(cloud.source) + ": cloud outside the box: " + std::to_string(outside) +
-                                " of " + text::counted(cloud.points.size(), "point") + ", the first is point " +
-                                std::to_string(first - cloud.points.begin()) + "; the cloud spans " +
-                                interval(bounding_box(cloud.points)) + ", the box is " + interval(box) +
-                                "; normalise the cloud (normalize: {scale: 0.9}) or scale it into the box");
+                            fmt::format("{}: cloud outside the box: {} of {}, the first is point {}; the cloud spans {}, the box is {}; normalise the cloud (normalize: {{scale: 0.9}}) or scale it into the box", named(cloud.source), outside, text::counted(cloud.points.size(), "point"), first - cloud.points.begin(), interval(bounding_box(cloud.points)), interval(box)));
     }
     Normalized result{cloud.points, Transform{}};
     set_attributes(cloud, result);

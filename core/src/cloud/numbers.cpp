@@ -1,4 +1,6 @@
 // The numbers of text clouds, and the errors that several formats of clouds share.
+#include <fmt/core.h>
+
 #include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
 #include <dsc/text/numbers.hpp>
@@ -38,7 +40,7 @@ void header_error(const std::string& file, std::size_t line, const std::string& 
 
 void truncated(const std::string& file, const std::string& promised, std::size_t held) {
     throw IoError("io.truncated", file, "",
-                  "the header announces " + promised + ", the file contains " + std::to_string(held),
+                  fmt::format("the header announces {}, the file contains {}", promised, held),
                   "the file is cut off, write it again");
 }
 

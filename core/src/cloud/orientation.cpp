@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/cloud/normalize.hpp>
@@ -288,8 +289,7 @@ OrientedPoints orient_by_normals(std::span<const Vec3> points, std::span<const V
         const bool already = std::abs(normals[i].squaredNorm() - 1.0) < unit_tolerance;  // then every bit is kept
         unit[i] = already ? normals[i] : direction_or(normals[i], Vec3::Zero());
         if (unit[i].isZero(0.0))
-            throw GeometryError("cloud.normals", named(name) + ": the normal of point " + std::to_string(i) +
-                                                     " has no direction; let the filter orient estimate the normals");
+            throw GeometryError("cloud.normals", fmt::format("{}: the normal of point {} has no direction; let the filter orient estimate the normals", named(name), i));
     }
     if (cancel != nullptr && cancel->cancelled()) throw CancelledError("the cloud was not oriented");
     const ScaledSamples samples = scaled_samples(points, workers);

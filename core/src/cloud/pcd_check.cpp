@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <vector>
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/text/numbers.hpp>
@@ -80,7 +81,7 @@ private:
     std::size_t count(std::string_view word, std::size_t most) const {
         std::size_t value = 0;
         if (!text::parse_count(word, value) || value > most)
-            fail(text::in_quotes(word) + " is not a count between 0 and " + std::to_string(most));
+            fail(fmt::format("{} is not a count between 0 and {}", text::in_quotes(word), most));
         return value;
     }
 
@@ -100,8 +101,7 @@ private:
             if (values.empty()) fail("FIELDS names no field");
         } else if (name == "SIZE" || name == "TYPE" || name == "COUNT") {
             if (values.size() != header_.fields.size())
-                fail(std::string(name) + " has " + text::counted(values.size(), "value") + ", FIELDS has " +
-                     std::to_string(header_.fields.size()));
+                fail(fmt::format("{} has {}, FIELDS has {}", name, text::counted(values.size(), "value"), header_.fields.size()));
             for (std::size_t i = 0; i < values.size(); ++i) column(header_.fields[i], name, values[i]);
             seen_ += name == "COUNT" ? 0 : 1;
         } else if (name == "VIEWPOINT") {
@@ -150,8 +150,7 @@ private:
         if (seen_ != 2) fail("FIELDS, SIZE or TYPE is missing");
         if (!has_points_ || has_width_ != has_height_) fail("WIDTH, HEIGHT or POINTS is missing");
         if (has_width_ && width_ * height_ != header_.points)
-            fail("WIDTH " + std::to_string(width_) + " x HEIGHT " + std::to_string(height_) +
-                 " is not POINTS " + std::to_string(header_.points));
+            fail(fmt::format("WIDTH {} x HEIGHT {} is not POINTS {}", width_, height_, header_.points));
         for (const std::string_view axis : {"x", "y", "z"}) {
             const auto named = [&](const Field& field) { return field.name == axis; };
             const auto found = std::find_if(header_.fields.begin(), header_.fields.end(), named);
@@ -199,8 +198,7 @@ void check_ascii_rows(const std::string& file, const PcdHeader& header) {
         }
         if (column < columns)
             throw IoError("io.truncated", file, std::to_string(number),
-                          "the point has " + text::counted(column, "value") + ", the header requires " +
-                              std::to_string(columns),
+                          fmt::format("the point has {}, the header requires {}", text::counted(column, "value"), columns),
                           "the file may be cut off, write it again");
         ++points;
     }
@@ -217,15 +215,12 @@ void check_compressed(const std::string& file, const PcdHeader& header) {
     std::memcpy(sizes.data(), header.body.data(), sizeof sizes);
     if (header.body.size() - sizeof sizes < sizes[0])
         throw IoError("io.truncated", file, "",
-                      "the compressed data have " + std::to_string(header.body.size() - sizeof sizes) +
-                          " of " + std::to_string(sizes[0]) + " bytes",
+                      fmt::format("the compressed data have {} of {} bytes", header.body.size() - sizeof sizes, sizes[0]),
                       "the file is cut off, write it again");
     // Three bytes of LZF represent at most 264, so a small file cannot request much memory.
     if (sizes[1] != wanted || wanted / 100 > sizes[0])
         throw IoError("io.syntax", file, "",
-                      "the compressed data claim to have " + std::to_string(sizes[1]) +
-                          " bytes, the header's " + text::counted(header.points, "point") + " need " +
-                          std::to_string(wanted),
+                      fmt::format("the compressed data claim to have {} bytes, the header's {} need {}", sizes[1], text::counted(header.points, "point"), wanted),
                       "the file is damaged, write it again");
 }
 

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <vector>
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/decode/ply_header.hpp>
@@ -28,8 +29,7 @@ void check_element(const std::string& file, const Element& element) {
         throw IoError("io.format", file, std::to_string(element.line), "PLY files with a range grid are not supported",
                       "save only the points, for instance with MeshLab or CloudCompare");
     if (element.count > most_points)
-        header_error(file, element.line, std::to_string(element.count) + " elements " + text::in_quotes(element.name) +
-                                             " are too many; at most " + std::to_string(most_points) + " can be read");
+        header_error(file, element.line, fmt::format("{} elements {} are too many; at most {} can be read", element.count, text::in_quotes(element.name), most_points));
     for (const Property& p : element.properties) {
         const auto same = [&](const Property& other) { return other.name == p.name; };
         if (std::find_if(element.properties.begin(), element.properties.end(), same)->line != p.line)
@@ -78,7 +78,7 @@ void check_vertex(const std::string& file, const Element& vertex) {
 [[noreturn]] void cut(const std::string& file, const Element& element, std::size_t held) {
     truncated(file,
               element.name == "vertex" ? text::counted(element.count, "point")
-                                       : std::to_string(element.count) + " of " + text::in_quotes(element.name),
+                                       : fmt::format("{} of {}", element.count, text::in_quotes(element.name)),
               held);
 }
 

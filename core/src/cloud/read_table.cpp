@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <fmt/core.h>
 
 #include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
@@ -155,7 +156,7 @@ private:
         }
         const bool unfit = !header_.empty() && !choice_.chosen() && header_.size() != words_.size();
         if (choice_.wants_names() || unfit)
-            syntax("the header has " + text::counted(header_.size(), "column") + ", the line " + std::to_string(words_.size()),
+            syntax(fmt::format("the header has {}, the line {}", text::counted(header_.size(), "column"), words_.size()),
                    words_.size() == 2 * header_.size() ? decimal_comma_remedy : "choose columns by their numbers from 1");
         return false;
     }
@@ -190,8 +191,7 @@ private:
         const std::size_t got = cloud_.points.size() - block_.first;
         if (!block_.any || got == block_.count) return;
         throw IoError(got < block_.count ? "io.truncated" : "io.syntax", file_, std::to_string(block_.line),
-                      "the count line announces " + text::counted(block_.count, "point") + ", the file has " +
-                          std::to_string(got),
+                      fmt::format("the count line announces {}, the file has {}", text::counted(block_.count, "point"), got),
                       got < block_.count ? "the file is cut off, write it again" : "correct the count");
     }
 
@@ -218,7 +218,7 @@ private:
         for (int k = 0; k < 3; ++k) {
             const std::size_t column = columns[static_cast<std::size_t>(k)];
             if (word(column).empty())
-                syntax("column " + std::to_string(column + 1) + " is empty", "a point needs x, y and z");
+                syntax(fmt::format("column {} is empty", column + 1), "a point needs x, y and z");
             point[k] = coordinate(word(column), lines_.place());
         }
         cloud_.points.push_back(point);

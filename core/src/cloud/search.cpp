@@ -8,6 +8,7 @@
 #include <string>
 
 #include <nanoflann.hpp>
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 
@@ -134,12 +135,10 @@ NearestSearch::NearestSearch(std::span<const Vec3> points) {
         throw GeometryError("cloud.empty", "nearest-point search: no points; a search needs at least one");
     if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         throw GeometryError("cloud.large",
-                            "nearest-point search: " + std::to_string(points.size()) +
-                                " points; the limit is 2147483647; thin the cloud first");
+                            fmt::format("nearest-point search: {} points; the limit is 2147483647; thin the cloud first", points.size()));
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!points[i].allFinite())
-            throw GeometryError("cloud.non_finite", "nearest-point search: point " + std::to_string(i) +
-                                                        " is not finite; remove it first");
+            throw GeometryError("cloud.non_finite", fmt::format("nearest-point search: point {} is not finite; remove it first", i));
     tree_ = std::make_unique<Tree>(points);
 }
 

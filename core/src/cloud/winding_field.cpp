@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 
@@ -43,12 +44,11 @@ struct Frame {
 
 void require_points(std::span<const Vec3> points) {
     if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw GeometryError("cloud.large", "winding field: " + std::to_string(points.size()) +
-                                               " points; the limit is 2147483647; thin the cloud first");
+        throw GeometryError("cloud.large", fmt::format("winding field: {} points; the limit is 2147483647; thin the cloud first", points.size()));
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!points[i].allFinite())
             throw GeometryError("cloud.non_finite",
-                                "winding field: point " + std::to_string(i) + " is not finite; remove it first");
+                                fmt::format("winding field: point {} is not finite; remove it first", i));
 }
 
 std::vector<std::array<float, 3>> placed(const Frame& frame, std::span<const Vec3> points) {

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 #include <string>
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/replace_file.hpp>
@@ -121,9 +122,7 @@ std::string pcd_bytes(const Cloud& cloud, const Whole& whole) {
 
 std::string ply_bytes(const Cloud& cloud, const Whole& whole) {
     const bool little = std::endian::native == std::endian::little;
-    std::string bytes = "ply\nformat binary_" + std::string(little ? "little" : "big") +
-                        "_endian 1.0\nelement vertex " + std::to_string(cloud.points.size()) +
-                        "\nproperty double x\nproperty double y\nproperty double z\n";
+    std::string bytes = fmt::format("ply\nformat binary_{}_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n", little ? "little" : "big", cloud.points.size());
     if (whole.colours) bytes += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     if (whole.normals) bytes += "property double nx\nproperty double ny\nproperty double nz\n";
     bytes += "end_header\n";

@@ -6,6 +6,7 @@
 #include <dsc/text/words.hpp>
 #include <numeric>
 #include <tuple>
+#include <fmt/core.h>
 
 
 namespace dsc::config {
@@ -117,7 +118,7 @@ std::string Diagnostics::text(Severity severity) const {
     const std::vector<std::size_t> order = sorted(all_, severity);
     std::string out;
     for (std::size_t i = 0; i < order.size() && i < most_shown; ++i) out += format(all_[order[i]]);
-    if (order.size() > most_shown) out += "... and " + std::to_string(order.size() - most_shown) + " more\n";
+    if (order.size() > most_shown) out += fmt::format("... and {} more\n", order.size() - most_shown);
     return out;
 }
 

@@ -8,6 +8,7 @@
 #include <dsc/text/words.hpp>
 #include <filesystem>
 #include <vector>
+#include <fmt/core.h>
 
 #include "config/scalar.hpp"
 #include "config/variables.hpp"
@@ -181,7 +182,7 @@ private:
             wanted = "at most " + text::counted(most, "item");
         }
         diagnostics_.error("config.list_size", place(node),
-                           "'" + path + "' must have " + wanted + ", not " + std::to_string(size),
+                           fmt::format("'{}' must have {}, not {}", path, wanted, size),
                            "accepted: " + field_.summary());
     }
 

@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 #include <variant>
+#include <fmt/core.h>
 
 #include "config/node_factory.hpp"
 
@@ -178,8 +179,7 @@ const ConfigNode& ConfigNode::at(std::size_t index) const {
     const std::vector<ConfigNode>& list = items();
     if (index < list.size()) return list[index];
     fail("config.missing", position(),
-         text::in_quotes(join_path(path(), std::to_string(index))) + " is missing: the list has " +
-             std::to_string(list.size()) + " items");
+         fmt::format("{} is missing: the list has {} items", text::in_quotes(join_path(path(), std::to_string(index))), list.size()));
 }
 
 std::string ConfigNode::path() const {

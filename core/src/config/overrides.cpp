@@ -8,6 +8,7 @@
 #include <dsc/text/words.hpp>
 #include <string_view>
 #include <vector>
+#include <fmt/core.h>
 
 #include "config/scalar.hpp"
 
@@ -67,7 +68,7 @@ private:
         const char* end = part.data() + part.size();
         const auto parsed = std::from_chars(part.data(), end, index);
         if (parsed.ec != std::errc() || parsed.ptr != end || index >= list.size()) {
-            refuse("'" + path + "' is a list of " + std::to_string(list.size()) + "; it has no item '" + part + "'",
+            refuse(fmt::format("'{}' is a list of {}; it has no item '{}'", path, list.size(), part),
                    list.size() == 0 ? "write " + path + "=[...]"
                                     : "items are numbered from 0 to " + std::to_string(list.size() - 1));
         }

@@ -7,6 +7,7 @@
 #include <dsc/text/words.hpp>
 #include <limits>
 #include <set>
+#include <fmt/core.h>
 
 #include "config/field_value.hpp"
 
@@ -74,7 +75,7 @@ std::string size_text(const Field& field) {
     const std::size_t most = field.max_size.value_or(std::numeric_limits<std::size_t>::max());
     if (least == most) return text::counted(least, "item");
     if (most == std::numeric_limits<std::size_t>::max()) return least == 0 ? "" : "at least " + text::counted(least, "item");
-    return least == 0 ? "at most " + text::counted(most, "item") : std::to_string(least) + " to " + text::counted(most, "item");
+    return least == 0 ? "at most " + text::counted(most, "item") : fmt::format("{} to {}", least, text::counted(most, "item"));
 }
 
 /// ", 1 to 4 items, (0, 1]": the bounds of size and value.

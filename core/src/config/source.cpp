@@ -1,4 +1,6 @@
 // Texts and places of configuration values.
+#include <fmt/core.h>
+
 #include <dsc/config/source.hpp>
 #include <dsc/text/utf8.hpp>
 #include <dsc/text/words.hpp>
@@ -26,7 +28,7 @@ std::string SourcePosition::describe() const {
     if (!known()) return "built in";
     if (from_command_line()) return "command line: " + text::in_quotes(source->text);
     std::string place = text::printable(source->name);
-    if (line > 0) place += ":" + std::to_string(line) + ":" + std::to_string(column);
+    if (line > 0) place += fmt::format(":{}:{}", line, column);
     return place;
 }
 

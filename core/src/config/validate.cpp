@@ -8,6 +8,7 @@
 #include <exception>
 #include <set>
 #include <utility>
+#include <fmt/core.h>
 
 #include "config/field_value.hpp"
 
@@ -247,10 +248,7 @@ private:
         const std::size_t most = field.max_size.value_or(value.size());
         if (value.size() < least || value.size() > most) {
             diagnostics_.error("config.list_size", place,
-                               "'" + path + "' must have " +
-                                   (value.size() < least ? "at least " + text::counted(least, "item")
-                                                         : "at most " + text::counted(most, "item")) +
-                                   ", not " + std::to_string(value.size()),
+                               fmt::format("'{}' must have {}, not {}", path, value.size() < least ? "at least " + text::counted(least, "item") : "at most " + text::counted(most, "item"), value.size()),
                                "accepted: " + field.summary());
         }
         std::vector<ConfigNode> items;

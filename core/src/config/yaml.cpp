@@ -12,6 +12,7 @@
 #include <iterator>
 #include <unordered_map>
 #include <vector>
+#include <fmt/core.h>
 
 #include "config/node_factory.hpp"
 #include "config/scalar.hpp"
@@ -78,12 +79,11 @@ private:
         }
         if (open_files_.size() > options_.max_include_depth) {
             fail("config.include", target.position(),
-                 "files include one another more than " + std::to_string(options_.max_include_depth) +
-                     " deep");
+                 fmt::format("files include one another more than {} deep", options_.max_include_depth));
         }
         if (++files_ > options_.max_files) {
             fail("config.include", target.position(),
-                 "more than " + std::to_string(options_.max_files) + " files are included");
+                 fmt::format("more than {} files are included", options_.max_files));
         }
         std::string cause;
         auto source = read_text(shown, options_, cause);
@@ -108,7 +108,7 @@ private:
 
 public:
     [[noreturn]] static void fail_too_large(const SourcePosition& position, const YamlOptions& options) {
-        fail("config.too_large", position, "the configuration is larger than " + std::to_string(options.max_bytes) + " bytes");
+        fail("config.too_large", position, fmt::format("the configuration is larger than {} bytes", options.max_bytes));
     }
 
     /// nullptr and the cause if the file cannot be read. Throws ConfigError "config.too_large".

@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <utility>
 #include <vector>
+#include <fmt/core.h>
 
 #include "config/node_factory.hpp"
 #include "config/scalar.hpp"
@@ -278,8 +279,7 @@ private:
         const auto [first, fresh] = frame.seen.emplace(key, position);
         if (!fresh) {
             job_.diagnostics->error("config.duplicate_key", position,
-                                    "duplicate key " + text::in_quotes(key) + ", first given in line " +
-                                        std::to_string(first->second.line),
+                                    fmt::format("duplicate key {}, first given in line {}", text::in_quotes(key), first->second.line),
                                     "remove one of the two");
             return;
         }
@@ -339,14 +339,14 @@ private:
     void count(const YAML::Mark& mark, std::size_t nodes = 1) {
         if (nodes > *job_.nodes_left) {
             fail("config.too_large", places_.at(mark),
-                 "more than " + std::to_string(job_.options->max_nodes) + " values, aliases expanded");
+                 fmt::format("more than {} values, aliases expanded", job_.options->max_nodes));
         }
         *job_.nodes_left -= nodes;
     }
 
     [[noreturn]] void too_deep(const YAML::Mark& mark) {
         fail("config.too_deep", places_.at(mark),
-             "lists and maps are nested more than " + std::to_string(job_.options->max_depth) + " deep");
+             fmt::format("lists and maps are nested more than {} deep", job_.options->max_depth));
     }
 
     void finish(ConfigNode node, YAML::anchor_t anchor, std::size_t nodes, std::size_t depth = 0) {

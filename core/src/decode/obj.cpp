@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <fmt/core.h>
 
 #include <dsc/base/log.hpp>
 #include <dsc/text/numbers.hpp>
@@ -77,9 +78,7 @@ private:
         constexpr std::array<std::string_view, 5> geometry = {"l", "p", "curv", "curv2", "surf"};
         const auto found = std::find(geometry.begin(), geometry.end(), keyword);
         if (found == geometry.end() || std::exchange(noted_[static_cast<std::size_t>(found - geometry.begin())], true)) return;
-        log(LogLevel::warning, std::string(lines_.place().file) + ":" + std::to_string(lines_.number()) + ": lines " +
-                                   text::in_quotes(keyword) +
-                                   " are not read; only the vertices and faces of an OBJ file are read");
+        log(LogLevel::warning, fmt::format("{}:{}: lines {} are not read; only the vertices and faces of an OBJ file are read", lines_.place().file, lines_.number(), text::in_quotes(keyword)));
     }
 
     /// A line with too few numbers: truncated at the end of the file, malformed elsewhere.
@@ -109,7 +108,7 @@ private:
 
     void require_complete(std::size_t count) const {
         if (options_.faces) {
-            if (count < 3) short_line("vertex with " + std::to_string(count) + " of 3 coordinates");
+            if (count < 3) short_line(fmt::format("vertex with {} of 3 coordinates", count));
             if (obj_.points.size() == std::numeric_limits<std::uint32_t>::max())
                 text::fail("io.count", lines_.place(), "more than 4294967295 vertices", "split the file");
             return;
@@ -138,7 +137,7 @@ private:
         if (index == 0) text::fail("io.index", lines_.place(), "vertex index 0", "OBJ counts from 1; export the file again");
         if (index < -count)
             text::fail("io.index", lines_.place(),
-                       "vertex index " + std::to_string(index) + " reaches back beyond the first of " + std::to_string(count),
+                       fmt::format("vertex index {} reaches back beyond the first of {}", index, count),
                        text::export_again);
         if (index > count) later_.push_back({lines_.number(), index});
         return static_cast<std::uint32_t>(index > 0 ? index - 1 : count + index);
@@ -148,7 +147,7 @@ private:
         for (const LateCorner& corner : later_) {
             if (corner.index <= static_cast<std::int64_t>(obj_.points.size())) continue;
             text::fail("io.index", {lines_.place().file, corner.line},
-                       "vertex index " + std::to_string(corner.index) + " of " + std::to_string(obj_.points.size()),
+                       fmt::format("vertex index {} of {}", corner.index, obj_.points.size()),
                        text::export_again);
         }
     }

@@ -1,5 +1,6 @@
 // The .dsc text format of the original method: "v x y z" and "t i j k l label" in any order, indices from 0.
 #include <limits>
+#include <fmt/core.h>
 
 #include <dsc/text/numbers.hpp>
 #include <dsc/text/reading.hpp>
@@ -18,7 +19,7 @@ struct LargestIndex {
 std::uint32_t read_index(text::Tokens& tokens) {
     const std::int64_t index = tokens.integer();
     if (index < 0 || index >= std::numeric_limits<std::uint32_t>::max()) {
-        text::fail("io.index", tokens.place(), "vertex index " + std::to_string(index) + " is out of range",
+        text::fail("io.index", tokens.place(), fmt::format("vertex index {} is out of range", index),
              "indices count from 0; export the file again");
     }
     return static_cast<std::uint32_t>(index);
@@ -27,7 +28,7 @@ std::uint32_t read_index(text::Tokens& tokens) {
 mesh::Label read_label(text::Tokens& tokens) {
     const std::int64_t label = tokens.integer();
     if (label < 0 || label > std::numeric_limits<mesh::Label>::max()) {
-        text::fail("io.syntax", tokens.place(), "label " + std::to_string(label) + " is out of range",
+        text::fail("io.syntax", tokens.place(), fmt::format("label {} is out of range", label),
              "labels are 0 (outside) or larger");
     }
     return static_cast<mesh::Label>(label);
@@ -58,7 +59,7 @@ mesh::TetMesh decode_dsc(std::string_view content, std::string_view file) {
     }
     if (!mesh.tets.empty() && largest.index >= mesh.points.size()) {
         text::fail("io.index", {file, largest.line},
-             "vertex index " + std::to_string(largest.index) + " of " + std::to_string(mesh.points.size()),
+             fmt::format("vertex index {} of {}", largest.index, mesh.points.size()),
              "indices count from 0; export the file again");
     }
     return mesh;

@@ -5,6 +5,7 @@
 
 #include <limits>
 #include <map>
+#include <fmt/core.h>
 
 #include "io/codecs.hpp"
 
@@ -17,9 +18,7 @@ std::map<mesh::Label, std::vector<std::size_t>> by_label(const mesh::TetMesh& me
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) groups[mesh.labels[t]].push_back(t);
     for (const auto& [label, tets] : groups) {
         if (label >= 0 && label < std::numeric_limits<mesh::Label>::max()) continue;
-        throw GeometryError("volume.label", "volume: tet " + std::to_string(tets.front()) + " has the label " +
-                                                std::to_string(label) +
-                                                "; .msh can store labels from 0 to 2147483646, write a .vtu or .dsc");
+        throw GeometryError("volume.label", fmt::format("volume: tet {} has the label {}; .msh can store labels from 0 to 2147483646, write a .vtu or .dsc", tets.front(), label));
     }
     return groups;
 }
@@ -54,7 +53,7 @@ std::string encode_msh(const mesh::TetMesh& mesh) {
     out.reserve(70 * mesh.points.size() + 40 * mesh.tets.size() + 256 * groups.size() + 512);
     out += std::to_string(groups.size()) + '\n';
     for (const auto& [label, tets] : groups) {
-        out += "3 " + tag_of(label) + " \"label_" + std::to_string(label) + "\"\n";
+        out += fmt::format("3 {} \"label_{}\"\n", tag_of(label), label);
     }
     out += "$EndPhysicalNames\n$Entities\n0 0 0 " + std::to_string(groups.size()) + '\n';
     for (const auto& [label, tets] : groups) {

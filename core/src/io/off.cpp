@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <fmt/core.h>
 
 #include <dsc/text/numbers.hpp>
 #include <dsc/text/reading.hpp>
@@ -42,12 +43,21 @@ private:
         return false;
     }
 
-    text::Fields require_line(const std::string& what) {
+    text::Fields require_line(std::string_view what) {
         std::string_view line;
-        if (!content_line(line)) {
-            text::fail("io.truncated", lines_.place(), "the file ends where " + what + " should be", text::copy_again);
-        }
+        if (!content_line(line)) ends_before(what);
         return text::Fields(line);
+    }
+
+    /// The line of an item of a list. Its text is made only for an error.
+    text::Fields require_line(std::string_view item, std::size_t index, std::size_t of) {
+        std::string_view line;
+        if (!content_line(line)) ends_before(fmt::format("{} {} of {}", item, index, of));
+        return text::Fields(line);
+    }
+
+    [[noreturn]] void ends_before(std::string_view what) const {
+        text::fail("io.truncated", lines_.place(), fmt::format("the file ends where {} should be", what), text::copy_again);
     }
 
     void header() {
@@ -79,40 +89,40 @@ private:
         const std::int64_t value = text::read_integer(field, lines_.place());
         if (value < 0 || static_cast<std::uint64_t>(value) > size_ / 6 + 1) {
             text::fail("io.count", lines_.place(),
-                 std::to_string(value) + " " + what + " cannot be in a file of " + text::counted(size_, "byte"),
+                 fmt::format("{} {} cannot be in a file of {}", value, what, text::counted(size_, "byte")),
                  text::copy_again);
         }
         return static_cast<std::size_t>(value);
     }
 
     Vec3 vertex(std::size_t i) {
-        text::Fields fields = require_line("vertex " + std::to_string(i) + " of " + std::to_string(vertices_));
+        text::Fields fields = require_line("vertex", i, vertices_);
         Vec3 p;
         for (int k = 0; k < 3; ++k) {
             const std::string_view field = fields.next();
-            if (field.empty()) short_line("vertex with " + std::to_string(k) + " of 3 coordinates");
+            if (field.empty()) short_line(fmt::format("vertex with {} of 3 coordinates", k));
             p[k] = text::read_coordinate(field, lines_.place());
         }
         return p;
     }
 
     void face(std::size_t i, surface::TriangleMesh& mesh) {
-        text::Fields fields = require_line("face " + std::to_string(i) + " of " + std::to_string(faces_));
+        text::Fields fields = require_line("face", i, faces_);
         const std::int64_t corners = text::read_integer(fields.next(), lines_.place());
         if (corners < 3) {
             text::fail("io.syntax", lines_.place(),
-                 "face with " + std::to_string(corners) + " corners, at least 3 are needed", text::export_again);
+                 fmt::format("face with {} corners, at least 3 are needed", corners), text::export_again);
         }
         polygon_.clear();
         for (std::int64_t k = 0; k < corners; ++k) {
             const std::string_view field = fields.next();
             if (field.empty()) {
-                short_line("face with " + std::to_string(k) + " of " + std::to_string(corners) + " corners");
+                short_line(fmt::format("face with {} of {} corners", k, corners));
             }
             const std::int64_t index = text::read_integer(field, lines_.place());
             if (index < 0 || index >= static_cast<std::int64_t>(vertices_)) {
                 text::fail("io.index", lines_.place(),
-                     "vertex index " + std::to_string(index) + " of " + std::to_string(vertices_),
+                     fmt::format("vertex index {} of {}", index, vertices_),
                      "OFF counts from 0; export the file again");
             }
             polygon_.push_back(static_cast<std::uint32_t>(index));

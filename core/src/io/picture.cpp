@@ -13,6 +13,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <fmt/core.h>
 
 #include "io/ray_scene.hpp"
 #include "io/shading_normals.hpp"
@@ -359,17 +360,14 @@ double colour_part(double value, const ColourBounds& bounds) {
 Image render(const surface::TriangleMesh& mesh, const RenderOptions& options) {
     for (const int size : {options.width, options.height}) {
         if (size >= 1 && size <= largest_size) continue;
-        throw UsageError("picture.size", "picture: size " + std::to_string(options.width) + "x" +
-                                             std::to_string(options.height) + "; each side may be 1 to " +
-                                             std::to_string(largest_size) + " pixels");
+        throw UsageError("picture.size", fmt::format("picture: size {}x{}; each side may be 1 to {} pixels", options.width, options.height, largest_size));
     }
     surface::require_sound(mesh);
     if (mesh.faces.empty()) {
         throw GeometryError("surface.empty", "picture: the mesh has no faces; at least one is needed");
     }
     if (!options.values.empty() && options.values.size() != mesh.points.size()) {
-        throw GeometryError("surface.size", "picture: " + std::to_string(options.values.size()) + " values for " +
-                                                std::to_string(mesh.points.size()) + " points; give one for each or none");
+        throw GeometryError("surface.size", fmt::format("picture: {} values for {} points; give one for each or none", options.values.size(), mesh.points.size()));
     }
     Painter painter(mesh, options);
     Image image{options.width, options.height, {}};

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <fmt/core.h>
 
 #include <dsc/base/log.hpp>
 #include <dsc/text/reading.hpp>
@@ -78,7 +79,7 @@ public:
         const double value = any(type);
         if (!std::isfinite(value)) {
             text::fail("io.not_finite", place(),
-                 "the coordinate before byte " + std::to_string(at_) + " is NaN or infinite",
+                 fmt::format("the coordinate before byte {} is NaN or infinite", at_),
                  "remove the point and its faces or export the file again");
         }
         return value;
@@ -126,8 +127,7 @@ private:
     void require(std::uint64_t count, std::size_t size) {
         if (count <= (content_.size() - at_) / size) return;
         text::fail("io.truncated", place(),
-             "the file ends at byte " + std::to_string(content_.size()) + " where " +
-                 std::to_string(count * size) + " bytes should follow byte " + std::to_string(at_),
+             fmt::format("the file ends at byte {} where {} bytes should follow byte {}", content_.size(), count * size, at_),
              text::copy_again);
     }
 
@@ -181,9 +181,7 @@ private:
             }
             if (least > 0 && element.count > size_ / least + 1) {
                 text::fail("io.truncated", header_place_,
-                     "the header announces " + std::to_string(element.count) + " elements " +
-                         text::in_quotes(element.name) + ", more than a file of " + text::counted(size_, "byte") +
-                         " can contain",
+                     fmt::format("the header announces {} elements {}, more than a file of {} can contain", element.count, text::in_quotes(element.name), text::counted(size_, "byte")),
                      text::copy_again);
             }
             if (element.name == "vertex") {
@@ -208,9 +206,7 @@ private:
         const bool lists = std::any_of(element.properties.begin(), element.properties.end(),
                                        [](const Property& p) { return p.count && is_integer(p.type); });
         if (element.count > 0 && (lists || element.name == "edge")) {
-            log(LogLevel::warning, std::string(header_place_.file) + ": element " + text::in_quotes(element.name) + " (" +
-                                       std::to_string(element.count) +
-                                       ") is not read; only the elements 'vertex', 'face' and 'tristrips' of a PLY file are read");
+            log(LogLevel::warning, fmt::format("{}: element {} ({}) is not read; only the elements 'vertex', 'face' and 'tristrips' of a PLY file are read", header_place_.file, text::in_quotes(element.name), element.count));
         }
         for (std::uint64_t i = 0; i < element.count; ++i) {
             body_.begin_element();
@@ -222,7 +218,7 @@ private:
     std::uint64_t list_size(const Property& p) {
         const std::int64_t count = body_.integer(*p.count);
         if (count < 0)
-            text::fail("io.count", body_.place(), "a list of " + std::to_string(count) + " values", text::export_again);
+            text::fail("io.count", body_.place(), fmt::format("a list of {} values", count), text::export_again);
         return static_cast<std::uint64_t>(count);
     }
 
@@ -292,7 +288,7 @@ private:
     std::uint8_t read_byte(Type type) {
         const std::int64_t value = body_.integer(type);
         if (value < 0 || value > 255) {
-            text::fail("io.syntax", body_.place(), "colour " + std::to_string(value) + " is not a byte (0 to 255)",
+            text::fail("io.syntax", body_.place(), fmt::format("colour {} is not a byte (0 to 255)", value),
                  text::export_again);
         }
         return static_cast<std::uint8_t>(value);
@@ -356,7 +352,7 @@ private:
                 continue;
             }
             if (index < 0 || static_cast<std::uint64_t>(index) >= points_) {
-                text::fail("io.index", body_.place(), "strip: vertex index " + std::to_string(index) + " of " + std::to_string(points_),
+                text::fail("io.index", body_.place(), fmt::format("strip: vertex index {} of {}", index, points_),
                      "PLY counts from 0; export the file again");
             }
             polygon_.push_back(static_cast<std::uint32_t>(index));
@@ -374,8 +370,7 @@ private:
         const std::uint64_t count = list_size(p);
         if (count < 3) {
             text::fail("io.syntax", body_.place(),
-                 "face " + std::to_string(face) + " with " + text::counted(count, "corner") +
-                     ", at least 3 are needed",
+                 fmt::format("face {} with {}, at least 3 are needed", face, text::counted(count, "corner")),
                  text::export_again);
         }
         polygon_.clear();
@@ -383,8 +378,7 @@ private:
             const std::int64_t index = body_.integer(p.type);
             if (index < 0 || static_cast<std::uint64_t>(index) >= points_) {
                 text::fail("io.index", body_.place(),
-                     "face " + std::to_string(face) + ": vertex index " + std::to_string(index) + " of " +
-                         std::to_string(points_),
+                     fmt::format("face {}: vertex index {} of {}", face, index, points_),
                      "PLY counts from 0; export the file again");
             }
             polygon_.push_back(static_cast<std::uint32_t>(index));
@@ -419,11 +413,7 @@ std::string encode_ply(const surface::TriangleMesh& mesh, const std::vector<Data
     std::string further;
     for (const DataArray& a : points) further += "property double " + a.name + "\n";
     std::string out =
-        "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.points.size()) +
-        "\nproperty double x\nproperty double y\nproperty double z\n" +
-        (normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n") +
-        (mesh.colours.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n") +
-        further + "element face " + std::to_string(mesh.faces.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+        fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}{}{}element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.points.size(), normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n", mesh.colours.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n", further, mesh.faces.size());
     out.reserve(out.size() + (39 + 8 * points.size()) * mesh.points.size() + 13 * mesh.faces.size());
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         for (int k = 0; k < 3; ++k) append_bytes(out, mesh.points[i][k]);

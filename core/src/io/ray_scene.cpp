@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <fmt/core.h>
 
 namespace dsc::io {
 
@@ -24,9 +25,7 @@ namespace {
 
 [[noreturn]] void fail_device(RTCDevice device) {
     throw Error(ExitCode::internal, "picture.device",
-                "picture: Embree reports error " +
-                    std::to_string(static_cast<int>(rtcGetDeviceError(device))) +
-                    "; close other programs if memory is short");
+                fmt::format("picture: Embree reports error {}; close other programs if memory is short", static_cast<int>(rtcGetDeviceError(device))));
 }
 
 void fill_ray(RTCRay& ray, const Vec3f& origin, const Vec3f& direction, float distance) {

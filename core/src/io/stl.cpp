@@ -11,6 +11,7 @@
 #include <cmath>
 #include <charconv>
 #include <optional>
+#include <fmt/core.h>
 
 #include "io/bytes.hpp"
 #include "io/codecs.hpp"
@@ -75,8 +76,7 @@ surface::TriangleMesh decode_binary(std::string_view content, std::string_view f
             }
             if (!p.allFinite()) {
                 text::fail("io.not_finite", {file, 0},
-                     "facet " + std::to_string(f) + " at byte " + std::to_string(facet) +
-                         " has a coordinate that is NaN or infinite",
+                     fmt::format("facet {} at byte {} has a coordinate that is NaN or infinite", f, facet),
                      "remove the facet or export the file again");
             }
             corners.push_back(p);
@@ -150,7 +150,7 @@ private:
                 const std::string_view field = fields.next();
                 if (field.empty()) {
                     text::fail(lines_.cut() ? "io.truncated" : "io.syntax", lines_.place(),
-                         "vertex with " + std::to_string(k) + " of 3 coordinates",
+                         fmt::format("vertex with {} of 3 coordinates", k),
                          lines_.cut() ? text::copy_again : text::export_again);
                 }
                 p[k] = text::read_coordinate(field, lines_.place());
@@ -208,14 +208,12 @@ surface::TriangleMesh decode_stl(std::string_view content, std::string_view file
     if (is_text_stl(text)) return TextStl(text, file).read();
     if (content.size() < data_start) {
         text::fail("io.truncated", {file, 0},
-             "a binary STL of " + text::counted(content.size(), "byte") + " is too short for its " +
-                 std::to_string(data_start) + " bytes of header",
+             fmt::format("a binary STL of {} is too short for its {} bytes of header", text::counted(content.size(), "byte"), data_start),
              text::copy_again);
     }
     const std::uint64_t expected = data_start + facet_size * facet_count(content);
     text::fail(expected > content.size() ? "io.truncated" : "io.count", {file, 0},
-         "the header announces " + text::counted(facet_count(content), "facet") + ", " + std::to_string(expected) +
-             " bytes in total, but the file has " + std::to_string(content.size()),
+         fmt::format("the header announces {}, {} bytes in total, but the file has {}", text::counted(facet_count(content), "facet"), expected, content.size()),
          text::copy_again);
 }
 

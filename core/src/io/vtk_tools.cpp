@@ -3,6 +3,7 @@
 
 #include <vtkDoubleArray.h>
 #include <vtkObjectFactory.h>
+#include <fmt/core.h>
 
 #include <dsc/text/reading.hpp>
 
@@ -66,7 +67,7 @@ std::vector<Vec3> points_of(vtkPointSet& data, std::string_view file) {
         Vec3 p;
         data.GetPoints()->GetPoint(i, p.data());
         if (!p.allFinite()) {
-            text::fail("io.not_finite", {file, 0}, "point " + std::to_string(i) + " is NaN or infinite",
+            text::fail("io.not_finite", {file, 0}, fmt::format("point {} is NaN or infinite", i),
                  "export the file again");
         }
         out.push_back(p);

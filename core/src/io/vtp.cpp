@@ -14,6 +14,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
+#include <fmt/core.h>
 
 #include "io/vtk_tools.hpp"
 #include "io/vtu_check.hpp"
@@ -25,8 +26,7 @@ constexpr const char* colour_array = "colour";
 
 void require_surface_size(std::size_t count, std::size_t expected, const std::string& array) {
     if (count == expected) return;
-    throw GeometryError("surface.size", "surface: array " + text::in_quotes(array) + " has " + text::counted(count, "value") + " for " +
-                                            std::to_string(expected) + "; give one for each");
+    throw GeometryError("surface.size", fmt::format("surface: array {} has {} for {}; give one for each", text::in_quotes(array), text::counted(count, "value"), expected));
 }
 
 void check_arrays(const surface::TriangleMesh& mesh, const SurfaceData& data) {
@@ -101,15 +101,14 @@ void read_faces(vtkPolyData& polygons, surface::TriangleMesh& mesh, std::string_
     for (vtkIdType f = 0; f < count; ++f) {
         const auto begin = static_cast<vtkIdType>(offsets->GetTuple1(f)), end = static_cast<vtkIdType>(offsets->GetTuple1(f + 1));
         if (begin < 0 || end - begin != 3 || end > size) {
-            text::fail("io.cell_type", {file, 0}, "polygon " + std::to_string(f) + " does not have 3 corners", "export triangles");
+            text::fail("io.cell_type", {file, 0}, fmt::format("polygon {} does not have 3 corners", f), "export triangles");
         }
         std::array<std::uint32_t, 3> face{};
         for (vtkIdType k = 0; k < 3; ++k) {
             const double index = corners->GetTuple1(begin + k);
             if (!(index >= 0.0) || index >= static_cast<double>(mesh.points.size())) {
                 text::fail("io.index", {file, 0},
-                     "polygon " + std::to_string(f) + " refers to a point that is not one of " +
-                         std::to_string(mesh.points.size()),
+                     fmt::format("polygon {} refers to a point that is not one of {}", f, mesh.points.size()),
                      "export the file again");
             }
             face[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(index);
@@ -192,7 +191,7 @@ void write_pvd(const std::filesystem::path& file, std::span<const SeriesEntry> e
     std::string text =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
     for (const SeriesEntry& entry : entries) {
-        text += "    <DataSet timestep=\"" + std::to_string(entry.step) + "\" part=\"0\" file=\"" + xml_text(entry.file) + "\"/>\n";
+        text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.step, xml_text(entry.file));
     }
     write_file(file, text + "  </Collection>\n</VTKFile>\n");
 }

@@ -21,6 +21,7 @@
 
 #include <cmath>
 #include <limits>
+#include <fmt/core.h>
 
 #include "io/codecs.hpp"
 #include "io/vtk_tools.hpp"
@@ -62,15 +63,14 @@ void read_tets(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view 
     for (vtkIdType t = 0; t < count; ++t) {
         if (types->GetValue(t) != VTK_TETRA) {
             text::fail("io.cell_type", {file, 0},
-                 "cell " + std::to_string(t) + " has type " + std::to_string(types->GetValue(t)) +
-                     ", only tets (10) are read",
+                 fmt::format("cell {} has type {}, only tets (10) are read", t, types->GetValue(t)),
                  "export only the tets");
         }
         const auto begin = static_cast<vtkIdType>(offsets->GetTuple1(t)),
                    end = static_cast<vtkIdType>(offsets->GetTuple1(t + 1));
         if (begin < 0 || end - begin != 4 || end > size) {
             text::fail("io.syntax", {file, 0},
-                 "cell " + std::to_string(t) + " has offsets that do not name 4 corners",
+                 fmt::format("cell {} has offsets that do not name 4 corners", t),
                  "export the file again");
         }
         std::array<std::uint32_t, 4> tet{};
@@ -78,9 +78,7 @@ void read_tets(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view 
             const double index = corners->GetTuple1(begin + k);
             if (!(index >= 0.0) || index >= static_cast<double>(mesh.points.size())) {
                 text::fail("io.index", {file, 0},
-                     "cell " + std::to_string(t) + ": point index " +
-                         std::to_string(static_cast<long long>(index)) + " of " +
-                         std::to_string(mesh.points.size()),
+                     fmt::format("cell {}: point index {} of {}", t, static_cast<long long>(index), mesh.points.size()),
                      "export the file again");
             }
             tet[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(index);
@@ -97,8 +95,7 @@ void read_labels(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_vie
     }
     if (labels->GetNumberOfTuples() != static_cast<vtkIdType>(mesh.tets.size())) {
         text::fail("io.truncated", {file, 0},
-             "cell array 'label' has " + std::to_string(labels->GetNumberOfTuples()) + " values for " +
-                 text::counted(mesh.tets.size(), "tet"),
+             fmt::format("cell array 'label' has {} values for {}", labels->GetNumberOfTuples(), text::counted(mesh.tets.size(), "tet")),
              text::copy_again);
     }
     mesh.labels.reserve(mesh.tets.size());
@@ -107,7 +104,7 @@ void read_labels(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_vie
         if (!(value >= 0.0) || value > std::numeric_limits<mesh::Label>::max() ||
             value != std::floor(value)) {
             text::fail("io.syntax", {file, 0},
-                 "cell " + std::to_string(t) + " has a label that is not an integer of at least 0",
+                 fmt::format("cell {} has a label that is not an integer of at least 0", t),
                  "labels are 0 (outside) or larger");
         }
         mesh.labels.push_back(static_cast<mesh::Label>(value));

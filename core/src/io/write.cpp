@@ -10,6 +10,7 @@
 #include <dsc/text/words.hpp>
 
 #include <limits>
+#include <fmt/core.h>
 
 #include "io/codecs.hpp"
 
@@ -28,8 +29,7 @@ const Format& require_format(const std::filesystem::path& file, bool Format::*ki
 
 void require_volume_size(std::size_t count, std::size_t expected, const std::string& what) {
     if (count == expected) return;
-    throw GeometryError("volume.size", "volume: " + what + " has " + text::counted(count, "value") + " for " +
-                                           std::to_string(expected) + "; give one for each");
+    throw GeometryError("volume.size", fmt::format("volume: {} has {} for {}; give one for each", what, text::counted(count, "value"), expected));
 }
 
 void check_arrays(const mesh::TetMesh& mesh, const VolumeData& data) {
@@ -45,7 +45,7 @@ void check_points(const mesh::TetMesh& mesh) {
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         if (mesh.points[i].allFinite()) continue;
         throw GeometryError("volume.not_finite",
-                            "volume: point " + std::to_string(i) + " is NaN or infinite");
+                            fmt::format("volume: point {} is NaN or infinite", i));
     }
 }
 
@@ -55,19 +55,14 @@ void check_tets(const mesh::TetMesh& mesh, const std::string& file) {
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         const auto& [a, b, c, d] = mesh.tets[t];
         if (std::max({a, b, c, d}) >= mesh.points.size()) {
-            throw GeometryError("volume.index", "volume: tet " + std::to_string(t) + " refers to point " +
-                                                    std::to_string(std::max({a, b, c, d})) + " of " +
-                                                    std::to_string(mesh.points.size()));
+            throw GeometryError("volume.index", fmt::format("volume: tet {} refers to point {} of {}", t, std::max({a, b, c, d}), mesh.points.size()));
         }
         if (geometry::orient3d(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) > 0) continue;
         if (wrong++ == 0) first = t;
     }
     if (wrong == 0) return;
     throw GeometryError("volume.inverted",
-                        file + ": not written, " + text::counted(wrong, "tet") + " of " +
-                            std::to_string(mesh.tets.size()) + " not positive, the first is tet " +
-                            std::to_string(first) +
-                            "; orient the tets (adopt does) or use units in which their volume is not rounded to 0");
+                        fmt::format("{}: not written, {} of {} not positive, the first is tet {}; orient the tets (adopt does) or use units in which their volume is not rounded to 0", file, text::counted(wrong, "tet"), mesh.tets.size(), first));
 }
 
 void require_colours(const surface::TriangleMesh& mesh) {

@@ -1,6 +1,7 @@
 // Checks that answers of every kind of strategy share: names, attributes, rules for creases, figures and warnings.
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 #include <dsc/text/words.hpp>
 
@@ -19,14 +20,13 @@ void judge(const Call& current, const hooks::Attributes& attributes, std::size_t
         seen.push_back(a.name);
         if (a.values.size() != vertices) {
             fail(current, "strategy.size",
-                 "gave the attribute '" + a.name + "' " + std::to_string(a.values.size()) + " values for " +
-                     std::to_string(vertices) + " vertices",
+                 fmt::format("gave the attribute '{}' {} values for {} vertices", a.name, a.values.size(), vertices),
                  report_it);
         }
         for (std::size_t i = 0; i < vertices; ++i) {
             if (std::isfinite(a.values[i])) continue;
             fail(current, "strategy.not_finite",
-                 "gave the attribute '" + a.name + "' the value " + std::to_string(a.values[i]) + " at " + entry("vertex", i), report_it);
+                 fmt::format("gave the attribute '{}' the value {:f} at {}", a.name, a.values[i], entry("vertex", i)), report_it);
         }
     }
 }
@@ -36,7 +36,7 @@ void judge(const Call& current, const std::optional<mesh::CreaseRule>& creases) 
     constexpr double pi = 3.14159265358979323846;
     for (const double angle : {creases->dihedral, creases->turn}) {
         if (angle > 0 && angle <= pi) continue;
-        fail(current, "strategy.range", "gave the angle " + std::to_string(angle) + " for creases",
+        fail(current, "strategy.range", fmt::format("gave the angle {:f} for creases", angle),
              "angles are above 0 and at most pi; report this to the plugin's authors");
     }
 }
@@ -51,7 +51,7 @@ void judge(const Call& current, const hooks::Figures& figures) {
         }
         seen.push_back(name);
         if (!std::isfinite(value)) {
-            fail(current, "strategy.not_finite", "gave the figure '" + name + "' the value " + std::to_string(value),
+            fail(current, "strategy.not_finite", fmt::format("gave the figure '{}' the value {:f}", name, value),
                  report_it);
         }
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <dsc/config/yaml.hpp>
 #include <limits>
+#include <fmt/core.h>
 
 #include "plugin/checked.hpp"
 #include "plugin/fenced.hpp"
@@ -27,15 +28,15 @@ std::string vector_text(const Vec3& v) {
 // "vertex 12 (birth id 40, at (0.1, 0.2, 0.3))"
 std::string vertex_text(const hooks::StepContext& context, std::size_t vertex) {
     const surface::SurfaceView& view = context.surface;
-    std::string text = "vertex " + std::to_string(vertex) + " (";
-    if (vertex < view.births.size()) text += "birth id " + std::to_string(view.births[vertex]) + ", ";
+    std::string text = fmt::format("vertex {} (", vertex);
+    if (vertex < view.births.size()) text += fmt::format("birth id {}, ", view.births[vertex]);
     if (vertex < view.positions.size()) text += "at " + vector_text(view.positions[vertex]);
     return text + ")";
 }
 
 [[noreturn]] void wrote_outside(const Call& current, const std::string& whose, std::size_t entries) {
     fail(current, "strategy.outside",
-         "wrote outside the " + std::to_string(entries) + " entries of its output" + whose,
+         fmt::format("wrote outside the {} entries of its output{}", entries, whose),
          "an output ends at the end of its span; report this to the plugin's authors");
 }
 
@@ -109,8 +110,7 @@ public:
         for (std::size_t i = 0; i < out.size(); ++i) {
             if (!given[i].allFinite()) {
                 fail(current, "strategy.not_finite",
-                     "gave the displacement " + vector_text(given[i]) + " to point " + std::to_string(i) +
-                         " at " + vector_text(points[i]),
+                     fmt::format("gave the displacement {} to point {} at {}", vector_text(given[i]), i, vector_text(points[i])),
                      values_remedy);
             }
             out[i] = given[i];

@@ -1,6 +1,7 @@
 // Filter: called once per run with the complete cloud; checks the returned cloud, its attributes and its report.
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <dsc/config/yaml.hpp>
 #include <dsc/text/words.hpp>
 
@@ -12,7 +13,7 @@ namespace {
 void judge_size(const Call& current, std::string_view what, std::size_t size, std::size_t points) {
     if (size == 0 || size == points) return;
     fail(current, "strategy.size",
-         "gave " + std::to_string(size) + " " + std::string(what) + " for " + text::counted(points, "point"),
+         fmt::format("gave {} {} for {}", size, what, text::counted(points, "point")),
          "an attribute is empty or has one entry per point; report this to the plugin's authors");
 }
 
@@ -35,7 +36,7 @@ void judge_normals(const Call& current, const std::vector<Vec3>& normals) {
 void judge_confidence(const Call& current, const std::vector<double>& confidence) {
     for (std::size_t i = 0; i < confidence.size(); ++i) {
         if (confidence[i] >= 0.0 && confidence[i] <= 1.0) continue;  // false for NaN
-        fail(current, "strategy.range", "gave point " + std::to_string(i) + " the confidence " + std::to_string(confidence[i]),
+        fail(current, "strategy.range", fmt::format("gave point {} the confidence {:f}", i, confidence[i]),
              "confidences lie in [0, 1]; report this to the plugin's authors");
     }
 }
@@ -44,8 +45,7 @@ void judge_orientation(const Call& current, const cloud::Orientation& orientatio
     for (const double value : {orientation.residual, orientation.noise}) {
         if (std::isfinite(value) && value >= 0.0) continue;
         fail(current, "strategy.range",
-             "gave the orientation the residual " + std::to_string(orientation.residual) + " and the noise " +
-                 std::to_string(orientation.noise),
+             fmt::format("gave the orientation the residual {:f} and the noise {:f}", orientation.residual, orientation.noise),
              "both are finite and at least 0; report this to the plugin's authors");
     }
     for (std::size_t i = 0; i < orientation.samples.size(); ++i) {
@@ -56,7 +56,7 @@ void judge_orientation(const Call& current, const cloud::Orientation& orientatio
         }
         if (sample.width < 0.0) {
             fail(current, "strategy.range",
-                 "gave " + entry("sample", i) + " of the orientation the width " + std::to_string(sample.width),
+                 fmt::format("gave {} of the orientation the width {:f}", entry("sample", i), sample.width),
                  "widths are at least 0; report this to the plugin's authors");
         }
     }
@@ -83,8 +83,7 @@ void judge_report(const Call& current, const cloud::FilterReport& told, std::siz
     // Compared without the sum, which could overflow.
     if (told.kept != left || told.removed > given || given - told.removed != told.kept) {
         fail(current, "strategy.size",
-             "reported " + std::to_string(told.kept) + " points as kept and " + std::to_string(told.removed) +
-                 " as removed, but was given " + std::to_string(given) + " and returned " + std::to_string(left),
+             fmt::format("reported {} points as kept and {} as removed, but was given {} and returned {}", told.kept, told.removed, given, left),
              "a filter adds no points, and kept and removed points together are the given points; report this to the "
              "plugin's authors");
     }

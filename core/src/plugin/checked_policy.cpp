@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <fmt/core.h>
 
 #include <dsc/text/words.hpp>
 
@@ -35,8 +36,8 @@ public:
         const Call current = call("passes");
         const unsigned passes = guarded(current, [&] { return inner().passes(); });
         if (passes < 1 || passes > hooks::refinement_passes) {
-            fail(current, "strategy.range", "asked for " + std::to_string(passes) + " passes",
-                 "use 1 to " + std::to_string(hooks::refinement_passes) + " passes; report this to the plugin's authors");
+            fail(current, "strategy.range", fmt::format("asked for {} passes", passes),
+                 fmt::format("use 1 to {} passes; report this to the plugin's authors", hooks::refinement_passes));
         }
         return passes;
     }
@@ -91,15 +92,14 @@ private:
         for (const std::vector<double>* lengths : {&out.sizing, &out.target_lengths}) {
             if (!lengths->empty() && lengths->size() != vertices) {
                 fail(current, "strategy.size",
-                     "gave a sizing field of " + std::to_string(lengths->size()) + " entries for " +
-                         std::to_string(vertices) + " vertices",
+                     fmt::format("gave a sizing field of {} entries for {} vertices", lengths->size(), vertices),
                      report_it);
             }
             for (std::size_t i = 0; i < lengths->size(); ++i) {
                 const double length = (*lengths)[i];
                 if (std::isfinite(length) && length > 0) continue;
                 fail(current, "strategy.not_finite",
-                     "gave vertex " + std::to_string(i) + " the target length " + std::to_string(length), lengths_remedy);
+                     fmt::format("gave vertex {} the target length {:f}", i, length), lengths_remedy);
             }
         }
         if (!std::isfinite(out.target_length) || out.target_length < 0) {
@@ -116,7 +116,7 @@ private:
     }
     [[noreturn]] static void bad_index(const Call& current, const std::string& where, std::uint32_t value) {
         fail(current, "strategy.range",
-             "asked in " + where + " for " + std::to_string(value) + ", which does not exist", report_it);
+             fmt::format("asked in {} for {}, which does not exist", where, value), report_it);
     }
 };
 
@@ -132,8 +132,7 @@ public:
         if (mesh.tets.empty()) fail(current, "strategy.size", "gave a mesh without tets", report_it);
         if (mesh.labels.size() != mesh.tets.size()) {
             fail(current, "strategy.size",
-                 "gave " + std::to_string(mesh.labels.size()) + " labels for " +
-                     std::to_string(mesh.tets.size()) + " tets",
+                 fmt::format("gave {} labels for {} tets", mesh.labels.size(), mesh.tets.size()),
                  report_it);
         }
         for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -146,13 +145,12 @@ public:
             for (const std::uint32_t v : mesh.tets[i]) {
                 if (v < mesh.points.size()) continue;
                 fail(current, "strategy.range",
-                     "gave " + entry("tet", i) + " the point " + std::to_string(v) + " of " +
-                         std::to_string(mesh.points.size()),
+                     fmt::format("gave {} the point {} of {}", entry("tet", i), v, mesh.points.size()),
                      report_it);
             }
             if (mesh.labels[i] < 0) {
                 fail(current, "strategy.range",
-                     "gave " + entry("tet", i) + " the label " + std::to_string(mesh.labels[i]) + " below 0",
+                     fmt::format("gave {} the label {} below 0", entry("tet", i), mesh.labels[i]),
                      report_it);
             }
         }
@@ -202,8 +200,7 @@ public:
         std::vector<std::string> names = guarded(current, [&] { return inner().repair_classes(); });
         if (names.size() > mesh::repair_class_limit) {
             fail(current, "strategy.size",
-                 "named " + std::to_string(names.size()) + " classes of requests; " +
-                     std::to_string(mesh::repair_class_limit) + " is the limit",
+                 fmt::format("named {} classes of requests; {} is the limit", names.size(), mesh::repair_class_limit),
                  report_it);
         }
         for (std::size_t i = 0; i < names.size(); ++i) {
@@ -221,7 +218,7 @@ public:
         const Call current = call("flatness");
         const double cosine = guarded(current, [&] { return inner().flatness(); });
         if (!(cosine >= -1 && cosine <= 1)) {
-            fail(current, "strategy.range", "gave " + std::to_string(cosine) + ", which is not a cosine",
+            fail(current, "strategy.range", fmt::format("gave {:f}, which is not a cosine", cosine),
                  report_it);
         }
         return cosine;
@@ -248,8 +245,7 @@ public:
         for (std::size_t i = 0; i < accept.size(); ++i) {
             if (accept[i] <= 1) continue;
             fail(current, "strategy.range",
-                 "gave " + entry("candidate", i) + " the answer " + std::to_string(accept[i]) +
-                     " instead of 0 or 1",
+                 fmt::format("gave {} the answer {} instead of 0 or 1", entry("candidate", i), accept[i]),
                  report_it);
         }
     }
@@ -264,16 +260,16 @@ private:
         }
         if (request.tet != mesh::none && request.tet >= complex.tet_slots()) {
             fail(current, "strategy.range",
-                 "named tet " + std::to_string(request.tet) + ", which does not exist, " + where(), report_it);
+                 fmt::format("named tet {}, which does not exist, {}", request.tet, where()), report_it);
         }
         for (const mesh::VertexId v : request.vertices) {
             if (v == mesh::none || v < complex.vertex_slots()) continue;
             fail(current, "strategy.range",
-                 "named vertex " + std::to_string(v) + ", which does not exist, " + where(), report_it);
+                 fmt::format("named vertex {}, which does not exist, {}", v, where()), report_it);
         }
         if (request.repair_class >= classes) {
             fail(current, "strategy.range",
-                 "named the class " + std::to_string(request.repair_class) + ", which does not exist, " + where(), report_it);
+                 fmt::format("named the class {}, which does not exist, {}", request.repair_class, where()), report_it);
         }
         for (const float value : {request.parameter, request.only_below, request.accept_above, request.gain, request.least_edge}) {
             if (std::isnan(value))

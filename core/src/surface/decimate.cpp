@@ -10,6 +10,7 @@
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
 #include <string>
+#include <fmt/core.h>
 
 namespace dsc::surface {
 namespace {
@@ -27,11 +28,7 @@ void require_manifold(const TriangleMesh& mesh) {
         r.faces == mesh.faces.size())
         return;
     throw GeometryError("surface.not_manifold",
-                        "decimate: " + std::to_string(r.nonmanifold_edges) + " non-manifold edges, " +
-                            std::to_string(r.misoriented_edges) + " edges used twice in one direction, " +
-                            std::to_string(r.nonmanifold_vertices) + " non-manifold vertices, " +
-                            std::to_string(mesh.faces.size() - r.faces) +
-                            " faces that use a point twice; repair the surface first");
+                        fmt::format("decimate: {} non-manifold edges, {} edges used twice in one direction, {} non-manifold vertices, {} faces that use a point twice; repair the surface first", r.nonmanifold_edges, r.misoriented_edges, r.nonmanifold_vertices, mesh.faces.size() - r.faces));
 }
 
 HalfEdgeMesh to_half_edges(const TriangleMesh& mesh, const Vec3& centre) {

@@ -7,6 +7,7 @@
 #include <dsc/surface/measure.hpp>
 
 #include <string>
+#include <fmt/core.h>
 
 #include "surface/box_tree.hpp"
 
@@ -62,7 +63,7 @@ std::vector<Vec3> store(std::span<const Vec3> points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (points[i].allFinite()) continue;
         throw GeometryError("surface.not_finite",
-                            "points: point " + std::to_string(i) + " is NaN or infinite; remove it");
+                            fmt::format("points: point {} is NaN or infinite; remove it", i));
     }
     return {points.begin(), points.end()};
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <fmt/core.h>
 
 namespace dsc::surface {
 namespace {
@@ -25,15 +26,12 @@ void require_sound(const TriangleMesh& mesh) {
     const std::size_t count = mesh.points.size();
     for (std::size_t i = 0; i < count; ++i) {
         if (mesh.points[i].allFinite()) continue;
-        throw GeometryError("surface.not_finite", "surface: point " + std::to_string(i) +
-                                                      " is NaN or infinite; remove it or repair the file");
+        throw GeometryError("surface.not_finite", fmt::format("surface: point {} is NaN or infinite; remove it or repair the file", i));
     }
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         for (const std::uint32_t v : mesh.faces[f]) {
             if (v < count) continue;
-            throw GeometryError("surface.index", "surface: face " + std::to_string(f) + " refers to point " +
-                                                     std::to_string(v) + " of " + std::to_string(count) +
-                                                     "; remove the face or add the point");
+            throw GeometryError("surface.index", fmt::format("surface: face {} refers to point {} of {}; remove the face or add the point", f, v, count));
         }
     }
 }

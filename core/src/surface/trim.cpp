@@ -8,6 +8,7 @@
 #include <dsc/surface/measure.hpp>
 #include <numeric>
 #include <utility>
+#include <fmt/core.h>
 
 namespace dsc::surface {
 namespace {
@@ -196,8 +197,7 @@ TriangleMesh picked(const TriangleMesh& mesh, const std::vector<std::uint8_t>& k
 TriangleMesh trim(const TriangleMesh& mesh, std::span<const double> gaps, std::span<const double> support, const TrimOptions& options,
                   std::vector<std::uint32_t>* points_of, TrimReport* report) {
     if (gaps.size() != mesh.points.size() || (!support.empty() && support.size() != mesh.points.size())) {
-        throw GeometryError("trim.values", "there are " + std::to_string(gaps.size()) + " gaps and " + std::to_string(support.size()) + " supports for " +
-                                               std::to_string(mesh.points.size()) + " points; provide one per point");
+        throw GeometryError("trim.values", fmt::format("there are {} gaps and {} supports for {} points; provide one per point", gaps.size(), support.size(), mesh.points.size()));
     }
     const auto any = [](const std::array<std::uint32_t, 3>& face, auto&& holds) { return holds(face[0]) || holds(face[1]) || holds(face[2]); };
     Trimmer trimmer(mesh);

@@ -9,6 +9,7 @@
 #include <locale>
 #include <memory>
 #include <numeric>
+#include <fmt/core.h>
 
 #include "test_table.hpp"
 
@@ -41,8 +42,7 @@ void threads(const Subject& subject) {
     for (const Split& split : {Split{2, 64}, Split{7, 17}, Split{1, 1}, Split{3, 100000}}) {
         const Trace other = subject.answers({.threads = split.threads, .block = split.block}).trace;
         require_same(one, other,
-                     std::to_string(split.threads) + " threads and blocks of " + std::to_string(split.block) +
-                         " vertices against one thread and blocks of 64");
+                     fmt::format("{} threads and blocks of {} vertices against one thread and blocks of 64", split.threads, split.block));
     }
 }
 
@@ -87,8 +87,7 @@ void require_permuted(const Trace& plain, const Trace& permuted, const std::vect
         const double expected = plain.values()[order[i / width] * width + i % width];
         const double found = permuted.values()[i];
         if (std::abs(expected - found) <= 1e-9 * largest) continue;
-        throw Failed("vertex " + std::to_string(order[i / width]) + " gets " + std::to_string(found) +
-                     " instead of " + std::to_string(expected) + " when the vertices have a different order");
+        throw Failed(fmt::format("vertex {} gets {:f} instead of {:f} when the vertices have a different order", order[i / width], found, expected));
     }
 }
 

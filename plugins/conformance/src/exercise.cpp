@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <fmt/core.h>
 #include <dsc/run/mesh_files.hpp>
 #include <dsc/surface/surface_view.hpp>
 
@@ -205,8 +206,7 @@ private:
     void note_touched(const std::vector<std::string>& blocks, const std::string& what) {
         for (std::size_t i = 0; i < blocks.size(); ++i) {
             if (blocks[i].empty() || !answers_.outside.empty()) continue;
-            answers_.outside = what + " of the block that begins with vertex " +
-                               std::to_string(i * how_.block) + at_ + ": " + blocks[i];
+            answers_.outside = fmt::format("{} of the block that begins with vertex {}{}: {}", what, i * how_.block, at_, blocks[i]);
         }
     }
 

@@ -7,6 +7,7 @@
 #include <dsc/mesh/shapes.hpp>
 #include <dsc/sdk/surfaces.hpp>
 #include <numbers>
+#include <fmt/core.h>
 
 namespace dsc::conformance {
 namespace {
@@ -107,7 +108,7 @@ Fixture ordinary() {
 }
 
 Fixture triangles(unsigned level) {
-    Fixture fixture = of_triangles("a sphere of " + std::to_string(20U << (2 * level)) + " triangles",
+    Fixture fixture = of_triangles(fmt::format("a sphere of {} triangles", 20U << (2 * level)),
                                    sdk::icosphere(level, 1.0));
     fixture.cloud = target(ellipsoid(cloud_points));
     return fixture;

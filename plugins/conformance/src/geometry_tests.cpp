@@ -1,6 +1,7 @@
 // geo.*: the answers do not depend on the coordinate system.
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 #include "test_table.hpp"
 
@@ -51,7 +52,7 @@ void rigid(const Subject& subject) {
         const double tolerance = relative * std::max(longest, largest_of(plain, part));
         for (std::size_t i = part.begin; i < part.end; ++i) {
             require(std::abs(plain[i] - there[i]) <= tolerance,
-                    trace.place(i) + " is " + std::to_string(there[i]) + " instead of " + std::to_string(plain[i]) + remedy);
+                    fmt::format("{} is {:f} instead of {:f}{}", trace.place(i), there[i], plain[i], remedy));
         }
     }
 }

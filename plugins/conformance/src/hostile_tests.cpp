@@ -1,4 +1,6 @@
 // *.hostile, err.*: tests with bad input.
+#include <fmt/core.h>
+
 #include "test_table.hpp"
 
 namespace dsc::conformance {
@@ -17,8 +19,7 @@ void survive(const Subject& subject, const std::vector<Fixture>& fixtures) {
             throw Failed("on " + fixture.name + " it throws something that is not a std::exception");
         }
         if (const auto bad = answers.trace.first_not_finite())
-            throw Failed("on " + fixture.name + " it returns " + std::to_string(answers.trace.values()[*bad]) +
-                         " as " + answers.trace.place(*bad));
+            throw Failed(fmt::format("on {} it returns {:f} as {}", fixture.name, answers.trace.values()[*bad], answers.trace.place(*bad)));
     }
 }
 

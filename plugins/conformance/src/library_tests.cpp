@@ -4,6 +4,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/host/doctor.hpp>
 #include <regex>
+#include <fmt/core.h>
 
 #include "process.hpp"
 #include "test_table.hpp"
@@ -76,10 +77,9 @@ void scan(const Subject& subject) {
     require(count_entries("/proc/self/fd") == files, "it leaves a file or socket open when it is loaded");
     const bool silent = printed_so_far() == printed;
     require(silent, "it prints text when it is loaded: " + printed_since(printed));
-    if (seconds > 5) throw Failed("it takes " + std::to_string(seconds) + " s to load");
+    if (seconds > 5) throw Failed(fmt::format("it takes {:f} s to load", seconds));
     if (seconds > 0.5)
-        throw Warned("it takes " + std::to_string(seconds) +
-                     " s to load; plugins should load quickly, because a list of plugins loads them all");
+        throw Warned(fmt::format("it takes {:f} s to load; plugins should load quickly, because a list of plugins loads them all", seconds));
 }
 
 std::string names(const host::Host& host) {

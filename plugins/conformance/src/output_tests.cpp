@@ -1,4 +1,6 @@
 // out.*: what a strategy writes and where, and what it must not change.
+#include <fmt/core.h>
+
 #include <dsc/base/log.hpp>
 
 #include "process.hpp"
@@ -10,7 +12,7 @@ namespace {
 void finite(const Subject& subject) {
     const Answers answers = subject.answers();
     if (const auto bad = answers.trace.first_not_finite())
-        throw Failed(std::to_string(answers.trace.values()[*bad]) + " as " + answers.trace.place(*bad));
+        throw Failed(fmt::format("{:f} as {}", answers.trace.values()[*bad], answers.trace.place(*bad)));
 }
 
 void complete(const Subject& subject) {

@@ -1,4 +1,6 @@
 // param.*: a strategy works with all parameters that its schema accepts.
+#include <fmt/core.h>
+
 #include <dsc/base/error.hpp>
 
 #include "test_table.hpp"
@@ -26,8 +28,7 @@ void try_out(const Subject& subject, const Variation& variation) {
         throw Failed("with " + variation.name + " it throws something that is not a std::exception");
     }
     if (const auto bad = answers.trace.first_not_finite())
-        throw Failed("with " + variation.name + " it returns " + std::to_string(answers.trace.values()[*bad]) +
-                     " as " + answers.trace.place(*bad));
+        throw Failed(fmt::format("with {} it returns {:f} as {}", variation.name, answers.trace.values()[*bad], answers.trace.place(*bad)));
 }
 
 // Defaults that are left out and defaults that are written out have the same effect.

@@ -5,6 +5,7 @@
 #include <dsc/base/random.hpp>
 #include <dsc/config/yaml.hpp>
 #include <limits>
+#include <fmt/core.h>
 
 namespace dsc::conformance {
 namespace {
@@ -127,7 +128,7 @@ std::vector<Variation> extremes(const config::Schema& schema, const ConfigNode& 
 Variation random_variation(const config::Schema& schema, const ConfigNode& base, std::uint64_t seed) {
     RandomStream random(RandomKey{seed, stream_id("fuzz"), 0, 0});
     ConfigNode parameters = base;
-    std::string name = "seed " + std::to_string(seed) + ":";
+    std::string name = fmt::format("seed {}:", seed);
     for (const Field& field : schema.fields()) {
         const bool unset = field.optional && random.index(4) == 0;
         const ConfigNode value = unset ? ConfigNode() : random_value(field, base, random);

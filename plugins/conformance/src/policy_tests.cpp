@@ -6,6 +6,7 @@
 #include <dsc/mesh/validate.hpp>
 #include <dsc/run/mesh_files.hpp>
 #include <map>
+#include <fmt/core.h>
 
 #include "test_table.hpp"
 
@@ -28,7 +29,7 @@ void topology(const Subject& subject) {
     const mesh::ComplexReport report = mesh::validate(complex);
     require(report.valid(), report.faults.empty() ? "" : report.faults.front());
     require(report.irregular_vertices == 0,
-            "the interface is not a 2-manifold at " + std::to_string(report.irregular_vertices) + " vertices");
+            fmt::format("the interface is not a 2-manifold at {} vertices", report.irregular_vertices));
     require(std::any_of(mesh.labels.begin(), mesh.labels.end(), [](mesh::Label l) { return l > 0; }),
             "no tet has a label above 0, so there is nothing to deform");
     require(std::any_of(mesh.labels.begin(), mesh.labels.end(), [](mesh::Label l) { return l == 0; }),
@@ -73,14 +74,11 @@ void refinement(const Subject& subject) {
         const hooks::RefinementRequests again = ask(policy, fixture, round + 1);
         require(again.split_faces.size() <= requests.split_faces.size() &&
                     again.split_edges.size() <= requests.split_edges.size(),
-                "a second call on the same mesh requests more: " + std::to_string(again.split_faces.size()) +
-                    " faces and " + std::to_string(again.split_edges.size()) + " edges after " +
-                    std::to_string(requests.split_faces.size()) + " and " +
-                    std::to_string(requests.split_edges.size()));
+                fmt::format("a second call on the same mesh requests more: {} faces and {} edges after {} and {}", again.split_faces.size(), again.split_edges.size(), requests.split_faces.size(), requests.split_edges.size()));
         std::vector<std::array<mesh::VertexId, 3>> faces;
         for (const std::uint32_t f : requests.split_faces) {
             require(f < fixture.view.face_count(),
-                    "it requests face " + std::to_string(f) + ", which does not exist");
+                    fmt::format("it requests face {}, which does not exist", f));
             const auto& [a, b, c] = fixture.view.faces[f];
             faces.push_back(
                 {fixture.view.vertex_ids[a], fixture.view.vertex_ids[b], fixture.view.vertex_ids[c]});
@@ -119,8 +117,7 @@ void improvement(const Subject& subject) {
         current = &context;
         deformer.step(fixture.view.vertex_ids, twist(fixture.view), repair);
         const mesh::ComplexReport report = mesh::validate(deformer.complex());
-        require(report.valid(), "step " + std::to_string(step) + " left an invalid mesh: " +
-                                    (report.faults.empty() ? "" : report.faults.front()));
+        require(report.valid(), fmt::format("step {} left an invalid mesh: {}", step, report.faults.empty() ? "" : report.faults.front()));
     }
 }
 
@@ -132,7 +129,7 @@ std::string bits_of(const Vec3& point) {
 
 void require_size(std::size_t size, std::size_t points, const char* what) {
     require(size == 0 || size == points,
-            "it returns " + std::to_string(size) + " " + what + " for " + std::to_string(points) + " points");
+            fmt::format("it returns {} {} for {} points", size, what, points));
 }
 
 // The attributes match the points, a point that stays keeps its colour, and the numbers in the report add up.
@@ -146,19 +143,16 @@ void filter_attributes(const Subject& subject) {
     require_size(result.cloud.areas.size(), points, "areas");
     require_size(result.cloud.confidence.size(), points, "confidences");
     require(result.cloud.colours.size() == points,
-            "the cloud has a colour for each of its points, but the filter returns " +
-                std::to_string(result.cloud.colours.size()) +
-                " colours for " + std::to_string(points) + " points");
+            fmt::format("the cloud has a colour for each of its points, but the filter returns {} colours for {} points", result.cloud.colours.size(), points));
     std::map<std::string, cloud::Colour> colours;
     for (std::size_t i = 0; i < given.points.size(); ++i) colours[bits_of(given.points[i])] = given.colours[i];
     for (std::size_t i = 0; i < points; ++i) {
         const auto found = colours.find(bits_of(result.cloud.points[i]));
         require(found == colours.end() || found->second == result.cloud.colours[i],
-                "point " + std::to_string(i) + " has the colour of another point");
+                fmt::format("point {} has the colour of another point", i));
     }
     require(result.report.kept == points && result.report.kept + result.report.removed == given.points.size(),
-            "its report counts " + std::to_string(result.report.kept) + " points kept and " + std::to_string(result.report.removed) +
-                " removed, of " + std::to_string(given.points.size()) + " given and " + std::to_string(points) + " left");
+            fmt::format("its report counts {} points kept and {} removed, of {} given and {} left", result.report.kept, result.report.removed, given.points.size(), points));
 }
 
 void progress(const Subject& subject) {
@@ -175,8 +169,7 @@ void sizing(const Subject& subject) {
     const auto strategy = subject.make();
     const unsigned passes = static_cast<hooks::RefinementPolicy&>(*strategy).passes();
     require(passes >= 1 && passes <= hooks::refinement_passes,
-            "it asks for " + std::to_string(passes) + " passes, but only 1 to " +
-                std::to_string(hooks::refinement_passes) + " are possible");
+            fmt::format("it asks for {} passes, but only 1 to {} are possible", passes, hooks::refinement_passes));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <dsc/host/child_process.hpp>
 #include <filesystem>
 #include <iostream>
+#include <fmt/core.h>
 
 namespace dsc::conformance {
 namespace {
@@ -93,7 +94,7 @@ std::string sanitizer_report(const std::string& output) {
 Verdict judge(int status, bool in_time, const std::string& bytes, const std::string& output,
               std::chrono::milliseconds limit) {
     if (!in_time)
-        return {Status::timeout, "it did not end within " + std::to_string(limit.count() / 1000) + " s"};
+        return {Status::timeout, fmt::format("it did not end within {} s", limit.count() / 1000)};
     if (const std::string report = sanitizer_report(output); !report.empty()) return {Status::fail, report};
     const std::string said = last_line(output);
     const std::string last_words = said.empty() ? "" : "; it printed: " + said;

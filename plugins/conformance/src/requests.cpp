@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
 namespace dsc::conformance {
 
@@ -14,8 +15,7 @@ std::string unfit(const hooks::Attributes& attributes, std::size_t vertices) {
             return "attribute '" + a.name + "' is published twice";
         }
         if (a.values.size() != vertices) {
-            return "attribute '" + a.name + "' has " + std::to_string(a.values.size()) + " values for " + std::to_string(vertices) +
-                   " vertices";
+            return fmt::format("attribute '{}' has {} values for {} vertices", a.name, a.values.size(), vertices);
         }
     }
     return {};
@@ -25,7 +25,7 @@ std::string unfit_lengths(const hooks::RefinementRequests& requests, std::size_t
     const auto bad = [](double length) { return std::isfinite(length) && length <= 0.0; };
     for (const std::vector<double>* lengths : {&requests.sizing, &requests.target_lengths}) {
         if (!lengths->empty() && lengths->size() != vertices) {
-            return "there are " + std::to_string(lengths->size()) + " target lengths for " + std::to_string(vertices) + " vertices";
+            return fmt::format("there are {} target lengths for {} vertices", lengths->size(), vertices);
         }
         if (std::any_of(lengths->begin(), lengths->end(), bad)) return "a target length is not above 0";
     }

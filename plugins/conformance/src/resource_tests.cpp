@@ -1,5 +1,6 @@
 // cancel, leak, thr.*, perf.*: the resources that a strategy uses.
 #include <malloc.h>
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/plugin/fingerprint.hpp>
@@ -31,7 +32,7 @@ void cancel(const Subject& subject) {
     }
     const double seconds = cpu_seconds() - begin;
     if (seconds > cancel_seconds && !sanitized("address") && !sanitized("thread"))
-        throw Failed("after it was cancelled, it works for another " + std::to_string(seconds) + " s");
+        throw Failed(fmt::format("after it was cancelled, it works for another {:f} s", seconds));
 }
 
 void use_once(const Subject& subject, const Fixture& fixture) {
@@ -91,8 +92,7 @@ void scale(const Subject& subject) {
     const double large = time(5);
     const double ratio = large / std::max(small, 1e-6);
     if (large > 0.02 && ratio > 9)
-        throw Warned("a surface four times as large takes " + std::to_string(ratio) +
-                     " times as long; the time grows faster than the surface");
+        throw Warned(fmt::format("a surface four times as large takes {:f} times as long; the time grows faster than the surface", ratio));
 }
 
 }  // namespace

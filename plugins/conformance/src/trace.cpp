@@ -39,7 +39,7 @@ std::string Trace::place(std::size_t index) const {
         std::find_if(parts_.begin(), parts_.end(), [index](const Part& p) { return p.begin > index; });
     if (behind == parts_.begin()) return "value " + std::to_string(index);
     const Part& part = *(behind - 1);
-    return "entry " + std::to_string((index - part.begin) / part.width) + " of " + part.name;
+    return fmt::format("entry {} of {}", (index - part.begin) / part.width, part.name);
 }
 
 std::optional<std::string> Trace::difference(const Trace& a, const Trace& b) {
