@@ -44,12 +44,12 @@ void add_help(CLI::App& app, dsc::app::Context& context) {
 
 /// Readers ask the user to choose columns; each command has its own way to do so.
 dsc::Error with_choice_of_columns(const CLI::App& app, const dsc::Error& error) {
-    const std::string text = error.what();
+    const std::string& remedy = error.remedy();
     constexpr std::string_view request = "by their numbers from 1";
-    if (text.size() < request.size() || text.compare(text.size() - request.size(), request.size(), request) != 0) return error;
+    if (remedy.size() < request.size() || remedy.compare(remedy.size() - request.size(), request.size(), request) != 0) return error;
     const auto commands = app.get_subcommands();
     const bool option = !commands.empty() && commands.front()->get_option_no_throw("--columns") != nullptr;
-    return {error.exit_code(), error.code(), text + (option ? ": --columns X,Y,Z" : ": input.cloud.columns")};
+    return {error.exit_code(), error.code(), error.place(), error.cause(), remedy + (option ? ": --columns X,Y,Z" : ": input.cloud.columns")};
 }
 
 /// Writes the remaining data. If this fails, the exit code of a job that has failed is kept.

@@ -35,8 +35,7 @@ constexpr std::array<Remedy, 12> remedies = {{{"run.vanished", check_cloud},
 Error with_own_remedy(const Error& error) {
     const auto found = std::find_if(remedies.begin(), remedies.end(), [&](const Remedy& r) { return r.code == error.code(); });
     if (found == remedies.end()) return error;
-    const std::string text = error.what();
-    return {error.exit_code(), error.code(), text.substr(0, text.find("; ")) + "; " + std::string(found->text)};
+    return {error.exit_code(), error.code(), error.place(), error.cause().substr(0, error.cause().find("; ")), found->text};
 }
 
 }  // namespace dsc::app

@@ -15,18 +15,32 @@ IoError::~IoError() = default;
 CancelledError::~CancelledError() = default;
 
 namespace {
-std::string place_message(std::string_view file, std::string_view place, std::string_view cause,
-                          std::string_view remedy) {
-    std::string text{file};
-    if (!place.empty()) text.append(":").append(place);
-    text.append(": ").append(cause);
+
+std::string message_of(std::string_view place, std::string_view cause, std::string_view remedy) {
+    std::string text(place);
+    if (!place.empty()) text += ": ";
+    text += cause;
     if (!remedy.empty()) text.append("; ").append(remedy);
     return text;
 }
+
+std::string place_of(std::string_view file, std::string_view line) {
+    std::string place(file);
+    if (!line.empty()) place.append(":").append(line);
+    return place;
+}
+
 }  // namespace
 
-IoError::IoError(std::string code, std::string_view file, std::string_view place, std::string_view cause,
-                 std::string_view remedy)
-    : Error(ExitCode::io, std::move(code), place_message(file, place, cause, remedy)) {}
+Error::Error(ExitCode exit_code, std::string code, std::string_view place, std::string_view cause, std::string_view remedy)
+    : std::runtime_error(message_of(place, cause, remedy)),
+      exit_code_(exit_code),
+      code_(std::move(code)),
+      place_(place),
+      cause_(cause),
+      remedy_(remedy) {}
+
+IoError::IoError(std::string code, std::string_view file, std::string_view line, std::string_view cause, std::string_view remedy)
+    : Error(ExitCode::io, std::move(code), place_of(file, line), cause, remedy) {}
 
 }  // namespace dsc

@@ -75,7 +75,7 @@ Filtered remove_duplicates(const Cloud& cloud, const DuplicatesOptions& options)
     const std::string filter = "duplicates";
     const Box3 box = checked_box(cloud, filter);
     require_option(options.tolerance >= 0.0 && options.tolerance <= 1.0, cloud, filter,
-                   "tolerance is " + text::rounded(options.tolerance) + "; it must lie in [0, 1]");
+                   "tolerance is " + text::rounded(options.tolerance), "it must lie in [0, 1]");
     if (!options.sort) return take(cloud, filter, first_of_each(cloud.points, options.tolerance * box.diagonal()));
     // The points are ordered before the first of each is chosen, so the choice does not depend on the order of the input.
     const std::vector<std::size_t> order = lexicographic_order(cloud);
@@ -96,7 +96,7 @@ Filtered remove_clusters(const Cloud& cloud, const ClustersOptions& options) {
     const std::string filter = "clusters";
     checked_box(cloud, filter);
     require_option(options.closer > 0.0 && options.closer < 1.0, cloud, filter,
-                   "closer is " + text::rounded(options.closer) + "; it must lie between 0 and 1");
+                   "closer is " + text::rounded(options.closer), "it must lie between 0 and 1");
     const double even = std::sqrt(std::acos(-1.0) / around);
     const NearestSearch search(cloud.points);
     std::vector<bool> keep(cloud.points.size(), true);
@@ -116,7 +116,7 @@ Filtered voxel_grid(const Cloud& cloud, const VoxelGridOptions& options) {
     const std::string filter = "voxel_grid";
     const Box3 box = checked_box(cloud, filter);
     require_option(options.size >= 1e-9 && options.size <= 1.0, cloud, filter,
-                   "size is " + text::rounded(options.size) + "; it must lie in [1e-9, 1]");
+                   "size is " + text::rounded(options.size), "it must lie in [1e-9, 1]");
     const double edge = options.size * box.diagonal();
     struct Entry {
         std::array<std::int64_t, 3> cell;
@@ -160,9 +160,9 @@ Filtered remove_statistical_outliers(const Cloud& cloud, const StatisticalOutlie
     const std::string filter = "statistical_outliers";
     const Box3 box = checked_box(cloud, filter);
     require_option(options.neighbours >= 1 && options.neighbours <= 1000, cloud, filter,
-                   fmt::format("neighbours is {}; it must lie in [1, 1000]", options.neighbours));
+                   fmt::format("neighbours is {}", options.neighbours), "it must lie in [1, 1000]");
     require_option(options.deviations >= 0.0 && std::isfinite(options.deviations), cloud, filter,
-                   "deviations is " + text::rounded(options.deviations) + "; it must be at least 0");
+                   "deviations is " + text::rounded(options.deviations), "it must be at least 0");
     // PCL reads beyond its buffer if a cloud has no more points than requested neighbours.
     const std::size_t neighbours = std::min(options.neighbours, cloud.points.size() - 1);
     if (neighbours == 0) return take(cloud, filter, std::vector<bool>(cloud.points.size(), true));
@@ -173,9 +173,9 @@ Filtered remove_radius_outliers(const Cloud& cloud, const RadiusOutliersOptions&
     const std::string filter = "radius_outliers";
     const Box3 box = checked_box(cloud, filter);
     require_option(options.radius > 0.0 && options.radius <= 1.0, cloud, filter,
-                   "radius is " + text::rounded(options.radius) + "; it must be above 0 and at most 1");
+                   "radius is " + text::rounded(options.radius), "it must be above 0 and at most 1");
     require_option(options.neighbours >= 1 && options.neighbours <= 1000, cloud, filter,
-                   fmt::format("neighbours is {}; it must lie in [1, 1000]", options.neighbours));
+                   fmt::format("neighbours is {}", options.neighbours), "it must lie in [1, 1000]");
     return take(cloud, filter, radius_inliers(recentred(cloud, box), options.radius, options.neighbours));
 }
 

@@ -15,14 +15,13 @@ namespace dsc::cloud {
 
 Box3 checked_box(const Cloud& cloud, const std::string& filter) {
     if (cloud.points.empty())
-        throw GeometryError("cloud.empty", named(cloud.source) + ": filter " + filter +
-                                               ": the cloud has no points; read another file");
+        throw GeometryError("cloud.empty", named(cloud.source), "filter " + filter + ": the cloud has no points", "read another file");
     return require_finite(cloud.points, cloud.source);
 }
 
-void require_option(bool valid, const Cloud& cloud, const std::string& filter, const std::string& cause) {
+void require_option(bool valid, const Cloud& cloud, const std::string& filter, const std::string& cause, std::string_view remedy) {
     if (!valid)
-        throw GeometryError("cloud.option", named(cloud.source) + ": filter " + filter + ": " + cause);
+        throw GeometryError("cloud.option", named(cloud.source), "filter " + filter + ": " + cause, remedy);
 }
 
 namespace {
@@ -63,10 +62,9 @@ Cloud pick(const Cloud& cloud, std::span<const std::size_t> indices) {
 
 Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<std::size_t>& kept) {
     if (kept.empty())
-        throw GeometryError("cloud.filtered_out", named(cloud.source) + ": filter " + filter +
-                                                      " removes all " +
-                                                      text::counted(cloud.points.size(), "point") +
-                                                      "; relax its options or leave it out");
+        throw GeometryError("cloud.filtered_out", named(cloud.source),
+                            "filter " + filter + " removes all " + text::counted(cloud.points.size(), "point"),
+                            "relax its options or leave it out");
     Filtered result;
     result.cloud = pick(cloud, kept);
     result.report = {filter, kept.size(), cloud.points.size() - kept.size()};

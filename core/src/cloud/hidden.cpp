@@ -148,13 +148,13 @@ Filtered remove_hidden(const Cloud& cloud, const HiddenOptions& options, const C
     const std::string filter = "hidden";
     const Box3 box = checked_box(cloud, filter);
     require_option(options.views >= 1 && options.views <= 10000, cloud, filter,
-                   fmt::format("views is {}; it must lie in [1, 10000]", options.views));
+                   fmt::format("views is {}", options.views), "it must lie in [1, 10000]");
     require_option(options.radius > 0.0 && options.radius <= 10.0, cloud, filter,
-                   "radius is " + text::rounded(options.radius) + "; it must be above 0 and at most 10");
+                   "radius is " + text::rounded(options.radius), "it must be above 0 and at most 10");
     require_option(options.depth > 0.0 && options.depth <= 10.0, cloud, filter,
-                   "depth is " + text::rounded(options.depth) + "; it must be above 0 and at most 10");
+                   "depth is " + text::rounded(options.depth), "it must be above 0 and at most 10");
     require_option(options.share >= 0.0 && options.share < 1.0, cloud, filter,
-                   "share is " + text::rounded(options.share) + "; it must be at least 0 and below 1");
+                   "share is " + text::rounded(options.share), "it must be at least 0 and below 1");
     const std::vector<std::size_t> counts = count_views(discs_of(cloud, box.centre(), options), options.views, cancel);
     const double bound = options.share * static_cast<double>(options.views);
     std::vector<bool> keep(counts.size());

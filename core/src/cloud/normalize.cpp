@@ -52,7 +52,8 @@ Box3 require_finite(std::span<const Vec3> points, std::string_view name) {
         // Beyond this, squares and volumes of coordinates are outside the range of doubles.
         if (!(points[i].array().abs() <= 1e100).all())
             throw GeometryError("cloud.non_finite",
-                                fmt::format("{}: point {} has a coordinate that is not finite or above 1e100; remove it", named(name), i));
+                                named(name),
+                                fmt::format("point {} has a coordinate that is not finite or above 1e100", i), "remove it");
         box.extend(points[i]);
     }
     return box;
@@ -61,12 +62,15 @@ Box3 require_finite(std::span<const Vec3> points, std::string_view name) {
 void require_volume(std::span<const Vec3> points, std::string_view name) {
     const std::string who = named(name);
     if (points.size() < 4)
-        throw GeometryError("cloud.few", who + ": the cloud has " + text::counted(points.size(), "point") + "; " +
+        throw GeometryError("cloud.few", who, "the cloud has " + text::counted(points.size(), "point"),
                                              std::string(volume_remedy));
     const Box3 box = require_finite(points, name);
     const auto refuse = [&](const char* code, const char* what) {
         const Vec3 size = box.size();
-        throw GeometryError(code, fmt::format("{}: all {} points {} (extent {} x {} x {}); {}", who, points.size(), what, text::rounded(size.x()), text::rounded(size.y()), text::rounded(size.z()), volume_remedy));
+        throw GeometryError(code, who,
+                            fmt::format("all {} points {} (extent {} x {} x {})", points.size(), what, text::rounded(size.x()),
+                                        text::rounded(size.y()), text::rounded(size.z())),
+                            volume_remedy);
     };
     // Below 1e-100 the squares of differences underflow. Flat means: below the tolerance, or below the rounding of coordinates
     // far from the origin.
@@ -115,10 +119,8 @@ void set_attributes(const Cloud& cloud, Normalized& result) {
 Normalized normalize(const Cloud& cloud, double scale_target) {
     const double most = simulation_box().high.x();
     if (!(scale_target > 0.0 && scale_target <= most))
-        throw GeometryError("cloud.scale", named(cloud.source) + ": the normalisation scale is " +
-                                               text::rounded(scale_target) +
-                                               "; choose one above 0 and at most " + text::rounded(most) +
-                                               ", 0.9 by default");
+        throw GeometryError("cloud.scale", named(cloud.source), "the normalisation scale is " + text::rounded(scale_target),
+                            "choose one above 0 and at most " + text::rounded(most) + ", 0.9 by default");
     require_volume(cloud.points, cloud.source);
     const Box3 box = bounding_box(cloud.points);
     Normalized result;
@@ -139,7 +141,11 @@ Normalized keep_coordinates(const Cloud& cloud, const Box3& box) {
                              static_cast<std::size_t>(std::count_if(first, cloud.points.end(), inside)) -
                              static_cast<std::size_t>(first - cloud.points.begin());
         throw GeometryError("cloud.outside_box",
-                            fmt::format("{}: cloud outside the box: {} of {}, the first is point {}; the cloud spans {}, the box is {}; normalise the cloud (normalize: {{scale: 0.9}}) or scale it into the box", named(cloud.source), outside, text::counted(cloud.points.size(), "point"), first - cloud.points.begin(), interval(bounding_box(cloud.points)), interval(box)));
+                            named(cloud.source),
+                            fmt::format("cloud outside the box: {} of {}, the first is point {}; the cloud spans {}, the box is {}", outside,
+                                        text::counted(cloud.points.size(), "point"), first - cloud.points.begin(),
+                                        interval(bounding_box(cloud.points)), interval(box)),
+                            "normalise the cloud (normalize: {scale: 0.9}) or scale it into the box");
     }
     Normalized result{cloud.points, Transform{}};
     set_attributes(cloud, result);

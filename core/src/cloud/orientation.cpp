@@ -282,14 +282,15 @@ OrientedPoints orient_by_normals(std::span<const Vec3> points, std::span<const V
                                  const CancelToken* cancel, std::string_view name) {
     require_volume(points, name);
     if (normals.size() != points.size())
-        throw GeometryError("cloud.normals", named(name) + ": there are " + text::counted(normals.size(), "normal") + " for " +
-                                                 text::counted(points.size(), "point") + "; let the filter orient estimate them");
+        throw GeometryError("cloud.normals", named(name), "there are " + text::counted(normals.size(), "normal") + " for " +
+                                                 text::counted(points.size(), "point"), "let the filter orient estimate them");
     std::vector<Vec3> unit(normals.size());
     for (std::size_t i = 0; i < normals.size(); ++i) {
         const bool already = std::abs(normals[i].squaredNorm() - 1.0) < unit_tolerance;  // then every bit is kept
         unit[i] = already ? normals[i] : direction_or(normals[i], Vec3::Zero());
         if (unit[i].isZero(0.0))
-            throw GeometryError("cloud.normals", fmt::format("{}: the normal of point {} has no direction; let the filter orient estimate the normals", named(name), i));
+            throw GeometryError("cloud.normals", named(name), fmt::format("the normal of point {} has no direction", i),
+                                "let the filter orient estimate the normals");
     }
     if (cancel != nullptr && cancel->cancelled()) throw CancelledError("the cloud was not oriented");
     const ScaledSamples samples = scaled_samples(points, workers);

@@ -25,7 +25,7 @@ enum Reason : unsigned char { stays, isolated, distant, strewn, off_surface, clu
 
 void require_factor(double value, const char* option, const Cloud& cloud, const std::string& filter) {
     require_option(value > 1.0 && std::isfinite(value), cloud, filter,
-                   std::string(option) + " is " + text::rounded(value) + "; it must be above 1");
+                   std::string(option) + " is " + text::rounded(value), "it must be above 1");
 }
 
 std::size_t set_in(const Flags& flags) {
@@ -119,9 +119,9 @@ Filtered remove_outliers(const Cloud& cloud, const OutliersOptions& options, Wor
     require_factor(options.isolated, "isolated", cloud, filter);
     require_factor(options.far, "far", cloud, filter);
     require_option(options.most >= 0.0 && options.most < 1.0, cloud, filter,
-                   "most is " + text::rounded(options.most) + "; it must be at least 0 and below 1");
+                   "most is " + text::rounded(options.most), "it must be at least 0 and below 1");
     require_option(options.dirty >= 0.0 && options.dirty <= 1.0, cloud, filter,
-                   "dirty is " + text::rounded(options.dirty) + "; it must be at least 0 and at most 1");
+                   "dirty is " + text::rounded(options.dirty), "it must be at least 0 and at most 1");
     const std::size_t count = cloud.points.size();
     std::vector<bool> keep(count, true);
     std::array<std::size_t, reason_count> counts{};

@@ -132,13 +132,13 @@ struct NearestSearch::Tree {
 
 NearestSearch::NearestSearch(std::span<const Vec3> points) {
     if (points.empty())
-        throw GeometryError("cloud.empty", "nearest-point search: no points; a search needs at least one");
+        throw GeometryError("cloud.empty", "nearest-point search", "no points", "a search needs at least one");
     if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         throw GeometryError("cloud.large",
-                            fmt::format("nearest-point search: {} points; the limit is 2147483647; thin the cloud first", points.size()));
+                            "nearest-point search", fmt::format("{} points; the limit is 2147483647", points.size()), "thin the cloud first");
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!points[i].allFinite())
-            throw GeometryError("cloud.non_finite", fmt::format("nearest-point search: point {} is not finite; remove it first", i));
+            throw GeometryError("cloud.non_finite", "nearest-point search", fmt::format("point {} is not finite", i), "remove it first");
     tree_ = std::make_unique<Tree>(points);
 }
 

@@ -44,11 +44,11 @@ struct Frame {
 
 void require_points(std::span<const Vec3> points) {
     if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw GeometryError("cloud.large", fmt::format("winding field: {} points; the limit is 2147483647; thin the cloud first", points.size()));
+        throw GeometryError("cloud.large", "winding field", fmt::format("{} points; the limit is 2147483647", points.size()), "thin the cloud first");
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!points[i].allFinite())
             throw GeometryError("cloud.non_finite",
-                                fmt::format("winding field: point {} is not finite; remove it first", i));
+                                "winding field", fmt::format("point {} is not finite", i), "remove it first");
 }
 
 std::vector<std::array<float, 3>> placed(const Frame& frame, std::span<const Vec3> points) {
@@ -59,7 +59,7 @@ std::vector<std::array<float, 3>> placed(const Frame& frame, std::span<const Vec
 
 Frame frame_of(std::span<const Vec3> positions) {
     if (positions.empty())
-        throw GeometryError("cloud.empty", "winding field: no positions; at least one is needed");
+        throw GeometryError("cloud.empty", "winding field", "no positions", "at least one is needed");
     require_points(positions);
     const Box3 box = bounding_box(positions);
     const double diagonal = box.diagonal();

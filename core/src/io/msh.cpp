@@ -18,7 +18,7 @@ std::map<mesh::Label, std::vector<std::size_t>> by_label(const mesh::TetMesh& me
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) groups[mesh.labels[t]].push_back(t);
     for (const auto& [label, tets] : groups) {
         if (label >= 0 && label < std::numeric_limits<mesh::Label>::max()) continue;
-        throw GeometryError("volume.label", fmt::format("volume: tet {} has the label {}; .msh can store labels from 0 to 2147483646, write a .vtu or .dsc", tets.front(), label));
+        throw GeometryError("volume.label", "volume", fmt::format("tet {} has the label {}", tets.front(), label), ".msh can store labels from 0 to 2147483646, write a .vtu or .dsc");
     }
     return groups;
 }

@@ -364,10 +364,10 @@ Image render(const surface::TriangleMesh& mesh, const RenderOptions& options) {
     }
     surface::require_sound(mesh);
     if (mesh.faces.empty()) {
-        throw GeometryError("surface.empty", "picture: the mesh has no faces; at least one is needed");
+        throw GeometryError("surface.empty", "picture", "the mesh has no faces", "at least one is needed");
     }
     if (!options.values.empty() && options.values.size() != mesh.points.size()) {
-        throw GeometryError("surface.size", fmt::format("picture: {} values for {} points; give one for each or none", options.values.size(), mesh.points.size()));
+        throw GeometryError("surface.size", "picture", fmt::format("{} values for {} points", options.values.size(), mesh.points.size()), "give one for each or none");
     }
     Painter painter(mesh, options);
     Image image{options.width, options.height, {}};

@@ -26,7 +26,7 @@ constexpr const char* colour_array = "colour";
 
 void require_surface_size(std::size_t count, std::size_t expected, const std::string& array) {
     if (count == expected) return;
-    throw GeometryError("surface.size", fmt::format("surface: array {} has {} for {}; give one for each", text::in_quotes(array), text::counted(count, "value"), expected));
+    throw GeometryError("surface.size", "surface", fmt::format("array {} has {} for {}", text::in_quotes(array), text::counted(count, "value"), expected), "give one for each");
 }
 
 void check_arrays(const surface::TriangleMesh& mesh, const SurfaceData& data) {

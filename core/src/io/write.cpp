@@ -29,7 +29,7 @@ const Format& require_format(const std::filesystem::path& file, bool Format::*ki
 
 void require_volume_size(std::size_t count, std::size_t expected, const std::string& what) {
     if (count == expected) return;
-    throw GeometryError("volume.size", fmt::format("volume: {} has {} for {}; give one for each", what, text::counted(count, "value"), expected));
+    throw GeometryError("volume.size", "volume", fmt::format("{} has {} for {}", what, text::counted(count, "value"), expected), "give one for each");
 }
 
 void check_arrays(const mesh::TetMesh& mesh, const VolumeData& data) {
@@ -62,7 +62,7 @@ void check_tets(const mesh::TetMesh& mesh, const std::string& file) {
     }
     if (wrong == 0) return;
     throw GeometryError("volume.inverted",
-                        fmt::format("{}: not written, {} of {} not positive, the first is tet {}; orient the tets (adopt does) or use units in which their volume is not rounded to 0", file, text::counted(wrong, "tet"), mesh.tets.size(), first));
+                        file, fmt::format("not written, {} of {} not positive, the first is tet {}", text::counted(wrong, "tet"), mesh.tets.size(), first), "orient the tets (adopt does) or use units in which their volume is not rounded to 0");
 }
 
 void require_colours(const surface::TriangleMesh& mesh) {

@@ -19,7 +19,7 @@ namespace dsc::mesh {
 namespace {
 
 [[noreturn]] void refuse(std::string_view name, const std::string& code, const std::string& cause, const std::string& remedy) {
-    throw GeometryError(code, std::string(name) + ": " + cause + "; " + remedy);
+    throw GeometryError(code, name, cause, remedy);
 }
 
 void check_arrays(const TetMesh& mesh, std::string_view name) {

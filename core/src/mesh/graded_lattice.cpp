@@ -27,9 +27,8 @@ struct Place {
 LatticeOptions checked(LatticeOptions options, std::string_view name) {
     const double cells = options.wanted_cells();
     if (!(cells >= least_lattice_cells && cells <= most_graded_cells)) {
-        throw ConfigError("lattice.size",
-                          std::string(name) + ": the box contains " + std::to_string(cells) +
-                              " of the smallest cells in a row; change the cells or the box so that there are " +
+        throw ConfigError("lattice.size", name, "the box contains " + std::to_string(cells) + " of the smallest cells in a row",
+                          "change the cells or the box so that there are " +
                               std::to_string(least_lattice_cells) + " to " +
                               std::to_string(most_graded_cells) + " of them");
     }

@@ -17,23 +17,23 @@ namespace stuffing {
 namespace {
 
 void check_input(const LatticeView& lattice, std::span<const double> values, const StuffOptions& options, std::string_view name) {
-    const auto text = [name](const std::string& cause) { return std::string(name) + ": " + cause; };
     if (!(options.cut_low > 0 && options.cut_low <= options.cut_high && options.cut_high < 1)) {
-        throw ConfigError("stuff.options", text("the cut range is not inside the edges; use 0 < cut_low <= cut_high < 1"));
+        throw ConfigError("stuff.options", name, "the cut range is not inside the edges", "use 0 < cut_low <= cut_high < 1");
     }
     if (values.size() != lattice.points.size()) {
-        throw GeometryError("stuff.values", text(std::to_string(values.size()) + " values for " + std::to_string(lattice.points.size()) +
-                                                 " points; give one value per point"));
+        throw GeometryError("stuff.values", name,
+                            std::to_string(values.size()) + " values for " + std::to_string(lattice.points.size()) + " points",
+                            "give one value per point");
     }
     const Box3 box = bounding_box(lattice.points);
     for (std::size_t v = 0; v < values.size(); ++v) {
         if (!std::isfinite(values[v]) || values[v] == 0) {
-            throw GeometryError("stuff.values", text("the value of vertex " + std::to_string(v) +
-                                                     " is 0 or not finite; every vertex must be on one side"));
+            throw GeometryError("stuff.values", name, "the value of vertex " + std::to_string(v) + " is 0 or not finite",
+                                "every vertex must be on one side");
         }
         if (values[v] > 0 && lies_on(box, lattice.points[v])) {
-            throw GeometryError("stuff.box", text("vertex " + std::to_string(v) +
-                                                  " on the box is inside; use a larger box, so that the interface is closed"));
+            throw GeometryError("stuff.box", name, "vertex " + std::to_string(v) + " on the box is inside",
+                                "use a larger box, so that the interface is closed");
         }
     }
 }

@@ -45,8 +45,8 @@ Frame frame_of(const LatticeOptions& options) {
 }
 
 ConfigError too_large(std::string_view name, std::size_t leaves, std::string_view remedy) {
-    return ConfigError("lattice.size", std::string(name) + ": " + std::to_string(leaves) + " cells, but the limit is " +
-                                           std::to_string(most_leaves) + "; " + std::string(remedy));
+    return ConfigError("lattice.size", name,
+                       std::to_string(leaves) + " cells, but the limit is " + std::to_string(most_leaves), remedy);
 }
 
 }  // namespace lattice

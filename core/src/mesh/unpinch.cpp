@@ -78,8 +78,9 @@ bool relabel_group(Complex& c, VertexId v, const Group& group) {
     labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
     std::string list;
     for (const Label l : labels) list += (list.empty() ? "" : ", ") + std::to_string(l);
-    throw GeometryError("mesh.pinched", std::string(name) + ": labels " + list + " touch at vertex " + std::to_string(v) + " " +
-                                            geometry::point_text(c.position(v)) + " and cannot be separated; relabel the tets there");
+    throw GeometryError("mesh.pinched", name, "labels " + list + " touch at vertex " + std::to_string(v) + " " +
+                                            geometry::point_text(c.position(v)) + " and cannot be separated",
+                        "relabel the tets there");
 }
 
 }  // namespace

@@ -32,9 +32,7 @@ std::string Identity::describe() const {
 }
 
 void fail(const Call& call, std::string code, std::string_view cause, std::string_view remedy) {
-    std::string text = call_text(call);
-    text.append(" ").append(cause).append("; ").append(remedy);
-    throw StrategyFailure(std::move(code), text);
+    throw StrategyFailure(std::move(code), "", call_text(call).append(" ").append(cause), remedy);
 }
 
 void rethrow_attributed(const Call& call) {

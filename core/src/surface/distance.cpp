@@ -45,7 +45,7 @@ struct StoredTriangle {
 std::vector<StoredTriangle> store(const TriangleMesh& mesh) {
     require_sound(mesh);
     if (mesh.faces.empty()) {
-        throw GeometryError("surface.empty", "surface: the mesh has no faces; at least one is needed for a distance");
+        throw GeometryError("surface.empty", "surface", "the mesh has no faces", "at least one is needed for a distance");
     }
     std::vector<StoredTriangle> out;
     out.reserve(mesh.faces.size());
@@ -58,12 +58,12 @@ std::vector<StoredTriangle> store(const TriangleMesh& mesh) {
 
 std::vector<Vec3> store(std::span<const Vec3> points) {
     if (points.empty()) {
-        throw GeometryError("surface.empty", "points: the set is empty; at least one point is needed for a distance");
+        throw GeometryError("surface.empty", "points", "the set is empty", "at least one point is needed for a distance");
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (points[i].allFinite()) continue;
         throw GeometryError("surface.not_finite",
-                            fmt::format("points: point {} is NaN or infinite; remove it", i));
+                            "points", fmt::format("point {} is NaN or infinite", i), "remove it");
     }
     return {points.begin(), points.end()};
 }

@@ -26,12 +26,12 @@ void require_sound(const TriangleMesh& mesh) {
     const std::size_t count = mesh.points.size();
     for (std::size_t i = 0; i < count; ++i) {
         if (mesh.points[i].allFinite()) continue;
-        throw GeometryError("surface.not_finite", fmt::format("surface: point {} is NaN or infinite; remove it or repair the file", i));
+        throw GeometryError("surface.not_finite", "surface", fmt::format("point {} is NaN or infinite", i), "remove it or repair the file");
     }
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         for (const std::uint32_t v : mesh.faces[f]) {
             if (v < count) continue;
-            throw GeometryError("surface.index", fmt::format("surface: face {} refers to point {} of {}; remove the face or add the point", f, v, count));
+            throw GeometryError("surface.index", "surface", fmt::format("face {} refers to point {} of {}", f, v, count), "remove the face or add the point");
         }
     }
 }

@@ -13,7 +13,7 @@ namespace dsc::strategies::from_surface {
 namespace {
 
 [[noreturn]] void refuse(const std::string& file, const char* code, const std::string& cause, const std::string& remedy) {
-    throw GeometryError(code, file + ": " + cause + "; " + remedy);
+    throw GeometryError(code, file, cause, remedy);
 }
 
 /// A directed side of a face, stored with its points in ascending order.

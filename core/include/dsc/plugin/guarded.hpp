@@ -35,7 +35,7 @@ struct Call {
 /// A fault of a strategy that already names it; outer guards pass it on unchanged.
 class StrategyFailure : public StrategyError {
 public:
-    StrategyFailure(std::string code, const std::string& message) : StrategyError(std::move(code), message) {}
+    using StrategyError::StrategyError;
     ~StrategyFailure() override;
 };
 
