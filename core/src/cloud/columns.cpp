@@ -61,7 +61,7 @@ std::optional<std::array<std::size_t, 3>> find_names(const std::vector<std::stri
 std::string plain_name(const std::string& name) {
     std::string plain;
     for (const char c : text::lower_case(name.substr(0, name.find_first_of("[(")))) {
-        if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) plain += c;
+        if (text::is_lower(c) || text::is_digit(c)) plain += c;
     }
     return plain;
 }

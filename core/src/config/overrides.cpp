@@ -18,7 +18,7 @@ namespace {
 constexpr const char* code = "config.override";
 
 bool is_key_character(char c) {
-    return c == '_' || c == '-' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    return c == '_' || c == '-' || text::is_digit(c) || text::is_letter(c);
 }
 
 /// The parts of `a.0.b`; empty if it is not a dotted path.
