@@ -21,15 +21,19 @@ BELOW = {
     "geometry": {"base", "text"},
     "decode": {"base", "text", "geometry"},
     "mesh": {"base", "text", "geometry"},
-    "kernel": {"base", "text", "geometry", "mesh"},
+    "generate": {"base", "text", "geometry", "mesh"},
+    "repair": {"base", "text", "geometry", "mesh"},
+    "kernel": {"base", "text", "geometry", "mesh", "repair"},
     "surface": {"base", "text", "geometry", "mesh"},
     "cloud": {"base", "text", "geometry", "decode"},
     "config": {"base", "text"},
     "io": {"base", "text", "geometry", "decode", "mesh", "surface", "cloud"},
-    "hooks": {"base", "text", "geometry", "decode", "mesh", "surface", "cloud", "config"},
-    "plugin": {"base", "text", "geometry", "decode", "mesh", "surface", "cloud", "config", "hooks"},
-    "run": {"base", "text", "geometry", "decode", "mesh", "kernel", "surface", "cloud", "config", "io", "hooks", "plugin"},
+    "hooks": {"base", "text", "geometry", "decode", "mesh", "repair", "surface", "cloud", "config"},
+    "plugin": {"base", "text", "geometry", "decode", "mesh", "generate", "repair", "surface", "cloud", "config", "hooks"},
+    "run": {"base", "text", "geometry", "decode", "mesh", "repair", "kernel", "surface", "cloud", "config", "io", "hooks", "plugin"},
 }
+# What uses finished runs does so through the public headers of `run`, which knows neither of them.
+BELOW["report"] = BELOW["sweep"] = BELOW["run"] | {"run"}
 FOR_STRATEGIES = BELOW["plugin"] | {"plugin"}
 
 # A third-party header and the folders that may include it.
