@@ -33,17 +33,17 @@ int expand(const ExpandArguments& arguments) {
     if (arguments.folder.empty() && !arguments.check)
         throw UsageError("usage.output", "-o DIR, the folder for the points, is missing; add it, or use --check to write "
                                          "nothing");
-    const run::Sweep sweep = run::load_sweep(arguments.file);
+    const sweep::Sweep sweep = sweep::load_sweep(arguments.file);
     if (sweep.repeated > 0)
         log(LogLevel::warning, arguments.file + ": " + text::counted(sweep.repeated, "point") +
                                    " left out because they equal earlier points");
     Plugins plugins(arguments.plugins);
-    const std::vector<std::string> experiments = run::sweep_experiments(sweep, plugins.loader(), plugins.host());
+    const std::vector<std::string> experiments = sweep::sweep_experiments(sweep, plugins.loader(), plugins.host());
     if (arguments.check) {
         data_out() << arguments.file << ": valid, " << text::counted(sweep.points.size(), "point") << "\n";
         return 0;
     }
-    const run::Expansion done = run::expand_sweep(sweep, experiments, arguments.folder);
+    const sweep::Expansion done = sweep::expand_sweep(sweep, experiments, arguments.folder);
     std::string text = fmt::format("{}: {} new, {} kept", text::counted(sweep.points.size(), "point"), done.added, done.kept);
     if (done.others > 0) {
         text += fmt::format("; the table also contains {} points that are not in the sweep any more", done.others);
@@ -55,8 +55,8 @@ int expand(const ExpandArguments& arguments) {
 
 int collect(const CollectArguments& arguments) {
     if (!arguments.output.empty()) require_output(arguments.output, arguments.folder);
-    run::SweepStates states;
-    const std::string table = run::collect_sweep(arguments.folder, states);
+    sweep::SweepStates states;
+    const std::string table = sweep::collect_sweep(arguments.folder, states);
     log(LogLevel::info, fmt::format("{}: {} done, {} failed, {} unfinished, {} not started", text::counted(states.points, "point"), states.done, states.failed, states.unfinished, states.missing));
     if (arguments.output.empty()) {
         data_out() << table;

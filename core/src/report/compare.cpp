@@ -12,7 +12,7 @@
 #include "sections.hpp"
 #include "warnings.hpp"
 
-namespace dsc::run {
+namespace dsc::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -185,4 +185,4 @@ std::string comparison_html(std::span<const fs::path> run_folders, const plugin:
     });
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::report

@@ -9,7 +9,7 @@
 #include <openssl/evp.h>
 #include <set>
 
-namespace dsc::run::html {
+namespace dsc::report::html {
 namespace {
 
 constexpr std::string_view unreadable = "\xEF\xBF\xBD";
@@ -136,4 +136,4 @@ std::string fill(std::string_view page, const std::vector<std::pair<std::string,
     return out.append(page);
 }
 
-}  // namespace dsc::run::html
+}  // namespace dsc::report::html

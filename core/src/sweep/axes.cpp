@@ -13,7 +13,7 @@
 #include <dsc/text/numbers.hpp>
 #include <optional>
 
-namespace dsc::run {
+namespace dsc::sweep {
 namespace {
 
 using config::ConfigEntry;
@@ -193,4 +193,4 @@ Alternatives random_axis(const ConfigNode& ranges, const Draw& draw, Diagnostics
     return all;
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::sweep
