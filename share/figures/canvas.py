@@ -14,7 +14,7 @@ STYLE = (
 
 
 def number(x):
-    text = f"{x:.1f}"
+    text = f"{x + 1e-6:.1f}"  # so that a tie is rounded up, whatever the last bits of a sine are
     text = text[:-2] if text.endswith(".0") else text
     return "0" if text == "-0" else text
 

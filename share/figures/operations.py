@@ -2,7 +2,7 @@
 import math
 
 from canvas import BLUE, INK, LABELS, RED, SOFT, Canvas, plane, regular_polygon
-from geometry import (View, add, area, blend, cross, delaunay, dot, interface, mean, neighbours, norm, orient, positive, quality, sides, sub,
+from geometry import (View, add, area, blend, cross, delaunay, dot, interface, mean, neighbours, norm, positive, quality, sides, sub,
                       unit)
 
 FILL = "#f3d9b0"

@@ -81,7 +81,7 @@ def movement():
         move(points, triangles, v, destinations[v])
     left = sum(norm(sub(points[v], destinations[v])) for v in moving)
     total = sum(norm(sub(destinations[v], (destinations[v][0] - 0.12, destinations[v][1] - h))) for v, h in zip(moving, rise))
-    panel(272, "after one pass", ["All have moved; all triangles", f"are positive. D, the distance left,", f"fell from {total:.2f} to {left:.2f}."], True)
+    panel(272, "after one pass", ["All have moved; all triangles", "are positive. D, the distance left,", f"fell from {total:.2f} to {left:.2f}."], True)
     passes = 1
     while any(norm(sub(points[v], destinations[v])) > ARRIVAL for v in moving):
         smooth(points, triangles, free)

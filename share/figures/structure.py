@@ -104,7 +104,7 @@ def arrays():
         for v, p in placed[t].items():
             sheet.text(add(view(p), (0, 5), 1.0), str(v), "h c s")
         # T2 is behind T0, so its name lies where it is visible.
-        place = blend(middle, placed[t][3], 0.6) if t == 2 else middle
+        place = blend(mean((placed[t][0], placed[t][3])), middle, 0.25) if t == 2 else middle
         sheet.text(add(view(place), (0, 6)), f"T{t}", "h c b")
     sheet.text((172, 398), "a cube of five tets, taken apart", "b c")
     sheet.text((172, 418), "(small numbers are vertices)", "s c")
