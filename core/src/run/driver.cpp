@@ -39,13 +39,6 @@ public:
                         ? kernel::Deformer(
                               initial_complex(experiment, strategies, cloud, options.cancel, workers_, result_.totals), {}, &workers_)
                         : kernel::Deformer::load(resumed_, {}, &workers_)) {
-        policy_.propose = [this](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
-            strategies_.improvement->propose(*context_, round, out);
-        };
-        policy_.select = [this](std::span<const mesh::TopologyCandidate> candidates,
-                                std::span<std::uint8_t> accept) {
-            strategies_.improvement->select(*context_, candidates, accept);
-        };
         policy_.topology = strategies_.improvement->topology_limits();
         policy_.flatness = strategies_.improvement->flatness();
         result_.totals.repair_class_names = strategies_.improvement->repair_classes();
@@ -86,6 +79,19 @@ private:
                 .planned_steps = told > 0 ? told : planned_,
                 .target_lengths = lengths_,
                 .attributes = attributes_};
+    }
+
+    /// The policy of one call of the deformer; valid as long as the context.
+    kernel::RepairPolicy make_policy(const hooks::StepContext& context) const {
+        kernel::RepairPolicy policy = policy_;
+        hooks::Improvement& improvement = *strategies_.improvement;
+        policy.propose = [&](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+            improvement.propose(context, round, out);
+        };
+        policy.select = [&](std::span<const mesh::TopologyCandidate> candidates, std::span<std::uint8_t> accept) {
+            improvement.select(context, candidates, accept);
+        };
+        return policy;
     }
 
     /// The nearest points are used by the velocity of the next step and by the figures of this step.
@@ -204,12 +210,10 @@ private:
     /// Makes one step; true if its largest speed was below the stop criterion.
     bool advance() {
         const hooks::StepContext context = make_velocity_context(deformer_.step_count() + 1);
-        context_ = &context;
         StepMetrics row;
         const double asked = velocities(context, row);
         const double mean_edge = view_.mean_edge;
-        const kernel::StepReport report = deformer_.step(view_.vertex_ids, displacements_, policy_);
-        context_ = nullptr;
+        const kernel::StepReport report = deformer_.step(view_.vertex_ids, displacements_, make_policy(context));
         const double came_about = distance_gone(deformer_.complex(), view_, displacements_);
         result_.totals.add(report);
         for (const kernel::Event& event : report.events) tell(event);
@@ -287,11 +291,9 @@ private:
             tets.push_back(tet);
             labels.push_back(static_cast<mesh::Label>(label));
         }
-        context_ = &context;
         std::vector<kernel::Event> events;
         result_.totals.refine_requested += tets.size();
-        result_.totals.refine_committed += deformer_.relabel(tets, labels, policy_, events);
-        context_ = nullptr;
+        result_.totals.refine_committed += deformer_.relabel(tets, labels, make_policy(context), events);
         for (const kernel::Event& event : events) {
             result_.totals.count(event.kind);
             tell(event);
@@ -360,7 +362,7 @@ private:
     SchedulePlace place_;
     StateReader resumed_;
     kernel::Deformer deformer_;
-    kernel::RepairPolicy policy_;
+    kernel::RepairPolicy policy_;  // of the series, without the calls of the improvement
     surface::SurfaceView view_;
     NearestPoints nearest_;
     std::vector<surface::FacePoint> faces_of_points_;  // empty until they are needed
@@ -368,7 +370,6 @@ private:
     surface::ViewMemory view_memory_;
     hooks::Attributes attributes_;  // of the view's vertices
     std::vector<Vec3> displacements_;
-    const hooks::StepContext* context_ = nullptr;  // of the current step, for the policy
     bool stopped_ = false;  // stopped before the end of the schedule
     bool over_ = false;
 };
