@@ -23,12 +23,12 @@ public:
     bool apply(const mesh::Request& request);
     /// One face, where a request tries all four of a tet.
     bool remove_face(mesh::TetId t, unsigned face, float accept_above);
-    mesh::Refusal last() const { return last_; }
+    mesh::Outcome last() const { return last_; }
 
 private:
     struct State;
     std::unique_ptr<State> state_;
-    mesh::Refusal last_ = mesh::Refusal::stale;
+    mesh::Outcome last_ = mesh::Refusal::stale;
 };
 
 }  // namespace dsc::bench

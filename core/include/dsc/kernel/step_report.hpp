@@ -17,7 +17,7 @@ struct OperationCounts {
     std::uint64_t committed = 0;
     std::array<std::uint64_t, mesh::refusal_count> refused{};
 
-    void add(mesh::Refusal outcome);
+    void add(mesh::Outcome outcome);
     OperationCounts& operator+=(const OperationCounts& other);
 };
 using OperationTable = std::array<OperationCounts, mesh::operation_count>;
