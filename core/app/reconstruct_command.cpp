@@ -8,7 +8,7 @@
 #include <dsc/io/formats.hpp>
 #include <dsc/run/input_files.hpp>
 #include <dsc/run/reconstruct.hpp>
-#include <dsc/run/runner.hpp>
+#include <dsc/run/run_experiment.hpp>
 #include <memory>
 #include <optional>
 #include <sstream>

@@ -5,7 +5,7 @@
 #include <dsc/base/workers.hpp>
 #include <dsc/io/picture.hpp>
 #include <dsc/io/read.hpp>
-#include <dsc/run/report.hpp>
+#include <dsc/report/report.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>

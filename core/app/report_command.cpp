@@ -1,7 +1,7 @@
 // dsc report
 #include <dsc/base/error.hpp>
 #include <dsc/io/atomic_file.hpp>
-#include <dsc/run/report.hpp>
+#include <dsc/report/report.hpp>
 #include <memory>
 #include <thread>
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
-#include <dsc/run/runner.hpp>
+#include <dsc/run/run_experiment.hpp>
 #include <memory>
 #include <thread>
 

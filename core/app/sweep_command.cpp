@@ -2,7 +2,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/io/atomic_file.hpp>
-#include <dsc/run/sweep.hpp>
+#include <dsc/sweep/sweep.hpp>
 #include <memory>
 
 #include "commands.hpp"

@@ -2,7 +2,7 @@
 // Where the micro benchmarks try their operations: near the interface, where the kernel works, in a random but fixed order.
 
 #include <dsc/mesh/complex.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 #include <functional>
 #include <span>
 #include <vector>

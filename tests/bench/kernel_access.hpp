@@ -3,7 +3,7 @@
 // so a change inside the kernel ends there.
 
 #include <dsc/mesh/complex.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 #include <memory>
 
 namespace dsc::bench {

@@ -7,7 +7,7 @@
 #include <dsc/config/overrides.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/io/read.hpp>
-#include <dsc/run/sweep.hpp>
+#include <dsc/sweep/sweep.hpp>
 #include <dsc/surface/measure.hpp>
 #include <filesystem>
 #include <stdexcept>

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <dsc/host/host.hpp>
-#include <dsc/run/driver.hpp>
+#include <dsc/run/simulation.hpp>
 #include <dsc/run/measure.hpp>
 #include <functional>
 

@@ -6,7 +6,7 @@
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/validate.hpp>
-#include <dsc/run/driver.hpp>
+#include <dsc/run/simulation.hpp>
 #include <dsc/run/experiment.hpp>
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/surface_view.hpp>

@@ -5,7 +5,7 @@
 #include <array>
 #include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
-#include <dsc/mesh/lattice.hpp>
+#include <dsc/generate/lattice.hpp>
 #include <dsc/surface/measure.hpp>
 #include <map>
 #include <set>

@@ -3,7 +3,7 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/config/yaml.hpp>
-#include <dsc/run/driver.hpp>
+#include <dsc/run/simulation.hpp>
 #include <dsc/run/input.hpp>
 #include <map>
 #include <set>

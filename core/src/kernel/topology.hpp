@@ -7,7 +7,7 @@
 
 #include <dsc/base/workers.hpp>
 #include <dsc/kernel/step_report.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 #include "kernel/region.hpp"
 

@@ -9,7 +9,7 @@
 
 #include <dsc/mesh/complex.hpp>
 #include <dsc/mesh/local_star.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 #include "kernel/scratch.hpp"
 

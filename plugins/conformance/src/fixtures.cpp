@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/mesh/lattice.hpp>
-#include <dsc/mesh/project.hpp>
-#include <dsc/mesh/shapes.hpp>
+#include <dsc/generate/lattice.hpp>
+#include <dsc/generate/project.hpp>
+#include <dsc/generate/shapes.hpp>
 #include <dsc/sdk/surfaces.hpp>
 #include <numbers>
 

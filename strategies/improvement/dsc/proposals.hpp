@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <dsc/base/workers.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 #include "shapes.hpp"
 

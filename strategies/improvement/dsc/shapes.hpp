@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 namespace dsc::improvement {
 

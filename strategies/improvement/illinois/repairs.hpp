@@ -1,7 +1,7 @@
 #pragma once
 // The requests of a repair round of the Illinois DSC: tets, repairs and their order.
 
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 #include <string>
 #include <vector>
 

@@ -9,7 +9,7 @@
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/io/write.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/mesh/lattice.hpp>
+#include <dsc/generate/lattice.hpp>
 #include <dsc/mesh/validate.hpp>
 #include <dsc/run/mesh_files.hpp>
 #include <filesystem>

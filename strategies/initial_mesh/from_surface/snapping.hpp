@@ -2,7 +2,7 @@
 // Moves the interface of a labelled lattice onto a surface.
 
 #include <dsc/mesh/complex.hpp>
-#include <dsc/mesh/project.hpp>
+#include <dsc/generate/project.hpp>
 
 #include "features.hpp"
 #include "solid.hpp"

@@ -2,7 +2,7 @@
 // Initial mesh `from_surface`: a graded box of tets whose interface lies on a closed surface from a file.
 
 #include <dsc/hooks/initial_mesh.hpp>
-#include <dsc/mesh/lattice.hpp>
+#include <dsc/generate/lattice.hpp>
 #include <dsc/plugin/placing.hpp>
 #include <dsc/plugin/plugin.hpp>
 #include <optional>

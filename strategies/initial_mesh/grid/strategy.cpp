@@ -1,6 +1,6 @@
 #include "strategy.hpp"
 
-#include <dsc/mesh/project.hpp>
+#include <dsc/generate/project.hpp>
 
 namespace dsc::strategies {
 namespace {

@@ -5,7 +5,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/cloud/search.hpp>
 #include <dsc/cloud/winding_field.hpp>
-#include <dsc/mesh/graded_lattice.hpp>
+#include <dsc/generate/graded_lattice.hpp>
 
 namespace dsc::strategies {
 namespace {

@@ -4,9 +4,9 @@
 #include <dsc/base/progress.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/cloud.hpp>
-#include <dsc/mesh/label_components.hpp>
+#include <dsc/generate/label_components.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
-#include <dsc/mesh/topology_filter.hpp>
+#include <dsc/generate/topology_filter.hpp>
 #include <vector>
 
 namespace dsc::strategies {

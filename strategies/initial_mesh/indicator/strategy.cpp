@@ -7,7 +7,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/cloud/orientation.hpp>
 #include <dsc/cloud/statistics.hpp>
-#include <dsc/mesh/isosurface.hpp>
+#include <dsc/generate/isosurface.hpp>
 
 #include "confidence.hpp"
 

@@ -1,7 +1,7 @@
 #include "strategy.hpp"
 
 #include <dsc/base/error.hpp>
-#include <dsc/mesh/project.hpp>
+#include <dsc/generate/project.hpp>
 #include <dsc/plugin/lattice_params.hpp>
 
 namespace dsc::strategies {

@@ -2,7 +2,7 @@
 // Initial mesh `lattice`: a box of cells that are small at the surface of the shapes and larger away from it.
 
 #include <dsc/hooks/initial_mesh.hpp>
-#include <dsc/mesh/lattice.hpp>
+#include <dsc/generate/lattice.hpp>
 #include <dsc/plugin/plugin.hpp>
 #include <dsc/plugin/shape_params.hpp>
 #include <vector>

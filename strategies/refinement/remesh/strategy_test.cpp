@@ -9,7 +9,7 @@
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/validate.hpp>
-#include <dsc/run/driver.hpp>
+#include <dsc/run/simulation.hpp>
 #include <dsc/sdk/surfaces.hpp>
 #include <map>
 #include <set>

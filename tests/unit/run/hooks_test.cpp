@@ -4,9 +4,9 @@
 #include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/io/series.hpp>
-#include <dsc/run/driver.hpp>
+#include <dsc/run/simulation.hpp>
 #include <dsc/run/measure.hpp>
-#include <dsc/run/runner.hpp>
+#include <dsc/run/run_experiment.hpp>
 #include <map>
 
 #include "fakes.hpp"

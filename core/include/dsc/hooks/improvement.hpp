@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <dsc/hooks/context.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 namespace dsc::hooks {
 

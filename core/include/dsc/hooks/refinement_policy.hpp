@@ -8,7 +8,7 @@
 #include <dsc/hooks/attributes.hpp>
 #include <dsc/hooks/context.hpp>
 #include <dsc/hooks/velocity_field.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 namespace dsc::hooks {
 

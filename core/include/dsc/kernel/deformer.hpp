@@ -12,7 +12,7 @@
 #include <dsc/base/workers.hpp>
 #include <dsc/kernel/step_report.hpp>
 #include <dsc/mesh/complex.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 namespace dsc::kernel {
 

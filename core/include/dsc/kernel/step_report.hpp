@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <dsc/geometry/vec.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 namespace dsc::kernel {
 

@@ -2,7 +2,7 @@
 // The parameters of a generator that fills its box with lattice tets.
 
 #include <dsc/config/params.hpp>
-#include <dsc/mesh/lattice.hpp>
+#include <dsc/generate/lattice.hpp>
 #include <string>
 #include <type_traits>
 

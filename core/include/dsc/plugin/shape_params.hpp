@@ -2,7 +2,7 @@
 // The parameters that describe the shapes of a generator of initial meshes: a preset for one shape, and a list.
 
 #include <dsc/config/params.hpp>
-#include <dsc/mesh/shapes.hpp>
+#include <dsc/generate/shapes.hpp>
 #include <type_traits>
 #include <vector>
 

@@ -5,7 +5,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/mesh/lattice.hpp>
+#include <dsc/generate/lattice.hpp>
 
 namespace {
 
