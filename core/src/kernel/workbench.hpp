@@ -15,8 +15,8 @@
 
 namespace dsc::kernel {
 
-using mesh::Outcome;
-using mesh::Refusal;
+using repair::Outcome;
+using repair::Refusal;
 using mesh::success;
 using mesh::TetId;
 using mesh::VertexId;

@@ -85,10 +85,10 @@ private:
     kernel::RepairPolicy make_policy(const hooks::StepContext& context) const {
         kernel::RepairPolicy policy = policy_;
         hooks::Improvement& improvement = *strategies_.improvement;
-        policy.propose = [&](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+        policy.propose = [&](const repair::RepairRound& round, std::vector<repair::Request>& out) {
             improvement.propose(context, round, out);
         };
-        policy.select = [&](std::span<const mesh::TopologyCandidate> candidates, std::span<std::uint8_t> accept) {
+        policy.select = [&](std::span<const repair::TopologyCandidate> candidates, std::span<std::uint8_t> accept) {
             improvement.select(context, candidates, accept);
         };
         return policy;
@@ -182,7 +182,7 @@ private:
         next_item();
     }
 
-    std::optional<mesh::CreaseRule> creases(const hooks::RefinementPolicy* refinement) const {
+    std::optional<repair::CreaseRule> creases(const hooks::RefinementPolicy* refinement) const {
         return stricter(strategies_.velocity->keep_creases(), refinement != nullptr ? refinement->keep_creases() : std::nullopt);
     }
 

@@ -66,7 +66,7 @@ struct Shown {
 };
 
 /// The scene of a run with these files.
-Shown shown(const std::string& surfaces, const std::string& volumes, int names = 1, const run::SceneLimits& limits = {}) {
+Shown shown(const std::string& surfaces, const std::string& volumes, int names = 1, const report::SceneLimits& limits = {}) {
     const Folder folder;
     const std::string text = minimal + "output: {report: true, surface: " + surfaces + ", volume: " + volumes + "}\n";
     const std::vector<std::string> overrides = {"velocity={type: heights, names: " + std::to_string(names) + "}",
@@ -79,8 +79,8 @@ Shown shown(const std::string& surfaces, const std::string& volumes, int names =
     fs::current_path(folder.path());
     run::run_experiment(loaded, strategies(), options);
     fs::current_path(here);
-    const run::RunRecord record = run::read_record(folder.path() / "run");
-    run::Scene scene = run::make_scene(record, limits, {strategies()}, nullptr);
+    const report::RunRecord record = report::read_record(folder.path() / "run");
+    report::Scene scene = report::make_scene(record, limits, {strategies()}, nullptr);
     return {ordered_json::parse(scene.json), scene.notes};
 }
 

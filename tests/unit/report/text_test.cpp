@@ -46,16 +46,16 @@ TEST_CASE("a page is filled in one pass: what is put in is text") {
 }
 
 TEST_CASE("metrics: columns, empty cells, and tables that are none") {
-    const run::MetricsTable table = run::parse_metrics("step,a,b\n0,1.5,\n1,-2e-3,4\n", "m.csv");
+    const report::MetricsTable table = report::parse_metrics("step,a,b\n0,1.5,\n1,-2e-3,4\n", "m.csv");
     CHECK(table.rows() == 2);
     REQUIRE(table.find("b") != nullptr);
     CHECK(std::isnan((*table.find("b"))[0]));
     CHECK((*table.find("b"))[1] == 4);
     CHECK((*table.find("a"))[1] == -2e-3);
     CHECK(table.find("c") == nullptr);
-    CHECK(run::parse_metrics("", "m.csv").rows() == 0);
-    CHECK_THROWS_WITH_AS(run::parse_metrics("step,a\n1\n", "m.csv"), "m.csv:2: 1 cells for 2 columns; run the experiment again", IoError);
-    CHECK_THROWS_AS(run::parse_metrics("step\nx\n", "m.csv"), IoError);
+    CHECK(report::parse_metrics("", "m.csv").rows() == 0);
+    CHECK_THROWS_WITH_AS(report::parse_metrics("step,a\n1\n", "m.csv"), "m.csv:2: 1 cells for 2 columns; run the experiment again", IoError);
+    CHECK_THROWS_AS(report::parse_metrics("step\nx\n", "m.csv"), IoError);
 }
 
 TEST_CASE("plots: round ticks, gaps, a logarithmic axis, names escaped") {
