@@ -10,7 +10,7 @@
 
 namespace dsc::strategies {
 
-/// Changed vertices per sample above which the topology is doubtful.
+/// Changed vertices per sample above which the topology is doubtful. Before the last attempt, confirmed vertices count too.
 inline constexpr double most_changed = 0.004;
 /// Residual of the winding field above which a finer orientation is tried, and above which the topology stays doubtful; noisy
 /// clouds with correct labels reach 0.14.

@@ -7,6 +7,8 @@
 #include <dsc/cloud/winding_field.hpp>
 #include <dsc/mesh/graded_lattice.hpp>
 
+#include "witness.hpp"
+
 namespace dsc::strategies {
 namespace {
 
@@ -68,9 +70,8 @@ void evaluate(const cloud::WindingField& field, const mesh::GradedLattice& latti
 }
 
 /// Splits cells with both labels that are too large for the samples there, until there are none.
-unsigned refine(mesh::GradedLattice& lattice, std::span<const cloud::SurfaceSample> samples, std::span<const Vec3> places,
+unsigned refine(mesh::GradedLattice& lattice, std::span<const cloud::SurfaceSample> samples, const cloud::NearestSearch& search,
                 const cloud::WindingField& field, const LabelOptions& options, std::vector<double>& values, Workers* workers) {
-    const cloud::NearestSearch search(places);
     const auto too_large = [&](const mesh::GradedLattice::Leaf& leaf) {
         if (!mesh::has_mixed_signs(leaf, values)) return false;
         const cloud::Neighbour near = search.nearest(lattice.points()[leaf.vertices[8]]);
@@ -117,17 +118,24 @@ double Labels::changed_share() const {
     return samples == 0 ? 0.0 : static_cast<double>(filter.refused + settled()) / static_cast<double>(samples);
 }
 
+double Labels::weak_share() const {
+    std::size_t confirmed = 0;
+    for (const mesh::RefusedCluster& cluster : filter.confirmed) confirmed += cluster.vertices.size();
+    return changed_share() + (samples == 0 ? 0.0 : static_cast<double>(confirmed) / static_cast<double>(samples));
+}
+
 Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& options, double half_box, Workers* workers,
                      const CancelToken* cancel) {
     const std::vector<cloud::SurfaceSample> samples = used_samples(orientation);
     std::vector<Vec3> places;
     places.reserve(samples.size());
     for (const cloud::SurfaceSample& sample : samples) places.push_back(sample.position);
+    const cloud::NearestSearch search(places);
     const cloud::WindingField field = cloud::winding_field(samples, smoothing);
     mesh::GradedLattice lattice = make_lattice(samples, options, half_box);
     Labels out;
     evaluate(field, lattice, 0, out.values, workers);
-    out.rounds = refine(lattice, samples, places, field, options, out.values, workers);
+    out.rounds = refine(lattice, samples, search, field, options, out.values, workers);
     out.samples = orientation.samples.size();
     out.width = width_quantile(samples, 0.5);
 
@@ -136,7 +144,8 @@ Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& 
     out.lattice.labels.assign(out.lattice.tets.size(), 0);
     const auto &points = out.lattice.points;
     const auto &tets = out.lattice.tets;
-    out.filter = mesh::filter_topology(points, tets, out.values, options.certain);
+    const std::vector<double> unfiltered = out.values;
+    out.filter = mesh::filter_topology(points, tets, out.values, options.certain, tangent_plane_witness(samples, search, points, unfiltered));
     const std::vector<std::uint32_t> near = vertices_near(lattice, places);
     mesh::ComponentOptions settle;
     settle.cavities = options.cavities;

@@ -40,6 +40,8 @@ struct Labels {
     /// Refused and changed vertices per sample: the share of the cloud whose topology was decided by the filters, not by the
     /// field.
     double changed_share() const;
+    /// The same with the vertices of confirmed places, where the field alone was too weak to decide.
+    double weak_share() const;
 };
 
 /// Labels the box of half-width `half_box` round the origin, or a slightly larger one. The orientation is in normalised units and has samples. Throws ConfigError

@@ -110,7 +110,7 @@ mesh::TetMesh Indicator::build(const hooks::InitialMeshContext& context) {
         cloud::Orientation again = cloud::orient_points(cloud.points(), finer, context.workers, context.cancel).orientation;
         Labels other = label_lattice(again, params_, half_box, context.workers, context.cancel);
         ++attempts;
-        if (other.changed_share() > labels.changed_share()) continue;
+        if (other.weak_share() > labels.weak_share()) continue;
         taken = attempts;
         labels = std::move(other);
         orientation = std::move(again);

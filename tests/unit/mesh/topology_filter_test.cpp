@@ -34,7 +34,7 @@ TopologyFilterReport filtered(Sampled& s) {
     CHECK(report.after == counted(s));
     std::size_t in_clusters = 0, changed = 0;
     for (const RefusedCluster& c : report.clusters) {
-        in_clusters += c.vertices;
+        in_clusters += c.vertices.size();
         CHECK(c.level < tau);
     }
     for (std::size_t v = 0; v < old.size(); ++v) {
