@@ -3,7 +3,7 @@
 
 #include <bit>
 
-namespace dsc::mesh::lattice {
+namespace dsc::generate::lattice {
 namespace {
 
 // Cells of a brick whose index along an axis is 0.
@@ -98,4 +98,4 @@ CellSet CellSet::parents() const {
     return out;
 }
 
-}  // namespace dsc::mesh::lattice
+}  // namespace dsc::generate::lattice

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace dsc::mesh::lattice {
+namespace dsc::generate::lattice {
 
 /// Indices x, y, z of a cell; -1 and `side` are outside the box.
 using Cell = std::array<int, 3>;
@@ -72,4 +72,4 @@ private:
     std::vector<Brick> slots_;  // their number is a power of two; at most half of them are used
 };
 
-}  // namespace dsc::mesh::lattice
+}  // namespace dsc::generate::lattice

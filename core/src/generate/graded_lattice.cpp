@@ -10,7 +10,7 @@
 #include "generate/lattice_tiling.hpp"
 #include "generate/vertex_table.hpp"
 
-namespace dsc::mesh {
+namespace dsc::generate {
 namespace {
 
 using lattice::Cell;
@@ -227,4 +227,4 @@ bool has_mixed_signs(const GradedLattice::Leaf& leaf, std::span<const double> va
                        [&](std::uint32_t v) { return (values[v] > 0) != inside; });
 }
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

@@ -12,7 +12,7 @@
 #include "generate/stuff_smooth.hpp"
 #include "generate/stuff_snap.hpp"
 
-namespace dsc::mesh {
+namespace dsc::generate {
 namespace stuffing {
 namespace {
 
@@ -61,7 +61,7 @@ std::vector<MixedEdge> mixed_edges(const LatticeView& lattice, std::span<const d
 }  // namespace
 }  // namespace stuffing
 
-TetMesh stuff_interface(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 4>> tets,
+mesh::TetMesh stuff_interface(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 4>> tets,
                         std::span<const double> values, const StuffOptions& options, StuffReport* report, Workers* workers,
                         const CancelToken* cancel, std::string_view name) {
     using namespace stuffing;
@@ -92,4 +92,4 @@ TetMesh stuff_interface(std::span<const Vec3> points, std::span<const std::array
     return std::move(stuffed.mesh);
 }
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

@@ -6,7 +6,7 @@
 
 #include <dsc/base/union_find.hpp>
 
-namespace dsc::mesh {
+namespace dsc::generate {
 namespace {
 
 using Corners = std::array<std::uint32_t, 4>;
@@ -234,4 +234,4 @@ std::vector<LabelComponent> settle_components(std::span<const Vec3> points, std:
     return out;
 }
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace dsc::mesh {
+namespace dsc::generate {
 
 void InterfaceCounter::add(const std::array<std::uint32_t, 4>& tet, const std::array<bool, 4>& inside) {
     std::size_t cut = 0;
@@ -59,4 +59,4 @@ bool InterfaceCounter::on_one_side(std::uint32_t a, std::uint32_t b, std::uint32
     return false;
 }
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

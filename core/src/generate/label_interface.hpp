@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace dsc::mesh {
+namespace dsc::generate {
 
 /// Counts the cut edges, cut faces and cut tets, which are the vertices, edges and faces of the interface. All tets
 /// with both labels must be added.
@@ -33,4 +33,4 @@ private:
     std::size_t edges_ = 0, tets_ = 0, faces_of_tets_ = 0, box_faces_ = 0;
 };
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

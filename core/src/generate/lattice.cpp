@@ -9,7 +9,7 @@
 #include "generate/lattice_octree.hpp"
 #include "generate/lattice_tiling.hpp"
 
-namespace dsc::mesh {
+namespace dsc::generate {
 namespace {
 
 constexpr unsigned cells_of_top = 6;  // least number of the largest cells along the box
@@ -63,7 +63,7 @@ Box3 box_of(const LatticeOptions& options) {
     return {frame.point({0, 0, 0}), frame.point({end, end, end})};
 }
 
-TetMesh make_lattice(const LatticeOptions& options, const SameWithin& same, std::string_view name,
+mesh::TetMesh make_lattice(const LatticeOptions& options, const SameWithin& same, std::string_view name,
                      const CancelToken* cancel) {
     const unsigned top = lattice::top_level(options);
     const lattice::Frame frame = lattice::frame_of(options);
@@ -75,7 +75,7 @@ TetMesh make_lattice(const LatticeOptions& options, const SameWithin& same, std:
     return lattice::tile(octree, frame, options.finest, cancel);
 }
 
-bool labels_touch_box(const TetMesh& mesh) {
+bool labels_touch_box(const mesh::TetMesh& mesh) {
     const Box3 box = bounding_box(mesh.points);
     const auto on_box = [&](std::uint32_t v) {
         const Vec3& p = mesh.points[v];
@@ -87,4 +87,4 @@ bool labels_touch_box(const TetMesh& mesh) {
     return false;
 }
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

@@ -7,7 +7,7 @@
 
 #include "generate/lattice_octree.hpp"
 
-namespace dsc::mesh::lattice {
+namespace dsc::generate::lattice {
 
 inline constexpr std::size_t most_leaves = 12'000'000;  // these make about 60 to 150 million tets
 
@@ -18,4 +18,4 @@ Frame frame_of(const LatticeOptions& options);
 /// The error for more than most_leaves cells.
 ConfigError too_large(std::string_view name, std::size_t leaves, std::string_view remedy);
 
-}  // namespace dsc::mesh::lattice
+}  // namespace dsc::generate::lattice

@@ -1,7 +1,7 @@
 // The balanced octree of a lattice.
 #include "generate/lattice_octree.hpp"
 
-namespace dsc::mesh::lattice {
+namespace dsc::generate::lattice {
 namespace {
 
 // Of a cell, in edges; slightly larger, so that a surface through a corner counts.
@@ -86,4 +86,4 @@ std::size_t Octree::leaves() const {
     return sum;
 }
 
-}  // namespace dsc::mesh::lattice
+}  // namespace dsc::generate::lattice

@@ -8,7 +8,7 @@
 
 #include "generate/cell_set.hpp"
 
-namespace dsc::mesh::lattice {
+namespace dsc::generate::lattice {
 
 /// The position of the octree's integer coordinates in space: from 0 to 2 side along each axis, in halves of a finest cell, so
 /// that centres of cells have coordinates too.
@@ -61,4 +61,4 @@ inline Cell corner_of(unsigned level, const Cell& c) {
 }
 inline int edge_of(unsigned level) { return 2 << level; }
 
-}  // namespace dsc::mesh::lattice
+}  // namespace dsc::generate::lattice

@@ -8,7 +8,7 @@
 
 #include "generate/vertex_table.hpp"
 
-namespace dsc::mesh::lattice {
+namespace dsc::generate::lattice {
 namespace {
 
 constexpr std::uint32_t no_number = std::numeric_limits<std::uint32_t>::max();
@@ -195,8 +195,8 @@ std::vector<Corners> tile(const Octree& octree, LatticePattern finest, const Ver
     return tets;
 }
 
-TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, const CancelToken* cancel) {
-    TetMesh out;
+mesh::TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, const CancelToken* cancel) {
+    mesh::TetMesh out;
     VertexTable table;
     const std::size_t roots = octree.side(octree.top());
     // Five to twelve tets per cell, more where sizes change.
@@ -208,4 +208,4 @@ TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, co
     return out;
 }
 
-}  // namespace dsc::mesh::lattice
+}  // namespace dsc::generate::lattice

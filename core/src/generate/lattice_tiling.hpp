@@ -11,7 +11,7 @@
 #include "generate/lattice_octree.hpp"
 #include "generate/vertex_table.hpp"
 
-namespace dsc::mesh::lattice {
+namespace dsc::generate::lattice {
 
 /// Fills the box with positive tets, cells in Morton order, vertices in the order of their first use.
 ///
@@ -19,7 +19,7 @@ namespace dsc::mesh::lattice {
 /// neighbour of equal size or else the centre of the face. Where a smaller cell halves the edge, the tet is
 /// halved. A face that is a quarter of a larger cell's is joined to the centre as two triangles. All labels are 0.
 /// Throws CancelledError.
-TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, const CancelToken* cancel);
+mesh::TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, const CancelToken* cancel);
 
 /// Vertices of a tet.
 using Corners = std::array<std::uint32_t, 4>;
@@ -29,4 +29,4 @@ using Corners = std::array<std::uint32_t, 4>;
 std::vector<Corners> tile(const Octree& octree, LatticePattern finest, const VertexTable& table, Workers* workers,
                           const CancelToken* cancel);
 
-}  // namespace dsc::mesh::lattice
+}  // namespace dsc::generate::lattice

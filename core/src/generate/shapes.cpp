@@ -4,10 +4,10 @@
 #include <dsc/generate/shapes.hpp>
 #include <limits>
 
-namespace dsc::mesh {
+namespace dsc::generate {
 namespace {
 
-Label label_inside(const Shape& shape) { return shape.action == ShapeAction::add ? shape.label : 0; }
+mesh::Label label_inside(const Shape& shape) { return shape.action == ShapeAction::add ? shape.label : 0; }
 
 }  // namespace
 
@@ -51,7 +51,7 @@ Vec3 nearest_on_cylinder(const Shape& shape, const Vec3& p) {
 }
 
 /// Label at a point that lies on no border, according to the shapes before `end`.
-Label label_at(std::span<const Shape> shapes, std::size_t end, const Vec3& point) {
+mesh::Label label_at(std::span<const Shape> shapes, std::size_t end, const Vec3& point) {
     for (std::size_t i = end; i-- > 0;) {
         if (excess(shapes[i], point) < 0) return label_inside(shapes[i]);
     }
@@ -130,8 +130,8 @@ bool holds(const Shape& shape, const std::array<Vec3, 4>& corners) {
     return std::all_of(corners.begin(), corners.end(), [&](const Vec3& p) { return excess(shape, p) <= 0; });
 }
 
-Label label_of(std::span<const Shape> shapes, const std::array<Vec3, 4>& corners) {
-    Label label = 0;
+mesh::Label label_of(std::span<const Shape> shapes, const std::array<Vec3, 4>& corners) {
+    mesh::Label label = 0;
     for (const Shape& shape : shapes) {
         if (holds(shape, corners)) label = label_inside(shape);
     }
@@ -140,7 +140,7 @@ Label label_of(std::span<const Shape> shapes, const std::array<Vec3, 4>& corners
 
 bool same_label_within(std::span<const Shape> shapes, const Vec3& centre, double radius) {
     bool same = true;
-    Label label = 0;
+    mesh::Label label = 0;
     for (const Shape& shape : shapes) {
         const double outside = excess(shape, centre);
         if (outside > radius) continue;
@@ -154,4 +154,4 @@ bool same_label_within(std::span<const Shape> shapes, const Vec3& centre, double
     return same;
 }
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

@@ -8,7 +8,7 @@
 
 #include <dsc/geometry/vec.hpp>
 
-namespace dsc::mesh::stuffing {
+namespace dsc::generate::stuffing {
 
 using Corners = std::array<std::uint32_t, 4>;
 /// The mesh that is cut.
@@ -48,4 +48,4 @@ private:
     std::vector<std::uint32_t> tets_;
 };
 
-}  // namespace dsc::mesh::stuffing
+}  // namespace dsc::generate::stuffing

@@ -8,7 +8,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/quality.hpp>
 
-namespace dsc::mesh::stuffing {
+namespace dsc::generate::stuffing {
 namespace {
 
 // A free vertex near the interface is removed if its shortest edge is below this fraction of the interface's edges there and
@@ -279,7 +279,7 @@ private:
 
 // Removes dead cells and unused points.
 void compact(Stuffed& s) {
-    TetMesh& mesh = s.mesh;
+    mesh::TetMesh& mesh = s.mesh;
     std::vector<std::uint32_t> index(mesh.points.size(), no_vertex);
     std::size_t tets = 0;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -313,4 +313,4 @@ void collapse_interface(Stuffed& stuffed, const StuffOptions& options, StuffRepo
     compact(stuffed);
 }
 
-}  // namespace dsc::mesh::stuffing
+}  // namespace dsc::generate::stuffing

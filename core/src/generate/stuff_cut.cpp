@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace dsc::mesh::stuffing {
+namespace dsc::generate::stuffing {
 namespace {
 
 class Cut {
@@ -101,7 +101,7 @@ private:
         const std::uint32_t d = (one_plus ? plus : minus).v[0];
         const auto& [a, b, c, x] = (one_plus ? minus : plus).v;
         const std::uint32_t ad = cut(a, d), bd = cut(b, d), cd = cut(c, d);
-        const Label other = one_plus ? 0 : 1;
+        const mesh::Label other = one_plus ? 0 : 1;
         add({d, ad, bd, cd}, 1 - other);
         add({a, b, c, cd}, other);
         add({a, b, bd, cd}, other);
@@ -113,7 +113,7 @@ private:
         return vertex_of_[signs_[v] > 0 ? table_.find(v, w) : table_.find(w, v)];
     }
 
-    void add(Corners tet, Label label) {
+    void add(Corners tet, mesh::Label label) {
         const auto& p = out_.mesh.points;
         const Vec3& x = p[tet[0]];
         if ((p[tet[1]] - x).cross(p[tet[2]] - x).dot(p[tet[3]] - x) < 0) std::swap(tet[2], tet[3]);
@@ -150,4 +150,4 @@ Stuffed cut_tets(const LatticeView& lattice, std::span<const MixedEdge> edges, c
     return Cut(lattice, edges, table, signs).run();
 }
 
-}  // namespace dsc::mesh::stuffing
+}  // namespace dsc::generate::stuffing

@@ -8,14 +8,14 @@
 
 #include "generate/stuff_snap.hpp"
 
-namespace dsc::mesh::stuffing {
+namespace dsc::generate::stuffing {
 
 /// A triangle of the interface.
 using Face = std::array<std::uint32_t, 3>;
 
 /// A labelled mesh with the faces between its labels.
 struct Stuffed {
-    TetMesh mesh;
+    mesh::TetMesh mesh;
     std::vector<Face> faces;
 };
 
@@ -24,4 +24,4 @@ struct Stuffed {
 /// cut. No tet has four snapped vertices.
 Stuffed cut_tets(const LatticeView& lattice, std::span<const MixedEdge> edges, const EdgeTable& table, const Signs& signs);
 
-}  // namespace dsc::mesh::stuffing
+}  // namespace dsc::generate::stuffing

@@ -7,13 +7,13 @@
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/quality.hpp>
 
-namespace dsc::mesh::stuffing {
+namespace dsc::generate::stuffing {
 namespace {
 
 constexpr unsigned halvings = 3;
 constexpr double bad = 0.35;  // quality below which a tet's free vertices are moved
 
-double quality(const TetMesh& mesh, const Corners& t) {
+double quality(const mesh::TetMesh& mesh, const Corners& t) {
     const auto& p = mesh.points;
     return geometry::tet_quality(p[t[0]], p[t[1]], p[t[2]], p[t[3]]);
 }
@@ -47,7 +47,7 @@ private:
         return now >= before;
     }
 
-    TetMesh& mesh_;
+    mesh::TetMesh& mesh_;
     StarTable stars_;
     double least_;
 };
@@ -59,7 +59,7 @@ void move_all(Mover& mover, std::span<const Snapped> snapped, StuffReport& repor
 }
 
 // Returns the least quality of all tets.
-double find_bad_tets(const TetMesh& mesh, Workers* workers, std::vector<std::uint32_t>& out) {
+double find_bad_tets(const mesh::TetMesh& mesh, Workers* workers, std::vector<std::uint32_t>& out) {
     constexpr std::size_t block = 16384;
     struct Found {
         double least = 1.0;
@@ -83,7 +83,7 @@ double find_bad_tets(const TetMesh& mesh, Workers* workers, std::vector<std::uin
     return least;
 }
 
-double least_of(const TetMesh& mesh, std::span<const std::uint32_t> star, double bound) {
+double least_of(const mesh::TetMesh& mesh, std::span<const std::uint32_t> star, double bound) {
     double least = 1.0;
     for (const std::uint32_t t : star) {
         least = std::min(least, quality(mesh, mesh.tets[t]));
@@ -92,7 +92,7 @@ double least_of(const TetMesh& mesh, std::span<const std::uint32_t> star, double
     return least;
 }
 
-void improve(TetMesh& mesh, std::uint32_t v, std::span<const std::uint32_t> star) {
+void improve(mesh::TetMesh& mesh, std::uint32_t v, std::span<const std::uint32_t> star) {
     const double before = least_of(mesh, star, -1.0);
     if (before >= bad) return;
     // Every neighbour counts once per tet that contains it.
@@ -152,7 +152,7 @@ void smooth_interface(Stuffed& stuffed, std::span<const Snapped> snapped, const 
 }
 
 double improve_free_vertices(Stuffed& stuffed, Workers* workers) {
-    TetMesh& mesh = stuffed.mesh;
+    mesh::TetMesh& mesh = stuffed.mesh;
     std::vector<std::uint32_t> bad_tets;
     const double before = find_bad_tets(mesh, workers, bad_tets);
     if (bad_tets.empty()) return before;
@@ -178,4 +178,4 @@ double improve_free_vertices(Stuffed& stuffed, Workers* workers) {
     return least < bad ? least : find_bad_tets(mesh, workers, bad_tets);
 }
 
-}  // namespace dsc::mesh::stuffing
+}  // namespace dsc::generate::stuffing

@@ -7,7 +7,7 @@
 
 #include "generate/stuff_cut.hpp"
 
-namespace dsc::mesh::stuffing {
+namespace dsc::generate::stuffing {
 
 /// Moves snapped vertices to their targets. Each move is halved until no tet falls below least_quality or its quality before,
 /// or it is not made. Counts clipped moves.
@@ -21,4 +21,4 @@ void smooth_interface(Stuffed& stuffed, std::span<const Snapped> snapped, const 
 /// the least quality of all tets.
 double improve_free_vertices(Stuffed& stuffed, Workers* workers);
 
-}  // namespace dsc::mesh::stuffing
+}  // namespace dsc::generate::stuffing

@@ -6,7 +6,7 @@
 
 #include <dsc/base/error.hpp>
 
-namespace dsc::mesh::stuffing {
+namespace dsc::generate::stuffing {
 namespace {
 
 // The link of a vertex p, a sphere of triangles whose corners have the signs of the lattice, cut as the interface cuts it.
@@ -220,4 +220,4 @@ std::vector<Snapped> snap_vertices(const LatticeView& lattice, std::span<const M
     return snapped;
 }
 
-}  // namespace dsc::mesh::stuffing
+}  // namespace dsc::generate::stuffing

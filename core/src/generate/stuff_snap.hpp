@@ -10,7 +10,7 @@
 
 #include "generate/star_table.hpp"
 
-namespace dsc::mesh::stuffing {
+namespace dsc::generate::stuffing {
 
 /// An edge whose ends differ in sign, and the cut point on it.
 struct MixedEdge {
@@ -60,4 +60,4 @@ using Signs = std::vector<std::int8_t>;
 std::vector<Snapped> snap_vertices(const LatticeView& lattice, std::span<const MixedEdge> edges, Signs& signs, StuffReport& report,
                                    const CancelToken* cancel);
 
-}  // namespace dsc::mesh::stuffing
+}  // namespace dsc::generate::stuffing

@@ -8,7 +8,7 @@
 #include "generate/label_interface.hpp"
 #include <dsc/base/union_find.hpp>
 
-namespace dsc::mesh {
+namespace dsc::generate {
 namespace {
 
 using Corners = std::array<std::uint32_t, 4>;
@@ -332,4 +332,4 @@ std::optional<Attachment> weakest_attachment(const TopologyFilterReport& report,
     return out;
 }
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

@@ -7,7 +7,7 @@
 
 #include "generate/cell_set.hpp"
 
-namespace dsc::mesh::lattice {
+namespace dsc::generate::lattice {
 
 /// Open addressing; grows by doubling. Recently used points are found in a small table that stays in the processor's cache.
 /// Coordinates are in [0, 2^21).
@@ -90,4 +90,4 @@ private:
     std::vector<VertexTable::Slot> recent_;
 };
 
-}  // namespace dsc::mesh::lattice
+}  // namespace dsc::generate::lattice

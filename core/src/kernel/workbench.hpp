@@ -14,7 +14,7 @@
 
 namespace dsc::kernel {
 
-using mesh::Refusal;
+using repair::Refusal;
 using mesh::TetId;
 using mesh::VertexId;
 

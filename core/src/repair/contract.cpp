@@ -1,7 +1,7 @@
 // Names of operations and refusals, and the target length of a tet.
 #include <dsc/repair/contract.hpp>
 
-namespace dsc::mesh {
+namespace dsc::repair {
 
 std::string_view name(Operation operation) {
     constexpr std::array<std::string_view, operation_count> names = {
@@ -16,11 +16,11 @@ std::string_view name(Refusal refusal) {
     return names[static_cast<std::size_t>(refusal)];
 }
 
-double RepairRound::length_of(TetId t) const {
+double RepairRound::length_of(mesh::TetId t) const {
     if (lengths.empty()) return target_length;
     double sum = 0.0;
     unsigned count = 0;
-    for (const VertexId v : complex.tet(t).v) {
+    for (const mesh::VertexId v : complex.tet(t).v) {
         if (v >= lengths.size() || !(lengths[v] > 0.0)) continue;
         sum += lengths[v];
         ++count;
@@ -28,4 +28,4 @@ double RepairRound::length_of(TetId t) const {
     return count > 0 ? sum / count : target_length;
 }
 
-}  // namespace dsc::mesh
+}  // namespace dsc::repair

@@ -9,7 +9,7 @@
 
 #include "html.hpp"
 
-namespace dsc::run {
+namespace dsc::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -71,4 +71,4 @@ ordered_json pack_attributes(const AttributeSource& source, const std::vector<Ve
     return packed;
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::report

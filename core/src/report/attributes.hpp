@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace dsc::run {
+namespace dsc::report {
 
 /// Attributes and the points at which a file contains them, one value per point; a value may be NaN.
 struct AttributeSource {
@@ -31,4 +31,4 @@ inline constexpr unsigned char no_level = 255;
 /// the source. [setup]
 nlohmann::ordered_json pack_attributes(const AttributeSource& source, const std::vector<Vec3>& drawn, Workers* workers);
 
-}  // namespace dsc::run
+}  // namespace dsc::report

@@ -11,7 +11,7 @@
 #include "sections.hpp"
 #include "warnings.hpp"
 
-namespace dsc::run {
+namespace dsc::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -184,4 +184,4 @@ std::string comparison_html(std::span<const fs::path> run_folders, const plugin:
     });
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::report

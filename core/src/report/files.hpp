@@ -4,9 +4,9 @@
 #include <dsc/base/embedded_file.hpp>
 #include <span>
 
-namespace dsc::run {
+namespace dsc::report {
 
 /// All of these files. The build generates the source.
 std::span<const EmbeddedFile> report_files();
 
-}  // namespace dsc::run
+}  // namespace dsc::report

@@ -8,7 +8,7 @@
 #include <dsc/base/error.hpp>
 #include <set>
 
-namespace dsc::run::html {
+namespace dsc::report::html {
 namespace {
 
 constexpr std::string_view unreadable = "\xEF\xBF\xBD";
@@ -159,4 +159,4 @@ std::string fill(std::string_view page, const std::vector<std::pair<std::string,
     return out.append(page);
 }
 
-}  // namespace dsc::run::html
+}  // namespace dsc::report::html

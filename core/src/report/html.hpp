@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace dsc::run::html {
+namespace dsc::report::html {
 
 /// Escaped for content and for attributes in quotes. Bytes that are not UTF-8, and control characters, become U+FFFD.
 std::string text(std::string_view raw);
@@ -36,4 +36,4 @@ std::string base64(std::string_view bytes);
 /// "report.template" for a name that only the page or only `values` has.
 std::string fill(std::string_view page, const std::vector<std::pair<std::string, std::string>>& values);
 
-}  // namespace dsc::run::html
+}  // namespace dsc::report::html

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-namespace dsc::run {
+namespace dsc::report {
 
 /// `title` is text; `subtitle` and `body` are HTML.
 std::string report_page(const std::string& title, const std::string& subtitle, const std::string& body);
@@ -12,4 +12,4 @@ std::string report_page(const std::string& title, const std::string& subtitle, c
 /// Runs `make`. Exceptions of the JSON library, which mean that a file has unexpected values, become IoError "report.damaged".
 std::string guarded_report(const std::function<std::string()>& make);
 
-}  // namespace dsc::run
+}  // namespace dsc::report

@@ -9,7 +9,7 @@
 
 #include "html.hpp"
 
-namespace dsc::run {
+namespace dsc::report {
 namespace {
 
 constexpr double width = 460, height = 250;
@@ -243,4 +243,4 @@ std::string svg_shares(const std::vector<std::pair<std::string, double>>& parts,
     return "<figure class=\"shares\">" + out + "</svg><figcaption>" + items + "</figcaption></figure>\n";
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::report

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace dsc::run {
+namespace dsc::report {
 
 /// y over x; a pair with NaN, or without a positive y on a logarithmic axis, is a gap.
 struct Curve {
@@ -38,4 +38,4 @@ std::string svg_shares(const std::vector<std::pair<std::string, double>>& parts,
 /// Round numbers of an axis for [low, high], at most about `count`.
 std::vector<double> axis_ticks(double low, double high, int count);
 
-}  // namespace dsc::run
+}  // namespace dsc::report

@@ -9,7 +9,7 @@
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/run/run_folder.hpp>
 
-namespace dsc::run {
+namespace dsc::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,7 +114,7 @@ bool RunRecord::several_labels() const {
 RunRecord read_record(const fs::path& folder) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) no_run(folder, "is not a folder");
-    if (!RunFolder::is_ours(folder)) no_run(folder, "no run wrote this folder: status.json is missing or was not written by dsc");
+    if (!run::RunFolder::is_ours(folder)) no_run(folder, "no run wrote this folder: status.json is missing or was not written by dsc");
     if (!fs::exists(folder / "summary.json", error))
         no_run(folder, "the run has no result: it failed or has not ended, see status.json");
     RunRecord record;
@@ -131,4 +131,4 @@ RunRecord read_record(const fs::path& folder) {
     return record;
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::report

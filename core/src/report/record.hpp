@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dsc::run {
+namespace dsc::report {
 
 /// metrics.csv by columns; an empty cell becomes NaN.
 struct MetricsTable {
@@ -52,4 +52,4 @@ const nlohmann::ordered_json* find(const nlohmann::ordered_json& root, std::stri
 /// for a file that cannot be parsed, and what readers throw. [setup]
 RunRecord read_record(const std::filesystem::path& folder);
 
-}  // namespace dsc::run
+}  // namespace dsc::report

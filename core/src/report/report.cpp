@@ -10,7 +10,7 @@
 #include "page.hpp"
 #include "sections.hpp"
 
-namespace dsc::run {
+namespace dsc::report {
 namespace {
 
 std::string file(std::string_view name) {
@@ -53,7 +53,7 @@ std::string guarded_report(const std::function<std::string()>& make) {
 }
 
 std::string report_html(const std::filesystem::path& run_folder, const plugin::Catalogue& catalogue, Workers* workers,
-                        const LoadedInput* input) {
+                        const run::LoadedInput* input) {
     return guarded_report([&] {
         const RunRecord record = read_record(run_folder);
         const Scene scene = make_scene(record, {}, {catalogue, input}, workers);
@@ -97,4 +97,4 @@ std::vector<std::string> plugins_of_runs(std::span<const std::filesystem::path> 
     return all;
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::report

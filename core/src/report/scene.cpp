@@ -21,7 +21,7 @@
 #include "attributes.hpp"
 #include "html.hpp"
 
-namespace dsc::run {
+namespace dsc::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -191,7 +191,7 @@ private:
     }
 
     void add_frames() {
-        const std::vector<io::SeriesEntry> kept = kept_states(record_.folder, "surface");
+        const std::vector<io::SeriesEntry> kept = run::kept_states(record_.folder, "surface");
         const std::size_t count = std::min(kept.size(), limits_.frames);
         const auto last = static_cast<std::uint64_t>(std::max(0.0, record_.number("steps")));
         for (std::size_t i = 0; i < count; ++i) {
@@ -207,15 +207,15 @@ private:
 
     /// The cloud of the configuration, as the run saw it: filtered, in the input's coordinates.
     void add_cloud() {
-        const std::optional<Input> input = input_of(record_.resolved, input_.catalogue);
+        const std::optional<run::Input> input = run::input_of(record_.resolved, input_.catalogue);
         if (!input) return;
         if (input->cloud.sample) json_["up"] = "z";  // the up axis of the built-in shapes is z
-        std::optional<LoadedInput> again;
+        std::optional<run::LoadedInput> again;
         if (input_.loaded == nullptr) {
             require_same_file(*input);
             again = load(*input);
         }
-        const LoadedInput& loaded = again ? *again : *input_.loaded;
+        const run::LoadedInput& loaded = again ? *again : *input_.loaded;
         std::vector<Vec3> points = loaded.cloud.points;
         if (points.size() > limits_.points) {
             note("of the cloud's " + html::integer(static_cast<double>(points.size())) + " points " +
@@ -235,14 +235,14 @@ private:
         scene_.empty = false;
     }
 
-    LoadedInput load(const Input& input) {
+    run::LoadedInput load(const run::Input& input) {
         const config::ConfigNode* seed = record_.resolved.find("seed");
-        return load_input(input, seed != nullptr ? static_cast<std::uint64_t>(seed->as_integer()) : 1, input_.catalogue, files_, workers_);
+        return run::load_input(input, seed != nullptr ? static_cast<std::uint64_t>(seed->as_integer()) : 1, input_.catalogue, files_, workers_);
     }
 
     /// The report of an old run must not show a changed file. The provenance contains paths as they were typed, so files of the
     /// same name are compared.
-    void require_same_file(const Input& input) {
+    void require_same_file(const run::Input& input) {
         const ordered_json* inputs = find(record_.provenance, "inputs");
         if (!input.cloud.file || inputs == nullptr || !inputs->is_array()) return;
         const std::filesystem::path name = std::filesystem::path(*input.cloud.file).filename();
@@ -314,7 +314,7 @@ private:
     const SceneLimits& limits_;
     const SceneInput input_;
     Workers* workers_;
-    InputFiles files_;
+    run::InputFiles files_;
     Scene scene_;
     ordered_json json_;
     surface::TriangleMesh surface_;
@@ -337,4 +337,4 @@ fs::path result_file(const fs::path& run_folder, const std::string& stem, const 
     return {};
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::report

@@ -12,7 +12,7 @@
 
 #include "record.hpp"
 
-namespace dsc::run {
+namespace dsc::report {
 
 /// Limits of the contents of a page. Files are never thinned; pages are, and they say so.
 struct SceneLimits {
@@ -27,7 +27,7 @@ struct SceneLimits {
 /// The source of the cloud: it is read and filtered again unless `input` is given.
 struct SceneInput {
     const plugin::Catalogue& catalogue;  ///< makes the filters
-    const LoadedInput* loaded = nullptr;
+    const run::LoadedInput* loaded = nullptr;
 };
 
 struct Scene {
@@ -45,4 +45,4 @@ Scene make_scene(const RunRecord& record, const SceneLimits& limits, const Scene
 std::filesystem::path result_file(const std::filesystem::path& run_folder, const std::string& stem,
                                   const std::vector<std::string>& extensions);
 
-}  // namespace dsc::run
+}  // namespace dsc::report

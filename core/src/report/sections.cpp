@@ -12,7 +12,7 @@
 #include "plot.hpp"
 #include "warnings.hpp"
 
-namespace dsc::run {
+namespace dsc::report {
 namespace {
 
 using html::integer;
@@ -362,4 +362,4 @@ std::string provenance_section(const RunRecord& record) {
     return section("Provenance", body, "provenance");
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::report

@@ -7,7 +7,7 @@
 #include "record.hpp"
 #include "scene.hpp"
 
-namespace dsc::run {
+namespace dsc::report {
 
 std::string headline_section(const RunRecord& record);
 std::string warnings_section(const RunRecord& record);
@@ -36,4 +36,4 @@ std::vector<std::pair<std::string, double>> phases(const RunRecord& record);
 
 std::string section(const std::string& title, const std::string& body, const std::string& classes = "");
 
-}  // namespace dsc::run
+}  // namespace dsc::report

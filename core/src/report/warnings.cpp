@@ -5,7 +5,7 @@
 
 #include "html.hpp"
 
-namespace dsc::run {
+namespace dsc::report {
 namespace {
 
 using nlohmann::ordered_json;
@@ -89,4 +89,4 @@ std::vector<std::string> warnings(const RunRecord& record) {
     return out;
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::report

@@ -6,7 +6,7 @@
 
 #include "record.hpp"
 
-namespace dsc::run {
+namespace dsc::report {
 
 /// A property that a written result must have.
 struct Check {
@@ -19,4 +19,4 @@ std::vector<Check> validity(const RunRecord& record);
 /// One sentence each; empty for a run without problems.
 std::vector<std::string> warnings(const RunRecord& record);
 
-}  // namespace dsc::run
+}  // namespace dsc::report

@@ -149,7 +149,7 @@ void RunTotals::count(kernel::Event::Kind kind) {
     }
 }
 
-std::uint64_t RunTotals::refused(mesh::Refusal reason) const {
+std::uint64_t RunTotals::refused(repair::Refusal reason) const {
     std::uint64_t sum = 0;
     for (const kernel::OperationCounts& counts : operations)
         sum += counts.refused[static_cast<std::size_t>(reason)];

@@ -8,7 +8,6 @@
 #include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
 #include <dsc/run/provenance.hpp>
-#include <dsc/report/report.hpp>
 #include <dsc/run/run_folder.hpp>
 #include <dsc/run/run_experiment.hpp>
 #include <dsc/surface/surface_view.hpp>
@@ -96,7 +95,7 @@ public:
             state_.exit_code = static_cast<int>(state_.state == "done" ? ExitCode::ok : ExitCode::stopped);
             state_.totals = outcome.totals;
             folder.write("provenance.json", provenance(state_.finished));
-            if (loaded_.experiment.output.report.value_or(false)) write_report(folder, outcome);
+            if (options_.make_report && loaded_.experiment.output.report.value_or(false)) write_report(folder, outcome);
             folder.write("status.json", status_json(state_));
             return outcome;
         } catch (const Error& error) {
@@ -196,7 +195,7 @@ private:
     /// Made from the folder, as `dsc report` does. A result without its page is still a valid result.
     void write_report(const RunFolder& folder, RunOutcome& outcome) {
         try {
-            folder.write("report.html", report_html(folder.path(), catalogue_, &workers_, input_ ? &*input_ : nullptr));
+            folder.write("report.html", options_.make_report(folder.path(), catalogue_, &workers_, input_ ? &*input_ : nullptr));
             outcome.report = folder.file("report.html");
         } catch (const Error& error) {
             log(LogLevel::warning, std::string("the report could not be written: ") + error.what());

@@ -39,10 +39,10 @@ public:
                         ? kernel::Deformer(
                               initial_complex(experiment, strategies, cloud, options.cancel, workers_, result_.totals), {}, &workers_)
                         : kernel::Deformer::load(resumed_, {}, &workers_)) {
-        policy_.propose = [this](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+        policy_.propose = [this](const repair::RepairRound& round, std::vector<repair::Request>& out) {
             strategies_.improvement->propose(*context_, round, out);
         };
-        policy_.select = [this](std::span<const mesh::TopologyCandidate> candidates,
+        policy_.select = [this](std::span<const repair::TopologyCandidate> candidates,
                                 std::span<std::uint8_t> accept) {
             strategies_.improvement->select(*context_, candidates, accept);
         };
@@ -176,7 +176,7 @@ private:
         next_item();
     }
 
-    std::optional<mesh::CreaseRule> creases(const hooks::RefinementPolicy* refinement) const {
+    std::optional<repair::CreaseRule> creases(const hooks::RefinementPolicy* refinement) const {
         return stricter(strategies_.velocity->keep_creases(), refinement != nullptr ? refinement->keep_creases() : std::nullopt);
     }
 

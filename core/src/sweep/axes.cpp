@@ -12,7 +12,7 @@
 #include <dsc/sweep/sweep.hpp>
 #include <optional>
 
-namespace dsc::run {
+namespace dsc::sweep {
 namespace {
 
 using config::ConfigEntry;
@@ -194,4 +194,4 @@ Alternatives random_axis(const ConfigNode& ranges, const Draw& draw, Diagnostics
     return all;
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::sweep

@@ -5,7 +5,7 @@
 #include <dsc/config/node.hpp>
 #include <vector>
 
-namespace dsc::run {
+namespace dsc::sweep {
 
 /// Overrides that belong together: dotted path, value and where the path is written.
 using Overrides = std::vector<config::ConfigEntry>;
@@ -32,4 +32,4 @@ Alternatives random_axis(const config::ConfigNode& ranges, const Draw& draw, con
 Alternatives product(const std::vector<Alternatives>& axes, std::size_t most, const config::SourcePosition& place,
                      config::Diagnostics& diagnostics);
 
-}  // namespace dsc::run
+}  // namespace dsc::sweep

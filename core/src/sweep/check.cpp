@@ -8,7 +8,7 @@
 #include <set>
 #include <string_view>
 
-namespace dsc::run {
+namespace dsc::sweep {
 namespace {
 
 namespace fs = std::filesystem;
@@ -78,7 +78,7 @@ private:
 /// Loads plugins once per list of plugins, not once per point.
 class Loader {
 public:
-    explicit Loader(const PluginLoader& load) : load_(load) {}
+    explicit Loader(const run::PluginLoader& load) : load_(load) {}
     const config::StrategyLookup& operator()(const std::vector<std::string>& paths) {
         const auto found = loaded_.find(paths);
         if (found != loaded_.end()) return *found->second;
@@ -86,7 +86,7 @@ public:
     }
 
 private:
-    const PluginLoader& load_;
+    const run::PluginLoader& load_;
     std::map<std::vector<std::string>, const config::StrategyLookup*> loaded_;
 };
 
@@ -105,25 +105,25 @@ ConfigNode with_all(ConfigNode root, const ConfigNode& overrides, const SweepPoi
 
 }  // namespace
 
-std::vector<std::string> sweep_experiments(const Sweep& sweep, const PluginLoader& load_plugins,
+std::vector<std::string> sweep_experiments(const Sweep& sweep, const run::PluginLoader& load_plugins,
                                            const plugin::Catalogue& catalogue, const config::YamlOptions& options) {
     ConfigNode base = config::load_yaml(sweep.base, options);
     if (base.is_map() && base.find("name") == nullptr)
         base = base.with("name", ConfigNode(fs::path(sweep.base).stem().string()));
 
     Loader loader(load_plugins);
-    const PluginLoader load_once = [&loader](const auto& paths) -> const config::StrategyLookup& { return loader(paths); };
+    const run::PluginLoader load_once = [&loader](const auto& paths) -> const config::StrategyLookup& { return loader(paths); };
     Faults faults;
     std::set<std::vector<std::string>> read;  // files that were already hashed, because a cloud may be large
     std::vector<std::string> texts;
     for (const SweepPoint& point : sweep.points) {
         try {
             const ConfigNode root = with_all(with_all(base, sweep.set, point, faults), point.overrides, point, faults);
-            const LoadedExperiment loaded = resolve_experiment(root, load_once);
-            make_strategies(loaded.experiment, catalogue);
-            if (read.insert(input_files(loaded, catalogue)).second) config_hash(loaded, catalogue);
+            const run::LoadedExperiment loaded = run::resolve_experiment(root, load_once);
+            run::make_strategies(loaded.experiment, catalogue);
+            if (read.insert(run::input_files(loaded, catalogue)).second) run::config_hash(loaded, catalogue);
             texts.push_back("# Point " + point.name + " of a sweep: " + config::flow_text(point.overrides) + "\n" +
-                            resolved_text(loaded));
+                            run::resolved_text(loaded));
         } catch (const ConfigError& error) {
             faults.add(error, point);
         } catch (const IoError& error) {
@@ -134,4 +134,4 @@ std::vector<std::string> sweep_experiments(const Sweep& sweep, const PluginLoade
     return texts;
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::sweep

@@ -10,7 +10,7 @@
 
 #include "table.hpp"
 
-namespace dsc::run {
+namespace dsc::sweep {
 namespace {
 
 namespace fs = std::filesystem;
@@ -160,4 +160,4 @@ std::string collect_sweep(const fs::path& folder, SweepStates& states) {
     return text;
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::sweep

@@ -8,7 +8,7 @@
 
 #include "table.hpp"
 
-namespace dsc::run {
+namespace dsc::sweep {
 namespace {
 
 namespace fs = std::filesystem;
@@ -52,7 +52,7 @@ void require_unchanged(const Sweep& sweep, const std::vector<std::string>& exper
     std::string first;
     for (std::size_t i = 0; i < sweep.points.size(); ++i) {
         const fs::path point = folder / point_folder(sweep.points[i].name);
-        if (!RunFolder::is_ours(point / "run") || look(point / "experiment.yaml", experiments[i]) != Place::other) continue;
+        if (!run::RunFolder::is_ours(point / "run") || look(point / "experiment.yaml", experiments[i]) != Place::other) continue;
         if (count++ == 0) first = point.string();
     }
     if (count == 0) return;
@@ -90,4 +90,4 @@ Expansion expand_sweep(const Sweep& sweep, const std::vector<std::string>& exper
     return expansion;
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::sweep

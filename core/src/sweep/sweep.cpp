@@ -10,7 +10,7 @@
 
 #include "axes.hpp"
 
-namespace dsc::run {
+namespace dsc::sweep {
 namespace {
 
 using config::ConfigEntry;
@@ -186,7 +186,7 @@ ConfigNode canonical(const ConfigNode& node) {
 SweepPoint point_of(const Overrides& overrides) {
     SweepPoint point;
     point.overrides = ConfigNode::map(overrides);
-    point.name = sha256(config::flow_text(canonical(point.overrides))).substr(0, 12);
+    point.name = run::sha256(config::flow_text(canonical(point.overrides))).substr(0, 12);
     return point;
 }
 
@@ -238,4 +238,4 @@ Sweep load_sweep(const std::string& file, const config::YamlOptions& options) {
     return sweep;
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::sweep

@@ -10,7 +10,7 @@
 #include <memory>
 #include <string_view>
 
-namespace dsc::run {
+namespace dsc::sweep {
 namespace {
 
 namespace fs = std::filesystem;
@@ -88,4 +88,4 @@ std::vector<SweepJob> read_table(const fs::path& folder) {
     return jobs;
 }
 
-}  // namespace dsc::run
+}  // namespace dsc::sweep

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace dsc::run {
+namespace dsc::sweep {
 
 /// A line of the table. Its index is its position, from 0.
 struct SweepJob {
@@ -27,4 +27,4 @@ std::string table_text(const std::vector<SweepJob>& jobs);
 /// Reads the table. Throws IoError "sweep.table" with the line if expand did not write it. [setup]
 std::vector<SweepJob> read_table(const std::filesystem::path& folder);
 
-}  // namespace dsc::run
+}  // namespace dsc::sweep

@@ -6,8 +6,8 @@
 #include "generate/cell_set.hpp"
 
 TEST_CASE("sets of cells grow and coarsen, across words and up to the walls") {
-    using dsc::mesh::lattice::Cell;
-    using dsc::mesh::lattice::CellSet;
+    using dsc::generate::lattice::Cell;
+    using dsc::generate::lattice::CellSet;
     for (const int side : {6, 64, 130}) {
         CAPTURE(side);
         for (const Cell& seed : {Cell{0, 0, 0}, Cell{side - 1, side - 1, side - 1},

@@ -16,6 +16,7 @@
 
 using namespace dsc;
 using namespace dsc::mesh;
+using namespace dsc::generate;
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace dsc::mesh::test {
+namespace dsc::generate::test {
 
 using Function = std::function<double(const Vec3&)>;
 using Tets = std::vector<std::array<std::uint32_t, 4>>;
@@ -103,4 +103,4 @@ inline double torus(const Vec3& x, double ring, double tube) {
     return tube - std::hypot(std::hypot(x[0], x[1]) - ring, x[2]);
 }
 
-}  // namespace dsc::mesh::test
+}  // namespace dsc::generate::test

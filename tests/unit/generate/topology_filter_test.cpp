@@ -9,7 +9,8 @@
 
 using namespace dsc;
 using namespace dsc::mesh;
-using namespace dsc::mesh::test;
+using namespace dsc::generate;
+using namespace dsc::generate::test;
 
 namespace {
 

@@ -68,6 +68,7 @@ run::RunOutcome work(const Folder& folder, const std::string& name, const std::s
     run::RunOptions options;
     options.folder = folder.path() / name;
     options.command = {"dsc", "run", "<b>bold</b>.yaml"};
+    options.make_report = report::report_html;
     const run::RunOutcome outcome = run::run_experiment(loaded, catalogue, options);
     fs::current_path(here);
     return outcome;
@@ -179,9 +180,9 @@ TEST_CASE("report: a run writes it, and dsc report the same bytes; nothing in it
     const run::RunOutcome outcome = work(folder, "run", with_cloud(folder, "output: {report: true}\n"), {"observers=[{type: counter}]"});
     const std::string page = folder.read("run/report.html");
     CHECK(outcome.report == folder.path() / "run/report.html");
-    CHECK(page == run::report_html(folder.path() / "run", strategies()));
+    CHECK(page == report::report_html(folder.path() / "run", strategies()));
     Workers three(3);
-    CHECK(page == run::report_html(folder.path() / "run", strategies(), &three));
+    CHECK(page == report::report_html(folder.path() / "run", strategies(), &three));
     CHECK(page.substr(0, 15) == "<!DOCTYPE html>");
     for (const char* part : {"In short", "Time and size (table 6.1)", "table 6.2", "Distance, normalised units", "Tets by quality",
                              "Points of the cloud by distance", "Time by phase", "Changes of topology", "The cloud and the start",
@@ -201,7 +202,7 @@ TEST_CASE("report: a run writes it, and dsc report the same bytes; nothing in it
     work(folder, "plain", minimal);
     CHECK_FALSE(fs::exists(folder.path() / "plain/report.html"));
     CHECK_FALSE(fs::exists(folder.path() / "plain/series"));
-    const std::string later = run::report_html(folder.path() / "plain", strategies());
+    const std::string later = report::report_html(folder.path() / "plain", strategies());
     CHECK(later.find("table 6.1") != std::string::npos);
     CHECK(later.find("table 6.2") == std::string::npos);
 }
@@ -212,24 +213,24 @@ TEST_CASE("report: a cloud that is gone or another one is told, and not shown") 
     const std::string before = folder.read("run/report.html");
     CHECK(before.find("\"cloud\":{") != std::string::npos);
     folder.write("cloud.xyz", "0 0 0\n1 0 0\n0 1 0\n0 0 1\n");
-    const std::string other = run::report_html(folder.path() / "run", strategies());
+    const std::string other = report::report_html(folder.path() / "run", strategies());
     CHECK(other.find("\"cloud\":{") == std::string::npos);
     CHECK(other.find("the cloud is not shown: " + (folder.path() / "cloud.xyz").string() + ": is not the file that the run read") != std::string::npos);
     fs::remove(folder.path() / "cloud.xyz");
-    CHECK(run::report_html(folder.path() / "run", strategies()).find("the cloud is not shown: ") != std::string::npos);
+    CHECK(report::report_html(folder.path() / "run", strategies()).find("the cloud is not shown: ") != std::string::npos);
 }
 
 TEST_CASE("report: folders that are no run's, runs without a result, damaged files") {
     const Folder folder;
-    CHECK_THROWS_AS(run::report_html(folder.path() / "none", strategies()), IoError);
-    CHECK_THROWS_AS(run::report_html(folder.path(), strategies()), IoError);
+    CHECK_THROWS_AS(report::report_html(folder.path() / "none", strategies()), IoError);
+    CHECK_THROWS_AS(report::report_html(folder.path(), strategies()), IoError);
     work(folder, "run", minimal);
     const auto refused = [&](const std::string& file, const std::string& text) {
         const std::string good = folder.read("run/" + file);
         folder.write("run/" + file, text);
         std::string code = "accepted";
         try {
-            run::report_html(folder.path() / "run", strategies());
+            report::report_html(folder.path() / "run", strategies());
         } catch (const Error& error) {
             code = error.code();
         }
@@ -246,7 +247,7 @@ TEST_CASE("report: folders that are no run's, runs without a result, damaged fil
     // A page without one of its parts is still a page.
     CHECK(refused("result/volume.dsc", "v 0 0") == "accepted");
     fs::remove(folder.path() / "run/summary.json");
-    CHECK_THROWS_AS(run::report_html(folder.path() / "run", strategies()), IoError);
+    CHECK_THROWS_AS(report::report_html(folder.path() / "run", strategies()), IoError);
 }
 
 TEST_CASE("report: hostile names in every file of the run stay text") {
@@ -279,9 +280,9 @@ TEST_CASE("report: hostile names in every file of the run stay text") {
     metrics.replace(metrics.find(column), column.size(), "observers." + evil);
     folder.write("run/metrics.csv", metrics);
     folder.write("run/config.resolved.yaml", folder.read("run/config.resolved.yaml") + "# " + evil + "\n");
-    CHECK(run::report_html(folder.path() / "run", strategies()).find("Notes on the cloud") != std::string::npos);
+    CHECK(report::report_html(folder.path() / "run", strategies()).find("Notes on the cloud") != std::string::npos);
     const fs::path folders[] = {folder.path() / "run", folder.path() / "run"};
-    for (const std::string& page : {run::report_html(folder.path() / "run", strategies()), run::comparison_html(folders, strategies())}) {
+    for (const std::string& page : {report::report_html(folder.path() / "run", strategies()), report::comparison_html(folders, strategies())}) {
         CHECK(page.find("<script>alert") == std::string::npos);
         CHECK(page.find("<img src=x") == std::string::npos);
         CHECK(page.find("&lt;script&gt;alert(1)") != std::string::npos);
@@ -291,13 +292,13 @@ TEST_CASE("report: hostile names in every file of the run stay text") {
 TEST_CASE("warnings: what a reader must know") {
     const Folder folder;
     work(folder, "run", minimal);
-    run::RunRecord record = run::read_record(folder.path() / "run");
-    CHECK(run::warnings(record).empty());
-    for (const run::Check& check : run::validity(record)) CHECK(check.holds);
+    report::RunRecord record = report::read_record(folder.path() / "run");
+    CHECK(report::warnings(record).empty());
+    for (const report::Check& check : report::validity(record)) CHECK(check.holds);
     const auto with = [&](const char* key, const nlohmann::ordered_json& value) {
         const auto before = record.summary;
         record.summary[key] = value;
-        const std::vector<std::string> said = run::warnings(record);
+        const std::vector<std::string> said = report::warnings(record);
         record.summary = before;
         REQUIRE(said.size() == 1);
         return said.front();
@@ -315,13 +316,13 @@ TEST_CASE("comparison: a column a run, named by name or folder, what differs in 
     work(folder, "slow", with_cloud(folder, ""), {"velocity.factor=-0.01"});
     work(folder, "quick", with_cloud(folder, ""), {"velocity.factor=-0.02"});
     const fs::path folders[] = {folder.path() / "slow", folder.path() / "quick/"};
-    const std::string page = run::comparison_html(folders, strategies());
+    const std::string page = report::comparison_html(folders, strategies());
     for (const char* part : {"2 runs compared", "<th>slow</th>", "<th>quick</th>", "velocity.factor", "-0.02", "id=\"view-1-scene\""}) {
         CAPTURE(part);
         CHECK(page.find(part) != std::string::npos);
     }
     CHECK(page.find("<td>velocity.shift") == std::string::npos);
     const fs::path same[] = {folder.path() / "slow", folder.path() / "slow"};
-    CHECK(run::comparison_html(same, strategies()).find("The experiments are the same.") != std::string::npos);
-    CHECK_THROWS_AS(run::comparison_html({}, strategies()), UsageError);
+    CHECK(report::comparison_html(same, strategies()).find("The experiments are the same.") != std::string::npos);
+    CHECK_THROWS_AS(report::comparison_html({}, strategies()), UsageError);
 }

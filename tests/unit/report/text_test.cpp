@@ -10,7 +10,7 @@
 #include "run/state_series.hpp"
 
 using namespace dsc;
-namespace html = dsc::run::html;
+namespace html = dsc::report::html;
 
 TEST_CASE("text cannot become markup, whatever its bytes are") {
     CHECK(html::text("<script>\"'&</script>") == "&lt;script&gt;&quot;&#39;&amp;&lt;/script&gt;");
@@ -46,25 +46,25 @@ TEST_CASE("a page is filled in one pass: what is put in is text") {
 }
 
 TEST_CASE("metrics: columns, empty cells, and tables that are none") {
-    const run::MetricsTable table = run::parse_metrics("step,a,b\n0,1.5,\n1,-2e-3,4\n", "m.csv");
+    const report::MetricsTable table = report::parse_metrics("step,a,b\n0,1.5,\n1,-2e-3,4\n", "m.csv");
     CHECK(table.rows() == 2);
     REQUIRE(table.find("b") != nullptr);
     CHECK(std::isnan((*table.find("b"))[0]));
     CHECK((*table.find("b"))[1] == 4);
     CHECK((*table.find("a"))[1] == -2e-3);
     CHECK(table.find("c") == nullptr);
-    CHECK(run::parse_metrics("", "m.csv").rows() == 0);
-    CHECK_THROWS_WITH_AS(run::parse_metrics("step,a\n1\n", "m.csv"), "m.csv:2: 1 cells for 2 columns; run the experiment again", IoError);
-    CHECK_THROWS_AS(run::parse_metrics("step\nx\n", "m.csv"), IoError);
+    CHECK(report::parse_metrics("", "m.csv").rows() == 0);
+    CHECK_THROWS_WITH_AS(report::parse_metrics("step,a\n1\n", "m.csv"), "m.csv:2: 1 cells for 2 columns; run the experiment again", IoError);
+    CHECK_THROWS_AS(report::parse_metrics("step\nx\n", "m.csv"), IoError);
 }
 
 TEST_CASE("plots: round ticks, gaps, a logarithmic axis, names escaped") {
-    CHECK(run::axis_ticks(0, 10, 5) == std::vector<double>{0, 2, 4, 6, 8, 10});
-    CHECK(run::axis_ticks(3, 3, 5).empty());
-    CHECK_FALSE(std::signbit(run::axis_ticks(0, 10, 5).front()));
+    CHECK(report::axis_ticks(0, 10, 5) == std::vector<double>{0, 2, 4, 6, 8, 10});
+    CHECK(report::axis_ticks(3, 3, 5).empty());
+    CHECK_FALSE(std::signbit(report::axis_ticks(0, 10, 5).front()));
     const double none = std::nan("");
-    const run::Plot plot{.title = "<t>", .x_label = "<x>", .curves = {{"<c>", {0, 1, 2, 3, 4}, {1, none, 3, 4, 5}}, {"d", {0, 4}, {2, 2}}}};
-    const std::string svg = run::svg_plot(plot);
+    const report::Plot plot{.title = "<t>", .x_label = "<x>", .curves = {{"<c>", {0, 1, 2, 3, 4}, {1, none, 3, 4, 5}}, {"d", {0, 4}, {2, 2}}}};
+    const std::string svg = report::svg_plot(plot);
     CHECK(svg.find("<t>") == std::string::npos);
     CHECK(svg.find("<x>") == std::string::npos);
     CHECK(svg.find("<c>") == std::string::npos);
@@ -74,22 +74,22 @@ TEST_CASE("plots: round ticks, gaps, a logarithmic axis, names escaped") {
     const std::string d = svg.substr(at + 9, svg.find('"', at + 9) - at - 9);
     CHECK(std::count(d.begin(), d.end(), 'M') == 2);
     CHECK(std::count(d.begin(), d.end(), 'L') == 2);
-    CHECK(run::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {none, 1}}}}).empty());
-    CHECK(run::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {0, -1}}}, .logarithmic = true}).empty());
-    const std::string logarithmic = run::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1, 2}, {0.001, 0.0, 1}}}, .logarithmic = true});
+    CHECK(report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {none, 1}}}}).empty());
+    CHECK(report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {0, -1}}}, .logarithmic = true}).empty());
+    const std::string logarithmic = report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1, 2}, {0.001, 0.0, 1}}}, .logarithmic = true});
     CHECK(logarithmic.find(">0.01<") != std::string::npos);
     CHECK(logarithmic.find("nan") == std::string::npos);
-    CHECK(run::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {7, 7}}}}).find("nan") == std::string::npos);
+    CHECK(report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {7, 7}}}}).find("nan") == std::string::npos);
 }
 
 TEST_CASE("histograms count every value once; shares leave out nothing that took time") {
-    CHECK(run::count_bins({0, 0.1, 0.5, 0.99, 1, 2, -1, std::nan("")}, 0, 1, 2) == std::vector<std::size_t>{3, 4});
-    CHECK(run::svg_histogram("t", "x", 0, 1, {3, 0, 4}).find(": 4<") != std::string::npos);
-    const std::string shares = run::svg_shares({{"a", 1}, {"b", 0}, {"c", 3}}, "s");
+    CHECK(report::count_bins({0, 0.1, 0.5, 0.99, 1, 2, -1, std::nan("")}, 0, 1, 2) == std::vector<std::size_t>{3, 4});
+    CHECK(report::svg_histogram("t", "x", 0, 1, {3, 0, 4}).find(": 4<") != std::string::npos);
+    const std::string shares = report::svg_shares({{"a", 1}, {"b", 0}, {"c", 3}}, "s");
     CHECK(shares.find("a 1 s") != std::string::npos);
     CHECK(shares.find("b 0 s") == std::string::npos);
     CHECK(shares.find("width=\"705.0\"") != std::string::npos);
-    CHECK(run::svg_shares({{"a", 0}}, "s").empty());
+    CHECK(report::svg_shares({{"a", 0}}, "s").empty());
 }
 
 TEST_CASE("a report keeps a handful of steps, from the first one on, closer at the start") {

@@ -23,15 +23,15 @@ struct Bench {
 
     Bench() { folder.write("base.yaml", minimal); }
 
-    run::Sweep load(const std::string& text) const {
-        return run::load_sweep(folder.write("sweep.yaml", "sweep: 1\nbase: base.yaml\n" + text));
+    sweep::Sweep load(const std::string& text) const {
+        return sweep::load_sweep(folder.write("sweep.yaml", "sweep: 1\nbase: base.yaml\n" + text));
     }
-    std::vector<std::string> experiments(const run::Sweep& sweep) const {
-        return run::sweep_experiments(sweep, strategies.loader(), strategies);
+    std::vector<std::string> experiments(const sweep::Sweep& sweep) const {
+        return sweep::sweep_experiments(sweep, strategies.loader(), strategies);
     }
-    run::Expansion expand(const std::string& text) const {
-        const run::Sweep sweep = load(text);
-        return run::expand_sweep(sweep, experiments(sweep), folder.path() / "out");
+    sweep::Expansion expand(const std::string& text) const {
+        const sweep::Sweep sweep = load(text);
+        return sweep::expand_sweep(sweep, experiments(sweep), folder.path() / "out");
     }
     std::string table() const { return folder.read("out/jobs.tsv"); }
     /// Message of the Error that `action` ends in, the folder shown as DIR.
@@ -55,15 +55,15 @@ struct Bench {
     }
 };
 
-std::vector<std::string> texts(const run::Sweep& sweep) {
+std::vector<std::string> texts(const sweep::Sweep& sweep) {
     std::vector<std::string> all;
-    for (const run::SweepPoint& point : sweep.points) all.push_back(config::flow_text(point.overrides));
+    for (const sweep::SweepPoint& point : sweep.points) all.push_back(config::flow_text(point.overrides));
     return all;
 }
 
-std::vector<std::string> names(const run::Sweep& sweep) {
+std::vector<std::string> names(const sweep::Sweep& sweep) {
     std::vector<std::string> all;
-    for (const run::SweepPoint& point : sweep.points) all.push_back(point.name);
+    for (const sweep::SweepPoint& point : sweep.points) all.push_back(point.name);
     return all;
 }
 
@@ -75,7 +75,7 @@ const std::string six = "axes: [{grid: {velocity.factor: [0.1, 0.2, 0.3], initia
 
 }  // namespace
 
-TEST_CASE("the schema of a sweep is sound") { CHECK(run::sweep_schema()->problems().empty()); }
+TEST_CASE("the schema of a sweep is sound") { CHECK(sweep::sweep_schema()->problems().empty()); }
 
 TEST_CASE("axes: grid, zip and list, multiplied, the last fastest") {
     const Bench bench;
@@ -107,14 +107,14 @@ TEST_CASE("random draws lie in their range, spread over it, and stay when there 
                           ", ranges: {velocity.factor: " + range + "}}}]\n");
     };
     const std::string log = "{from: 1.0e-4, to: 1.0, scale: log}";
-    const run::Sweep few = sweep(20, 1, log), many = sweep(400, 1, log), other = sweep(20, 2, log);
+    const sweep::Sweep few = sweep(20, 1, log), many = sweep(400, 1, log), other = sweep(20, 2, log);
     REQUIRE(many.points.size() == 400);
     const std::vector<std::string> start = names(many);
     CHECK(std::equal(few.points.begin(), few.points.end(), many.points.begin(),
                      [](const auto& a, const auto& b) { return a.name == b.name; }));
     CHECK(names(few) != names(other));
     std::array<int, 4> decades{};
-    for (const run::SweepPoint& point : many.points) {
+    for (const sweep::SweepPoint& point : many.points) {
         const double value = point.overrides.at("velocity.factor").as_real();
         REQUIRE(value >= 1e-4);
         REQUIRE(value <= 1.0);
@@ -123,10 +123,10 @@ TEST_CASE("random draws lie in their range, spread over it, and stay when there 
     for (const int count : decades) CHECK(std::abs(count - 100) < 35);  // four deviations
 
     std::array<int, 3> cells{};
-    const run::Sweep integers = bench.load(
+    const sweep::Sweep integers = bench.load(
         "axes: [{random: {n: 300, ranges: {initial_mesh.cells: {from: 6, to: 8, integer: true}, velocity.factor: {from: "
         "0, to: 1}}}}]\n");
-    for (const run::SweepPoint& point : integers.points)
+    for (const sweep::SweepPoint& point : integers.points)
         ++cells.at(static_cast<std::size_t>(point.overrides.at("initial_mesh.cells").as_integer() - 6));
     for (const int count : cells) CHECK(std::abs(count - 100) < 35);
 }
@@ -148,7 +148,7 @@ TEST_CASE("a point's name depends on its overrides alone") {
 
 TEST_CASE("equal points are one") {
     const Bench bench;
-    const run::Sweep sweep = bench.load("axes: [{list: [{seed: 1}, {seed: 2}, {seed: 1.0}]}]\n");
+    const sweep::Sweep sweep = bench.load("axes: [{list: [{seed: 1}, {seed: 2}, {seed: 1.0}]}]\n");
     CHECK(sweep.points.size() == 2);
     CHECK(sweep.repeated == 1);
 }
@@ -202,8 +202,8 @@ TEST_CASE("an override that would undo an earlier one is refused") {
 
 TEST_CASE("expand: a folder a point that loads as the experiment, and a table") {
     const Bench bench;
-    const run::Sweep sweep = bench.load("set: {schedule.0.steps: 3}\n" + six);
-    const run::Expansion done = run::expand_sweep(sweep, bench.experiments(sweep), bench.folder.path() / "out");
+    const sweep::Sweep sweep = bench.load("set: {schedule.0.steps: 3}\n" + six);
+    const sweep::Expansion done = sweep::expand_sweep(sweep, bench.experiments(sweep), bench.folder.path() / "out");
     CHECK(done.added == 6);
     CHECK(done.kept == 0);
     CHECK(done.others == 0);
@@ -230,14 +230,14 @@ TEST_CASE("expand again: nothing is touched; with more points the table grows at
     CHECK(bench.table() == table);
     CHECK(std::filesystem::last_write_time(bench.folder.path() / "out/jobs.tsv") == written);
 
-    const run::Expansion more =
+    const sweep::Expansion more =
         bench.expand("axes: [{grid: {initial_mesh.cells: [5, 6, 8], velocity.factor: [0.1, 0.2, 0.3]}}]\n");
     CHECK(more.added == 3);
     CHECK(more.kept == 6);
     CHECK(bench.table().substr(0, table.size()) == table);
     CHECK(lines(bench.table()) == 10);
 
-    const run::Expansion fewer = bench.expand("axes: [{grid: {initial_mesh.cells: [5], velocity.factor: [0.1]}}]\n");
+    const sweep::Expansion fewer = bench.expand("axes: [{grid: {initial_mesh.cells: [5], velocity.factor: [0.1]}}]\n");
     CHECK(fewer.kept == 1);
     CHECK(fewer.others == 8);
     CHECK(lines(bench.table()) == 10);
@@ -290,13 +290,13 @@ TEST_CASE("a file that is not there is a fault of input and output") {
     const Bench bench;
     const std::string text = "axes: [{grid: {initial_mesh.file: [a.txt, b.txt]}}]\n";
     bench.folder.write("a.txt", "");
-    const run::Sweep sweep = bench.load(text);
+    const sweep::Sweep sweep = bench.load(text);
     CHECK_THROWS_AS(bench.experiments(sweep), IoError);
     CHECK(contains(bench.expand_fault(text), "DIR/b.txt does not exist"));
     bench.folder.write("b.txt", "");
     CHECK(bench.expand(text).added == 2);
     bench.folder.write("sweep.yaml", "sweep: 1\nbase: nowhere.yaml\nrepeat: 1\n");
-    CHECK(contains(bench.fault([&] { bench.experiments(run::load_sweep((bench.folder.path() / "sweep.yaml").string())); }),
+    CHECK(contains(bench.fault([&] { bench.experiments(sweep::load_sweep((bench.folder.path() / "sweep.yaml").string())); }),
                    "nowhere.yaml"));
 }
 
@@ -344,8 +344,8 @@ TEST_CASE("collect: a row a point, whatever its state") {
     write(5, "status.json", R"({"format": "dsc-run-1", "state": "stopped", "exit_code": 75})");
     write(5, "summary.json", R"({"status": "cancelled", "steps": 1, "vertex_to_cloud": {"mean": 0.25}})");
 
-    run::SweepStates states;
-    const std::string table = run::collect_sweep(bench.folder.path() / "out", states);
+    sweep::SweepStates states;
+    const std::string table = sweep::collect_sweep(bench.folder.path() / "out", states);
     CAPTURE(table);
     CHECK(states.points == 6);
     CHECK(states.done == 1);
@@ -366,5 +366,5 @@ TEST_CASE("collect: a row a point, whatever its state") {
     CHECK(contains(table, "\n4,points/" + all[4] + ",unfinished,,,5,,"));
     CHECK(contains(table, "\n5,points/" + all[5] + ",stopped,cancelled,,6,,1,"));
     CHECK(contains(table, ",0.25,"));
-    CHECK(contains(bench.fault([&] { run::collect_sweep(bench.folder.path(), states); }), "DIR has no jobs.tsv"));
+    CHECK(contains(bench.fault([&] { sweep::collect_sweep(bench.folder.path(), states); }), "DIR has no jobs.tsv"));
 }

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace dsc::mesh {
+namespace dsc::generate {
 
 /// A wanted size, in the mesh's units: the cell that contains the place, and the 26 places around that cell at its size, get
 /// cells of at most this edge.
@@ -86,4 +86,4 @@ private:
 /// Whether the leaf has vertices of both labels: values above 0 are inside. [parallel]
 bool has_mixed_signs(const GradedLattice::Leaf& leaf, std::span<const double> values);
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

@@ -13,7 +13,7 @@
 #include <dsc/base/workers.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
 
-namespace dsc::mesh {
+namespace dsc::generate {
 
 /// How the interface cuts a lattice. Qualities are those of geometry::tet_quality().
 struct StuffOptions {
@@ -45,14 +45,14 @@ struct StuffReport {
 /// the cut points. Messages use `name` for the generator. Throws ConfigError "stuff.options"; GeometryError "stuff.values" for
 /// a wrong number of values or a value that is 0 or not finite, "stuff.box" for a positive value on the box; CancelledError.
 /// [setup]
-TetMesh stuff_interface(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 4>> tets,
+mesh::TetMesh stuff_interface(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 4>> tets,
                         std::span<const double> values, const StuffOptions& options, StuffReport* report, Workers* workers,
                         const CancelToken* cancel, std::string_view name);
 
 /// The same for a lattice whose labels are ignored.
-inline TetMesh stuff_interface(const TetMesh& lattice, std::span<const double> values, const StuffOptions& options,
+inline mesh::TetMesh stuff_interface(const mesh::TetMesh& lattice, std::span<const double> values, const StuffOptions& options,
                                StuffReport* report, Workers* workers, const CancelToken* cancel, std::string_view name) {
     return stuff_interface(lattice.points, lattice.tets, values, options, report, workers, cancel, name);
 }
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

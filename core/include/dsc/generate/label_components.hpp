@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace dsc::mesh {
+namespace dsc::generate {
 
 /// What to do with enclosed components of the outside. Cavities below the least volume never stay.
 enum class CavityPolicy {
@@ -57,4 +57,4 @@ std::vector<LabelComponent> settle_components(std::span<const Vec3> points,
                                               std::span<double> values, std::span<const double> volumes,
                                               const PlacedPoints& cloud, const ComponentOptions& options);
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-namespace dsc::mesh {
+namespace dsc::generate {
 
 /// Tets of the finest cells: parity cuts each cell into five tets; bcc uses the tets of all larger cells.
 enum class LatticePattern { parity, bcc };
@@ -41,10 +41,10 @@ using SameWithin = std::function<bool(const Vec3& centre, double radius)>;
 /// Makes a balanced octree and fills its cells with tets of a few well-shaped kinds [LabelleShewchuk2007], all positive, with
 /// label 0. Cells where `same` is false, and `layers` around them, have the finest size. Messages use `name` for the generator.
 /// Throws CancelledError, ConfigError "lattice.size" for a mesh that would be too large. [setup]
-TetMesh make_lattice(const LatticeOptions& options, const SameWithin& same, std::string_view name,
+mesh::TetMesh make_lattice(const LatticeOptions& options, const SameWithin& same, std::string_view name,
                      const CancelToken* cancel = nullptr);
 
 /// Whether a tet of a label above 0 has a vertex on the faces of the mesh's box. [parallel]
-bool labels_touch_box(const TetMesh& mesh);
+bool labels_touch_box(const mesh::TetMesh& mesh);
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

@@ -7,7 +7,7 @@
 #include <dsc/mesh/tet_mesh.hpp>
 #include <span>
 
-namespace dsc::mesh {
+namespace dsc::generate {
 
 enum class ShapeKind : std::uint8_t { sphere, box, cylinder };
 /// What happens to a tet inside a shape: it gets the shape's label (add) or 0 (cut).
@@ -26,7 +26,7 @@ struct Shape {
     Vec3 half_size = Vec3::Constant(1.0);  ///< of a box
     Vec3 axis = Vec3(0, 0, 1);             ///< of a cylinder; any length but 0
     double half_length = 1.0;              ///< of a cylinder, along its axis
-    Label label = 1;
+    mesh::Label label = 1;
 };
 
 /// How far a point is outside the shape: negative inside, 0 on the border. The absolute value is never larger than the distance
@@ -48,10 +48,10 @@ Vec3 nearest_on_surface(std::span<const Shape> shapes, const Vec3& point);
 bool holds(const Shape& shape, const std::array<Vec3, 4>& corners);
 
 /// Label of a tet: the label of the last shape that contains it; 0 if no shape contains it or the last one cuts.
-Label label_of(std::span<const Shape> shapes, const std::array<Vec3, 4>& corners);
+mesh::Label label_of(std::span<const Shape> shapes, const std::array<Vec3, 4>& corners);
 
 /// Whether every tet inside the ball certainly has the same label. False near the surface of a shape, unless that surface has
 /// no effect there.
 bool same_label_within(std::span<const Shape> shapes, const Vec3& centre, double radius);
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

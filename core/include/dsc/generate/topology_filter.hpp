@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace dsc::mesh {
+namespace dsc::generate {
 
 /// Components of the labels, and of the interface between them through the tets. A value above 0 is inside; vertices of a label
 /// are connected along edges.
@@ -70,4 +70,4 @@ TopologyFilterReport filter_topology(std::span<const Vec3> points,
 std::optional<Attachment> weakest_attachment(const TopologyFilterReport& report, bool inside,
                                              std::size_t least_vertices);
 
-}  // namespace dsc::mesh
+}  // namespace dsc::generate

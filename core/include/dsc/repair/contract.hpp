@@ -10,7 +10,7 @@
 
 #include <dsc/mesh/complex.hpp>
 
-namespace dsc::mesh {
+namespace dsc::repair {
 
 /// The operations that can be requested. Each is evaluated at its turn and committed only if all invariants hold.
 enum class Operation : std::uint8_t {
@@ -44,9 +44,9 @@ struct Request {
     Operation operation = Operation::smooth_laplacian;
     CollapseMode mode = CollapseMode::safe;
     std::uint8_t repair_class = 0;            ///< index into the names of hooks::Improvement::repair_classes(), for counting
-    TetId tet = none;
+    mesh::TetId tet = mesh::none;
     std::uint32_t birth_date = 0;             ///< birth date of the tet when the request was made; ignored without a tet
-    std::array<VertexId, 3> vertices = {none, none, none};  ///< vertex, edge or face; none: the kernel chooses
+    std::array<mesh::VertexId, 3> vertices = {mesh::none, mesh::none, mesh::none};  ///< vertex, edge or face; none: the kernel chooses
     float parameter = 0.5F;                   ///< place of a split along (a, b)
     float only_below = 2.0F;                  ///< skip if the tet's quality is not below this at its turn
     float accept_above = 2.0F;                ///< accept if the new least quality is above this, or above the old one
@@ -75,10 +75,10 @@ struct CreaseRule {
 
 /// What a repair round offers (method.md, section 6.2). Spans are valid during the call.
 struct RepairRound {
-    const Complex& complex;
-    std::span<const TetId> dirty;          ///< live tets that changed since the last round, in the order of the changes;
+    const mesh::Complex& complex;
+    std::span<const mesh::TetId> dirty;          ///< live tets that changed since the last round, in the order of the changes;
                                            ///< then tets with a refused request near which something has changed since
-    std::span<const VertexId> blocked;     ///< interface vertices that could not reach their destination
+    std::span<const mesh::VertexId> blocked;     ///< interface vertices that could not reach their destination
     std::span<const Request> last_requests;
     std::span<const Outcome> last_outcomes;
     double target_length;                  ///< L: mean interface edge at adoption, or the value of the last refinement
@@ -89,13 +89,13 @@ struct RepairRound {
     std::span<const double> lengths = {};  ///< target length per vertex, NaN if a vertex has none; empty if it is L everywhere
 
     /// The target length at a vertex: L if it has no own length. [parallel]
-    double length_at(VertexId v) const { return v < lengths.size() && lengths[v] > 0.0 ? lengths[v] : target_length; }
+    double length_at(mesh::VertexId v) const { return v < lengths.size() && lengths[v] > 0.0 ? lengths[v] : target_length; }
     /// The target length of an edge. [parallel]
-    double length_at(VertexId a, VertexId b) const {
+    double length_at(mesh::VertexId a, mesh::VertexId b) const {
         return lengths.empty() ? target_length : 0.5 * (length_at(a) + length_at(b));
     }
     /// The target length of a tet: from its vertices that have one. [parallel]
-    double length_of(TetId t) const;
+    double length_of(mesh::TetId t) const;
 };
 
 /// Limits of topology changes that the kernel needs before it searches for candidates.
@@ -111,7 +111,7 @@ struct TopologyCandidate {
     /// of a sheet of a label above 0; this changes no topology, but the hole of a pierced sheet can grow.
     enum class Kind : std::uint8_t { open, merge, cut, shift };
     Kind kind = Kind::open;
-    Label label = 0;         ///< of the tets that would be relabelled
+    mesh::Label label = 0;         ///< of the tets that would be relabelled
     Vec3 centroid = Vec3::Zero();
     double thickness = 0.0;  ///< in target lengths
     double volume = 0.0;     ///< in regular tets of edge L
@@ -122,4 +122,4 @@ struct EventCounts {
     std::uint64_t merge = 0, split = 0, handle_opened = 0, handle_closed = 0, vanished = 0, born = 0, unpinched = 0;
 };
 
-}  // namespace dsc::mesh
+}  // namespace dsc::repair

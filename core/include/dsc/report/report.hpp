@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-namespace dsc::run {
+namespace dsc::report {
 
 /// The HTML of a finished run, made only from its folder and the cloud that its configuration names; the bytes are always the
 /// same. `catalogue` creates the cloud's filters. `input`, if the caller still has it, is the loaded input, so that the cloud
 /// need not be filtered again. If the cloud or its filters no longer exist, the page says so. Throws IoError "report.no_run"
 /// for a folder without a finished run, "report.damaged", and what readers of its files throw. [setup]
 std::string report_html(const std::filesystem::path& run_folder, const plugin::Catalogue& catalogue, Workers* workers = nullptr,
-                        const LoadedInput* input = nullptr);
+                        const run::LoadedInput* input = nullptr);
 
 /// Several runs next to each other. Throws the same. [setup]
 std::string comparison_html(std::span<const std::filesystem::path> run_folders, const plugin::Catalogue& catalogue,
@@ -30,4 +30,4 @@ std::vector<std::string> plugins_of_runs(std::span<const std::filesystem::path> 
 /// use y. False if the folder does not say. [setup]
 bool stands_along_z(const std::filesystem::path& run_folder);
 
-}  // namespace dsc::run
+}  // namespace dsc::report

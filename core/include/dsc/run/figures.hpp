@@ -109,7 +109,7 @@ struct RunTotals {
     kernel::OperationTable operations{};
     kernel::RepairClassTable repair_classes{};
     std::vector<std::string> repair_class_names;  ///< names of the first entries of repair_classes
-    mesh::EventCounts events;
+    repair::EventCounts events;
     mesh::AdoptReport adopted;
     hooks::Figures initial_mesh;  ///< from the generator
     hooks::Figures initial_mesh_seconds;  ///< CPU seconds of the generator's parts
@@ -121,7 +121,7 @@ struct RunTotals {
     /// Counts one more event that no step report contains.
     void count(kernel::Event::Kind kind);
     /// Refused operations by reason, over all operations.
-    std::uint64_t refused(mesh::Refusal reason) const;
+    std::uint64_t refused(repair::Refusal reason) const;
 };
 
 }  // namespace dsc::run

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace dsc::run {
+namespace dsc::sweep {
 
 /// One experiment of a sweep.
 struct SweepPoint {
@@ -38,7 +38,7 @@ Sweep load_sweep(const std::string& file, const config::YamlOptions& options = {
 /// Validates every point as `dsc run --check` does and returns the texts of their experiment.yaml, with all defaults written
 /// out. Throws one ConfigError (IoError if only files are missing) with the faults of all points: each fault once, with the
 /// first point that has it. [setup]
-std::vector<std::string> sweep_experiments(const Sweep& sweep, const PluginLoader& load_plugins,
+std::vector<std::string> sweep_experiments(const Sweep& sweep, const run::PluginLoader& load_plugins,
                                            const plugin::Catalogue& catalogue,
                                            const config::YamlOptions& options = {});
 
@@ -68,4 +68,4 @@ struct SweepStates {
 /// there are none. Throws UsageError "sweep.folder" for a folder without a job table. [setup]
 std::string collect_sweep(const std::filesystem::path& folder, SweepStates& states);
 
-}  // namespace dsc::run
+}  // namespace dsc::sweep
