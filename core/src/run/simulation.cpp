@@ -23,10 +23,10 @@ constexpr double stall_ratio = 0.01;
 /// Mean speed, in current mean edges, below which vertices count as arrived (as in the kernel), so the series cannot stall.
 constexpr double stall_speed = 1e-4;
 
-class Run {
+class Simulation {
 public:
-    Run(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
-        const DriveOptions& options)
+    Simulation(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
+               const SimulationOptions& options)
         : experiment_(experiment),
           strategies_(strategies),
           cloud_(cloud),
@@ -51,7 +51,7 @@ public:
         result_.totals.repair_class_names = strategies_.improvement->repair_classes();
     }
 
-    DriveResult execute() {
+    SimulationResult execute() {
         try {
             options_.resume.empty() ? begin() : go_on();
             while (place_.item < experiment_.schedule.size() && !over_) series();
@@ -352,11 +352,11 @@ private:
     const Experiment& experiment_;
     Strategies& strategies_;
     const cloud::TargetCloud* cloud_;
-    const DriveOptions& options_;
+    const SimulationOptions& options_;
     Workers serial_;
     Workers& workers_;
     std::uint64_t planned_;
-    DriveResult result_;
+    SimulationResult result_;
     SchedulePlace place_;
     StateReader resumed_;
     kernel::Deformer deformer_;
@@ -381,9 +381,9 @@ std::uint64_t planned_steps(const Experiment& experiment) {
     return steps;
 }
 
-DriveResult drive(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
-                  const DriveOptions& options) {
-    return Run(experiment, strategies, cloud, options).execute();
+SimulationResult simulate(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
+                          const SimulationOptions& options) {
+    return Simulation(experiment, strategies, cloud, options).execute();
 }
 
 }  // namespace dsc::run
