@@ -10,6 +10,7 @@
 #include <dsc/plugin/catalogue.hpp>
 #include <dsc/run/experiment.hpp>
 #include <dsc/run/figures.hpp>
+#include <dsc/run/metrics.hpp>
 #include <dsc/surface/triangle_mesh.hpp>
 #include <functional>
 #include <memory>
