@@ -1,4 +1,4 @@
-// The driver with the real kernel and small strategies.
+// The simulation with the real kernel and small strategies.
 #include <doctest/doctest.h>
 
 #include <cmath>
