@@ -16,9 +16,9 @@ constexpr double agreement = 0.65;
 
 }  // namespace
 
-mesh::LoopWitness tangent_plane_witness(std::span<const cloud::SurfaceSample> samples, const cloud::NearestSearch& search,
+generate::LoopWitness tangent_plane_witness(std::span<const cloud::SurfaceSample> samples, const cloud::NearestSearch& search,
                                         std::span<const Vec3> points, std::span<const double> values) {
-    return [=, &search](const mesh::RefusedCluster& cluster) {
+    return [=, &search](const generate::RefusedCluster& cluster) {
         if (cluster.vertices.size() < least_vertices || cluster.level < least_level) return false;
         // The strongest vertices are those in the middle of the handle or tunnel, so they count most.
         double votes = 0.0, all = 0.0;
