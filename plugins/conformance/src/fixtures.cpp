@@ -2,9 +2,7 @@
 
 #include <cmath>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/mesh/lattice.hpp>
-#include <dsc/mesh/project.hpp>
-#include <dsc/mesh/shapes.hpp>
+#include <dsc/mesh/shape_mesh.hpp>
 #include <dsc/sdk/surfaces.hpp>
 #include <numbers>
 
@@ -35,20 +33,7 @@ mesh::Complex sphere_complex() {
     const std::vector<mesh::Shape> shapes = {sphere};
     mesh::LatticeOptions options;
     options.cells = 14;
-    const auto make = [&](std::span<const mesh::Shape> labelling) {
-        const auto same = [&](const Vec3& centre, double radius) {
-            return mesh::same_label_within(labelling, centre, radius);
-        };
-        mesh::TetMesh mesh = mesh::make_lattice(options, same, "the fixture");
-        for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
-            const auto& [a, b, c, d] = mesh.tets[i];
-            mesh.labels[i] =
-                mesh::label_of(labelling, {mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
-        }
-        return mesh;
-    };
-    return mesh::adopt(mesh::make_projected(make, shapes, mesh::finest_cell(options), "the fixture"),
-                       "the fixture");
+    return mesh::adopt(mesh::make_shape_mesh(options, shapes, "the fixture"), "the fixture");
 }
 
 Fixture of_triangles(std::string name, const surface::TriangleMesh& mesh) {

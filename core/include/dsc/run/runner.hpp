@@ -20,12 +20,12 @@ namespace dsc::run {
 struct RunOptions {
     std::filesystem::path folder;  ///< empty: runs/NAME/HASH, with 12 digits of the hash
     unsigned threads = 1;
-    std::optional<double> time_budget;  ///< seconds; the run ends after the step in which this time is exceeded
+    std::optional<double> time_budget{};  ///< seconds; the run ends after the step in which this time is exceeded
     const CancelToken* cancel = nullptr;
     bool picture = true;  ///< draw preview.png; not useful for a temporary folder
     bool resume = false;  ///< continue from the last checkpoint in the folder; in a new folder, start at the beginning
-    std::vector<std::string> command;  ///< as typed, for provenance.json
-    std::function<void(const StepMetrics&, std::uint64_t planned)> on_step;
+    std::vector<std::string> command{};  ///< as typed, for provenance.json
+    std::function<void(const StepMetrics&, std::uint64_t planned)> on_step{};
 };
 
 /// Figures of the result as the folder contains it.

@@ -1,0 +1,35 @@
+// You learn how to make labelled tets, turn them into a complex and let a Deformer move its interface.
+#include <dsc/kernel/deformer.hpp>
+#include <dsc/mesh/adopt.hpp>
+#include <dsc/mesh/shape_mesh.hpp>
+#include <dsc/mesh/validate.hpp>
+#include <dsc/surface/surface_view.hpp>
+#include <iostream>
+#include <vector>
+
+int main() {
+    using namespace dsc;
+
+    // A box of tets, 3 units wide. Tets inside the ball have the label 1, all others the label 0.
+    const std::vector<mesh::Shape> shapes = {{.shape = mesh::ShapeKind::sphere, .radius = 0.6}};
+    const mesh::TetMesh tets = mesh::make_shape_mesh({.cells = 16, .box = 1.5}, shapes, "ball");
+
+    // adopt() checks the tets and makes a valid complex of them. The Deformer owns the complex and keeps it valid.
+    kernel::Deformer deformer(mesh::adopt(tets, "ball"));
+    std::cout << "volume before: " << mesh::labelled_volume(deformer.complex()) << "\n";
+
+    // The interface as flat arrays. Every step gets a fresh view, because a step may change the mesh.
+    surface::SurfaceView view;
+    for (int step = 1; step <= 5; ++step) {
+        surface::build_view(deformer.complex(), view);
+        const std::vector<Vec3> displacements(view.vertex_count(), Vec3(0.02, 0.0, 0.0));
+        // The policy decides about repairs. An empty policy allows none: vertices only move.
+        const kernel::StepReport report = deformer.step(view.vertex_ids, displacements, kernel::RepairPolicy{});
+        std::cout << "step " << step << ": " << report.arrived << " of " << report.requested << " vertices arrived\n";
+    }
+
+    const mesh::ComplexReport check = mesh::validate(deformer.complex());
+    std::cout << "volume after: " << mesh::labelled_volume(deformer.complex()) << "\n"
+              << "inverted tets: " << check.inverted_tets << ", faults: " << check.faults.size() << "\n";
+    return check.valid() ? 0 : 1;
+}
