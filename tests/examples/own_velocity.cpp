@@ -1,26 +1,32 @@
-// You learn how to write your own loop: a velocity of your own, repairs by a plugin, and changes of topology.
-#include <dsc/hooks/improvement.hpp>
+// You learn how to write your own loop: your own velocity, repairs by a plugin, changes of
+// topology.
+#include <iostream>
+
 #include <dsc/host/host.hpp>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/shape_mesh.hpp>
 #include <dsc/mesh/validate.hpp>
-#include <iostream>
+#include <dsc/run/repair_policy.hpp>
 
 using namespace dsc;
 
-/// The displacement of a vertex in one step: along the normal that points out of the solid, so that the solid grows.
-Vec3 velocity(const surface::SurfaceView& view, std::size_t vertex) { return 0.02 * view.normals[vertex]; }
+/// The displacement of a vertex per step. The normals point out of the solid, so the solid grows.
+Vec3 velocity(const surface::SurfaceView& view, std::size_t vertex) {
+    return 0.02 * view.normals[vertex];
+}
 
 int main() {
     // The host finds the plugins of the installation and creates strategies by their names.
     host::Host host;
     host.load_all(host::search_path({}));
-    const auto improvement = host.create<hooks::Improvement>({.type = "dsc", .params = {}}, "improvement");
+    const auto improvement =
+        host.create<hooks::Improvement>({.type = "dsc", .params = {}}, "improvement");
 
     const std::vector<mesh::Shape> balls = {{.centre = {-0.55, 0.0, 0.0}, .radius = 0.4},
                                             {.centre = {0.55, 0.0, 0.0}, .radius = 0.4}};
-    kernel::Deformer deformer(mesh::adopt(mesh::make_shape_mesh({.cells = 20}, balls, "balls"), "balls"));
+    kernel::Deformer deformer(
+        mesh::adopt(mesh::make_shape_mesh({.cells = 20}, balls, "balls"), "balls"));
 
     surface::SurfaceView view;
     std::vector<Vec3> displacements;
@@ -29,14 +35,14 @@ int main() {
         displacements.resize(view.vertex_count());
         for (std::size_t v = 0; v < displacements.size(); ++v) displacements[v] = velocity(view, v);
 
-        // The kernel asks the policy which repairs to try, and which changes of topology to accept.
-        const hooks::StepContext context{
-            .step = step, .surface = view, .target_length = deformer.target_length(), .box = deformer.complex().box()};
-        kernel::RepairPolicy policy;
-        policy.topology = improvement->topology_limits();
-        policy.propose = [&](const auto& round, auto& requests) { improvement->propose(context, round, requests); };
-        policy.select = [&](auto candidates, auto accept) { improvement->select(context, candidates, accept); };
-        for (const kernel::Event& event : deformer.step(view.vertex_ids, displacements, policy).events) {
+        // The kernel asks which repairs to try and which changes of topology to accept.
+        const hooks::StepContext context{.step = step,
+                                         .surface = view,
+                                         .target_length = deformer.target_length(),
+                                         .box = deformer.complex().box()};
+        const kernel::RepairPolicy policy = run::repair_policy(*improvement, context);
+        for (const kernel::Event& event :
+             deformer.step(view.vertex_ids, displacements, policy).events) {
             std::cout << "step " << step << ": " << kernel::name(event.kind) << "\n";
         }
     }

@@ -1,10 +1,11 @@
-// You learn how to read a point cloud and reconstruct a surface and a volume from it, as `dsc reconstruct` does.
+// You learn how to read a point cloud and reconstruct it, as the command `dsc reconstruct` does.
+#include <iostream>
+
 #include <dsc/base/error.hpp>
 #include <dsc/cloud/read.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/run/reconstruct.hpp>
 #include <dsc/run/runner.hpp>
-#include <iostream>
 
 using namespace dsc;
 
@@ -12,24 +13,26 @@ void reconstruct(const std::string& file, const std::string& folder) {
     const cloud::Cloud cloud = cloud::read_cloud(file);
     std::cout << "points: " << cloud.points.size() << "\n";
 
-    // The experiment of `dsc reconstruct --detail low`: which strategies run, with which parameters.
+    // The experiment of `dsc reconstruct --detail low`: the strategies and their parameters.
     const config::ConfigNode experiment =
         run::reconstruction_of(std::filesystem::absolute(file), {.detail = cloud::Detail::low});
 
     // The experiment is checked against the strategies that the plugins offer.
     host::Host host;
-    const auto load_plugins = [&](const std::vector<std::string>&) -> const config::StrategyLookup& {
+    const auto load_plugins =
+        [&](const std::vector<std::string>&) -> const config::StrategyLookup& {
         host.load_all(host::search_path({}));
         return host;
     };
     const run::LoadedExperiment loaded = run::resolve_experiment(experiment, load_plugins);
 
     // The folder receives surface, volume, figures and a report.
-    const run::RunOutcome outcome = run::run_experiment(loaded, host, {.folder = folder, .threads = 2, .picture = false});
+    const run::RunOutcome outcome =
+        run::run_experiment(loaded, host, {.folder = folder, .threads = 2, .picture = false});
     const surface::SurfaceReport& surface = outcome.surface.report;
-    std::cout << "closed: " << surface.closed_manifold() << ", genus: " << surface.genus << "\n"
-              << "volume: " << surface.volume << "\n"
-              << "written to: " << outcome.surfaces.front().string() << "\n";
+    std::cout << (surface.closed_manifold() ? "closed" : "open") << " surface of genus "
+              << surface.genus << ", volume " << surface.volume << "\n"
+              << "written to " << outcome.surfaces.front().string() << "\n";
 }
 
 int main(int argc, char** argv) {

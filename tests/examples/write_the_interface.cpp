@@ -1,4 +1,6 @@
 // You learn how to extract surfaces from labelled tets, measure them and write them to files.
+#include <iostream>
+
 #include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
 #include <dsc/mesh/adopt.hpp>
@@ -6,25 +8,27 @@
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <iostream>
 
 using namespace dsc;
 
 void print(const char* what, const surface::TriangleMesh& mesh) {
     const surface::SurfaceReport report = surface::analyse(mesh);
-    std::cout << what << ": " << report.faces << " faces, volume " << report.volume << ", closed " << report.closed_manifold() << "\n";
+    std::cout << what << ": " << report.faces << " faces, volume " << report.volume << ", "
+              << (report.closed_manifold() ? "closed" : "open") << "\n";
 }
 
 int main() {
-    // Two phases: a box with the label 1 and a ball with the label 2 inside it. The last shape decides.
-    const std::vector<mesh::Shape> shapes = {{.shape = mesh::ShapeKind::box, .half_size = {0.8, 0.8, 0.8}, .label = 1},
-                                             {.shape = mesh::ShapeKind::sphere, .radius = 0.5, .label = 2}};
-    const mesh::Complex complex = mesh::adopt(mesh::make_shape_mesh({.cells = 24}, shapes, "box and ball"), "box and ball");
+    // Two phases: a box with the label 1, in it a ball with the label 2. The last shape decides.
+    const std::vector<mesh::Shape> shapes = {
+        {.shape = mesh::ShapeKind::box, .half_size = {0.8, 0.8, 0.8}, .label = 1},
+        {.shape = mesh::ShapeKind::sphere, .radius = 0.5, .label = 2}};
+    const mesh::Complex complex =
+        mesh::adopt(mesh::make_shape_mesh({.cells = 24}, shapes, "box and ball"), "box and ball");
 
-    // Plain arrays, in an order that depends only on the complex. The interface consists of all faces between two labels.
+    // Plain arrays. The interface consists of all faces between tets with different labels.
     const mesh::TetMesh tets = complex.to_mesh();
     const surface::TriangleMesh interface = surface::extract_interface(tets);
-    print("interface", interface);
+    std::cout << "interface: " << interface.faces.size() << " faces\n";
     print("label 1", surface::extract_phase(tets, 1));
     print("label 2", surface::extract_phase(tets, 2));
 
