@@ -36,7 +36,7 @@ bool Operations::move(mesh::VertexId v, const Vec3& destination) {
            kernel::Motion::blocked;
 }
 
-bool Operations::apply(const mesh::Request& request) {
+bool Operations::apply(const repair::Request& request) {
     last_ = kernel::execute(state_->bench, request);
     return !last_.refused();
 }

@@ -25,7 +25,7 @@ struct CollapseScratch {
 
 namespace {
 
-using mesh::CollapseMode;
+using repair::CollapseMode;
 using End = CollapseScratch::End;
 
 // The edge to collapse: `removed` is removed, `kept` lies at (1 - weight) kept + weight removed afterwards.

@@ -31,14 +31,14 @@ struct Deformer::State {
 
     std::vector<TetId> step_changes;
     std::vector<bool> noted;  // per tet: whether it is in step_changes
-    std::vector<mesh::Request> requests, last_requests;
-    std::vector<mesh::Outcome> outcomes;
+    std::vector<repair::Request> requests, last_requests;
+    std::vector<repair::Outcome> outcomes;
     std::vector<VertexId> smoothed;  // vertices of a batch of requests
     std::vector<TetId> face_star;    // for split_longest_edge()
 
     State(mesh::Complex start, const DeformerOptions& wanted, Workers* given);
 
-    void apply_limits(double flatness, const std::optional<mesh::CreaseRule>& creases = {});
+    void apply_limits(double flatness, const std::optional<repair::CreaseRule>& creases = {});
     double mean_interface_edge() const;
     /// Must be called whenever the set of fields has changed.
     void fields_changed();
@@ -55,7 +55,7 @@ struct Deformer::State {
     double make_moves();
     void repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report);
     std::size_t smooth_from(std::size_t first, StepReport& report);
-    bool plain_smoothing(const mesh::Request& request) const;
+    bool plain_smoothing(const repair::Request& request) const;
     void record(std::uint32_t i, Outcome outcome, std::uint32_t date, StepReport& report);
     void note_changes(std::span<const TetId> changed);
     void change_topology(const RepairPolicy& policy, StepReport& report);

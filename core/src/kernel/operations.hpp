@@ -22,7 +22,7 @@ Outcome split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point);
 /// Gives half of v's star, in the direction of w, a second vertex (section 4.6).
 Outcome split_vertex(Workbench& bench, VertexId v, VertexId w);
 /// Collapses edge (a, b) of tet t (section 4.7).
-Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, mesh::CollapseMode mode, float accept_above);
+Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, repair::CollapseMode mode, float accept_above);
 /// Collapses the interface edge (kept, removed) of tet t into one vertex at `place`, within the edit bounds and above the
 /// quality floor. A kept vertex that may not move stays at its place (section 4.7).
 Outcome collapse_edge_to(Workbench& bench, TetId t, VertexId kept, VertexId removed, const Vec3& place);
@@ -38,9 +38,9 @@ Outcome smooth_optimise(Workbench& bench, VertexId v);
 Outcome relabel_tet(Workbench& bench, TetId t);
 /// Split and collapse in one edit: the repair that fits the tet's shape (two edges, an edge, a face), or the repair of the
 /// named vertex or edge (section 4.9). The result's least quality must be above min(gain * old least, accept_above).
-Outcome compound(Workbench& bench, TetId t, const mesh::Request& request);
+Outcome compound(Workbench& bench, TetId t, const repair::Request& request);
 
 /// Executes a request and chooses the simplex if the request names none (section 6.1).
-Outcome execute(Workbench& bench, const mesh::Request& request);
+Outcome execute(Workbench& bench, const repair::Request& request);
 
 }  // namespace dsc::kernel

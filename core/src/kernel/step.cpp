@@ -11,7 +11,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-void count(const Event& event, mesh::EventCounts& counts) {
+void count(const Event& event, repair::EventCounts& counts) {
     switch (event.kind) {
         case Event::Kind::merge: ++counts.merge; break;
         case Event::Kind::split: ++counts.split; break;
@@ -64,9 +64,9 @@ void Deformer::State::note_changes(std::span<const TetId> changed) {
 // The tet of a refused request waits until its neighbourhood changes.
 void Deformer::State::record(std::uint32_t i, Outcome outcome, std::uint32_t date, StepReport& report) {
     outcomes[i] = outcome;
-    const mesh::Request& request = requests[i];
+    const repair::Request& request = requests[i];
     report.operations[static_cast<std::size_t>(request.operation)].add(outcome);
-    report.repair_classes[std::min<std::size_t>(request.repair_class, mesh::repair_class_limit - 1)].add(outcome);
+    report.repair_classes[std::min<std::size_t>(request.repair_class, repair::repair_class_limit - 1)].add(outcome);
     if (!outcome.refused()) return;
     if (outcome != Refusal::stale && request.tet != mesh::none) queues.fail(request.tet, date);
 }
@@ -77,7 +77,7 @@ struct Deformer::State::Smoothing {
     std::uint32_t first;  // request of vertex 0
     StepReport& report;
 
-    const mesh::Request& request(std::size_t i) const { return state.requests[first + i]; }
+    const repair::Request& request(std::size_t i) const { return state.requests[first + i]; }
     bool decide(std::size_t i, Outcome outcome) const {
         state.outcomes[first + i] = outcome;
         return !outcome.refused();
@@ -98,10 +98,10 @@ struct Deformer::State::Smoothing {
 };
 
 // Whether the request is certainly a Laplacian smoothing at its turn, whatever other smoothings do before it.
-bool Deformer::State::plain_smoothing(const mesh::Request& request) const {
+bool Deformer::State::plain_smoothing(const repair::Request& request) const {
     const VertexId v = request.vertices[0];
     const TetId t = request.tet;
-    return request.operation == mesh::Operation::smooth_laplacian && v != mesh::none && request.vertices[1] == mesh::none &&
+    return request.operation == repair::Operation::smooth_laplacian && v != mesh::none && request.vertices[1] == mesh::none &&
            request.only_below > 1.0F && t != mesh::none && t < complex.tet_slots() && complex.tet_alive(t) &&
            complex.birth_date(t) == request.birth_date && mesh::has_vertex(complex.tet(t), v);
 }
@@ -118,7 +118,7 @@ void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool se
     const auto dirty = queues.next_round();
     note_changes(dirty);
     requests.clear();
-    policy.propose(mesh::RepairRound{complex, dirty, destinations.blocked(), last_requests, outcomes, length, policy.flatness, round, settled,
+    policy.propose(repair::RepairRound{complex, dirty, destinations.blocked(), last_requests, outcomes, length, policy.flatness, round, settled,
                                      policy.size_edits,
                                      bench.lengths != nullptr ? std::span<const double>(*bench.lengths) : std::span<const double>()},
                    requests);

@@ -9,7 +9,7 @@ std::string_view name(Event::Kind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
-void OperationCounts::add(mesh::Outcome outcome) {
+void OperationCounts::add(repair::Outcome outcome) {
     ++tried;
     ++(outcome.refused() ? refused[static_cast<std::size_t>(outcome.reason())] : committed);
 }

@@ -9,15 +9,15 @@
 
 #include <dsc/mesh/complex.hpp>
 #include <dsc/mesh/local_star.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 #include "kernel/scratch.hpp"
 
 namespace dsc::kernel {
 
-using mesh::Outcome;
-using mesh::Refusal;
-using mesh::success;
+using repair::Outcome;
+using repair::Refusal;
+using repair::success;
 using mesh::TetId;
 using mesh::VertexId;
 

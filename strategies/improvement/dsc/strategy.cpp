@@ -114,16 +114,16 @@ DscImprovement::DscImprovement(const Params& params, const plugin::Setup&)
       proposals_({params.min_tet_quality, params.degenerate_tet_quality, params.smooth_below, params.min_edge_length,
                   params.max_edge_length, params.min_tet_volume, params.max_free_edge, params}) {}
 
-void DscImprovement::propose(const hooks::StepContext& context, const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+void DscImprovement::propose(const hooks::StepContext& context, const repair::RepairRound& round, std::vector<repair::Request>& out) {
     proposals_.write(round, context.workers, out);
 }
 
-mesh::TopologyLimits DscImprovement::topology_limits() const {
+repair::TopologyLimits DscImprovement::topology_limits() const {
     const Topology& t = params_.topology;
     return {t.thickness, t.min_component, t.open, t.merge, t.cut};
 }
 
-void DscImprovement::select(const hooks::StepContext& context, std::span<const mesh::TopologyCandidate> candidates,
+void DscImprovement::select(const hooks::StepContext& context, std::span<const repair::TopologyCandidate> candidates,
                             std::span<std::uint8_t> accept) {
     const double support = params_.topology.support * context.target_length;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -131,7 +131,7 @@ void DscImprovement::select(const hooks::StepContext& context, std::span<const m
         if (context.cloud == nullptr) continue;
         const cloud::Neighbour nearest = context.cloud->search().nearest(candidates[i].centroid);
         double reach = support;
-        if (candidates[i].kind == mesh::TopologyCandidate::Kind::cut || candidates[i].kind == mesh::TopologyCandidate::Kind::shift) {
+        if (candidates[i].kind == repair::TopologyCandidate::Kind::cut || candidates[i].kind == repair::TopologyCandidate::Kind::shift) {
             reach = std::max(reach, params_.topology.spacing * context.cloud->spacing(nearest.index));
         }
         accept[i] = nearest.distance > reach ? 1 : 0;

@@ -39,10 +39,10 @@ public:
 
     DscImprovement(const Params& params, const plugin::Setup& setup);
 
-    void propose(const hooks::StepContext& context, const mesh::RepairRound& round, std::vector<mesh::Request>& out) override;
+    void propose(const hooks::StepContext& context, const repair::RepairRound& round, std::vector<repair::Request>& out) override;
     double flatness() const override { return params_.flatness; }
-    mesh::TopologyLimits topology_limits() const override;
-    void select(const hooks::StepContext& context, std::span<const mesh::TopologyCandidate> candidates,
+    repair::TopologyLimits topology_limits() const override;
+    void select(const hooks::StepContext& context, std::span<const repair::TopologyCandidate> candidates,
                 std::span<std::uint8_t> accept) override;
 
 private:

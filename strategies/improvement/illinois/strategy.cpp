@@ -60,12 +60,12 @@ IllinoisImprovement::IllinoisImprovement(const Params& params, const plugin::Set
                 params.longest_spoke,
                 params.fallbacks}) {}
 
-void IllinoisImprovement::propose(const hooks::StepContext&, const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+void IllinoisImprovement::propose(const hooks::StepContext&, const repair::RepairRound& round, std::vector<repair::Request>& out) {
     repairs_.write(round, out);
 }
 
-mesh::TopologyLimits IllinoisImprovement::topology_limits() const {
-    mesh::TopologyLimits limits;
+repair::TopologyLimits IllinoisImprovement::topology_limits() const {
+    repair::TopologyLimits limits;
     limits.thickness = 0.0;
     limits.min_component = 0.0;
     return limits;

@@ -29,9 +29,9 @@ public:
 
     IllinoisImprovement(const Params& params, const plugin::Setup& setup);
 
-    void propose(const hooks::StepContext& context, const mesh::RepairRound& round, std::vector<mesh::Request>& out) override;
+    void propose(const hooks::StepContext& context, const repair::RepairRound& round, std::vector<repair::Request>& out) override;
     double flatness() const override { return flatness_; }
-    mesh::TopologyLimits topology_limits() const override;
+    repair::TopologyLimits topology_limits() const override;
     std::vector<std::string> repair_classes() const override { return improvement::repair_class_names(); }
 
 private:

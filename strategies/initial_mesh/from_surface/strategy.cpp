@@ -95,10 +95,10 @@ FromSurface::FromSurface(const Params& params, const plugin::Setup&) : params_(p
 
 mesh::TetMesh FromSurface::build(const hooks::InitialMeshContext& context) {
     const Solid solid(read(context));
-    const double cell = mesh::finest_cell(params_);
+    const double cell = generate::finest_cell(params_);
     const Features features(solid.surface(), params_.sharp * pi / 180);
     mesh::Complex complex = mesh::adopt(labelled(solid, features, context), name, nullptr, 0.0);
-    const mesh::ProjectReport snapped = from_surface::snap(complex, solid, features, cell);
+    const generate::ProjectReport snapped = from_surface::snap(complex, solid, features, cell);
     mesh::TetMesh out = complex.to_mesh();
     const surface::TriangleMesh interface = surface::extract_interface(out);
     if (interface.faces.empty()) {
@@ -138,14 +138,14 @@ surface::TriangleMesh FromSurface::read(const hooks::InitialMeshContext& context
 }
 
 mesh::TetMesh FromSurface::labelled(const Solid& solid, const Features& features, const hooks::InitialMeshContext& context) const {
-    const Box3 box = mesh::box_of(params_), used = bounding_box(solid.surface().points);
+    const Box3 box = generate::box_of(params_), used = bounding_box(solid.surface().points);
     if ((used.low.array() <= box.low.array()).any() || (used.high.array() >= box.high.array()).any()) {
         throw ConfigError("lattice.box", std::string(name) + ": " + params_.file + " extends from " + place(used.low) +
                                              " to " + place(used.high) + ", beyond the box from " + place(box.low) +
                                              " to " + place(box.high) + "; `fit` it into the box or make `box` larger");
     }
-    const double outside = reach * mesh::finest_cell(params_);
-    mesh::TetMesh out = mesh::make_lattice(
+    const double outside = reach * generate::finest_cell(params_);
+    mesh::TetMesh out = generate::make_lattice(
         params_, [&](const Vec3& centre, double radius) { return solid.nearest(centre).distance > radius; }, name,
         context.cancel);
     std::vector<char> inside(out.points.size());
@@ -160,7 +160,7 @@ mesh::TetMesh FromSurface::labelled(const Solid& solid, const Features& features
         if (std::all_of(tet.begin(), tet.end(), [&](std::uint32_t v) { return inside[v] != 0; }))
             out.labels[t] = params_.label;
     }
-    if (mesh::labels_touch_box(out)) {
+    if (generate::labels_touch_box(out)) {
         throw ConfigError("lattice.box", std::string(name) + ": " + params_.file +
                                              " comes too close to the faces of the box; make `box` larger or `fit` smaller");
     }

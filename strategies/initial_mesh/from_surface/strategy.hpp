@@ -2,7 +2,7 @@
 // Initial mesh `from_surface`: a graded box of tets whose interface lies on a closed surface from a file.
 
 #include <dsc/hooks/initial_mesh.hpp>
-#include <dsc/mesh/lattice.hpp>
+#include <dsc/generate/lattice.hpp>
 #include <dsc/plugin/placing.hpp>
 #include <dsc/plugin/plugin.hpp>
 #include <optional>
@@ -14,10 +14,10 @@
 namespace dsc::strategies {
 
 /// The tets of a lattice are labelled by the solid that the surface bounds, then the vertices of the interface move onto the
-/// surface, as far as the tets' quality allows (mesh::project_interface).
+/// surface, as far as the tets' quality allows (generate::project_interface).
 class FromSurface final : public hooks::InitialMesh {
 public:
-    struct Params : mesh::LatticeOptions {
+    struct Params : generate::LatticeOptions {
         Params() { layers = 3; }
         std::string file;
         plugin::Coordinates coordinates = plugin::Coordinates::as_they_are;

@@ -1,6 +1,6 @@
 #include "strategy.hpp"
 
-#include <dsc/mesh/project.hpp>
+#include <dsc/generate/project.hpp>
 
 namespace dsc::strategies {
 namespace {
@@ -54,12 +54,12 @@ Grid::Grid(const Params& params, const plugin::Setup&)
 
 mesh::TetMesh Grid::build(const hooks::InitialMeshContext& context) {
     if (!project_) return lattice(context, shapes_);
-    return mesh::make_projected([&](std::span<const mesh::Shape> shapes) { return lattice(context, shapes); },
+    return generate::make_projected([&](std::span<const generate::Shape> shapes) { return lattice(context, shapes); },
                                 shapes_, 2 * box_ / cells_, "initial mesh 'grid'");
 }
 
 mesh::TetMesh Grid::lattice(const hooks::InitialMeshContext& context,
-                            std::span<const mesh::Shape> shapes) const {
+                            std::span<const generate::Shape> shapes) const {
     const auto cells = static_cast<unsigned>(cells_);
     const unsigned row = cells + 1;
     mesh::TetMesh out;
@@ -81,7 +81,7 @@ mesh::TetMesh Grid::lattice(const hooks::InitialMeshContext& context,
                         corners[c] = out.points[tet[c]];
                     }
                     out.tets.push_back(tet);
-                    out.labels.push_back(mesh::label_of(shapes, corners));
+                    out.labels.push_back(generate::label_of(shapes, corners));
                 }
             }
         }

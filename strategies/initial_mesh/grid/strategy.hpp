@@ -28,13 +28,13 @@ public:
 
 private:
     mesh::TetMesh lattice(const hooks::InitialMeshContext& context,
-                          std::span<const mesh::Shape> shapes) const;
+                          std::span<const generate::Shape> shapes) const;
 
     int cells_;
     double box_;
     Vec3 box_centre_;
     bool project_;
-    std::vector<mesh::Shape> shapes_;
+    std::vector<generate::Shape> shapes_;
 };
 
 }  // namespace dsc::strategies

@@ -7,7 +7,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/cloud/orientation.hpp>
 #include <dsc/cloud/statistics.hpp>
-#include <dsc/mesh/isosurface.hpp>
+#include <dsc/generate/isosurface.hpp>
 
 #include "confidence.hpp"
 
@@ -70,8 +70,8 @@ void Indicator::declare(config::ParamSchema<Params>& schema) {
              "its hole are certain everywhere along it.");
     schema.boolean("remove_islands", static_cast<bool Params::*>(&LabelOptions::remove_islands))
         .doc("Whether bodies smaller than `least_volume` are removed; the largest body is always kept.");
-    schema.choice("cavities", static_cast<mesh::CavityPolicy Params::*>(&LabelOptions::cavities),
-                  {{"auto", mesh::CavityPolicy::automatic}, {"keep", mesh::CavityPolicy::keep}, {"fill", mesh::CavityPolicy::fill}})
+    schema.choice("cavities", static_cast<generate::CavityPolicy Params::*>(&LabelOptions::cavities),
+                  {{"auto", generate::CavityPolicy::automatic}, {"keep", generate::CavityPolicy::keep}, {"fill", generate::CavityPolicy::fill}})
         .doc("Enclosed cavities: 'auto' keeps those that are certainly empty and have at least 12 points on their wall, 'keep' "
              "keeps all above `least_volume`, 'fill' fills all.");
     schema.real("least_volume", static_cast<double Params::*>(&LabelOptions::least_volume))
@@ -117,12 +117,12 @@ mesh::TetMesh Indicator::build(const hooks::InitialMeshContext& context) {
     }
     seconds_.emplace_back("labels", lap());
 
-    mesh::StuffOptions options;
+    generate::StuffOptions options;
     options.most_interface_vertices = most_vertices(cloud.size());
     options.smoothing_sweeps = params_.smoothing;
-    mesh::StuffReport report;
+    generate::StuffReport report;
     mesh::TetMesh mesh =
-        mesh::stuff_interface(labels.lattice, labels.values, options, &report, context.workers, context.cancel, generator_name);
+        generate::stuff_interface(labels.lattice, labels.values, options, &report, context.workers, context.cancel, generator_name);
     seconds_.emplace_back("cut", lap());
 
     const StartSurface start = measure_start(mesh, orientation, cloud.statistics(context.workers).area);

@@ -1,7 +1,7 @@
 #include "strategy.hpp"
 
 #include <dsc/base/error.hpp>
-#include <dsc/mesh/project.hpp>
+#include <dsc/generate/project.hpp>
 #include <dsc/plugin/lattice_params.hpp>
 
 namespace dsc::strategies {
@@ -14,21 +14,21 @@ void Lattice::declare(config::ParamSchema<Params>& schema) {
 Lattice::Lattice(const Params& params, const plugin::Setup&) : params_(params), shapes_(params.all()) {}
 
 mesh::TetMesh Lattice::build(const hooks::InitialMeshContext& context) {
-    const auto make = [&](std::span<const mesh::Shape> shapes) { return labelled(shapes, context.cancel); };
+    const auto make = [&](std::span<const generate::Shape> shapes) { return labelled(shapes, context.cancel); };
     if (!params_.project) return make(shapes_);
-    return mesh::make_projected(make, shapes_, mesh::finest_cell(params_), "initial mesh 'lattice'");
+    return generate::make_projected(make, shapes_, generate::finest_cell(params_), "initial mesh 'lattice'");
 }
 
-mesh::TetMesh Lattice::labelled(std::span<const mesh::Shape> shapes, const CancelToken* cancel) const {
+mesh::TetMesh Lattice::labelled(std::span<const generate::Shape> shapes, const CancelToken* cancel) const {
     const auto same = [&](const Vec3& centre, double radius) {
-        return mesh::same_label_within(shapes, centre, radius);
+        return generate::same_label_within(shapes, centre, radius);
     };
-    mesh::TetMesh out = mesh::make_lattice(params_, same, "initial mesh 'lattice'", cancel);
+    mesh::TetMesh out = generate::make_lattice(params_, same, "initial mesh 'lattice'", cancel);
     for (std::size_t t = 0; t < out.tets.size(); ++t) {
         const auto& v = out.tets[t];
-        out.labels[t] = mesh::label_of(shapes, {out.points[v[0]], out.points[v[1]], out.points[v[2]], out.points[v[3]]});
+        out.labels[t] = generate::label_of(shapes, {out.points[v[0]], out.points[v[1]], out.points[v[2]], out.points[v[3]]});
     }
-    if (mesh::labels_touch_box(out)) {
+    if (generate::labels_touch_box(out)) {
         throw ConfigError("lattice.box",
                           "initial mesh 'lattice': a shape reaches the faces of the box; make the shape smaller or "
                           "`box` larger");

@@ -2,7 +2,7 @@
 // Initial mesh `lattice`: a box of cells that are small at the surface of the shapes and larger away from it.
 
 #include <dsc/hooks/initial_mesh.hpp>
-#include <dsc/mesh/lattice.hpp>
+#include <dsc/generate/lattice.hpp>
 #include <dsc/plugin/plugin.hpp>
 #include <dsc/plugin/shape_params.hpp>
 #include <vector>
@@ -13,7 +13,7 @@ namespace dsc::strategies {
 /// labelled by the shapes in their order; all tets at the interface are in the finest cells.
 class Lattice final : public hooks::InitialMesh {
 public:
-    struct Params : mesh::LatticeOptions, plugin::ShapeParams {};
+    struct Params : generate::LatticeOptions, plugin::ShapeParams {};
     static void declare(config::ParamSchema<Params>& schema);
 
     Lattice(const Params& params, const plugin::Setup& setup);
@@ -23,10 +23,10 @@ public:
     mesh::TetMesh build(const hooks::InitialMeshContext& context) override;
 
 private:
-    mesh::TetMesh labelled(std::span<const mesh::Shape> shapes, const CancelToken* cancel) const;
+    mesh::TetMesh labelled(std::span<const generate::Shape> shapes, const CancelToken* cancel) const;
 
     Params params_;
-    std::vector<mesh::Shape> shapes_;
+    std::vector<generate::Shape> shapes_;
 };
 
 }  // namespace dsc::strategies

@@ -47,9 +47,9 @@ Remesh::Remesh(const Params& params, const plugin::Setup&) : params_(params) {}
 
 bool Remesh::keeps() const { return 3 * step_ >= last_step_; }
 
-std::optional<mesh::CreaseRule> Remesh::keep_creases() const {
+std::optional<repair::CreaseRule> Remesh::keep_creases() const {
     if (refinements_ == 0 || !keeps()) return std::nullopt;
-    return mesh::CreaseRule{remesh::crease_angle, std::acos(remesh::turn_cosine)};
+    return repair::CreaseRule{remesh::crease_angle, std::acos(remesh::turn_cosine)};
 }
 
 void Remesh::begin(const hooks::StepContext& step) {

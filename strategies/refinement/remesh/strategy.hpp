@@ -27,7 +27,7 @@ public:
 
     bool owns_sizing() const override { return true; }
     unsigned passes() const override { return hooks::refinement_passes; }
-    std::optional<mesh::CreaseRule> keep_creases() const override;
+    std::optional<repair::CreaseRule> keep_creases() const override;
     void refine(const hooks::RefinementContext& context, hooks::RefinementRequests& out) override;
     void save(std::ostream& out) const override;
     void load(std::istream& in) override;

@@ -197,10 +197,10 @@ std::uint64_t SurfaceFit::planned_steps() const {
     return progress_.iterations > 0 ? progress_.first_step + progress_.iterations - 1 : params_.iterations;
 }
 
-std::optional<mesh::CreaseRule> SurfaceFit::keep_creases() const {
+std::optional<repair::CreaseRule> SurfaceFit::keep_creases() const {
     const bool shaped = progress_.iterations > 0 &&
                         static_cast<double>(progress_.done) > start_part * static_cast<double>(progress_.iterations);
-    return shaped ? std::optional(mesh::CreaseRule{}) : std::nullopt;
+    return shaped ? std::optional(repair::CreaseRule{}) : std::nullopt;
 }
 
 void SurfaceFit::save(std::ostream& out) const {

@@ -43,7 +43,7 @@ public:
     bool finished() const override;
     std::uint64_t planned_steps() const override;
     /// Creases are kept in the last two thirds of the iterations, when the surface has moved away from its start.
-    std::optional<mesh::CreaseRule> keep_creases() const override;
+    std::optional<repair::CreaseRule> keep_creases() const override;
 
     void save(std::ostream& out) const override;
     void load(std::istream& in) override;
