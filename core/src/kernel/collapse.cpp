@@ -14,7 +14,6 @@ struct CollapseScratch {
     // Of one end of the edge.
     struct End {
         std::vector<TetId> star;
-        std::vector<TetId> kept;           // tets of the star that do not contain the other end
         std::vector<VertexId> neighbours;  // along interface edges, by id
     };
     mesh::EdgeRing ring;
@@ -40,8 +39,8 @@ class Collapse {
 public:
     Collapse(Workbench& bench, VertexId a, VertexId b, bool interface_edge)
         : bench_(bench), own_(bench.collapse.get()), c_(bench.complex), interface_edge_(interface_edge), a_(a), b_(b) {
-        visit(own_.a, a, b);
-        visit(own_.b, b, a);
+        c_.star(a, own_.a.star);
+        c_.star(b, own_.b.star);
     }
 
     std::span<const TetId> star_a() const { return own_.a.star; }
@@ -63,9 +62,12 @@ public:
 
     // Least quality of the remaining tets with the ends that move at `place`; -1 if it is not above `bound`.
     float least(const Vec3& place, bool a_moves, bool b_moves, float bound) const {
-        const float at_a = a_moves ? mesh::star_quality_above(bound, c_, own_.a.kept, a_, place) : 2.0F;
+        const auto scan = [&](const End& end, VertexId v, VertexId other) {
+            return mesh::star_quality_above(bound, c_, end.star, v, place, nullptr, [&](TetId t) { return remains(t, other); });
+        };
+        const float at_a = a_moves ? scan(own_.a, a_, b_) : 2.0F;
         if (at_a < 0.0F || !b_moves) return at_a;
-        return std::min(at_a, mesh::star_quality_above(bound, c_, own_.b.kept, b_, place));
+        return std::min(at_a, scan(own_.b, b_, a_));
     }
 
     void build(const Plan& plan) {
@@ -73,7 +75,8 @@ public:
         edit.clear();
         edit.deleted = plan.removed;
         edit.removed = end(plan.removed).star;
-        for (const TetId t : end(plan.removed).kept) {
+        for (const TetId t : end(plan.removed).star) {
+            if (!remains(t, plan.kept)) continue;
             mesh::NewTet tet{c_.tet(t).v, c_.label(t)};
             std::replace(tet.v.begin(), tet.v.end(), plan.removed, plan.kept);
             edit.added.push_back(tet);
@@ -81,7 +84,8 @@ public:
         if (plan.weight == 0.0 && !plan.wanted) return;
         edit.moved = plan.kept;
         edit.moved_to = place(plan);
-        for (const TetId t : end(plan.kept).kept) {
+        for (const TetId t : end(plan.kept).star) {
+            if (!remains(t, plan.removed)) continue;
             edit.removed.push_back(t);
             edit.added.push_back({c_.tet(t).v, c_.label(t)});
         }
@@ -147,13 +151,8 @@ public:
 private:
     End& end(VertexId v) const { return v == a_ ? own_.a : own_.b; }
 
-    void visit(End& end, VertexId v, VertexId other) const {
-        c_.star(v, end.star);
-        end.kept.clear();
-        for (const TetId t : end.star) {
-            if (!mesh::has_vertex(c_.tet(t), other)) end.kept.push_back(t);
-        }
-    }
+    // Whether a tet of one end's star does not contain the other end.
+    bool remains(TetId t, VertexId other) const { return !mesh::has_vertex(c_.tet(t), other); }
 
     void find_neighbours(End& end, VertexId v) const {
         bench_.interface_fan(v, end.star, own_.fan);

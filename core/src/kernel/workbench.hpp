@@ -133,9 +133,11 @@ public:
     /// Volume that changes phase: half the sum over labels of |added - removed|.
     double phase_change() const;
 
-    // The two doors: every replacement of tets and every new label passes one of them, and the sums count it.
+    // Operations replace and relabel tets only by these two functions, which also count the change in the sums. (The repair of
+    // irregular vertices after a relabelling is mesh::unpinch().)
     /// Commits the linked edit. Returns the vertex that it creates, or none.
     VertexId commit(const InterfaceChange& change = {});
+    /// Gives the tets their new label.
     void commit(const Relabelling& relabelling, const InterfaceChange& change = {});
 
     /// Interface vertices that both stars contain, by id.

@@ -1,5 +1,5 @@
 #pragma once
-// Figures of a step or a refinement.
+// Figures of a step or a refinement (method.md, section 9).
 
 #include <array>
 #include <cstdint>

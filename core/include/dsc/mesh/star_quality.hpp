@@ -36,18 +36,25 @@ inline double star_quality(const Complex& complex, std::span<const TetId> star, 
 }
 
 /// The least quality of the tets with v at `place`, without the exact test; 2 if there is no tet, -1 as soon as one is not above
-/// `bound`. `qualities`, if given, receives them in the order of the star. [parallel]
-inline float star_quality_above(float bound, const Complex& complex, std::span<const TetId> star, VertexId v, const Vec3& place,
-                                std::vector<float>* qualities = nullptr) {
+/// `bound`. Tets for which `counts(t)` is false are left out. `qualities`, if given, receives the others in the order of the
+/// star. [parallel]
+template <class Counts>
+float star_quality_above(float bound, const Complex& complex, std::span<const TetId> star, VertexId v, const Vec3& place,
+                         std::vector<float>* qualities, const Counts& counts) {
     float least = 2.0F;
     if (qualities != nullptr) qualities->clear();
     for (const TetId t : star) {
+        if (!counts(t)) continue;
         const auto q = static_cast<float>(quality_of(corners_at(complex, t, v, place)));
         if (!(q > bound)) return -1.0F;
         if (qualities != nullptr) qualities->push_back(q);
         least = std::min(least, q);
     }
     return least;
+}
+inline float star_quality_above(float bound, const Complex& complex, std::span<const TetId> star, VertexId v, const Vec3& place,
+                                std::vector<float>* qualities = nullptr) {
+    return star_quality_above(bound, complex, star, v, place, qualities, [](TetId) { return true; });
 }
 
 }  // namespace dsc::mesh
