@@ -3,6 +3,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/base/state.hpp>
 #include <dsc/kernel/deformer.hpp>
+#include <dsc/run/repair_policy.hpp>
 #include <dsc/run/simulation.hpp>
 
 #include "initial_complex.hpp"
@@ -39,8 +40,9 @@ public:
                         ? kernel::Deformer(
                               initial_complex(experiment, strategies, cloud, options.cancel, workers_, result_.totals), {}, &workers_)
                         : kernel::Deformer::load(resumed_, {}, &workers_)) {
-        policy_.topology = strategies_.improvement->topology_limits();
-        policy_.flatness = strategies_.improvement->flatness();
+        // Every step asks again. Asked here too, an improvement with invalid answers ends the run before its first step.
+        strategies_.improvement->topology_limits();
+        strategies_.improvement->flatness();
         result_.totals.repair_class_names = strategies_.improvement->repair_classes();
     }
 
@@ -79,19 +81,6 @@ private:
                 .planned_steps = told > 0 ? told : planned_,
                 .target_lengths = lengths_,
                 .attributes = attributes_};
-    }
-
-    /// The policy of one call of the deformer; valid as long as the context.
-    kernel::RepairPolicy make_policy(const hooks::StepContext& context) const {
-        kernel::RepairPolicy policy = policy_;
-        hooks::Improvement& improvement = *strategies_.improvement;
-        policy.propose = [&](const repair::RepairRound& round, std::vector<repair::Request>& out) {
-            improvement.propose(context, round, out);
-        };
-        policy.select = [&](std::span<const repair::TopologyCandidate> candidates, std::span<std::uint8_t> accept) {
-            improvement.select(context, candidates, accept);
-        };
-        return policy;
     }
 
     /// The nearest points are used by the velocity of the next step and by the figures of this step.
@@ -150,8 +139,8 @@ private:
         hooks::RefinementPolicy* refinement = strategies_.refinements[place_.item].get();
         if (stop_asked()) return stop();
         const bool owned = refinement != nullptr && refinement->owns_sizing();
-        policy_.size_edits = !owned;
-        policy_.quality_floor = owned ? std::optional(kernel::refinement_floor) : std::nullopt;
+        size_edits_ = !owned;
+        quality_floor_ = owned ? std::optional(kernel::refinement_floor) : std::nullopt;
         if (!item.steps) {
             refine(*refinement);
             return next_item();
@@ -159,7 +148,7 @@ private:
         if (place_.steps == 0) result_.totals.status = Status::max_steps;
         while (place_.steps < *item.steps) {
             if (stop_asked()) return stop();
-            policy_.creases = creases(refinement);
+            creases_ = creases(refinement);
             const bool slow = advance();
             place_.quiet = slow ? place_.quiet + 1 : 0;
             ++place_.steps;
@@ -180,6 +169,15 @@ private:
             if (options_.checkpoint_every > 0 && deformer_.step_count() % options_.checkpoint_every == 0) checkpoint();
         }
         next_item();
+    }
+
+    /// What the kernel may do and whom it asks, until the context ends.
+    kernel::RepairPolicy policy(const hooks::StepContext& context) const {
+        kernel::RepairPolicy policy = repair_policy(*strategies_.improvement, context);
+        policy.size_edits = size_edits_;
+        policy.quality_floor = quality_floor_;
+        policy.creases = creases_;
+        return policy;
     }
 
     std::optional<repair::CreaseRule> creases(const hooks::RefinementPolicy* refinement) const {
@@ -213,7 +211,7 @@ private:
         StepMetrics row;
         const double asked = velocities(context, row);
         const double mean_edge = view_.mean_edge;
-        const kernel::StepReport report = deformer_.step(view_.vertex_ids, displacements_, make_policy(context));
+        const kernel::StepReport report = deformer_.step(view_.vertex_ids, displacements_, policy(context));
         const double came_about = distance_gone(deformer_.complex(), view_, displacements_);
         result_.totals.add(report);
         for (const kernel::Event& event : report.events) tell(event);
@@ -293,7 +291,7 @@ private:
         }
         std::vector<kernel::Event> events;
         result_.totals.refine_requested += tets.size();
-        result_.totals.refine_committed += deformer_.relabel(tets, labels, make_policy(context), events);
+        result_.totals.refine_committed += deformer_.relabel(tets, labels, policy(context), events);
         for (const kernel::Event& event : events) {
             result_.totals.count(event.kind);
             tell(event);
@@ -362,7 +360,6 @@ private:
     SchedulePlace place_;
     StateReader resumed_;
     kernel::Deformer deformer_;
-    kernel::RepairPolicy policy_;  // of the series, without the calls of the improvement
     surface::SurfaceView view_;
     NearestPoints nearest_;
     std::vector<surface::FacePoint> faces_of_points_;  // empty until they are needed
@@ -370,6 +367,9 @@ private:
     surface::ViewMemory view_memory_;
     hooks::Attributes attributes_;  // of the view's vertices
     std::vector<Vec3> displacements_;
+    bool size_edits_ = true;  // these three: of the current series, for the policy
+    std::optional<double> quality_floor_;
+    std::optional<repair::CreaseRule> creases_;
     bool stopped_ = false;  // stopped before the end of the schedule
     bool over_ = false;
 };

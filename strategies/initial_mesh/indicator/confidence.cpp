@@ -36,7 +36,7 @@ std::string rounded(double value, int digits) {
 }  // namespace
 
 bool doubtful(const Labels& labels, const cloud::Orientation& orientation) {
-    return labels.changed_share() > most_changed || orientation.residual > retry_residual;
+    return labels.weak_share() > most_changed || orientation.residual > retry_residual;
 }
 
 StartSurface measure_start(const mesh::TetMesh& mesh, const cloud::Orientation& orientation, double cloud_area) {
@@ -107,6 +107,7 @@ void add_figures(const Labels& labels, const cloud::Orientation& orientation, co
     whole("settled_vertices", labels.settled());
     add("changed_share", labels.changed_share());
     whole("refused_places", labels.filter.clusters.size());
+    whole("confirmed_places", labels.filter.confirmed.size());
     whole("components_before_filter", labels.filter.before.components);
     whole("cavities_before_filter", labels.filter.before.cavities);
     add("genus_before_filter", static_cast<double>(labels.filter.before.genus()));

@@ -23,8 +23,6 @@ public:
     mesh::TetMesh build(const hooks::InitialMeshContext& context) override;
 
 private:
-    mesh::TetMesh labelled(std::span<const generate::Shape> shapes, const CancelToken* cancel) const;
-
     Params params_;
     std::vector<generate::Shape> shapes_;
 };
