@@ -1,5 +1,5 @@
-#include "strategy.hpp"
-
+// Tests of the curvature on surfaces with known values. The strategy is loaded from the plugin, as
+// in a run.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-#include "strategy.hpp"
-
+// Tests of the requests on a mesh with a known fault. The strategy is loaded from the plugin, as in
+// a run.
 #include <doctest/doctest.h>
 
 #include <algorithm>

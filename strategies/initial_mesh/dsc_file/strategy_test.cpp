@@ -1,5 +1,4 @@
-#include "strategy.hpp"
-
+// Tests of the mesh. The strategy is loaded from the plugin, as in a run.
 #include <doctest/doctest.h>
 #include <unistd.h>
 

@@ -1,6 +1,4 @@
 // The whole refinement, through the driver: requirements for the resulting interface.
-#include "strategy.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include "strategy.hpp"
-
+// Tests of the fields, and of the velocity on surfaces with known values. The strategy is loaded
+// from the plugin, as in a run.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -7,6 +7,8 @@
 #include <dsc/sdk/steps.hpp>
 #include <dsc/sdk/surfaces.hpp>
 #include <sstream>
+
+#include "fields.hpp"
 
 namespace {
 
