@@ -4,7 +4,7 @@
 #   NAME     lower case, the name that DSC_PLUGIN gives
 #   SOURCES  its sources; one of them holds DSC_PLUGIN(...) { ... }
 #   LINK     further targets; a heavy or differently licensed library belongs into a plugin of its own
-#   TESTS    doctest sources, run by ctest as plugin.NAME.*: they see the strategy's own headers and, through the
+#   TESTS    doctest sources, run by ctest as plugin.NAME.*: they see the headers of its helper files and, through the
 #            macro DSC_TEST_PLUGIN, the path of the library
 #   CHECK    notes for `dsc plugin check`: parameters that it cannot guess, tests that need not hold and why. @VARIABLES@ of
 #            CMake are filled in; the result lies beside the library, as libdsc_NAME.check.yaml

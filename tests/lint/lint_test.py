@@ -19,7 +19,7 @@ CLEAN = {
     "core/src/io/vtu.cpp": "#include <vtkPoints.h>\n#include <OpenMesh/Core/Mesh/Handles.hh>\n",
     "core/app/main.cpp": "#include <CLI/CLI.hpp>\n#include <dsc/run/experiment.hpp>\nint main() { std::cout << 1; }\n",
     "plugins/host/library.cpp": "#include <dlfcn.h>\n#include <dsc/plugin/entry.hpp>\n",
-    "strategies/velocity/normal/plugin.cpp": "#include \"strategy.hpp\"\n#include <dsc/hooks/velocity_field.hpp>\n",
+    "strategies/velocity/normal/fields.cpp": "#include \"fields.hpp\"\n#include <dsc/hooks/velocity_field.hpp>\n",
     "strategies/velocity/normal/strategy_test.cpp": "#include <doctest/doctest.h>\n#include <dsc/kernel/deformer.hpp>\n",
     "share/doc/errors.md": "| `io.known` | a code |\n",
     "core/src/io/stl.cpp": "fail(cut ? \"io.known\" : \"io.known\", place); // fail(\"io.comment\")\nwrite(\"metrics.csv\");\n",

@@ -1,5 +1,4 @@
-// Tests of the filter on clouds with a known result. The strategy is loaded from the plugin, as in
-// a run.
+// Tests of the filter on clouds with a known result; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <dsc/base/random.hpp>

@@ -1,5 +1,4 @@
-// Tests of the requests on a mesh with a known fault. The strategy is loaded from the plugin, as in
-// a run.
+// Tests of the requests on a mesh with a known fault; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <algorithm>

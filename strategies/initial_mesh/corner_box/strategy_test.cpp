@@ -1,4 +1,4 @@
-// Tests of the mesh. The strategy is loaded from the plugin, as in a run.
+// Tests of the mesh; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <cmath>

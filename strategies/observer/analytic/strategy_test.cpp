@@ -1,5 +1,4 @@
-// Tests of the comparison, and of the figures on surfaces with known values. The strategy is loaded
-// from the plugin, as in a run.
+// Tests of the comparison and of the figures; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <cmath>

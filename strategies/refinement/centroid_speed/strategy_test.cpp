@@ -1,5 +1,4 @@
-// Tests of the requests on surfaces with known values. The strategy is loaded from the plugin, as
-// in a run.
+// Tests of the requests on surfaces with known values; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <algorithm>

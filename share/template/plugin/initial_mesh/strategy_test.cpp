@@ -1,4 +1,4 @@
-// Tests of the mesh. The strategy is loaded from the plugin, as in a run.
+// Tests of the mesh; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <dsc/base/error.hpp>
@@ -34,7 +34,8 @@ TEST_CASE("every tet is positive and together they fill the box") {
 }
 
 TEST_CASE("the label is a torus: one surface with a hole, of the right volume") {
-    const auto complex = dsc::mesh::adopt(build(ConfigNode::map({{"ring", 0.8}, {"tube", 0.4}})), "@NAME@");
+    const auto complex =
+        dsc::mesh::adopt(build(ConfigNode::map({{"ring", 0.8}, {"tube", 0.4}})), "@NAME@");
     CHECK(dsc::mesh::validate(complex).valid());
     const auto counts = dsc::mesh::count_interface(complex);
     CHECK(counts.shells == 1);
