@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/io/atomic_file.hpp>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/validate.hpp>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <dsc/base/error.hpp>
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/host/host.hpp>
