@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <dsc/base/error.hpp>
 #include <dsc/plugin/guarded.hpp>
-#include <dsc/run/runner.hpp>
+#include <dsc/run/run_experiment.hpp>
 #include <string>
 
 #include "standard_streams.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Reports a finished run to the user.
 
-#include <dsc/run/runner.hpp>
+#include <dsc/run/run_experiment.hpp>
 
 namespace dsc::app {
 

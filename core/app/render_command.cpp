@@ -5,7 +5,7 @@
 #include <dsc/base/workers.hpp>
 #include <dsc/io/picture.hpp>
 #include <dsc/io/read.hpp>
-#include <dsc/run/report.hpp>
+#include <dsc/report/report.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -68,7 +68,7 @@ Coloured read_coloured(const RenderArguments& arguments) {
 /// state its axis, so the log reports the axis that was chosen.
 io::UpAxis up_axis(const RenderArguments& arguments) {
     if (arguments.up != "auto") return arguments.up == "z" ? io::UpAxis::z : io::UpAxis::y;
-    const bool z = std::filesystem::is_directory(arguments.input) && run::stands_along_z(arguments.input);
+    const bool z = std::filesystem::is_directory(arguments.input) && report::stands_along_z(arguments.input);
     log(LogLevel::info, z ? "z points up, as in the report of the run; --up y lets y point up"
                           : "y points up; use --up z for a model whose height is along z");
     return z ? io::UpAxis::z : io::UpAxis::y;

@@ -1,7 +1,7 @@
 // dsc report
 #include <dsc/base/error.hpp>
 #include <dsc/io/atomic_file.hpp>
-#include <dsc/run/report.hpp>
+#include <dsc/report/report.hpp>
 #include <memory>
 #include <thread>
 
@@ -33,9 +33,9 @@ int execute(const ReportArguments& arguments) {
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));
     // The plugins provide the filters of the cloud. Without them the page is still written, and it states what is missing.
     Plugins plugins(arguments.plugins);
-    const host::Host& host = plugins.load_what_works(run::plugins_of_runs(folders));
-    const std::string page = folders.size() == 1 ? run::report_html(folders.front(), host, &workers)
-                                                 : run::comparison_html(folders, host, &workers);
+    const host::Host& host = plugins.load_what_works(report::plugins_of_runs(folders));
+    const std::string page = folders.size() == 1 ? report::report_html(folders.front(), host, &workers)
+                                                 : report::comparison_html(folders, host, &workers);
     io::write_file(output, page);
     data_out() << output.string() << "\n";
     return 0;

@@ -2,7 +2,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/io/atomic_file.hpp>
-#include <dsc/run/sweep.hpp>
+#include <dsc/sweep/sweep.hpp>
 #include <memory>
 
 #include "commands.hpp"
@@ -33,17 +33,17 @@ int expand(const ExpandArguments& arguments) {
     if (arguments.folder.empty() && !arguments.check)
         throw UsageError("usage.output", "-o DIR, the folder for the points, is missing; add it, or use --check to write "
                                          "nothing");
-    const run::Sweep sweep = run::load_sweep(arguments.file);
+    const sweep::Sweep sweep = sweep::load_sweep(arguments.file);
     if (sweep.repeated > 0)
         log(LogLevel::warning, arguments.file + ": " + points_text(sweep.repeated) +
                                    " left out because they equal earlier points");
     Plugins plugins(arguments.plugins);
-    const std::vector<std::string> experiments = run::sweep_experiments(sweep, plugins.loader(), plugins.host());
+    const std::vector<std::string> experiments = sweep::sweep_experiments(sweep, plugins.loader(), plugins.host());
     if (arguments.check) {
         data_out() << arguments.file << ": valid, " << points_text(sweep.points.size()) << "\n";
         return 0;
     }
-    const run::Expansion done = run::expand_sweep(sweep, experiments, arguments.folder);
+    const sweep::Expansion done = sweep::expand_sweep(sweep, experiments, arguments.folder);
     std::string text = points_text(sweep.points.size()) + ": " + std::to_string(done.added) + " new, " +
                        std::to_string(done.kept) + " kept";
     if (done.others > 0) {
@@ -56,8 +56,8 @@ int expand(const ExpandArguments& arguments) {
 
 int collect(const CollectArguments& arguments) {
     if (!arguments.output.empty()) require_output(arguments.output, arguments.folder);
-    run::SweepStates states;
-    const std::string table = run::collect_sweep(arguments.folder, states);
+    sweep::SweepStates states;
+    const std::string table = sweep::collect_sweep(arguments.folder, states);
     log(LogLevel::info, points_text(states.points) + ": " + std::to_string(states.done) + " done, " +
                             std::to_string(states.failed) + " failed, " + std::to_string(states.unfinished) +
                             " unfinished, " + std::to_string(states.missing) + " not started");

@@ -126,13 +126,13 @@ std::vector<Place> faces(const Complex& complex) {
     return out;
 }
 
-mesh::Request request_at(const Complex& complex, mesh::Operation operation, const Place& place,
+repair::Request request_at(const Complex& complex, repair::Operation operation, const Place& place,
                          float accept_above) {
-    mesh::Request request;
+    repair::Request request;
     request.tet = place.tet;
     request.birth_date = complex.birth_date(place.tet);
     request.operation = operation;
-    request.mode = mesh::CollapseMode::bounded;
+    request.mode = repair::CollapseMode::bounded;
     request.vertices = {place.a, place.b, mesh::none};
     request.accept_above = accept_above;
     return request;

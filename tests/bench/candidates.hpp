@@ -2,7 +2,7 @@
 // Where the micro benchmarks try their operations: near the interface, where the kernel works, in a random but fixed order.
 
 #include <dsc/mesh/complex.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 #include <functional>
 #include <span>
 #include <vector>
@@ -37,8 +37,8 @@ std::vector<Place> edges(const mesh::Complex& complex, bool stars,
 /// Faces inside one label, no two of the same tet. [setup]
 std::vector<Place> faces(const mesh::Complex& complex);
 
-/// A request at a place as a repair would make it; `accept_above` as mesh::Request has it.
-mesh::Request request_at(const mesh::Complex& complex, mesh::Operation operation, const Place& place,
+/// A request at a place as a repair would make it; `accept_above` as repair::Request has it.
+repair::Request request_at(const mesh::Complex& complex, repair::Operation operation, const Place& place,
                          float accept_above);
 
 }  // namespace dsc::bench

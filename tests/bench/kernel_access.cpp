@@ -36,14 +36,14 @@ bool Operations::move(mesh::VertexId v, const Vec3& destination) {
            kernel::Motion::blocked;
 }
 
-bool Operations::apply(const mesh::Request& request) {
+bool Operations::apply(const repair::Request& request) {
     last_ = kernel::execute(state_->bench, request);
-    return last_ == mesh::Refusal::committed;
+    return last_ == repair::Refusal::committed;
 }
 
 bool Operations::remove_face(mesh::TetId t, unsigned face, float accept_above) {
     last_ = kernel::remove_faces(state_->bench, t, face, accept_above);
-    return last_ == mesh::Refusal::committed;
+    return last_ == repair::Refusal::committed;
 }
 
 }  // namespace dsc::bench

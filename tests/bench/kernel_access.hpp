@@ -3,7 +3,7 @@
 // so a change inside the kernel ends there.
 
 #include <dsc/mesh/complex.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 #include <memory>
 
 namespace dsc::bench {
@@ -20,15 +20,15 @@ public:
     mesh::Complex& complex();
     /// Towards a destination as far as the star stays valid; true if it arrived or moved.
     bool move(mesh::VertexId v, const Vec3& destination);
-    bool apply(const mesh::Request& request);
+    bool apply(const repair::Request& request);
     /// One face, where a request tries all four of a tet.
     bool remove_face(mesh::TetId t, unsigned face, float accept_above);
-    mesh::Refusal last() const { return last_; }
+    repair::Refusal last() const { return last_; }
 
 private:
     struct State;
     std::unique_ptr<State> state_;
-    mesh::Refusal last_ = mesh::Refusal::stale;
+    repair::Refusal last_ = repair::Refusal::stale;
 };
 
 }  // namespace dsc::bench

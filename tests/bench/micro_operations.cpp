@@ -10,7 +10,7 @@ namespace dsc::bench {
 namespace {
 
 using benchmark::State;
-using mesh::Operation;
+using repair::Operation;
 
 constexpr std::size_t warm_up = 16;        // attempts before the clock starts
 constexpr std::size_t least_attempts = 8;  // fewer say nothing
@@ -130,7 +130,7 @@ void edge_collapse(State& state, const Snapshot& snapshot, bool on_interface) {
 void smoothing(State& state, const Snapshot& snapshot, Operation operation) {
     const auto vertices = free_vertices(snapshot.complex);
     time_attempts(state, snapshot, vertices.size(), [&](Operations& o, std::size_t i) {
-        mesh::Request request;
+        repair::Request request;
         request.operation = operation;
         request.tet = o.complex().seed(vertices[i]);
         request.birth_date = o.complex().birth_date(request.tet);

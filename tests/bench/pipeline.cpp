@@ -53,10 +53,10 @@ Body::Body(mesh::Complex complex, std::unique_ptr<hooks::Improvement> improvemen
       cloud_(cloud),
       workers_(workers),
       deformer_(std::move(complex), {}, workers) {
-    policy_.propose = [this](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+    policy_.propose = [this](const repair::RepairRound& round, std::vector<repair::Request>& out) {
         improvement_->propose(*context_, round, out);
     };
-    policy_.select = [this](std::span<const mesh::TopologyCandidate> candidates,
+    policy_.select = [this](std::span<const repair::TopologyCandidate> candidates,
                             std::span<std::uint8_t> accept) {
         improvement_->select(*context_, candidates, accept);
     };

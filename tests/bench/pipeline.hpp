@@ -5,7 +5,7 @@
 #include <dsc/hooks/improvement.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/kernel/deformer.hpp>
-#include <dsc/run/driver.hpp>
+#include <dsc/run/simulation.hpp>
 #include <dsc/run/experiment.hpp>
 #include <dsc/surface/surface_view.hpp>
 #include <functional>

@@ -115,7 +115,7 @@ class Messages(unittest.TestCase):
 
     def test_every_option_in_the_text_of_the_sources_is_its_own(self):
         files = [SOURCE / "core/app" / name for name in ("reconstruct_command.cpp", "reconstruct_remedies.cpp", "outcome.cpp", "temporary_folder.cpp")]
-        for folder in ("core/src/cloud", "core/src/io", "core/src/mesh", "core/src/surface", "core/src/kernel"):
+        for folder in ("core/src/cloud", "core/src/io", "core/src/mesh", "core/src/generate", "core/src/surface", "core/src/kernel"):
             files += sorted((SOURCE / folder).glob("*.cpp"))
         for path in files:
             lines = [line.split("// ")[0] for line in path.read_text(encoding="utf-8").splitlines()]

@@ -7,7 +7,7 @@
 #include <dsc/config/overrides.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/io/read.hpp>
-#include <dsc/run/sweep.hpp>
+#include <dsc/sweep/sweep.hpp>
 #include <dsc/surface/measure.hpp>
 #include <filesystem>
 #include <stdexcept>
@@ -91,9 +91,9 @@ void read_overrides(std::string_view bytes) {
 }
 
 void read_sweep(std::string_view bytes) {
-    const run::Sweep sweep = run::load_sweep(as_file(".yaml", bytes).string(), without_environment());
+    const sweep::Sweep sweep = sweep::load_sweep(as_file(".yaml", bytes).string(), without_environment());
     require(!sweep.points.empty(), "a sweep without points");
-    require(sweep.points.size() <= run::most_sweep_points, "a sweep with too many points");
+    require(sweep.points.size() <= sweep::most_sweep_points, "a sweep with too many points");
 }
 
 constexpr std::array<Reader, 14> all = {{

@@ -6,7 +6,7 @@
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/validate.hpp>
-#include <dsc/run/driver.hpp>
+#include <dsc/run/simulation.hpp>
 #include <dsc/run/experiment.hpp>
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/surface_view.hpp>
@@ -19,7 +19,7 @@ using namespace dsc;
 
 struct Outcome {
     mesh::InterfaceCounts counts;
-    mesh::EventCounts events;
+    repair::EventCounts events;
     std::uint64_t steps = 0;
 };
 
@@ -48,7 +48,7 @@ Outcome run_counting(const std::string& name) {
         strategies.velocity->evaluate({0, view.vertex_count()}, displacements);
         hooks::Improvement& improvement = *strategies.improvement;
         kernel::RepairPolicy policy;
-        policy.propose = [&](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+        policy.propose = [&](const repair::RepairRound& round, std::vector<repair::Request>& out) {
             improvement.propose(context, round, out);
         };
         policy.select = [&](auto candidates, auto accept) {
@@ -56,7 +56,7 @@ Outcome run_counting(const std::string& name) {
         };
         policy.topology = improvement.topology_limits();
         policy.flatness = improvement.flatness();
-        const mesh::EventCounts e = deformer.step(view.vertex_ids, displacements, policy).event_counts;
+        const repair::EventCounts e = deformer.step(view.vertex_ids, displacements, policy).event_counts;
 
         CAPTURE(step);
         const mesh::InterfaceCounts now = mesh::count_interface(deformer.complex());

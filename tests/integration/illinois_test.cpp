@@ -74,7 +74,7 @@ bool flatten(mesh::Complex& c, const std::string& flat_class, RandomStream& rand
 
 kernel::RepairPolicy policy_of(hooks::Improvement& improvement, const hooks::StepContext& context) {
     kernel::RepairPolicy policy;
-    policy.propose = [&](const mesh::RepairRound& round, std::vector<mesh::Request>& out) { improvement.propose(context, round, out); };
+    policy.propose = [&](const repair::RepairRound& round, std::vector<repair::Request>& out) { improvement.propose(context, round, out); };
     policy.topology = improvement.topology_limits();
     policy.flatness = improvement.flatness();
     return policy;

@@ -5,7 +5,7 @@
 #include <array>
 #include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
-#include <dsc/mesh/lattice.hpp>
+#include <dsc/generate/lattice.hpp>
 #include <dsc/surface/measure.hpp>
 #include <map>
 #include <set>
@@ -24,10 +24,10 @@ namespace {
 /// A box [-1.5, 1.5]^3 of equal cells, labelled by the barycentres of its tets.
 template <class LabelAt>
 TetMesh labelled(int cells, const LabelAt& label_at) {
-    dsc::mesh::LatticeOptions options;
+    dsc::generate::LatticeOptions options;
     options.cells = cells;
     options.growth = 1;
-    TetMesh mesh = dsc::mesh::make_lattice(options, [](const Vec3&, double) { return false; }, "test");
+    TetMesh mesh = dsc::generate::make_lattice(options, [](const Vec3&, double) { return false; }, "test");
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         Vec3 sum = Vec3::Zero();
         for (const std::uint32_t v : mesh.tets[t]) sum += mesh.points[v];

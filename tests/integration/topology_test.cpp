@@ -24,7 +24,7 @@ using namespace dsc;
 
 struct Outcome {
     mesh::InterfaceCounts counts;
-    mesh::EventCounts events;
+    repair::EventCounts events;
     bool books_balance = true;
     bool valid = false;
 };
@@ -65,7 +65,7 @@ Outcome deform_cube_to(const cloud::Cloud& cloud) {
         velocity->prepare(context);
         velocity->evaluate({0, view.vertex_count()}, displacements);
         kernel::RepairPolicy policy;
-        policy.propose = [&](const mesh::RepairRound& round, std::vector<mesh::Request>& out) { improvement->propose(context, round, out); };
+        policy.propose = [&](const repair::RepairRound& round, std::vector<repair::Request>& out) { improvement->propose(context, round, out); };
         policy.select = [&](auto candidates, auto accept) { improvement->select(context, candidates, accept); };
         policy.topology = improvement->topology_limits();
         policy.flatness = improvement->flatness();

@@ -19,15 +19,19 @@ BELOW = {
     "base": set(),
     "geometry": {"base"},
     "mesh": {"base", "geometry"},
-    "kernel": {"base", "geometry", "mesh"},
+    "generate": {"base", "geometry", "mesh"},
+    "repair": {"base", "geometry", "mesh"},
+    "kernel": {"base", "geometry", "mesh", "repair"},
     "surface": {"base", "geometry", "mesh"},
     "cloud": {"base", "geometry"},
     "config": {"base"},
     "io": {"base", "geometry", "mesh", "surface", "cloud"},
-    "hooks": {"base", "geometry", "mesh", "surface", "cloud", "config"},
-    "plugin": {"base", "geometry", "mesh", "surface", "cloud", "config", "hooks"},
-    "run": {"base", "geometry", "mesh", "kernel", "surface", "cloud", "config", "io", "hooks", "plugin"},
+    "hooks": {"base", "geometry", "mesh", "repair", "surface", "cloud", "config"},
+    "plugin": {"base", "geometry", "mesh", "generate", "repair", "surface", "cloud", "config", "hooks"},
+    "run": {"base", "geometry", "mesh", "repair", "kernel", "surface", "cloud", "config", "io", "hooks", "plugin"},
 }
+# What uses finished runs does so through the public headers of `run`, which knows neither of them.
+BELOW["report"] = BELOW["sweep"] = BELOW["run"] | {"run"}
 FOR_STRATEGIES = BELOW["plugin"] | {"plugin"}
 
 # A third-party header and the folders that may include it.

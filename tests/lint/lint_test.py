@@ -43,11 +43,17 @@ PLANTED = {
         ("core/src/geometry/quality.cpp", "#include <dsc/mesh/complex.hpp>"),
         ("core/include/dsc/kernel/deformer.hpp", "#pragma once\n#include <dsc/hooks/improvement.hpp>"),
         ("core/src/mesh/adopt.cpp", "#include \"surface/half_edges.hpp\""),
+        ("core/src/mesh/adopt.cpp", "#include <dsc/generate/shapes.hpp>"),
+        ("core/src/repair/contract.cpp", "#include <dsc/kernel/deformer.hpp>"),
+        ("core/src/run/run_experiment.cpp", "#include <dsc/report/report.hpp>"),
+        ("core/src/report/scene.cpp", "#include \"run/state_series.hpp\""),
+        ("core/src/sweep/collect.cpp", "#include <dsc/report/report.hpp>"),
         ("core/src/run/experiment.cpp", "#include \"../../../strategies/velocity/normal/strategy.hpp\""),
         ("core/src/run/experiment.cpp", "#include \"plugins/host/registry.hpp\""),
     ],
     "declared_direction": [
         ("core/src/base/CMakeLists.txt", "dsc_module(base SOURCES\n  a.cpp USES geometry)"),
+        ("core/src/run/CMakeLists.txt", "dsc_module(run SOURCES a.cpp USES report base)"),
         ("core/src/cloud/CMakeLists.txt", "dsc_module(cloud USES base mesh LINK ${PCL_LIBRARIES} SOURCES a.cpp)"),
     ],
     "strategy_direction": [

@@ -39,7 +39,7 @@ InitialMesh::~InitialMesh() = default;
 MeshFiles::~MeshFiles() = default;
 
 Improvement::~Improvement() = default;
-void Improvement::select(const StepContext&, std::span<const mesh::TopologyCandidate>, std::span<std::uint8_t> accept) {
+void Improvement::select(const StepContext&, std::span<const repair::TopologyCandidate>, std::span<std::uint8_t> accept) {
     std::fill(accept.begin(), accept.end(), std::uint8_t{1});
 }
 

@@ -10,7 +10,7 @@
 namespace dsc::kernel {
 namespace {
 
-using mesh::CollapseMode;
+using repair::CollapseMode;
 
 // The edge to collapse: `removed` is removed, `kept` lies at (1 - weight) kept + weight removed afterwards.
 struct Plan {

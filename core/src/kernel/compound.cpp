@@ -24,7 +24,7 @@ bool closest_parameters(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
 constexpr double margin = 0.05;  // a split closer to an end than this is handled by the adjacent shape class
 bool inside(double s) { return s > margin && s < 1.0 - margin; }
 
-bool same_edge(const mesh::Request& request, VertexId a, VertexId b) {
+bool same_edge(const repair::Request& request, VertexId a, VertexId b) {
     return (request.vertices[0] == a && request.vertices[1] == b) || (request.vertices[0] == b && request.vertices[1] == a);
 }
 
@@ -56,7 +56,7 @@ double shortest_new_edge(const Workbench& bench) {
 }
 
 // Tests and commits the edit in the bench; the created vertex was made on (a, b) at s.
-Refusal finish(Workbench& bench, const mesh::Request& request, VertexId a, VertexId b, double s) {
+Refusal finish(Workbench& bench, const repair::Request& request, VertexId a, VertexId b, double s) {
     mesh::Complex& c = bench.complex;
     const float old = bench.old_quality();
     const float must_exceed = std::min(old * request.gain, request.accept_above);
@@ -90,7 +90,7 @@ Refusal finish(Workbench& bench, const mesh::Request& request, VertexId a, Verte
 }
 
 // Two opposite edges that are close to each other get a common vertex midway between them.
-Refusal merge_edges(Workbench& bench, TetId t, const mesh::Request& request) {
+Refusal merge_edges(Workbench& bench, TetId t, const repair::Request& request) {
     mesh::Complex& c = bench.complex;
     const auto v = c.tet(t).v;
     constexpr std::array<std::array<unsigned, 4>, 3> pairs = {{{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}}};
@@ -130,7 +130,7 @@ Refusal merge_edges(Workbench& bench, TetId t, const mesh::Request& request) {
 
 // A free vertex v of the tet that is close to an edge or a face moves into it: the edge or face is split at v's projection, and
 // v collapses there. All tets at v must have one label.
-Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, const mesh::Request& request) {
+Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, const repair::Request& request) {
     mesh::Complex& c = bench.complex;
     const VertexId v = c.tet(t).v[apex];
     if (c.on_box(v) || c.on_interface(v)) return Refusal::not_applicable;
@@ -199,7 +199,7 @@ Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, const mesh::Reque
 
 }  // namespace
 
-Refusal compound(Workbench& bench, TetId t, const mesh::Request& request) {
+Refusal compound(Workbench& bench, TetId t, const repair::Request& request) {
     if (request.vertices[1] != mesh::none) return merge_edges(bench, t, request);
     if (request.vertices[0] != mesh::none) return merge_vertex(bench, t, mesh::index_of(bench.complex.tet(t), request.vertices[0]), request);
     Refusal last = Refusal::not_applicable;

@@ -14,7 +14,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 constexpr unsigned move_passes = 2;        // before a repair: neighbours that moved make room for each other
 constexpr double worthwhile_pass = 0.1;    // fraction of the remaining distance by which a pass must advance the vertices
 
-void count(const Event& event, mesh::EventCounts& counts) {
+void count(const Event& event, repair::EventCounts& counts) {
     switch (event.kind) {
         case Event::Kind::merge: ++counts.merge; break;
         case Event::Kind::split: ++counts.split; break;
@@ -34,7 +34,7 @@ std::string_view name(Event::Kind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
-void OperationCounts::add(mesh::Refusal outcome) {
+void OperationCounts::add(repair::Refusal outcome) {
     ++tried;
     ++(outcome == Refusal::committed ? committed : refused[static_cast<std::size_t>(outcome)]);
 }
@@ -82,9 +82,9 @@ void Deformer::State::note_changes(std::span<const TetId> changed) {
 // The tet of a refused request waits until its neighbourhood changes.
 void Deformer::State::record(std::uint32_t i, Refusal refusal, std::uint32_t date, StepReport& report) {
     outcomes[i] = {i, refusal};
-    const mesh::Request& request = requests[i];
+    const repair::Request& request = requests[i];
     report.operations[static_cast<std::size_t>(request.operation)].add(refusal);
-    report.repair_classes[std::min<std::size_t>(request.repair_class, mesh::repair_class_limit - 1)].add(refusal);
+    report.repair_classes[std::min<std::size_t>(request.repair_class, repair::repair_class_limit - 1)].add(refusal);
     if (refusal == Refusal::committed) return;
     if (refusal != Refusal::stale && request.tet != mesh::none) queues.fail(request.tet, date);
 }
@@ -95,7 +95,7 @@ struct Deformer::State::Smoothing {
     std::uint32_t first;  // request of vertex 0
     StepReport& report;
 
-    const mesh::Request& request(std::size_t i) const { return state.requests[first + i]; }
+    const repair::Request& request(std::size_t i) const { return state.requests[first + i]; }
     bool decide(std::size_t i, Refusal refusal) const {
         state.outcomes[first + i].refusal = refusal;
         return refusal == Refusal::committed;
@@ -116,10 +116,10 @@ struct Deformer::State::Smoothing {
 };
 
 // Whether the request is certainly a Laplacian smoothing at its turn, whatever other smoothings do before it.
-bool Deformer::State::plain_smoothing(const mesh::Request& request) const {
+bool Deformer::State::plain_smoothing(const repair::Request& request) const {
     const VertexId v = request.vertices[0];
     const TetId t = request.tet;
-    return request.operation == mesh::Operation::smooth_laplacian && v != mesh::none && request.vertices[1] == mesh::none &&
+    return request.operation == repair::Operation::smooth_laplacian && v != mesh::none && request.vertices[1] == mesh::none &&
            request.only_below > 1.0F && t != mesh::none && t < complex.tet_slots() && complex.tet_alive(t) &&
            complex.birth_date(t) == request.birth_date && mesh::has_vertex(complex.tet(t), v);
 }
@@ -136,7 +136,7 @@ void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool se
     const auto dirty = queues.next_round();
     note_changes(dirty);
     requests.clear();
-    policy.propose(mesh::RepairRound{complex, dirty, travels.blocked(), last_requests, outcomes, length, policy.flatness, round, settled, policy.size_edits,
+    policy.propose(repair::RepairRound{complex, dirty, travels.blocked(), last_requests, outcomes, length, policy.flatness, round, settled, policy.size_edits,
                                      bench.lengths != nullptr ? std::span<const double>(*bench.lengths) : std::span<const double>()},
                    requests);
     outcomes.resize(requests.size());

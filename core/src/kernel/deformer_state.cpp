@@ -27,7 +27,7 @@ Deformer::State::State(mesh::Complex start, const DeformerOptions& wanted, Worke
     apply_limits(0.995);
 }
 
-void Deformer::State::apply_limits(double flatness, const std::optional<mesh::CreaseRule>& creases) {
+void Deformer::State::apply_limits(double flatness, const std::optional<repair::CreaseRule>& creases) {
     if (bench.limits.length != length) bench.forget_refusals();
     bench.limits = {length, options.quality_floor, options.max_edit_distance * length,
                     options.max_edit_volume * geometry::regular_tet_volume(length), flatness};

@@ -30,13 +30,13 @@ struct Deformer::State {
 
     std::vector<TetId> step_changes;
     std::vector<bool> noted;  // per tet: whether it is in step_changes
-    std::vector<mesh::Request> requests, last_requests;
-    std::vector<mesh::Outcome> outcomes;
+    std::vector<repair::Request> requests, last_requests;
+    std::vector<repair::Outcome> outcomes;
     std::vector<VertexId> smoothed;  // vertices of a batch of requests
 
     State(mesh::Complex start, const DeformerOptions& wanted, Workers* given);
 
-    void apply_limits(double flatness, const std::optional<mesh::CreaseRule>& creases = {});
+    void apply_limits(double flatness, const std::optional<repair::CreaseRule>& creases = {});
     double mean_interface_edge() const;
     /// Must be called whenever the set of fields has changed.
     void fields_changed();
@@ -49,7 +49,7 @@ struct Deformer::State {
     void note_changes(std::span<const TetId> changed);
     void record(std::uint32_t i, Refusal refusal, std::uint32_t date, StepReport& report);
     struct Smoothing;
-    bool plain_smoothing(const mesh::Request& request) const;
+    bool plain_smoothing(const repair::Request& request) const;
     std::size_t smooth_from(std::size_t first, StepReport& report);
     void repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report);
     StepReport advance(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy);

@@ -6,8 +6,8 @@
 namespace dsc::kernel {
 namespace {
 
-using mesh::Operation;
-using mesh::Request;
+using repair::Operation;
+using repair::Request;
 
 struct Edge {
     VertexId a, b;

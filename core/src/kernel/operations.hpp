@@ -21,7 +21,7 @@ Refusal split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point);
 /// Gives half of v's star, in the direction of w, a second vertex.
 Refusal split_vertex(Workbench& bench, VertexId v, VertexId w);
 /// Collapses edge (a, b) of tet t.
-Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, mesh::CollapseMode mode, float accept_above);
+Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, repair::CollapseMode mode, float accept_above);
 /// Collapses the interface edge (kept, removed) of tet t into one vertex at `place`, within the edit bounds and above the
 /// quality floor. A kept vertex that may not move stays at its place.
 Refusal collapse_edge_to(Workbench& bench, TetId t, VertexId kept, VertexId removed, const Vec3& place);
@@ -37,9 +37,9 @@ Refusal smooth_optimise(Workbench& bench, VertexId v);
 Refusal relabel_tet(Workbench& bench, TetId t);
 /// Split and collapse in one edit: the repair that fits the tet's shape (two edges, an edge, a face), or the repair of the
 /// named vertex or edge. The result's least quality must be above min(gain * old least, accept_above).
-Refusal compound(Workbench& bench, TetId t, const mesh::Request& request);
+Refusal compound(Workbench& bench, TetId t, const repair::Request& request);
 
 /// Executes a request and chooses the simplex if the request names none.
-Refusal execute(Workbench& bench, const mesh::Request& request);
+Refusal execute(Workbench& bench, const repair::Request& request);
 
 }  // namespace dsc::kernel

@@ -27,7 +27,7 @@ mesh::Label other_label(const mesh::Complex& c, std::span<const TetId> star, mes
     return other;
 }
 
-using Kind = mesh::TopologyCandidate::Kind;
+using Kind = repair::TopologyCandidate::Kind;
 
 Kind kind_of(const Region& region) {
     if (region.patches_from == 2) return Kind::cut;
@@ -35,7 +35,7 @@ Kind kind_of(const Region& region) {
     return region.from > 0 ? Kind::open : Kind::merge;
 }
 
-bool wanted(Kind kind, const mesh::TopologyLimits& limits) {
+bool wanted(Kind kind, const repair::TopologyLimits& limits) {
     switch (kind) {
         case Kind::open:
         case Kind::shift: return limits.open;
@@ -241,7 +241,7 @@ Event TopologyStage::commit(const Region& region, std::uint64_t step) {
     return event;
 }
 
-void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, const mesh::TopologyLimits& limits, const Select& select,
+void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, const repair::TopologyLimits& limits, const Select& select,
                         std::vector<Event>& events, Workers* workers) {
     if (!(limits.thickness > 0.0)) return;
     mesh::Complex& c = bench_.complex;
@@ -250,7 +250,7 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
     Region& region = region_;
     for (const Seed& seed : seeds_) {
         if (region_of(seed, region) != RegionFault::none) continue;
-        mesh::TopologyCandidate candidate;
+        repair::TopologyCandidate candidate;
         candidate.kind = kind_of(region);
         if (!wanted(candidate.kind, limits)) continue;
         candidate.label = region.from;
@@ -279,7 +279,7 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
     std::size_t committed = 0, shifted = 0;
     touched_.clear();
     for (const Found* f : order_) {
-        const bool shift = f->candidate.kind == mesh::TopologyCandidate::Kind::shift;
+        const bool shift = f->candidate.kind == repair::TopologyCandidate::Kind::shift;
         if ((shift ? shifted : committed) == most) continue;
         if (!usable(f->seed, f->candidate.label, step) || region_of(f->seed, region) != RegionFault::none) continue;
         if (kind_of(region) != f->candidate.kind || thickness(region) / length_at(region) > limits.thickness) continue;

@@ -7,7 +7,7 @@
 
 #include <dsc/base/workers.hpp>
 #include <dsc/kernel/step_report.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 #include "kernel/region.hpp"
 
@@ -17,11 +17,11 @@ class TopologyStage {
 public:
     explicit TopologyStage(Workbench& bench) : bench_(bench) {}
 
-    using Select = std::function<void(std::span<const mesh::TopologyCandidate>, std::span<std::uint8_t>)>;
+    using Select = std::function<void(std::span<const repair::TopologyCandidate>, std::span<std::uint8_t>)>;
 
     /// Finds candidates at the edges and faces of the changed tets, lets `select` choose, and commits the accepted ones one by
     /// one. `workers`, null for one thread, share the search.
-    void run(std::uint64_t step, std::span<const TetId> changed, const mesh::TopologyLimits& limits, const Select& select,
+    void run(std::uint64_t step, std::span<const TetId> changed, const repair::TopologyLimits& limits, const Select& select,
              std::vector<Event>& events, Workers* workers = nullptr);
 
     /// Components near the given vertices that are smaller than `min_component` regular tets take the label around them.
@@ -45,7 +45,7 @@ private:
     };
     struct Found {
         Seed seed;
-        mesh::TopologyCandidate candidate;
+        repair::TopologyCandidate candidate;
     };
     // The seeds found in a block of the changed tets.
     struct SeedBlock {
@@ -79,7 +79,7 @@ private:
     std::vector<TetId> star_;
     std::vector<VertexId> touched_;
     std::vector<TetId> component_seeds_;
-    std::vector<mesh::TopologyCandidate> batch_;
+    std::vector<repair::TopologyCandidate> batch_;
     std::vector<std::uint8_t> accept_;
     std::vector<const Found*> order_;
     Region region_;

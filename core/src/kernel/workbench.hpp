@@ -8,13 +8,13 @@
 
 #include <dsc/mesh/complex.hpp>
 #include <dsc/mesh/local_star.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 #include "kernel/star_loop.hpp"
 
 namespace dsc::kernel {
 
-using mesh::Refusal;
+using repair::Refusal;
 using mesh::TetId;
 using mesh::VertexId;
 

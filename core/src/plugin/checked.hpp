@@ -32,7 +32,7 @@ struct Attribution {
 void judge(const Call& current, const hooks::Attributes& attributes, std::size_t vertices);
 
 /// Checks the angles of a rule for creases: above 0, at most pi. Throws StrategyFailure.
-void judge(const Call& current, const std::optional<mesh::CreaseRule>& creases);
+void judge(const Call& current, const std::optional<repair::CreaseRule>& creases);
 
 /// Save and load of a wrapped hook of any kind.
 template <class Hook>

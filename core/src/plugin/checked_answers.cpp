@@ -35,7 +35,7 @@ void judge(const Call& current, const hooks::Attributes& attributes, std::size_t
     }
 }
 
-void judge(const Call& current, const std::optional<mesh::CreaseRule>& creases) {
+void judge(const Call& current, const std::optional<repair::CreaseRule>& creases) {
     if (!creases) return;
     constexpr double pi = 3.14159265358979323846;
     for (const double angle : {creases->dihedral, creases->turn}) {

@@ -130,7 +130,7 @@ public:
         return guarded(call("finished"), [&] { return inner().finished(); });
     }
 
-    std::optional<mesh::CreaseRule> keep_creases() const override {
+    std::optional<repair::CreaseRule> keep_creases() const override {
         const Call current = call("keep_creases");
         const auto rule = guarded(current, [&] { return inner().keep_creases(); });
         judge(current, rule);

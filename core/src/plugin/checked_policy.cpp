@@ -22,7 +22,7 @@ public:
         return guarded(call("owns_sizing"), [&] { return inner().owns_sizing(); });
     }
 
-    std::optional<mesh::CreaseRule> keep_creases() const override {
+    std::optional<repair::CreaseRule> keep_creases() const override {
         const Call current = call("keep_creases");
         const auto rule = guarded(current, [&] { return inner().keep_creases(); });
         judge(current, rule);
@@ -183,8 +183,8 @@ class CheckedImprovement final : public Checked<hooks::Improvement> {
 public:
     using Checked::Checked;
 
-    void propose(const hooks::StepContext& context, const mesh::RepairRound& round,
-                 std::vector<mesh::Request>& out) override {
+    void propose(const hooks::StepContext& context, const repair::RepairRound& round,
+                 std::vector<repair::Request>& out) override {
         const hooks::StepContext step = own(context);
         const Call current = call("propose", step.step);
         const std::size_t before = out.size();
@@ -198,10 +198,10 @@ public:
     std::vector<std::string> repair_classes() const override {
         const Call current = call("repair_classes");
         std::vector<std::string> names = guarded(current, [&] { return inner().repair_classes(); });
-        if (names.size() > mesh::repair_class_limit) {
+        if (names.size() > repair::repair_class_limit) {
             fail(current, "strategy.size",
                  "named " + std::to_string(names.size()) + " classes of requests; " +
-                     std::to_string(mesh::repair_class_limit) + " is the limit",
+                     std::to_string(repair::repair_class_limit) + " is the limit",
                  report_it);
         }
         for (std::size_t i = 0; i < names.size(); ++i) {
@@ -225,9 +225,9 @@ public:
         return cosine;
     }
 
-    mesh::TopologyLimits topology_limits() const override {
+    repair::TopologyLimits topology_limits() const override {
         const Call current = call("topology_limits");
-        const mesh::TopologyLimits limits = guarded(current, [&] { return inner().topology_limits(); });
+        const repair::TopologyLimits limits = guarded(current, [&] { return inner().topology_limits(); });
         for (const double value : {limits.thickness, limits.min_component}) {
             if (std::isfinite(value) && value >= 0) continue;
             fail(current, "strategy.range", "gave the limit " + std::to_string(value),
@@ -236,7 +236,7 @@ public:
         return limits;
     }
 
-    void select(const hooks::StepContext& context, std::span<const mesh::TopologyCandidate> candidates,
+    void select(const hooks::StepContext& context, std::span<const repair::TopologyCandidate> candidates,
                 std::span<std::uint8_t> accept) override {
         const hooks::StepContext step = own(context);
         const Call current = call("select", step.step);
@@ -254,10 +254,10 @@ public:
 
 private:
     static void judge(const Call& current, const mesh::Complex& complex, std::size_t classes,
-                      const mesh::Request& request, std::size_t index) {
+                      const repair::Request& request, std::size_t index) {
         // The text is made only for a fault, because there are many requests.
         const auto where = [index] { return "in " + entry("request", index); };
-        if (static_cast<std::size_t>(request.operation) >= mesh::operation_count) {
+        if (static_cast<std::size_t>(request.operation) >= repair::operation_count) {
             fail(current, "strategy.range", "named an operation that does not exist " + where(), report_it);
         }
         if (request.tet != mesh::none && request.tet >= complex.tet_slots()) {

@@ -3,10 +3,10 @@
 
 namespace dsc::plugin {
 
-using mesh::Shape;
-using mesh::ShapeAction;
-using mesh::ShapeKind;
-using mesh::ShapeRule;
+using generate::Shape;
+using generate::ShapeAction;
+using generate::ShapeKind;
+using generate::ShapeRule;
 
 std::vector<Shape> ShapeParams::all() const {
     std::vector<Shape> list;

@@ -1,7 +1,7 @@
 #pragma once
 // Makes the complex with which a run starts.
 
-#include <dsc/run/driver.hpp>
+#include <dsc/run/simulation.hpp>
 
 namespace dsc::run {
 

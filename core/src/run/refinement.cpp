@@ -42,9 +42,9 @@ void set_fields(kernel::Deformer& deformer, const surface::SurfaceView& view, co
     set_attributes(deformer, view, requests.attributes);
 }
 
-std::optional<mesh::CreaseRule> stricter(const std::optional<mesh::CreaseRule>& a, const std::optional<mesh::CreaseRule>& b) {
+std::optional<repair::CreaseRule> stricter(const std::optional<repair::CreaseRule>& a, const std::optional<repair::CreaseRule>& b) {
     if (!a || !b) return a ? a : b;
-    return mesh::CreaseRule{std::min(a->dihedral, b->dihedral), std::min(a->turn, b->turn)};
+    return repair::CreaseRule{std::min(a->dihedral, b->dihedral), std::min(a->turn, b->turn)};
 }
 
 kernel::RefineRequests kernel_requests(const surface::SurfaceView& view, const hooks::RefinementRequests& requests, bool owns_sizing) {

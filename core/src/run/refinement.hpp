@@ -17,7 +17,7 @@ void set_attributes(kernel::Deformer& deformer, const surface::SurfaceView& view
 hooks::Attributes attributes_at(const kernel::Deformer& deformer, std::span<const mesh::VertexId> vertices);
 
 /// The stricter bounds of two rules; the only rule if there is one; none if there is none.
-std::optional<mesh::CreaseRule> stricter(const std::optional<mesh::CreaseRule>& a, const std::optional<mesh::CreaseRule>& b);
+std::optional<repair::CreaseRule> stricter(const std::optional<repair::CreaseRule>& a, const std::optional<repair::CreaseRule>& b);
 
 /// The requests that change the mesh, without those for labels.
 kernel::RefineRequests kernel_requests(const surface::SurfaceView& view, const hooks::RefinementRequests& requests, bool owns_sizing);

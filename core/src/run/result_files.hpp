@@ -7,7 +7,7 @@
 #include <dsc/mesh/tet_mesh.hpp>
 #include <dsc/run/experiment.hpp>
 #include <dsc/run/run_folder.hpp>
-#include <dsc/run/runner.hpp>
+#include <dsc/run/run_experiment.hpp>
 #include <dsc/surface/triangle_mesh.hpp>
 #include <filesystem>
 #include <optional>

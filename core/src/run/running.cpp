@@ -2,7 +2,7 @@
 #include "running.hpp"
 
 #include <algorithm>
-#include <dsc/run/runner.hpp>
+#include <dsc/run/run_experiment.hpp>
 #include <mutex>
 #include <utility>
 #include <vector>

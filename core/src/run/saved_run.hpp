@@ -2,7 +2,7 @@
 // The part of a checkpoint besides the complex: the place in the schedule, the sums, the states of the strategies.
 
 #include <dsc/base/state.hpp>
-#include <dsc/run/driver.hpp>
+#include <dsc/run/simulation.hpp>
 
 namespace dsc::run {
 

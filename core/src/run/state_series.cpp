@@ -7,10 +7,9 @@
 #include <cmath>
 #include <cstdio>
 #include <dsc/base/error.hpp>
-#include <dsc/run/driver.hpp>
+#include <dsc/base/parallel_table.hpp>
+#include <dsc/run/simulation.hpp>
 #include <limits>
-
-#include "table.hpp"
 
 namespace dsc::run {
 namespace {
@@ -147,17 +146,17 @@ std::vector<double> StateSeries::curvatures(const hooks::StepContext& context) {
 void StateSeries::write_surface(const hooks::StepContext& context, const mesh::Complex& complex) {
     const surface::SurfaceView& view = context.surface;
     io::SurfaceData data;
-    data.cells.push_back({"label", table(context.workers, view.face_count(), [&](std::size_t f) {
+    data.cells.push_back({"label", parallel_table(context.workers, view.face_count(), [&](std::size_t f) {
                               return static_cast<double>(complex.label(view.face_tets[f]));
                           })});
-    data.cells.push_back({"quality", table(context.workers, view.face_count(), [&](std::size_t f) {
+    data.cells.push_back({"quality", parallel_table(context.workers, view.face_count(), [&](std::size_t f) {
                               const auto& [a, b, c] = view.faces[f];
                               return triangle_quality(view.face_areas[f], view.positions[a], view.positions[b],
                                                       view.positions[c]);
                           })});
     const double scale = context.to_normalised.scale;
     if (context.cloud != nullptr) {
-        data.points.push_back({"distance", table(context.workers, view.vertex_count(),
+        data.points.push_back({"distance", parallel_table(context.workers, view.vertex_count(),
                                                  [&](std::size_t i) { return context.nearest[i].distance / scale; })});
     }
     if (curvature_ != nullptr) data.points.push_back({"curvature", curvatures(context)});
@@ -180,7 +179,7 @@ void StateSeries::write_volume(const hooks::StepContext& context, const mesh::Co
     io::VolumeData data;
     const double scale = context.to_normalised.scale;
     if (context.cloud != nullptr) {
-        data.points.push_back({"distance", table(context.workers, mesh.points.size(), [&](std::size_t i) {
+        data.points.push_back({"distance", parallel_table(context.workers, mesh.points.size(), [&](std::size_t i) {
                                    return context.cloud->search().nearest(mesh.points[i]).distance / scale;
                                })});
     }

@@ -6,19 +6,13 @@
 #include <dsc/mesh/complex.hpp>
 #include <dsc/plugin/catalogue.hpp>
 #include <dsc/run/experiment.hpp>
+#include <dsc/run/kept_states.hpp>
 #include <filesystem>
 #include <memory>
 #include <set>
 #include <vector>
 
 namespace dsc::run {
-
-/// Number of surfaces that a report shows, including the result.
-inline constexpr std::size_t report_frames = 12;
-
-/// The steps whose surfaces are kept for a report if there is no `output.series`, without the result. They are close together
-/// at the start, where the surface changes most.
-std::set<std::uint64_t> report_steps(std::uint64_t planned);
 
 /// Writes the states in the input's coordinates, and updates the index after each, so that a run can be watched. Does not
 /// change the complex.
@@ -46,8 +40,5 @@ private:
     std::vector<io::SeriesEntry> surfaces_;
     std::vector<io::SeriesEntry> volumes_;
 };
-
-/// The states of `kind` ("surface", "volume") in a run folder, by step.
-std::vector<io::SeriesEntry> kept_states(const std::filesystem::path& run_folder, const std::string& kind);
 
 }  // namespace dsc::run

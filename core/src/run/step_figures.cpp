@@ -2,9 +2,8 @@
 #include "step_figures.hpp"
 
 #include <algorithm>
+#include <dsc/base/parallel_table.hpp>
 #include <dsc/surface/distance.hpp>
-
-#include "table.hpp"
 
 namespace dsc::run {
 namespace {
@@ -59,7 +58,7 @@ void measure_state(const mesh::Complex& complex, const surface::SurfaceView& vie
 
     const surface::TriangleTree tree(surface::TriangleMesh{view.positions, view.faces});
     const std::size_t probes = std::min(cloud->size(), cloud_probes);
-    row.cloud_to_surface_mean = mean(table(&workers, probes, [&](std::size_t i) {
+    row.cloud_to_surface_mean = mean(parallel_table(&workers, probes, [&](std::size_t i) {
         return tree.nearest((*cloud)[i * cloud->size() / probes]).distance;
     }));
 }

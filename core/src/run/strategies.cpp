@@ -1,6 +1,6 @@
 // Creates the strategies of an experiment and checks that they fit together.
 #include <dsc/config/diagnostics.hpp>
-#include <dsc/run/driver.hpp>
+#include <dsc/run/simulation.hpp>
 
 namespace dsc::run {
 

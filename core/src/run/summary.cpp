@@ -22,7 +22,7 @@ ordered_json distances(const std::optional<surface::CloudEvaluation>& figures, b
 }
 
 ordered_json events(const RunTotals& totals) {
-    const mesh::EventCounts& e = totals.events;
+    const repair::EventCounts& e = totals.events;
     return {{"merge", e.merge},
             {"split", e.split},
             {"handle_opened", e.handle_opened},
@@ -35,7 +35,7 @@ ordered_json events(const RunTotals& totals) {
 ordered_json counts_row(const kernel::OperationCounts& counts) {
     ordered_json row = {{"tried", counts.tried}, {"committed", counts.committed}};
     for (std::size_t r = 1; r < counts.refused.size(); ++r) {
-        if (counts.refused[r] > 0) row[std::string(mesh::name(static_cast<mesh::Refusal>(r)))] = counts.refused[r];
+        if (counts.refused[r] > 0) row[std::string(repair::name(static_cast<repair::Refusal>(r)))] = counts.refused[r];
     }
     return row;
 }
@@ -43,7 +43,7 @@ ordered_json counts_row(const kernel::OperationCounts& counts) {
 ordered_json operations(const RunTotals& totals) {
     ordered_json table = ordered_json::object();
     for (std::size_t i = 0; i < totals.operations.size(); ++i) {
-        table[std::string(mesh::name(static_cast<mesh::Operation>(i)))] = counts_row(totals.operations[i]);
+        table[std::string(repair::name(static_cast<repair::Operation>(i)))] = counts_row(totals.operations[i]);
     }
     return table;
 }
@@ -208,10 +208,10 @@ std::string summary_json(const SummaryParts& parts) {
         {"crease_exceptions", totals.crease_exceptions},
         {"rounds", totals.rounds},
         {"refused",
-         {{"irregular", totals.refused(mesh::Refusal::irregular)},
-          {"quality", totals.refused(mesh::Refusal::quality)},
-          {"bound", totals.refused(mesh::Refusal::bound)},
-          {"box", totals.refused(mesh::Refusal::box)}}},
+         {{"irregular", totals.refused(repair::Refusal::irregular)},
+          {"quality", totals.refused(repair::Refusal::quality)},
+          {"bound", totals.refused(repair::Refusal::bound)},
+          {"box", totals.refused(repair::Refusal::box)}}},
         {"vertex_to_cloud", distances(parts.distances, true)},
         {"cloud_to_surface", distances(parts.distances, false)},
         {"units",

@@ -1,11 +1,11 @@
 #pragma once
 // The texts of summary.json and status.json.
 
-#include <dsc/run/driver.hpp>
+#include <dsc/run/simulation.hpp>
 #include <dsc/run/input.hpp>
 #include <dsc/run/measure.hpp>
 #include <dsc/run/provenance.hpp>
-#include <dsc/run/runner.hpp>
+#include <dsc/run/run_experiment.hpp>
 #include <dsc/surface/distance.hpp>
 #include <optional>
 #include <string>

@@ -232,19 +232,19 @@ private:
             return std::pair(complex.quality(a), a) < std::pair(complex.quality(b), b);
         });
         std::vector<mesh::VertexId> blocked(now.view.vertex_ids.begin(), now.view.vertex_ids.begin() + 8);
-        std::vector<mesh::Request> requests;
-        const mesh::RepairRound round{complex,           dirty, blocked,        {}, {}, context.target_length,
+        std::vector<repair::Request> requests;
+        const repair::RepairRound round{complex,           dirty, blocked,        {}, {}, context.target_length,
                                       policy.flatness(), 0,     how_.steps == 1};
         policy.propose(context, round, requests);
         part("requests", 10);
-        for (const mesh::Request& r : requests) add(r);
+        for (const repair::Request& r : requests) add(r);
         select(policy, context);
     }
 
     void select(hooks::Improvement& policy, const hooks::StepContext& context) {
-        std::vector<mesh::TopologyCandidate> candidates(6);
+        std::vector<repair::TopologyCandidate> candidates(6);
         for (std::size_t i = 0; i < candidates.size(); ++i) {
-            candidates[i].kind = static_cast<mesh::TopologyCandidate::Kind>(i % 4);
+            candidates[i].kind = static_cast<repair::TopologyCandidate::Kind>(i % 4);
             candidates[i].centroid = Vec3(0.1 * static_cast<double>(i), 0, 0);
             candidates[i].thickness = 0.2 * static_cast<double>(i);
             candidates[i].volume = 1.0;
@@ -255,7 +255,7 @@ private:
         for (const std::uint8_t a : accept) answers_.trace.add(a);
     }
 
-    void add(const mesh::Request& r) {
+    void add(const repair::Request& r) {
         Trace& t = answers_.trace;
         t.add(static_cast<double>(r.operation));
         t.add(static_cast<double>(r.mode) + 10.0 * r.repair_class);

@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/mesh/lattice.hpp>
-#include <dsc/mesh/project.hpp>
-#include <dsc/mesh/shapes.hpp>
+#include <dsc/generate/lattice.hpp>
+#include <dsc/generate/project.hpp>
+#include <dsc/generate/shapes.hpp>
 #include <dsc/sdk/surfaces.hpp>
 #include <numbers>
 
@@ -30,24 +30,24 @@ std::vector<Vec3> ellipsoid(std::size_t count) {
 cloud::TargetCloud target(std::vector<Vec3> points) { return cloud::TargetCloud({std::move(points), {}}); }
 
 mesh::Complex sphere_complex() {
-    mesh::Shape sphere;
+    generate::Shape sphere;
     sphere.radius = 0.9;
-    const std::vector<mesh::Shape> shapes = {sphere};
-    mesh::LatticeOptions options;
+    const std::vector<generate::Shape> shapes = {sphere};
+    generate::LatticeOptions options;
     options.cells = 14;
-    const auto make = [&](std::span<const mesh::Shape> labelling) {
+    const auto make = [&](std::span<const generate::Shape> labelling) {
         const auto same = [&](const Vec3& centre, double radius) {
-            return mesh::same_label_within(labelling, centre, radius);
+            return generate::same_label_within(labelling, centre, radius);
         };
-        mesh::TetMesh mesh = mesh::make_lattice(options, same, "the fixture");
+        mesh::TetMesh mesh = generate::make_lattice(options, same, "the fixture");
         for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
             const auto& [a, b, c, d] = mesh.tets[i];
             mesh.labels[i] =
-                mesh::label_of(labelling, {mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
+                generate::label_of(labelling, {mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
         }
         return mesh;
     };
-    return mesh::adopt(mesh::make_projected(make, shapes, mesh::finest_cell(options), "the fixture"),
+    return mesh::adopt(generate::make_projected(make, shapes, generate::finest_cell(options), "the fixture"),
                        "the fixture");
 }
 

@@ -105,10 +105,10 @@ void improvement(const Subject& subject) {
     Fixture fixture = subject.fixture();
     const hooks::StepContext* current = nullptr;
     kernel::RepairPolicy repair;
-    repair.propose = [&](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+    repair.propose = [&](const repair::RepairRound& round, std::vector<repair::Request>& out) {
         policy.propose(*current, round, out);
     };
-    repair.select = [&](std::span<const mesh::TopologyCandidate> candidates, std::span<std::uint8_t> accept) {
+    repair.select = [&](std::span<const repair::TopologyCandidate> candidates, std::span<std::uint8_t> accept) {
         policy.select(*current, candidates, accept);
     };
     repair.topology = policy.topology_limits();

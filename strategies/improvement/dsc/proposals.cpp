@@ -10,9 +10,9 @@
 namespace dsc::improvement {
 namespace {
 
-using mesh::CollapseMode;
-using mesh::Operation;
-using mesh::Request;
+using repair::CollapseMode;
+using repair::Operation;
+using repair::Request;
 
 Request on_tet(const mesh::Complex& c, mesh::TetId t, Operation operation, double only_below, double accept_above) {
     Request request;
@@ -48,24 +48,24 @@ bool Proposals::first_visit(mesh::VertexId v) {
 }
 
 // The volume below which a tet is collapsed.
-double Proposals::small_volume_of(const mesh::RepairRound& round, mesh::TetId t) const {
+double Proposals::small_volume_of(const repair::RepairRound& round, mesh::TetId t) const {
     return limits_.min_tet_volume * geometry::regular_tet_volume(round.length_of(t));
 }
 
 // If a refinement owns the sizing, tets with an interface edge are not changed.
-bool Proposals::may_thin_out(const mesh::RepairRound& round, mesh::TetId t) {
+bool Proposals::may_thin_out(const repair::RepairRound& round, mesh::TetId t) {
     if (round.size_edits) return true;
     const auto& v = round.complex.tet(t).v;
     return std::count_if(v.begin(), v.end(), [&](mesh::VertexId x) { return round.complex.on_interface(x); }) < 2;
 }
 
 // The target length of an edge from the interface into a phase is that of its end on the interface.
-double Proposals::free_length(const mesh::RepairRound& round, mesh::VertexId a, mesh::VertexId b) {
+double Proposals::free_length(const repair::RepairRound& round, mesh::VertexId a, mesh::VertexId b) {
     return round.length_at(round.complex.on_interface(a) ? a : b);
 }
 
 // Finds the repairs that a tet needs; it only reads, so threads may call it together.
-std::uint8_t Proposals::look(const mesh::RepairRound& round, mesh::TetId t) const {
+std::uint8_t Proposals::look(const repair::RepairRound& round, mesh::TetId t) const {
     const mesh::Complex& c = round.complex;
     const auto length2 = [&c](mesh::VertexId a, mesh::VertexId b) { return (c.position(a) - c.position(b)).squaredNorm(); };
     const auto square = [](double x) { return x * x; };
@@ -95,7 +95,7 @@ std::uint8_t Proposals::look(const mesh::RepairRound& round, mesh::TetId t) cons
     return found;
 }
 
-void Proposals::note_edges(const mesh::RepairRound& round, mesh::TetId t) {
+void Proposals::note_edges(const repair::RepairRound& round, mesh::TetId t) {
     const mesh::Complex& c = round.complex;
     for (unsigned f = 0; f < 4; ++f) {
         // Of the two tets at an interface face, the one with the larger label handles its edges.
@@ -113,7 +113,7 @@ void Proposals::note_edges(const mesh::RepairRound& round, mesh::TetId t) {
     }
 }
 
-void Proposals::note_free_edges(const mesh::RepairRound& round, mesh::TetId t) {
+void Proposals::note_free_edges(const repair::RepairRound& round, mesh::TetId t) {
     const mesh::Complex& c = round.complex;
     for (const auto& ends : mesh::edge_vertices) {
         mesh::VertexId a = c.tet(t).v[ends[0]], b = c.tet(t).v[ends[1]];
@@ -127,7 +127,7 @@ void Proposals::note_free_edges(const mesh::RepairRound& round, mesh::TetId t) {
     }
 }
 
-void Proposals::sort_out(const mesh::RepairRound& round, Workers* workers) {
+void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
     const mesh::Complex& c = round.complex;
     low_.clear();
     small_.clear();
@@ -140,7 +140,7 @@ void Proposals::sort_out(const mesh::RepairRound& round, Workers* workers) {
     looks_.resize(round.dirty.size());
     struct Job {
         Proposals& proposals;
-        const mesh::RepairRound& round;
+        const repair::RepairRound& round;
     } const job{*this, round};
     for_blocks(workers, round.dirty.size(), look_block, [&job](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) job.proposals.looks_[i] = job.proposals.look(job.round, job.round.dirty[i]);
@@ -179,7 +179,7 @@ void Proposals::sort_out(const mesh::RepairRound& round, Workers* workers) {
     }
 }
 
-void Proposals::write(const mesh::RepairRound& round, Workers* workers, std::vector<mesh::Request>& out) {
+void Proposals::write(const repair::RepairRound& round, Workers* workers, std::vector<repair::Request>& out) {
     const mesh::Complex& c = round.complex;
     sort_out(round, workers);
     const double low = limits_.min_tet_quality, degenerate = limits_.degenerate_tet_quality;

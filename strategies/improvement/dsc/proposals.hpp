@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <dsc/base/workers.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 #include "shapes.hpp"
 
@@ -28,7 +28,7 @@ class Proposals {
 public:
     explicit Proposals(const Thresholds& thresholds) : limits_(thresholds), shapes_(thresholds) {}
     /// `workers` (null for one thread) examine the dirty tets together.
-    void write(const mesh::RepairRound& round, Workers* workers, std::vector<mesh::Request>& out);
+    void write(const repair::RepairRound& round, Workers* workers, std::vector<repair::Request>& out);
 
 private:
     struct Entry {
@@ -47,13 +47,13 @@ private:
     static constexpr std::uint8_t small_volume = 1, interface_edges = 2, free_edges = 4, low_quality = 8, to_smooth = 16;
     static constexpr std::size_t look_block = 8192;  // tets
 
-    void sort_out(const mesh::RepairRound& round, Workers* workers);
-    double small_volume_of(const mesh::RepairRound& round, mesh::TetId t) const;
-    static bool may_thin_out(const mesh::RepairRound& round, mesh::TetId t);
-    static double free_length(const mesh::RepairRound& round, mesh::VertexId a, mesh::VertexId b);
-    std::uint8_t look(const mesh::RepairRound& round, mesh::TetId t) const;
-    void note_edges(const mesh::RepairRound& round, mesh::TetId t);
-    void note_free_edges(const mesh::RepairRound& round, mesh::TetId t);
+    void sort_out(const repair::RepairRound& round, Workers* workers);
+    double small_volume_of(const repair::RepairRound& round, mesh::TetId t) const;
+    static bool may_thin_out(const repair::RepairRound& round, mesh::TetId t);
+    static double free_length(const repair::RepairRound& round, mesh::VertexId a, mesh::VertexId b);
+    std::uint8_t look(const repair::RepairRound& round, mesh::TetId t) const;
+    void note_edges(const repair::RepairRound& round, mesh::TetId t);
+    void note_free_edges(const repair::RepairRound& round, mesh::TetId t);
     bool first_visit(mesh::VertexId v);
 
     Thresholds limits_;

@@ -11,9 +11,9 @@
 namespace dsc::improvement {
 namespace {
 
-using mesh::CollapseMode;
-using mesh::Operation;
-using mesh::Request;
+using repair::CollapseMode;
+using repair::Operation;
+using repair::Request;
 using mesh::VertexId;
 
 std::array<std::uint32_t, 3> births_of(const mesh::Complex& c, VertexId a, VertexId b, VertexId third = mesh::none) {
@@ -61,7 +61,7 @@ bool ShapeLimits::any() const {
                      max_tet_volume}) > 0.0;
 }
 
-void ShapeProposals::note_edges(const mesh::RepairRound& round, mesh::TetId t) {
+void ShapeProposals::note_edges(const repair::RepairRound& round, mesh::TetId t) {
     const mesh::Complex& c = round.complex;
     for (const auto& ends : mesh::edge_vertices) {
         const VertexId a = c.tet(t).v[ends[0]], b = c.tet(t).v[ends[1]];
@@ -73,7 +73,7 @@ void ShapeProposals::note_edges(const mesh::RepairRound& round, mesh::TetId t) {
     }
 }
 
-void ShapeProposals::note_faces(const mesh::RepairRound& round, mesh::TetId t) {
+void ShapeProposals::note_faces(const repair::RepairRound& round, mesh::TetId t) {
     const mesh::Complex& c = round.complex;
     const double target = round.length_of(t);
     const double unit = 0.25 * std::sqrt(3.0) * target * target;
@@ -97,7 +97,7 @@ void ShapeProposals::note_faces(const mesh::RepairRound& round, mesh::TetId t) {
     }
 }
 
-void ShapeProposals::note_tet(const mesh::RepairRound& round, mesh::TetId t) {
+void ShapeProposals::note_tet(const repair::RepairRound& round, mesh::TetId t) {
     if (!(limits_.max_tet_volume > 0.0)) return;
     const mesh::Complex& c = round.complex;
     const double volume = c.volume(t) / geometry::regular_tet_volume(round.length_of(t));
@@ -116,7 +116,7 @@ void ShapeProposals::note_tet(const mesh::RepairRound& round, mesh::TetId t) {
     entries_.push_back({Kind::large_tet, quantised(-volume), births_of(c, longest[0], longest[1]), t, longest, mesh::none});
 }
 
-void ShapeProposals::request(const mesh::RepairRound& round, const Entry& entry, const ShapeBounds& bounds, std::vector<Request>& out) {
+void ShapeProposals::request(const repair::RepairRound& round, const Entry& entry, const ShapeBounds& bounds, std::vector<Request>& out) {
     Request request;
     request.tet = entry.tet;
     request.birth_date = round.complex.birth_date(entry.tet);
@@ -143,7 +143,7 @@ void ShapeProposals::request(const mesh::RepairRound& round, const Entry& entry,
     out.push_back(request);
 }
 
-void ShapeProposals::write(const mesh::RepairRound& round, const ShapeBounds& bounds, std::vector<Request>& out) {
+void ShapeProposals::write(const repair::RepairRound& round, const ShapeBounds& bounds, std::vector<Request>& out) {
     if (!limits_.any()) return;
     entries_.clear();
     const bool edges = limits_.degenerate_edge_quality > 0.0 || limits_.min_edge_quality > 0.0;

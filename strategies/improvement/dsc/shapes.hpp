@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 namespace dsc::improvement {
 
@@ -35,7 +35,7 @@ struct ShapeBounds {
 class ShapeProposals {
 public:
     explicit ShapeProposals(const ShapeLimits& limits) : limits_(limits) {}
-    void write(const mesh::RepairRound& round, const ShapeBounds& bounds, std::vector<mesh::Request>& out);
+    void write(const repair::RepairRound& round, const ShapeBounds& bounds, std::vector<repair::Request>& out);
 
 private:
     // In the order of the requests.
@@ -49,10 +49,10 @@ private:
         mesh::VertexId opposite;               // the blunt corner of a cap; none: not a cap
     };
 
-    void note_edges(const mesh::RepairRound& round, mesh::TetId t);
-    void note_faces(const mesh::RepairRound& round, mesh::TetId t);
-    void note_tet(const mesh::RepairRound& round, mesh::TetId t);
-    static void request(const mesh::RepairRound& round, const Entry& entry, const ShapeBounds& bounds, std::vector<mesh::Request>& out);
+    void note_edges(const repair::RepairRound& round, mesh::TetId t);
+    void note_faces(const repair::RepairRound& round, mesh::TetId t);
+    void note_tet(const repair::RepairRound& round, mesh::TetId t);
+    static void request(const repair::RepairRound& round, const Entry& entry, const ShapeBounds& bounds, std::vector<repair::Request>& out);
 
     ShapeLimits limits_;
     std::vector<Entry> entries_;

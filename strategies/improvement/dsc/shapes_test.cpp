@@ -12,7 +12,7 @@
 namespace {
 
 using namespace dsc;
-using mesh::Operation;
+using repair::Operation;
 
 // Two tets of two labels: their common face, the given triangle, is the interface. They do not fill a box, which
 // the code under test does not need.
@@ -28,16 +28,16 @@ mesh::Complex two_tets(const Vec3& a, const Vec3& b, const Vec3& c) {
     return complex;
 }
 
-std::vector<mesh::Request> proposals(const mesh::Complex& c, const improvement::ShapeLimits& limits, double target_length = 1.0) {
+std::vector<repair::Request> proposals(const mesh::Complex& c, const improvement::ShapeLimits& limits, double target_length = 1.0) {
     std::vector<mesh::TetId> dirty;
     for (mesh::TetId t = 0; t < c.tet_slots(); ++t) dirty.push_back(t);
-    const mesh::RepairRound round{c, dirty, {}, {}, {}, target_length, 0.995, 0, true};
-    std::vector<mesh::Request> out;
+    const repair::RepairRound round{c, dirty, {}, {}, {}, target_length, 0.995, 0, true};
+    std::vector<repair::Request> out;
     improvement::ShapeProposals(limits).write(round, {0.03F, 0.2F}, out);
     return out;
 }
 
-double length(const mesh::Complex& c, const mesh::Request& r) { return (c.position(r.vertices[0]) - c.position(r.vertices[1])).norm(); }
+double length(const mesh::Complex& c, const repair::Request& r) { return (c.position(r.vertices[0]) - c.position(r.vertices[1])).norm(); }
 
 const Vec3 left(0, 0, 0), right(1, 0, 0), top(0.5, std::sqrt(0.75), 0);
 
@@ -55,10 +55,10 @@ TEST_CASE("short edges are collapsed, shortest first, each once, the degenerate 
     limits.min_edge_quality = 0.5;
     const auto requests = proposals(c, limits);
     REQUIRE(requests.size() == 3);  // the triangle's edges: 0.05, 0.3 and a little more
-    for (const mesh::Request& r : requests) CHECK(r.operation == Operation::edge_collapse);
-    CHECK(requests[0].mode == mesh::CollapseMode::bounded);
+    for (const repair::Request& r : requests) CHECK(r.operation == Operation::edge_collapse);
+    CHECK(requests[0].mode == repair::CollapseMode::bounded);
     CHECK(length(c, requests[0]) == doctest::Approx(0.05));
-    CHECK(requests[1].mode == mesh::CollapseMode::safe);
+    CHECK(requests[1].mode == repair::CollapseMode::safe);
     CHECK(length(c, requests[1]) == doctest::Approx(0.3));
     CHECK(length(c, requests[2]) == doctest::Approx(std::hypot(0.05, 0.3)));
     // Lengths are in target lengths.
@@ -71,9 +71,9 @@ TEST_CASE("a needle loses its shortest edge, a cap its longest") {
     const mesh::Complex needle = two_tets(left, Vec3(0.05, 0, 0), Vec3(0.025, 1, 0));
     auto requests = proposals(needle, limits);
     REQUIRE(requests.size() == 3);  // the triangle and its neighbours at the short edge
-    for (const mesh::Request& r : requests) {
+    for (const repair::Request& r : requests) {
         CHECK(r.operation == Operation::edge_collapse);
-        CHECK(r.mode == mesh::CollapseMode::bounded);
+        CHECK(r.mode == repair::CollapseMode::bounded);
         CHECK(length(needle, r) == doctest::Approx(0.05));
     }
 
@@ -82,7 +82,7 @@ TEST_CASE("a needle loses its shortest edge, a cap its longest") {
     REQUIRE(requests.size() == 2);
     CHECK(requests[0].operation == Operation::edge_removal);
     CHECK(requests[1].operation == Operation::interface_flip);
-    for (const mesh::Request& r : requests) CHECK(length(cap, r) == doctest::Approx(1.0));
+    for (const repair::Request& r : requests) CHECK(length(cap, r) == doctest::Approx(1.0));
 
     // 1 - cos of the sharpest angle, 0.5 for a regular triangle.
     limits.degenerate_face_quality = 0.0;
@@ -96,7 +96,7 @@ TEST_CASE("a needle loses its shortest edge, a cap its longest") {
     limits.min_face_quality = 0.01;
     requests = proposals(needle, limits);
     REQUIRE(requests.size() == 3);
-    for (const mesh::Request& r : requests) CHECK(r.mode == mesh::CollapseMode::safe);
+    for (const repair::Request& r : requests) CHECK(r.mode == repair::CollapseMode::safe);
 }
 
 TEST_CASE("interface faces are kept between two areas") {
@@ -121,7 +121,7 @@ TEST_CASE("interface faces are kept between two areas") {
         const auto requests = proposals(c, limits);
         CHECK(static_cast<std::ptrdiff_t>(requests.size()) == beyond(c, 0.5, 2.0, 1.0));
         double last = size < 1.0 ? 0.0 : INFINITY;
-        for (const mesh::Request& r : requests) {
+        for (const repair::Request& r : requests) {
             CHECK(r.operation == (size < 1.0 ? Operation::edge_collapse : Operation::edge_split));
             if (size > 1.0) CHECK(length(c, r) <= last + 1e-3);
             last = length(c, r);
@@ -139,7 +139,7 @@ TEST_CASE("large tets are split at their longest edge, the largest first") {
     limits.max_tet_volume = 0.99 * c.volume(0) / regular;
     const auto requests = proposals(c, limits);
     REQUIRE(requests.size() == 2);
-    for (const mesh::Request& r : requests) {
+    for (const repair::Request& r : requests) {
         CHECK(r.operation == Operation::edge_split);
         for (const auto& e : mesh::edge_vertices) {
             const auto& v = c.tet(r.tet).v;

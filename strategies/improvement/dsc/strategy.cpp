@@ -179,20 +179,20 @@ public:
     DscImprovement(const Params& params, const dsc::plugin::Setup&)
         : params_(params), proposals_(params) {}
 
-    void propose(const dsc::hooks::StepContext& context, const dsc::mesh::RepairRound& round,
-                 std::vector<dsc::mesh::Request>& out) override {
+    void propose(const dsc::hooks::StepContext& context, const dsc::repair::RepairRound& round,
+                 std::vector<dsc::repair::Request>& out) override {
         proposals_.write(round, context.workers, out);
     }
 
     double flatness() const override { return params_.flatness; }
 
-    dsc::mesh::TopologyLimits topology_limits() const override {
+    dsc::repair::TopologyLimits topology_limits() const override {
         const Topology& t = params_.topology;
         return {t.thickness, t.min_component, t.open, t.merge, t.cut};
     }
 
     void select(const dsc::hooks::StepContext& context,
-                std::span<const dsc::mesh::TopologyCandidate> candidates,
+                std::span<const dsc::repair::TopologyCandidate> candidates,
                 std::span<std::uint8_t> accept) override {
         const double support = params_.topology.support * context.target_length;
         for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -201,8 +201,8 @@ public:
             const dsc::cloud::Neighbour nearest =
                 context.cloud->search().nearest(candidates[i].centroid);
             double reach = support;
-            if (candidates[i].kind == dsc::mesh::TopologyCandidate::Kind::cut ||
-                candidates[i].kind == dsc::mesh::TopologyCandidate::Kind::shift) {
+            if (candidates[i].kind == dsc::repair::TopologyCandidate::Kind::cut ||
+                candidates[i].kind == dsc::repair::TopologyCandidate::Kind::shift) {
                 reach = std::max(reach,
                                  params_.topology.spacing * context.cloud->spacing(nearest.index));
             }

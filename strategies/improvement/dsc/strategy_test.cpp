@@ -37,7 +37,7 @@ mesh::Complex cells(double squeeze) {
     return mesh::adopt(m, "cells", nullptr, 0.0);
 }
 
-std::vector<mesh::Request> proposals(const mesh::Complex& c, const config::ConfigNode& params) {
+std::vector<repair::Request> proposals(const mesh::Complex& c, const config::ConfigNode& params) {
     host::Host host;
     host.load(DSC_TEST_PLUGIN);
     const auto strategy = host.create<hooks::Improvement>({"dsc", params}, "improvement");
@@ -45,8 +45,8 @@ std::vector<mesh::Request> proposals(const mesh::Complex& c, const config::Confi
     for (mesh::TetId t = 0; t < c.tet_slots(); ++t) dirty.push_back(t);
     const surface::SurfaceView view;
     const hooks::StepContext step{.surface = view, .box = {}, .to_normalised = {}};
-    const mesh::RepairRound round{c, dirty, {}, {}, {}, 1.0, strategy->flatness(), 0, true};
-    std::vector<mesh::Request> out;
+    const repair::RepairRound round{c, dirty, {}, {}, {}, 1.0, strategy->flatness(), 0, true};
+    std::vector<repair::Request> out;
     strategy->propose(step, round, out);
     return out;
 }
@@ -64,7 +64,7 @@ TEST_CASE("bad tets are requested worst first, each with edges, interface, faces
     float last = 0.0F;
     std::size_t removals = 0;
     for (const auto& r : requests) {
-        if (r.operation != mesh::Operation::edge_removal) continue;
+        if (r.operation != repair::Operation::edge_removal) continue;
         ++removals;
         CHECK(c.quality(r.tet) < 0.2F);
         CHECK(c.quality(r.tet) >= last - 1e-4F);
@@ -81,8 +81,8 @@ TEST_CASE("short interface edges are collapsed within the bounds, unless the thr
     const auto shorts = [](const config::ConfigNode& params) {
         const mesh::Complex c = cells(0.3);
         const auto requests = proposals(c, params);
-        return std::count_if(requests.begin(), requests.end(), [](const mesh::Request& r) {
-            return r.operation == mesh::Operation::edge_collapse && r.mode == mesh::CollapseMode::bounded && r.vertices[1] != mesh::none;
+        return std::count_if(requests.begin(), requests.end(), [](const repair::Request& r) {
+            return r.operation == repair::Operation::edge_collapse && r.mode == repair::CollapseMode::bounded && r.vertices[1] != mesh::none;
         });
     };
     // The cube between x = 1 and x = 1.3 has four edges of 0.3 along x.
@@ -93,11 +93,11 @@ TEST_CASE("short interface edges are collapsed within the bounds, unless the thr
 TEST_CASE("long edges from the interface into a phase are split on request, longest first") {
     const auto splits = [](const mesh::Complex& c, double longest) {
         auto requests = proposals(c, config::ConfigNode::map({{"max_free_edge", longest}, {"min_edge_length", 0.0}, {"max_edge_length", 100.0}}));
-        requests.erase(std::remove_if(requests.begin(), requests.end(), [](const mesh::Request& r) { return r.operation != mesh::Operation::edge_split; }),
+        requests.erase(std::remove_if(requests.begin(), requests.end(), [](const repair::Request& r) { return r.operation != repair::Operation::edge_split; }),
                        requests.end());
         return requests;
     };
-    const auto length = [](const mesh::Complex& c, const mesh::Request& r) { return (c.position(r.vertices[0]) - c.position(r.vertices[1])).norm(); };
+    const auto length = [](const mesh::Complex& c, const repair::Request& r) { return (c.position(r.vertices[0]) - c.position(r.vertices[1])).norm(); };
     const mesh::Complex c = cells(0.6);
     CHECK(splits(c, 0.0).empty());
     CHECK(splits(c, 3.0).empty());
@@ -135,15 +135,15 @@ TEST_CASE("the topology policy follows its parameters") {
     const cloud::TargetCloud target(cloud::normalize(cloud, 1.0));
     const surface::SurfaceView view;
     const hooks::StepContext step{.surface = view, .cloud = &target, .target_length = 0.1, .box = {}, .to_normalised = {}};
-    std::vector<mesh::TopologyCandidate> candidates(2);
+    std::vector<repair::TopologyCandidate> candidates(2);
     candidates[0].centroid = Vec3(0.96, 0, 0);
     candidates[1].centroid = Vec3(0.94, 0, 0);
-    for (auto& candidate : candidates) candidate.kind = mesh::TopologyCandidate::Kind::merge;
+    for (auto& candidate : candidates) candidate.kind = repair::TopologyCandidate::Kind::merge;
     std::vector<std::uint8_t> accept(2, 7);
     on->select(step, candidates, accept);
     CHECK(accept == std::vector<std::uint8_t>{0, 1});
     // The octahedron's points are sqrt(2) apart: such a sparse cloud forbids cuts of necks everywhere near it.
-    for (auto& candidate : candidates) candidate.kind = mesh::TopologyCandidate::Kind::cut;
+    for (auto& candidate : candidates) candidate.kind = repair::TopologyCandidate::Kind::cut;
     on->select(step, candidates, accept);
     CHECK(accept == std::vector<std::uint8_t>{0, 0});
     candidates[1].centroid = Vec3(2.8, 0, 0);

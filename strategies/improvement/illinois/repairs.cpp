@@ -7,9 +7,9 @@
 namespace dsc::improvement {
 namespace {
 
-using mesh::CollapseMode;
-using mesh::Operation;
-using mesh::Request;
+using repair::CollapseMode;
+using repair::Operation;
+using repair::Request;
 using mesh::VertexId;
 
 // Altitudes are compared in steps of 1e-6, so that rounding does not decide the order.
@@ -66,22 +66,22 @@ bool Repairs::inserts_on_interface(const mesh::Complex& c, const Entry& entry) {
     return interface_edge(c, entry.tet, first[0], first[1]);
 }
 
-void Repairs::begin_step(const mesh::RepairRound& round) {
+void Repairs::begin_step(const repair::RepairRound& round) {
     std::fill(searched_.begin(), searched_.end(), 0);
     const double budget = limits_.insertions * static_cast<double>(round.complex.interface_vertices().size());
     insertions_left_ = static_cast<std::size_t>(budget);
 }
 
-void Repairs::count_insertions(const mesh::RepairRound& round) {
-    for (const mesh::Outcome& outcome : round.last_outcomes) {
+void Repairs::count_insertions(const repair::RepairRound& round) {
+    for (const repair::Outcome& outcome : round.last_outcomes) {
         const Request& request = round.last_requests[outcome.request];
-        const bool inserted = outcome.refusal == mesh::Refusal::committed && request.operation == Operation::compound &&
+        const bool inserted = outcome.refusal == repair::Refusal::committed && request.operation == Operation::compound &&
                               request.repair_class == static_cast<std::uint8_t>(RepairClass::sliver);
         if (inserted && insertions_left_ > 0) --insertions_left_;
     }
 }
 
-void Repairs::note(const mesh::RepairRound& round, mesh::TetId t, bool blocking) {
+void Repairs::note(const repair::RepairRound& round, mesh::TetId t, bool blocking) {
     const mesh::Complex& c = round.complex;
     const TetShape shape = classify(corners(c, t), round.length_of(t), limits_);
     const bool by_class = blocking || shape.altitude < limits_.flat;
@@ -98,7 +98,7 @@ void Repairs::note(const mesh::RepairRound& round, mesh::TetId t, bool blocking)
 }
 
 // The tet of lowest quality in the star of a vertex stops the vertex, whether it is flat or not.
-void Repairs::note_blocking(const mesh::RepairRound& round, VertexId v) {
+void Repairs::note_blocking(const repair::RepairRound& round, VertexId v) {
     const mesh::Complex& c = round.complex;
     if (searched_.size() < c.vertex_slots()) searched_.resize(c.vertex_slots(), 0);
     if (searched_[v] != 0 && c.vertex_date(v) <= searched_[v]) return;
@@ -108,7 +108,7 @@ void Repairs::note_blocking(const mesh::RepairRound& round, VertexId v) {
     note(round, *std::min_element(star_.begin(), star_.end(), lower), true);
 }
 
-void Repairs::collect(const mesh::RepairRound& round) {
+void Repairs::collect(const repair::RepairRound& round) {
     queue_.clear();
     free_.clear();
     free_tets_.clear();
@@ -125,7 +125,7 @@ void Repairs::collect(const mesh::RepairRound& round) {
     });
 }
 
-void Repairs::note_spokes(const mesh::RepairRound& round, mesh::TetId t) {
+void Repairs::note_spokes(const repair::RepairRound& round, mesh::TetId t) {
     const mesh::Complex& c = round.complex;
     for (const auto& ends : mesh::edge_vertices) {
         VertexId a = c.tet(t).v[ends[0]], b = c.tet(t).v[ends[1]];
@@ -151,7 +151,7 @@ void Repairs::split_spokes(std::vector<Request>& out) {
     }
 }
 
-void Repairs::smooth(const mesh::RepairRound& round, std::vector<Request>& out) const {
+void Repairs::smooth(const repair::RepairRound& round, std::vector<Request>& out) const {
     for (std::size_t i = 0; i < free_.size(); ++i) {
         Request request = on_tet(round.complex, free_tets_[i], Operation::smooth_laplacian, RepairClass::smoothing);
         request.vertices[0] = free_[i];
@@ -159,7 +159,7 @@ void Repairs::smooth(const mesh::RepairRound& round, std::vector<Request>& out) 
     }
 }
 
-void Repairs::repair_by_class(const mesh::RepairRound& round, const Entry& entry, std::vector<Request>& out) {
+void Repairs::repair_by_class(const repair::RepairRound& round, const Entry& entry, std::vector<Request>& out) {
     const mesh::Complex& c = round.complex;
     const auto& v = c.tet(entry.tet).v;
     const TetShape& shape = entry.shape;
@@ -211,7 +211,7 @@ void Repairs::repair_by_class(const mesh::RepairRound& round, const Entry& entry
     }
 }
 
-void Repairs::flip_or_smooth(const mesh::RepairRound& round, const Entry& entry, std::vector<Request>& out) const {
+void Repairs::flip_or_smooth(const repair::RepairRound& round, const Entry& entry, std::vector<Request>& out) const {
     const mesh::Complex& c = round.complex;
     out.push_back(on_tet(c, entry.tet, Operation::edge_removal, RepairClass::edge_removal));
     out.push_back(on_tet(c, entry.tet, Operation::interface_flip, RepairClass::edge_removal));
@@ -225,7 +225,7 @@ void Repairs::flip_or_smooth(const mesh::RepairRound& round, const Entry& entry,
 }
 
 // The shortest edge with an end inside a phase; edges of the interface are handled as wedges.
-void Repairs::collapse(const mesh::RepairRound& round, const Entry& entry, std::vector<Request>& out) const {
+void Repairs::collapse(const repair::RepairRound& round, const Entry& entry, std::vector<Request>& out) const {
     const mesh::Complex& c = round.complex;
     const auto& v = c.tet(entry.tet).v;
     std::array<VertexId, 2> shortest = {mesh::none, mesh::none};
@@ -245,7 +245,7 @@ void Repairs::collapse(const mesh::RepairRound& round, const Entry& entry, std::
     out.push_back(request);
 }
 
-void Repairs::write(const mesh::RepairRound& round, std::vector<Request>& out) {
+void Repairs::write(const repair::RepairRound& round, std::vector<Request>& out) {
     if (round.round == 0) begin_step(round);
     count_insertions(round);
     collect(round);

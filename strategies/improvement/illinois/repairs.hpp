@@ -1,7 +1,7 @@
 #pragma once
 // The requests of a repair round of the Illinois DSC: tets, repairs and their order.
 
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 #include <string>
 #include <vector>
 
@@ -30,7 +30,7 @@ struct RepairLimits : ShapeLimits {
 class Repairs {
 public:
     explicit Repairs(const RepairLimits& limits) : limits_(limits) {}
-    void write(const mesh::RepairRound& round, std::vector<mesh::Request>& out);
+    void write(const repair::RepairRound& round, std::vector<repair::Request>& out);
 
 private:
     struct Entry {
@@ -59,19 +59,19 @@ private:
     bool interface_edge(const mesh::Complex& c, mesh::TetId t, mesh::VertexId a, mesh::VertexId b);
     std::array<std::array<mesh::VertexId, 2>, 2> crossing_edges(const mesh::Complex& c, const Entry& entry);
     bool inserts_on_interface(const mesh::Complex& c, const Entry& entry);
-    void begin_step(const mesh::RepairRound& round);
-    void count_insertions(const mesh::RepairRound& round);
-    void collect(const mesh::RepairRound& round);
-    void note(const mesh::RepairRound& round, mesh::TetId t, bool blocking);
-    void note_blocking(const mesh::RepairRound& round, mesh::VertexId v);
+    void begin_step(const repair::RepairRound& round);
+    void count_insertions(const repair::RepairRound& round);
+    void collect(const repair::RepairRound& round);
+    void note(const repair::RepairRound& round, mesh::TetId t, bool blocking);
+    void note_blocking(const repair::RepairRound& round, mesh::VertexId v);
 
-    void note_spokes(const mesh::RepairRound& round, mesh::TetId t);
+    void note_spokes(const repair::RepairRound& round, mesh::TetId t);
 
-    void split_spokes(std::vector<mesh::Request>& out);
-    void smooth(const mesh::RepairRound& round, std::vector<mesh::Request>& out) const;
-    void repair_by_class(const mesh::RepairRound& round, const Entry& entry, std::vector<mesh::Request>& out);
-    void flip_or_smooth(const mesh::RepairRound& round, const Entry& entry, std::vector<mesh::Request>& out) const;
-    void collapse(const mesh::RepairRound& round, const Entry& entry, std::vector<mesh::Request>& out) const;
+    void split_spokes(std::vector<repair::Request>& out);
+    void smooth(const repair::RepairRound& round, std::vector<repair::Request>& out) const;
+    void repair_by_class(const repair::RepairRound& round, const Entry& entry, std::vector<repair::Request>& out);
+    void flip_or_smooth(const repair::RepairRound& round, const Entry& entry, std::vector<repair::Request>& out) const;
+    void collapse(const repair::RepairRound& round, const Entry& entry, std::vector<repair::Request>& out) const;
 
     RepairLimits limits_;
     std::vector<Entry> queue_;

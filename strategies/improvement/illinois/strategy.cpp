@@ -87,15 +87,15 @@ public:
     IllinoisImprovement(const Params& params, const dsc::plugin::Setup&)
         : flatness_(params.flatness), repairs_(params) {}
 
-    void propose(const dsc::hooks::StepContext&, const dsc::mesh::RepairRound& round,
-                 std::vector<dsc::mesh::Request>& out) override {
+    void propose(const dsc::hooks::StepContext&, const dsc::repair::RepairRound& round,
+                 std::vector<dsc::repair::Request>& out) override {
         repairs_.write(round, out);
     }
 
     double flatness() const override { return flatness_; }
 
-    dsc::mesh::TopologyLimits topology_limits() const override {
-        dsc::mesh::TopologyLimits limits;
+    dsc::repair::TopologyLimits topology_limits() const override {
+        dsc::repair::TopologyLimits limits;
         limits.thickness = 0.0;
         limits.min_component = 0.0;
         return limits;

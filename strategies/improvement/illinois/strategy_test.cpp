@@ -10,8 +10,8 @@ namespace {
 
 using namespace dsc;
 using config::ConfigNode;
-using mesh::Operation;
-using mesh::Request;
+using repair::Operation;
+using repair::Request;
 using mesh::TetId;
 using mesh::VertexId;
 
@@ -71,7 +71,7 @@ struct Bench {
         std::vector<VertexId> blocked = {};
         unsigned number = 0;
         std::vector<Request> last = {};
-        std::vector<mesh::Outcome> outcomes = {};
+        std::vector<repair::Outcome> outcomes = {};
     };
     std::vector<Request> propose(const mesh::Complex& c, const Round& round) {
         const surface::SurfaceView view;
@@ -172,7 +172,7 @@ TEST_CASE("wedge: the short edge is collapsed within the bounds") {
     for (const Request& r : requests) {
         CHECK(bench.class_of(r) == "wedge");
         CHECK(r.operation == Operation::edge_collapse);
-        CHECK(r.mode == mesh::CollapseMode::bounded);
+        CHECK(r.mode == repair::CollapseMode::bounded);
         CHECK(r.vertices[2] == mesh::none);
         CHECK(std::min(r.vertices[0], r.vertices[1]) == std::min(corner.apex, corner.face[0]));
         CHECK(std::max(r.vertices[0], r.vertices[1]) == std::max(corner.apex, corner.face[0]));
@@ -232,9 +232,9 @@ TEST_CASE("the budget counts what was committed, and a new step has a new one") 
     round.last = bench.propose(c, round);
     REQUIRE(round.last.size() == 1);
     round.number = 1;
-    round.outcomes = {{0, mesh::Refusal::quality}};
+    round.outcomes = {{0, repair::Refusal::quality}};
     CHECK(bench.propose(c, round).size() == 1);
-    round.outcomes = {{0, mesh::Refusal::committed}};
+    round.outcomes = {{0, repair::Refusal::committed}};
     CHECK(bench.propose(c, round).empty());
     round = {.dirty = {t}};
     CHECK(bench.propose(c, round).size() == 1);

@@ -9,7 +9,7 @@
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/io/write.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/mesh/lattice.hpp>
+#include <dsc/generate/lattice.hpp>
 #include <dsc/mesh/validate.hpp>
 #include <dsc/run/mesh_files.hpp>
 #include <filesystem>
@@ -52,10 +52,10 @@ TetMesh load(const std::string& file, const dsc::cloud::TargetCloud* cloud = nul
 
 /// A box of equal cells that contains a cube of three slabs.
 TetMesh slabs() {
-    dsc::mesh::LatticeOptions options;
+    dsc::generate::LatticeOptions options;
     options.cells = 18;
     options.growth = 1;
-    TetMesh mesh = dsc::mesh::make_lattice(options, [](const Vec3&, double) { return false; }, "test");
+    TetMesh mesh = dsc::generate::make_lattice(options, [](const Vec3&, double) { return false; }, "test");
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         Vec3 p = Vec3::Zero();
         for (const std::uint32_t v : mesh.tets[t]) p += mesh.points[v] / 4;

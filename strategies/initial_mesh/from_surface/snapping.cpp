@@ -62,7 +62,7 @@ std::vector<mesh::VertexId> take_corners(mesh::Complex& c, const std::vector<Vec
 
 }  // namespace
 
-mesh::ProjectReport snap(mesh::Complex& complex, const Solid& solid, const Features& features, double cell) {
+generate::ProjectReport snap(mesh::Complex& complex, const Solid& solid, const Features& features, double cell) {
     const auto nearest = [&](const Vec3& p) {
         if (!features.empty()) {
             const surface::NearestHit edge = features.nearest(p);
@@ -70,13 +70,13 @@ mesh::ProjectReport snap(mesh::Complex& complex, const Solid& solid, const Featu
         }
         return solid.nearest(p).point;
     };
-    mesh::ProjectOptions options;
+    generate::ProjectOptions options;
     options.rounds = rounds;
-    mesh::project_interface(complex, nearest, options);
+    generate::project_interface(complex, nearest, options);
     options.fixed = take_corners(complex, features.corners(), corner_reach * cell);
     options.quality = last_quality;
     options.rounds = last_rounds;
-    return mesh::project_interface(complex, nearest, options);
+    return generate::project_interface(complex, nearest, options);
 }
 
 }  // namespace dsc::strategies::from_surface

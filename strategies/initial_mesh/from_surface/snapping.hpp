@@ -2,7 +2,7 @@
 // Moves the interface of a labelled lattice onto a surface.
 
 #include <dsc/mesh/complex.hpp>
-#include <dsc/mesh/project.hpp>
+#include <dsc/generate/project.hpp>
 
 #include "features.hpp"
 #include "solid.hpp"
@@ -12,6 +12,6 @@ namespace dsc::strategies::from_surface {
 /// First moves every vertex of the interface to its nearest point of the surface, then vertices near sharp edges and corners
 /// onto these. No tet inverts or gets a volume-length quality below 0.02, unless it was lower before; a vertex that cannot get
 /// there stays at the nearest place that it reached. [setup]
-mesh::ProjectReport snap(mesh::Complex& complex, const Solid& solid, const Features& features, double cell);
+generate::ProjectReport snap(mesh::Complex& complex, const Solid& solid, const Features& features, double cell);
 
 }  // namespace dsc::strategies::from_surface

@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <dsc/base/version.hpp>
 #include <dsc/base/workers.hpp>
+#include <dsc/generate/lattice.hpp>
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/mesh/lattice.hpp>
 #include <dsc/plugin/lattice_params.hpp>
 #include <dsc/plugin/placing.hpp>
 #include <dsc/plugin/plugin.hpp>
@@ -78,7 +78,7 @@ std::string place(const Vec3& p) {
 class FromSurface final : public dsc::hooks::InitialMesh {
 public:
     /// The parameters that an experiment may set; the values here are the defaults.
-    struct Params : dsc::mesh::LatticeOptions {
+    struct Params : dsc::generate::LatticeOptions {
         Params() { layers = 3; }
         std::string file;
         dsc::plugin::Coordinates coordinates = dsc::plugin::Coordinates::as_they_are;
@@ -139,11 +139,12 @@ public:
     /// ConfigError if the surface reaches the box or the mesh would be too large, CancelledError.
     dsc::mesh::TetMesh build(const dsc::hooks::InitialMeshContext& context) override {
         const Solid solid(read(context));
-        const double cell = dsc::mesh::finest_cell(params_);
+        const double cell = dsc::generate::finest_cell(params_);
         const Features features(solid.surface(), params_.sharp * pi / 180);
         dsc::mesh::Complex complex =
             dsc::mesh::adopt(labelled(solid, features, context), name, nullptr, 0.0);
-        const dsc::mesh::ProjectReport snapped = from_surface::snap(complex, solid, features, cell);
+        const dsc::generate::ProjectReport snapped =
+            from_surface::snap(complex, solid, features, cell);
         dsc::mesh::TetMesh out = complex.to_mesh();
         const dsc::surface::TriangleMesh interface = dsc::surface::extract_interface(out);
         if (interface.faces.empty()) {
@@ -195,7 +196,7 @@ private:
 
     dsc::mesh::TetMesh labelled(const Solid& solid, const Features& features,
                                 const dsc::hooks::InitialMeshContext& context) const {
-        const dsc::Box3 box = dsc::mesh::box_of(params_),
+        const dsc::Box3 box = dsc::generate::box_of(params_),
                         used = dsc::bounding_box(solid.surface().points);
         if ((used.low.array() <= box.low.array()).any() ||
             (used.high.array() >= box.high.array()).any()) {
@@ -205,8 +206,8 @@ private:
                     " to " + place(used.high) + ", beyond the box from " + place(box.low) + " to " +
                     place(box.high) + "; `fit` it into the box or make `box` larger");
         }
-        const double outside = reach * dsc::mesh::finest_cell(params_);
-        dsc::mesh::TetMesh out = dsc::mesh::make_lattice(
+        const double outside = reach * dsc::generate::finest_cell(params_);
+        dsc::mesh::TetMesh out = dsc::generate::make_lattice(
             params_,
             [&](const Vec3& centre, double radius) {
                 return solid.nearest(centre).distance > radius;
@@ -230,7 +231,7 @@ private:
                             [&](std::uint32_t v) { return inside[v] != 0; }))
                 out.labels[t] = params_.label;
         }
-        if (dsc::mesh::labels_touch_box(out)) {
+        if (dsc::generate::labels_touch_box(out)) {
             throw dsc::ConfigError(
                 "lattice.box",
                 std::string(name) + ": " + params_.file +

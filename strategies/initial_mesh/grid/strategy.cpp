@@ -4,8 +4,8 @@
 // middle), so that the diagonals of neighbouring cells agree. Tets are labelled by the shapes in
 // their order; their interface is stair-stepped, or projected onto the surface of the shapes.
 #include <dsc/base/version.hpp>
+#include <dsc/generate/project.hpp>
 #include <dsc/hooks/initial_mesh.hpp>
-#include <dsc/mesh/project.hpp>
 #include <dsc/plugin/plugin.hpp>
 #include <dsc/plugin/shape_params.hpp>
 #include <vector>
@@ -78,14 +78,14 @@ public:
     /// outermost, then j, then i; all tets are positive. Throws CancelledError.
     dsc::mesh::TetMesh build(const dsc::hooks::InitialMeshContext& context) override {
         if (!project_) return lattice(context, shapes_);
-        return dsc::mesh::make_projected(
-            [&](std::span<const dsc::mesh::Shape> shapes) { return lattice(context, shapes); },
+        return dsc::generate::make_projected(
+            [&](std::span<const dsc::generate::Shape> shapes) { return lattice(context, shapes); },
             shapes_, 2 * box_ / cells_, "initial mesh 'grid'");
     }
 
 private:
     dsc::mesh::TetMesh lattice(const dsc::hooks::InitialMeshContext& context,
-                               std::span<const dsc::mesh::Shape> shapes) const {
+                               std::span<const dsc::generate::Shape> shapes) const {
         const auto cells = static_cast<unsigned>(cells_);
         const unsigned row = cells + 1;
         dsc::mesh::TetMesh out;
@@ -107,7 +107,7 @@ private:
                             corners[c] = out.points[tet[c]];
                         }
                         out.tets.push_back(tet);
-                        out.labels.push_back(dsc::mesh::label_of(shapes, corners));
+                        out.labels.push_back(dsc::generate::label_of(shapes, corners));
                     }
                 }
             }
@@ -119,7 +119,7 @@ private:
     double box_;
     Vec3 box_centre_;
     bool project_;
-    std::vector<dsc::mesh::Shape> shapes_;
+    std::vector<dsc::generate::Shape> shapes_;
 };
 
 }  // namespace

@@ -15,14 +15,14 @@ constexpr double gap_widths = 3.0;
 constexpr std::size_t least_part = 10;
 
 std::size_t changed(const Labels& labels, bool inside) {
-    return static_cast<std::size_t>(std::count_if(labels.components.begin(), labels.components.end(), [&](const mesh::LabelComponent& c) {
+    return static_cast<std::size_t>(std::count_if(labels.components.begin(), labels.components.end(), [&](const generate::LabelComponent& c) {
         return c.inside == inside && !c.kept;
     }));
 }
 
 std::string counted(std::size_t count, const char* one, const char* many) { return std::to_string(count) + " " + (count == 1 ? one : many); }
 
-std::string in_words(const mesh::TopologyCounts& counts) {
+std::string in_words(const generate::TopologyCounts& counts) {
     return counted(counts.components, "component", "components") + ", " + counted(counts.cavities, "cavity", "cavities") + ", genus " +
            std::to_string(counts.genus());
 }
@@ -36,7 +36,7 @@ std::string rounded(double value, int digits) {
 }  // namespace
 
 bool doubtful(const Labels& labels, const cloud::Orientation& orientation) {
-    return labels.changed_share() > most_changed || orientation.residual > retry_residual;
+    return labels.weak_share() > most_changed || orientation.residual > retry_residual;
 }
 
 StartSurface measure_start(const mesh::TetMesh& mesh, const cloud::Orientation& orientation, double cloud_area) {
@@ -107,6 +107,7 @@ void add_figures(const Labels& labels, const cloud::Orientation& orientation, co
     whole("settled_vertices", labels.settled());
     add("changed_share", labels.changed_share());
     whole("refused_places", labels.filter.clusters.size());
+    whole("confirmed_places", labels.filter.confirmed.size());
     whole("components_before_filter", labels.filter.before.components);
     whole("cavities_before_filter", labels.filter.before.cavities);
     add("genus_before_filter", static_cast<double>(labels.filter.before.genus()));
@@ -116,7 +117,7 @@ void add_figures(const Labels& labels, const cloud::Orientation& orientation, co
     whole("islands_removed", changed(labels, true));
     whole("cavities_filled", changed(labels, false));
     // Parts that are connected by certain values have no weakest attachment: 1/2 is the largest possible value.
-    const auto inside = mesh::weakest_attachment(labels.filter, true, least_part), outside = mesh::weakest_attachment(labels.filter, false, least_part);
+    const auto inside = generate::weakest_attachment(labels.filter, true, least_part), outside = generate::weakest_attachment(labels.filter, false, least_part);
     add("weakest_bridge", inside ? inside->level : 0.5);
     add("weakest_gap", outside ? outside->level : 0.5);
     add("area_ratio", start.cloud_area > 0.0 ? start.area / start.cloud_area : 0.0);

@@ -5,7 +5,9 @@
 #include <dsc/base/error.hpp>
 #include <dsc/cloud/search.hpp>
 #include <dsc/cloud/winding_field.hpp>
-#include <dsc/mesh/graded_lattice.hpp>
+#include <dsc/generate/graded_lattice.hpp>
+
+#include "witness.hpp"
 
 namespace dsc::strategies {
 namespace {
@@ -43,19 +45,19 @@ double width_quantile(std::span<const cloud::SurfaceSample> samples, double at) 
     return widths[static_cast<std::size_t>(n)];
 }
 
-mesh::GradedLattice make_lattice(std::span<const cloud::SurfaceSample> samples, const LabelOptions& options, double half_box) {
-    mesh::LatticeOptions lattice;
+generate::GradedLattice make_lattice(std::span<const cloud::SurfaceSample> samples, const LabelOptions& options, double half_box) {
+    generate::LatticeOptions lattice;
     lattice.box = half_box;
-    const double most = 2.0 * half_box / mesh::most_graded_cells * 1.01;
+    const double most = 2.0 * half_box / generate::most_graded_cells * 1.01;
     lattice.cell = std::max(options.cell * width_quantile(samples, finest_quantile), most);
-    std::vector<mesh::CellSize> sizes;
+    std::vector<generate::CellSize> sizes;
     sizes.reserve(samples.size());
     for (const cloud::SurfaceSample& sample : samples) sizes.push_back({sample.position, slack * options.cell * sample.width});
     return {lattice, sizes, generator_name};
 }
 
 /// The values of vertices from `first` on: the winding number minus 1/2, never 0.
-void evaluate(const cloud::WindingField& field, const mesh::GradedLattice& lattice, std::size_t first, std::vector<double>& values,
+void evaluate(const cloud::WindingField& field, const generate::GradedLattice& lattice, std::size_t first, std::vector<double>& values,
               Workers* workers) {
     const std::span<const Vec3> points = lattice.points();
     values.resize(points.size());
@@ -68,11 +70,10 @@ void evaluate(const cloud::WindingField& field, const mesh::GradedLattice& latti
 }
 
 /// Splits cells with both labels that are too large for the samples there, until there are none.
-unsigned refine(mesh::GradedLattice& lattice, std::span<const cloud::SurfaceSample> samples, std::span<const Vec3> places,
+unsigned refine(generate::GradedLattice& lattice, std::span<const cloud::SurfaceSample> samples, const cloud::NearestSearch& search,
                 const cloud::WindingField& field, const LabelOptions& options, std::vector<double>& values, Workers* workers) {
-    const cloud::NearestSearch search(places);
-    const auto too_large = [&](const mesh::GradedLattice::Leaf& leaf) {
-        if (!mesh::has_mixed_signs(leaf, values)) return false;
+    const auto too_large = [&](const generate::GradedLattice::Leaf& leaf) {
+        if (!generate::has_mixed_signs(leaf, values)) return false;
         const cloud::Neighbour near = search.nearest(lattice.points()[leaf.vertices[8]]);
         return leaf.edge > slack * std::max(options.cell * samples[near.index].width, cell_per_distance * near.distance);
     };
@@ -84,10 +85,25 @@ unsigned refine(mesh::GradedLattice& lattice, std::span<const cloud::SurfaceSamp
     return most_rounds;
 }
 
+/// Filters the values. Samples may confirm loops if weak values are rare: where they are not, the normals of the samples are as
+/// doubtful as the values.
+generate::TopologyFilterReport filter_loops(Labels& labels, std::span<const cloud::SurfaceSample> samples,
+                                            const cloud::NearestSearch& search, const LabelOptions& options) {
+    const auto &points = labels.lattice.points;
+    const auto &tets = labels.lattice.tets;
+    const std::vector<double> unfiltered = labels.values;
+    const generate::LoopWitness witness = tangent_plane_witness(samples, search, points, unfiltered);
+    generate::TopologyFilterReport report = generate::filter_topology(points, tets, labels.values, options.certain, witness);
+    const auto most = static_cast<std::size_t>(most_changed * static_cast<double>(labels.samples));
+    if (report.confirmed.empty() || report.refused <= most) return report;
+    labels.values = unfiltered;
+    return generate::filter_topology(points, tets, labels.values, options.certain);
+}
+
 /// Keeps only those cells small that the interface needs.
-void coarsen(const mesh::GradedLattice& lattice, Labels& labels, Workers* workers, const CancelToken* cancel) {
+void coarsen(const generate::GradedLattice& lattice, Labels& labels, Workers* workers, const CancelToken* cancel) {
     std::vector<std::uint32_t> origins;
-    const mesh::GradedLattice coarse = lattice.coarsened(labels.values, origins);
+    const generate::GradedLattice coarse = lattice.coarsened(labels.values, origins);
     std::vector<double> values;
     values.reserve(origins.size());
     for (const std::uint32_t v : origins) values.push_back(labels.values[v]);
@@ -98,7 +114,7 @@ void coarsen(const mesh::GradedLattice& lattice, Labels& labels, Workers* worker
 }
 
 /// The vertex near each sample.
-std::vector<std::uint32_t> vertices_near(const mesh::GradedLattice& lattice, std::span<const Vec3> places) {
+std::vector<std::uint32_t> vertices_near(const generate::GradedLattice& lattice, std::span<const Vec3> places) {
     std::vector<std::uint32_t> vertices;
     vertices.reserve(places.size());
     for (const Vec3& p : places) vertices.push_back(lattice.vertex_near(p));
@@ -109,12 +125,18 @@ std::vector<std::uint32_t> vertices_near(const mesh::GradedLattice& lattice, std
 
 std::size_t Labels::settled() const {
     std::size_t sum = 0;
-    for (const mesh::LabelComponent& component : components) sum += component.kept ? 0 : component.vertices;
+    for (const generate::LabelComponent& component : components) sum += component.kept ? 0 : component.vertices;
     return sum;
 }
 
 double Labels::changed_share() const {
     return samples == 0 ? 0.0 : static_cast<double>(filter.refused + settled()) / static_cast<double>(samples);
+}
+
+double Labels::weak_share() const {
+    std::size_t confirmed = 0;
+    for (const generate::RefusedCluster& cluster : filter.confirmed) confirmed += cluster.vertices.size();
+    return changed_share() + (samples == 0 ? 0.0 : static_cast<double>(confirmed) / static_cast<double>(samples));
 }
 
 Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& options, double half_box, Workers* workers,
@@ -123,11 +145,12 @@ Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& 
     std::vector<Vec3> places;
     places.reserve(samples.size());
     for (const cloud::SurfaceSample& sample : samples) places.push_back(sample.position);
+    const cloud::NearestSearch search(places);
     const cloud::WindingField field = cloud::winding_field(samples, smoothing);
-    mesh::GradedLattice lattice = make_lattice(samples, options, half_box);
+    generate::GradedLattice lattice = make_lattice(samples, options, half_box);
     Labels out;
     evaluate(field, lattice, 0, out.values, workers);
-    out.rounds = refine(lattice, samples, places, field, options, out.values, workers);
+    out.rounds = refine(lattice, samples, search, field, options, out.values, workers);
     out.samples = orientation.samples.size();
     out.width = width_quantile(samples, 0.5);
 
@@ -136,17 +159,17 @@ Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& 
     out.lattice.labels.assign(out.lattice.tets.size(), 0);
     const auto &points = out.lattice.points;
     const auto &tets = out.lattice.tets;
-    out.filter = mesh::filter_topology(points, tets, out.values, options.certain);
+    out.filter = filter_loops(out, samples, search, options);
     const std::vector<std::uint32_t> near = vertices_near(lattice, places);
-    mesh::ComponentOptions settle;
+    generate::ComponentOptions settle;
     settle.cavities = options.cavities;
     settle.remove_islands = options.remove_islands;
     settle.width = out.width;
     settle.least_volume = options.least_volume;
     settle.certain = options.certain;
-    out.components = mesh::settle_components(points, tets, out.values, lattice.volumes(), {places, near}, settle);
+    out.components = generate::settle_components(points, tets, out.values, lattice.volumes(), {places, near}, settle);
     coarsen(lattice, out, workers, cancel);
-    out.counts = mesh::count_topology(points, tets, out.values);
+    out.counts = generate::count_topology(points, tets, out.values);
     if (out.counts.components == 0) {
         throw GeometryError("indicator.nothing_inside",
                             std::string(generator_name) +

@@ -7,7 +7,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/cloud/orientation.hpp>
 #include <dsc/cloud/statistics.hpp>
-#include <dsc/mesh/isosurface.hpp>
+#include <dsc/generate/isosurface.hpp>
 
 #include "confidence.hpp"
 
@@ -67,11 +67,11 @@ void Indicator::declare(config::ParamSchema<Params>& schema) {
         .open_high()
         .unit("1")
         .doc("Difference of the winding number from 1/2 from which a label is certain. A handle is kept only if its body and "
-             "its hole are certain everywhere along it.");
+             "its hole are certain everywhere along it, or if the samples round it confirm it.");
     schema.boolean("remove_islands", static_cast<bool Params::*>(&LabelOptions::remove_islands))
         .doc("Whether bodies smaller than `least_volume` are removed; the largest body is always kept.");
-    schema.choice("cavities", static_cast<mesh::CavityPolicy Params::*>(&LabelOptions::cavities),
-                  {{"auto", mesh::CavityPolicy::automatic}, {"keep", mesh::CavityPolicy::keep}, {"fill", mesh::CavityPolicy::fill}})
+    schema.choice("cavities", static_cast<generate::CavityPolicy Params::*>(&LabelOptions::cavities),
+                  {{"auto", generate::CavityPolicy::automatic}, {"keep", generate::CavityPolicy::keep}, {"fill", generate::CavityPolicy::fill}})
         .doc("Enclosed cavities: 'auto' keeps those that are certainly empty and have at least 12 points on their wall, 'keep' "
              "keeps all above `least_volume`, 'fill' fills all.");
     schema.real("least_volume", static_cast<double Params::*>(&LabelOptions::least_volume))
@@ -110,19 +110,19 @@ mesh::TetMesh Indicator::build(const hooks::InitialMeshContext& context) {
         cloud::Orientation again = cloud::orient_points(cloud.points(), finer, context.workers, context.cancel).orientation;
         Labels other = label_lattice(again, params_, half_box, context.workers, context.cancel);
         ++attempts;
-        if (other.changed_share() > labels.changed_share()) continue;
+        if (other.weak_share() > labels.weak_share()) continue;
         taken = attempts;
         labels = std::move(other);
         orientation = std::move(again);
     }
     seconds_.emplace_back("labels", lap());
 
-    mesh::StuffOptions options;
+    generate::StuffOptions options;
     options.most_interface_vertices = most_vertices(cloud.size());
     options.smoothing_sweeps = params_.smoothing;
-    mesh::StuffReport report;
+    generate::StuffReport report;
     mesh::TetMesh mesh =
-        mesh::stuff_interface(labels.lattice, labels.values, options, &report, context.workers, context.cancel, generator_name);
+        generate::stuff_interface(labels.lattice, labels.values, options, &report, context.workers, context.cancel, generator_name);
     seconds_.emplace_back("cut", lap());
 
     const StartSurface start = measure_start(mesh, orientation, cloud.statistics(context.workers).area);

@@ -6,9 +6,9 @@
 // are in the finest cells.
 #include <dsc/base/error.hpp>
 #include <dsc/base/version.hpp>
+#include <dsc/generate/lattice.hpp>
+#include <dsc/generate/project.hpp>
 #include <dsc/hooks/initial_mesh.hpp>
-#include <dsc/mesh/lattice.hpp>
-#include <dsc/mesh/project.hpp>
 #include <dsc/plugin/lattice_params.hpp>
 #include <dsc/plugin/plugin.hpp>
 #include <dsc/plugin/shape_params.hpp>
@@ -21,7 +21,7 @@ using dsc::Vec3;
 class Lattice final : public dsc::hooks::InitialMesh {
 public:
     /// The parameters that an experiment may set; the values here are the defaults.
-    struct Params : dsc::mesh::LatticeOptions, dsc::plugin::ShapeParams {};
+    struct Params : dsc::generate::LatticeOptions, dsc::plugin::ShapeParams {};
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         dsc::plugin::declare_lattice(schema, "the shapes' surface");
         dsc::plugin::declare_shapes(schema);
@@ -33,28 +33,28 @@ public:
     /// All tets are positive. Throws CancelledError, and ConfigError if a shape reaches the box or
     /// the mesh would be too large.
     dsc::mesh::TetMesh build(const dsc::hooks::InitialMeshContext& context) override {
-        const auto make = [&](std::span<const dsc::mesh::Shape> shapes) {
+        const auto make = [&](std::span<const dsc::generate::Shape> shapes) {
             return labelled(shapes, context.cancel);
         };
         if (!params_.project) return make(shapes_);
-        return dsc::mesh::make_projected(make, shapes_, dsc::mesh::finest_cell(params_),
-                                         "initial mesh 'lattice'");
+        return dsc::generate::make_projected(make, shapes_, dsc::generate::finest_cell(params_),
+                                             "initial mesh 'lattice'");
     }
 
 private:
-    dsc::mesh::TetMesh labelled(std::span<const dsc::mesh::Shape> shapes,
+    dsc::mesh::TetMesh labelled(std::span<const dsc::generate::Shape> shapes,
                                 const dsc::CancelToken* cancel) const {
         const auto same = [&](const Vec3& centre, double radius) {
-            return dsc::mesh::same_label_within(shapes, centre, radius);
+            return dsc::generate::same_label_within(shapes, centre, radius);
         };
         dsc::mesh::TetMesh out =
-            dsc::mesh::make_lattice(params_, same, "initial mesh 'lattice'", cancel);
+            dsc::generate::make_lattice(params_, same, "initial mesh 'lattice'", cancel);
         for (std::size_t t = 0; t < out.tets.size(); ++t) {
             const auto& v = out.tets[t];
-            out.labels[t] = dsc::mesh::label_of(
+            out.labels[t] = dsc::generate::label_of(
                 shapes, {out.points[v[0]], out.points[v[1]], out.points[v[2]], out.points[v[3]]});
         }
-        if (dsc::mesh::labels_touch_box(out)) {
+        if (dsc::generate::labels_touch_box(out)) {
             throw dsc::ConfigError(
                 "lattice.box",
                 "initial mesh 'lattice': a shape reaches the faces of the box; make the shape "
@@ -64,7 +64,7 @@ private:
     }
 
     Params params_;
-    std::vector<dsc::mesh::Shape> shapes_;
+    std::vector<dsc::generate::Shape> shapes_;
 };
 
 }  // namespace

@@ -80,10 +80,10 @@ public:
     bool owns_sizing() const override { return true; }
     unsigned passes() const override { return dsc::hooks::refinement_passes; }
 
-    std::optional<dsc::mesh::CreaseRule> keep_creases() const override {
+    std::optional<dsc::repair::CreaseRule> keep_creases() const override {
         if (refinements_ == 0 || !keeps()) return std::nullopt;
-        return dsc::mesh::CreaseRule{dsc::remesh::crease_angle,
-                                     std::acos(dsc::remesh::turn_cosine)};
+        return dsc::repair::CreaseRule{dsc::remesh::crease_angle,
+                                       std::acos(dsc::remesh::turn_cosine)};
     }
 
     void refine(const dsc::hooks::RefinementContext& context,

@@ -161,11 +161,11 @@ public:
 
     /// Creases are kept in the last two thirds of the iterations, when the surface has moved away
     /// from its start.
-    std::optional<dsc::mesh::CreaseRule> keep_creases() const override {
+    std::optional<dsc::repair::CreaseRule> keep_creases() const override {
         const bool shaped = progress_.iterations > 0 &&
                             static_cast<double>(progress_.done) >
                                 fit::start_part * static_cast<double>(progress_.iterations);
-        return shaped ? std::optional(dsc::mesh::CreaseRule{}) : std::nullopt;
+        return shaped ? std::optional(dsc::repair::CreaseRule{}) : std::nullopt;
     }
 
     void save(std::ostream& out) const override {

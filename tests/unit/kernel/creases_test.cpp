@@ -25,7 +25,7 @@ surface::SurfaceView view_of(const Deformer& d) {
     return view;
 }
 
-const mesh::CreaseRule rule{};
+const repair::CreaseRule rule{};
 
 // Summed length of the edges with more than 0.6 between their faces' normals.
 double crease_length(const Deformer& d) {
@@ -41,7 +41,7 @@ double crease_length(const Deformer& d) {
 }
 
 // Every edge is to be collapsed into its middle or its end, and every edge to be flipped.
-std::size_t ask_for_everything(Deformer& d, const std::optional<mesh::CreaseRule>& creases, bool to_middle) {
+std::size_t ask_for_everything(Deformer& d, const std::optional<repair::CreaseRule>& creases, bool to_middle) {
     const surface::SurfaceView view = view_of(d);
     std::vector<surface::ViewEdge> edges;
     surface::build_edges(view, edges);
@@ -57,19 +57,19 @@ std::size_t ask_for_everything(Deformer& d, const std::optional<mesh::CreaseRule
     return d.refine(requests).committed;
 }
 
-RepairPolicy asking_for(mesh::Operation operation) {
+RepairPolicy asking_for(repair::Operation operation) {
     RepairPolicy policy;
     policy.topology.thickness = 0.0;
-    policy.propose = [operation](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+    policy.propose = [operation](const repair::RepairRound& round, std::vector<repair::Request>& out) {
         const mesh::Complex& c = round.complex;
         if (round.round > 0) return;
         for (mesh::TetId t = 0; t < c.tet_slots(); ++t) {
             if (!c.tet_alive(t)) continue;
-            mesh::Request request;
+            repair::Request request;
             request.operation = operation;
             request.tet = t;
             request.birth_date = c.birth_date(t);
-            request.mode = mesh::CollapseMode::bounded;
+            request.mode = repair::CollapseMode::bounded;
             request.accept_above = 0.0F;
             out.push_back(request);
         }
@@ -101,9 +101,9 @@ TEST_CASE("with the rule a refinement's collapses and flips leave a cube its edg
 }
 
 TEST_CASE("with the rule no collapse, flip, relabelling or compound of the improvement costs a crease") {
-    using mesh::Operation;
+    using repair::Operation;
     for (const Operation operation : {Operation::edge_collapse, Operation::interface_flip, Operation::relabel, Operation::compound}) {
-        CAPTURE(mesh::name(operation));
+        CAPTURE(repair::name(operation));
         std::array<double, 2> change{};
         for (const bool keep : {false, true}) {
             Deformer d(cube());
@@ -127,7 +127,7 @@ TEST_CASE("for a tet below the quality floor the rule is set aside, and that is 
     options.quality_floor = 0.99;  // which every tet of the grid is below
     Deformer d(cube(), options);
     const double volume = mesh::labelled_volume(d.complex());
-    RepairPolicy policy = asking_for(mesh::Operation::relabel);
+    RepairPolicy policy = asking_for(repair::Operation::relabel);
     policy.creases = rule;
     const StepReport report = d.step({}, {}, policy);
     CHECK(report.crease_exceptions > 0);

@@ -87,7 +87,7 @@ TEST_CASE("a translation there and back arrives, keeps the volume and stays vali
         CHECK(report.dropped_motion < 0.05);
         CHECK(report.rounds <= 50);
         edits += report.edit_volume + report.relabelled_volume + report.dropped_motion * d.target_length() * d.target_length();
-        committed += report.operations[static_cast<std::size_t>(mesh::Operation::edge_removal)].committed;
+        committed += report.operations[static_cast<std::size_t>(repair::Operation::edge_removal)].committed;
     }
     CHECK(mesh::validate(d.complex()).faults == std::vector<std::string>{});
     CHECK(committed > 0);
@@ -117,7 +117,7 @@ TEST_CASE("destinations are clamped to the box shrunk by 2 L") {
 
 TEST_CASE("a shrinking sphere vanishes as one counted event") {
     Deformer d(ball(12, 0.7));
-    mesh::EventCounts counts;
+    repair::EventCounts counts;
     for (int i = 0; i < 60 && !d.complex().interface_vertices().empty(); ++i) {
         const StepReport report = drive(d, test::quality_policy(), [](const Vec3& p) { return Vec3(-0.05 * p.normalized()); });
         counts.vanished += report.event_counts.vanished;

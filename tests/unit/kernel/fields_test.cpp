@@ -249,7 +249,7 @@ TEST_CASE("the improvement sees the lengths and whether it may edit for size") {
     policy.topology.thickness = 0.0;
     bool told = false, size_edits = true;
     double seen = 0.0;
-    policy.propose = [&](const mesh::RepairRound& round, std::vector<mesh::Request>&) {
+    policy.propose = [&](const repair::RepairRound& round, std::vector<repair::Request>&) {
         told = !round.lengths.empty();
         size_edits = round.size_edits;
         seen = round.length_at(view.vertex_ids[7]);

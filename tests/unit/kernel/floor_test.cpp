@@ -79,13 +79,13 @@ std::size_t slivers_below(const mesh::Complex& c, float bound) {
 // Asks for slivers to take the label around them, or for one of their edges to go, at any price.
 RepairPolicy against_slivers(double floor) {
     RepairPolicy policy = without_repair(floor);
-    policy.creases = mesh::CreaseRule{};
-    policy.propose = [](const mesh::RepairRound& round, std::vector<mesh::Request>& out) {
+    policy.creases = repair::CreaseRule{};
+    policy.propose = [](const repair::RepairRound& round, std::vector<repair::Request>& out) {
         for (const TetId t : round.dirty) {
-            for (const auto operation : {mesh::Operation::relabel, mesh::Operation::edge_collapse}) {
-                mesh::Request request;
+            for (const auto operation : {repair::Operation::relabel, repair::Operation::edge_collapse}) {
+                repair::Request request;
                 request.operation = operation;
-                request.mode = mesh::CollapseMode::bounded;
+                request.mode = repair::CollapseMode::bounded;
                 request.tet = t;
                 request.birth_date = round.complex.birth_date(t);
                 request.only_below = request.accept_above = 0.03F;

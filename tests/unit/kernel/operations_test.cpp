@@ -96,8 +96,8 @@ TEST_CASE("face removal takes the named face and no other") {
     for (TetId t = 0; t < 400 && done < 20; ++t) {
         for (unsigned f = 0; f < 4; ++f) {
             if (!c.tet_alive(t) || c.tet(t).n[f] == mesh::none) continue;
-            mesh::Request request;
-            request.operation = mesh::Operation::face_removal;
+            repair::Request request;
+            request.operation = repair::Operation::face_removal;
             request.tet = t;
             request.birth_date = c.birth_date(t);
             request.accept_above = 0.0F;
@@ -114,8 +114,8 @@ TEST_CASE("face removal takes the named face and no other") {
     }
     CHECK(done >= 10);
     CHECK(refused > 0);
-    mesh::Request elsewhere;
-    elsewhere.operation = mesh::Operation::face_removal;
+    repair::Request elsewhere;
+    elsewhere.operation = repair::Operation::face_removal;
     elsewhere.tet = c.seed(0);
     elsewhere.birth_date = c.birth_date(elsewhere.tet);
     const auto far = static_cast<VertexId>(c.vertex_slots() - 1);
@@ -132,8 +132,8 @@ TEST_CASE("a compound with a named vertex or edge repairs that; its gain and lea
         c.move(v, c.position(v) + part * (target - c.position(v)), star);
     };
     const auto request_of = [](const Complex& c, TetId t, std::array<VertexId, 3> vertices) {
-        mesh::Request request;
-        request.operation = mesh::Operation::compound;
+        repair::Request request;
+        request.operation = repair::Operation::compound;
         request.tet = t;
         request.birth_date = c.birth_date(t);
         request.vertices = vertices;
@@ -151,7 +151,7 @@ TEST_CASE("a compound with a named vertex or edge repairs that; its gain and lea
             for (unsigned k = 0; k < 3; ++k) centroid += c.position(c.tet(t).v[mesh::face_vertices[f][k]]) / 3.0;
             flatten(c, v, centroid, 0.97);
             const float old = c.quality(t);
-            mesh::Request request = request_of(c, t, {v, mesh::none, mesh::none});
+            repair::Request request = request_of(c, t, {v, mesh::none, mesh::none});
             request.gain = 2.0F / old;  // no tet is twice as good as a regular one
             CHECK(execute(bench, request) == Refusal::quality);
             request.gain = 2.0F;
@@ -186,7 +186,7 @@ TEST_CASE("a compound with a named vertex or edge repairs that; its gain and lea
         REQUIRE(valid(c));
         // Another pair of opposite edges is as far apart as before: its common vertex would invert tets.
         CHECK(execute(bench, request_of(c, t, {v[0], v[2], mesh::none})) == Refusal::quality);
-        mesh::Request request = request_of(c, t, {v[2], v[3], mesh::none});
+        repair::Request request = request_of(c, t, {v[2], v[3], mesh::none});
         const std::size_t vertices = c.vertex_count();
         if (execute(bench, request) != Refusal::committed) continue;
         ++slivers;
@@ -209,7 +209,7 @@ TEST_CASE("the box never changes: its edges and faces are refused") {
     }
     REQUIRE(along != mesh::none);
     CHECK(split_edge(bench, corner, 0, along, 0.5) == Refusal::box);
-    CHECK(collapse_edge(bench, corner, 0, along, mesh::CollapseMode::bounded, 0.0F) == Refusal::box);
+    CHECK(collapse_edge(bench, corner, 0, along, repair::CollapseMode::bounded, 0.0F) == Refusal::box);
     CHECK(remove_edge(bench, corner, 0, along, 0.0F) == Refusal::box);
     CHECK(flip_interface_edge(bench, corner, 0, along, 0.0F) == Refusal::box);
     CHECK(smooth_laplacian(bench, 0, 0.0F) == Refusal::box);
@@ -239,7 +239,7 @@ TEST_CASE("collapse of an exactly flat interface vertex keeps the volume; a corn
         const auto corners = c.tet(t).v;
         for (const VertexId w : corners) {
             if (w == v || !c.on_interface(w) || result == Refusal::committed) continue;
-            result = collapse_edge(bench, t, v, w, mesh::CollapseMode::safe, 0.0F);
+            result = collapse_edge(bench, t, v, w, repair::CollapseMode::safe, 0.0F);
         }
     }
     CHECK(result == Refusal::committed);
@@ -308,7 +308,7 @@ TEST_CASE("a plate is not pinched: collapses across it are refused") {
         if (!c.tet_alive(t) || c.label(t) != 1) continue;
         for (const auto& e : mesh::edge_vertices) {
             if (!c.tet_alive(t) || c.label(t) != 1) break;
-            const Refusal r = collapse_edge(bench, t, c.tet(t).v[e[0]], c.tet(t).v[e[1]], mesh::CollapseMode::bounded, 0.0F);
+            const Refusal r = collapse_edge(bench, t, c.tet(t).v[e[0]], c.tet(t).v[e[1]], repair::CollapseMode::bounded, 0.0F);
             irregular += r == Refusal::irregular ? 1 : 0;
             REQUIRE(mesh::count_interface(c).euler() == 2);
         }

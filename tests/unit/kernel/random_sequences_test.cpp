@@ -22,16 +22,16 @@
 
 using namespace dsc;
 using namespace dsc::kernel;
-using mesh::Operation;
+using repair::Operation;
 
 namespace {
 
 constexpr std::size_t sequence_length = 54000;  // of each of the five meshes
 
 struct Tally {
-    std::array<std::size_t, mesh::operation_count> tried{}, committed{};
-    std::array<std::array<std::size_t, mesh::refusal_count>, mesh::operation_count> refused{};
-    std::array<std::size_t, mesh::refusal_count> reasons{};
+    std::array<std::size_t, repair::operation_count> tried{}, committed{};
+    std::array<std::array<std::size_t, repair::refusal_count>, repair::operation_count> refused{};
+    std::array<std::size_t, repair::refusal_count> reasons{};
     std::array<std::size_t, 7> events{};
     std::size_t moves = 0, operations = 0;
 };
@@ -50,8 +50,8 @@ bool keeps_labels(Operation o) {
            o == Operation::face_removal || o == Operation::edge_split || o == Operation::vertex_split;
 }
 
-mesh::Request random_request(const mesh::Complex& c, RandomStream& random, Operation operation) {
-    mesh::Request r;
+repair::Request random_request(const mesh::Complex& c, RandomStream& random, Operation operation) {
+    repair::Request r;
     r.operation = operation;
     TetId t = static_cast<TetId>(random.index(c.tet_slots()));
     // Mostly at the interface, where things are delicate.
@@ -60,7 +60,7 @@ mesh::Request random_request(const mesh::Complex& c, RandomStream& random, Opera
     }
     r.tet = t;
     r.birth_date = c.birth_date(t);
-    r.mode = random.index(2) == 0 ? mesh::CollapseMode::safe : mesh::CollapseMode::bounded;
+    r.mode = random.index(2) == 0 ? repair::CollapseMode::safe : repair::CollapseMode::bounded;
     r.accept_above = random.index(4) == 0 ? 2.0F : 0.0F;
     r.parameter = static_cast<float>(random.uniform(0.05, 0.95));
     if (!c.tet_alive(t)) return r;
@@ -129,7 +129,7 @@ void run_sequence(mesh::Complex& c, std::uint64_t seed, Tally& tally) {
     const double length = 0.42;
     bench.limits = {length, 1e-3, 0.5 * length, geometry::regular_tet_volume(length), 0.995};
     TopologyStage stage(bench);
-    mesh::TopologyLimits limits;
+    repair::TopologyLimits limits;
     limits.thickness = 10.0;
     std::vector<Event> events;
     std::vector<TetId> all;
@@ -137,7 +137,7 @@ void run_sequence(mesh::Complex& c, std::uint64_t seed, Tally& tally) {
     const std::size_t smallest = c.tet_count() / 2, largest = 2 * c.tet_count();
     for (std::size_t n = 0; n < sequence_length; ++n) {
         ++tally.operations;
-        Operation operation = static_cast<Operation>(random.index(mesh::operation_count));
+        Operation operation = static_cast<Operation>(random.index(repair::operation_count));
         // Keep the size of the mesh: splits and collapses pull it either way.
         if (c.tet_count() > largest && operation >= Operation::edge_split && operation <= Operation::vertex_split) {
             operation = Operation::edge_collapse;
@@ -156,7 +156,7 @@ void run_sequence(mesh::Complex& c, std::uint64_t seed, Tally& tally) {
         // Flat configurations on purpose: with the floor at 0 only the exact predicate stands between a flat tet and
         // the complex.
         bench.limits.quality_floor = n % 3 == 0 ? 0.0 : 1e-3;
-        mesh::Request request = random_request(c, random, operation);
+        repair::Request request = random_request(c, random, operation);
         if (n % 3 == 0) request.accept_above = -1.0F;
         const bool conserved = keeps_labels(operation) && n % 10 == 0;
         const auto before = conserved ? volumes(c) : std::map<mesh::Label, double>{};
@@ -234,10 +234,10 @@ TEST_CASE("random sequences of mixed operations over five start meshes keep ever
     const std::uint64_t exact = geometry::exact_fallbacks() - exact_before;
     std::ostringstream table;
     std::size_t commits = 0;
-    for (std::size_t o = 0; o < mesh::operation_count; ++o) {
-        table << "\n" << mesh::name(static_cast<Operation>(o)) << ": tried " << tally.tried[o] << ", committed " << tally.committed[o];
-        for (std::size_t r = 1; r < mesh::refusal_count; ++r) {
-            if (tally.refused[o][r] > 0) table << ", " << mesh::name(static_cast<Refusal>(r)) << " " << tally.refused[o][r];
+    for (std::size_t o = 0; o < repair::operation_count; ++o) {
+        table << "\n" << repair::name(static_cast<Operation>(o)) << ": tried " << tally.tried[o] << ", committed " << tally.committed[o];
+        for (std::size_t r = 1; r < repair::refusal_count; ++r) {
+            if (tally.refused[o][r] > 0) table << ", " << repair::name(static_cast<Refusal>(r)) << " " << tally.refused[o][r];
         }
         commits += tally.committed[o];
     }
@@ -248,12 +248,12 @@ TEST_CASE("random sequences of mixed operations over five start meshes keep ever
     CHECK(tally.operations >= 200000);
     CHECK(commits >= 40000);
     CHECK(exact >= 1000);
-    for (std::size_t o = 0; o < mesh::operation_count; ++o) {
-        CAPTURE(mesh::name(static_cast<Operation>(o)));
+    for (std::size_t o = 0; o < repair::operation_count; ++o) {
+        CAPTURE(repair::name(static_cast<Operation>(o)));
         CHECK(tally.committed[o] >= 1000);
     }
     for (const Refusal r : {Refusal::irregular, Refusal::quality, Refusal::bound, Refusal::box}) {
-        CAPTURE(mesh::name(r));
+        CAPTURE(repair::name(r));
         CHECK(tally.reasons[static_cast<std::size_t>(r)] >= 1000);
     }
     for (std::size_t k = 0; k < 7; ++k) {

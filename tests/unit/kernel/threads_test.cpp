@@ -153,7 +153,7 @@ TEST_CASE("deformer: steps over blocks give the same bits for 1, 2 and 3 threads
     };
     const auto [one, report] = run(nullptr);
     // The lists were long enough to be split.
-    CHECK(report.operations[static_cast<std::size_t>(mesh::Operation::smooth_laplacian)].tried >= StarLoop::least_split);
+    CHECK(report.operations[static_cast<std::size_t>(repair::Operation::smooth_laplacian)].tried >= StarLoop::least_split);
     CHECK(mesh::validate(mesh::adopt(one, "result")).valid());
     for (const unsigned threads : {2U, 3U}) {
         CAPTURE(threads);

@@ -19,10 +19,10 @@ std::string layout() {
            DSC_SIZE(hooks::StepFigures) + DSC_SIZE(surface::SurfaceView) + DSC_SIZE(surface::TriangleMesh) +
            DSC_SIZE(cloud::TargetCloud) + DSC_SIZE(cloud::Cloud) +
            DSC_SIZE(cloud::FilterReport) + DSC_SIZE(hooks::FilterContext) + DSC_SIZE(mesh::TetMesh) + DSC_SIZE(mesh::Complex) +
-           DSC_SIZE(mesh::RepairRound) + DSC_SIZE(mesh::Request) + DSC_SIZE(mesh::TopologyCandidate) +
-           DSC_SIZE(mesh::TopologyLimits) + DSC_SIZE(RandomStream) + DSC_SIZE(Workers) +
+           DSC_SIZE(repair::RepairRound) + DSC_SIZE(repair::Request) + DSC_SIZE(repair::TopologyCandidate) +
+           DSC_SIZE(repair::TopologyLimits) + DSC_SIZE(RandomStream) + DSC_SIZE(Workers) +
            DSC_SIZE(CancelToken) + DSC_SIZE(hooks::Attribute) + DSC_SIZE(hooks::CollapseRequest) + DSC_SIZE(hooks::FlipRequest) +
-           DSC_SIZE(hooks::MoveRequest) + DSC_SIZE(mesh::CreaseRule) + DSC_SIZE(surface::FacePoint) + DSC_SIZE(surface::ViewEdge);
+           DSC_SIZE(hooks::MoveRequest) + DSC_SIZE(repair::CreaseRule) + DSC_SIZE(surface::FacePoint) + DSC_SIZE(surface::ViewEdge);
 }
 
 }  // namespace
@@ -49,10 +49,10 @@ TEST_CASE("the layout of what crosses the door is that of its ABI number") {
         "hooks::FilterContext 32\n"
         "mesh::TetMesh 72\n"
         "mesh::Complex 496\n"
-        "mesh::RepairRound 112\n"
-        "mesh::Request 44\n"
-        "mesh::TopologyCandidate 48\n"
-        "mesh::TopologyLimits 24\n"
+        "repair::RepairRound 112\n"
+        "repair::Request 44\n"
+        "repair::TopologyCandidate 48\n"
+        "repair::TopologyLimits 24\n"
         "RandomStream 44\n"
         "Workers 8\n"
         "CancelToken 1\n"
@@ -60,7 +60,7 @@ TEST_CASE("the layout of what crosses the door is that of its ABI number") {
         "hooks::CollapseRequest 32\n"
         "hooks::FlipRequest 16\n"
         "hooks::MoveRequest 32\n"
-        "mesh::CreaseRule 16\n"
+        "repair::CreaseRule 16\n"
         "surface::FacePoint 40\n"
         "surface::ViewEdge 20\n";
     INFO(

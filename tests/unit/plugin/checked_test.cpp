@@ -15,6 +15,7 @@ namespace {
 using dsc::Vec3;
 namespace hooks = dsc::hooks;
 namespace mesh = dsc::mesh;
+namespace repair = dsc::repair;
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -94,20 +95,20 @@ struct InitialMesh final : Base<hooks::InitialMesh> {
 };
 
 struct Improvement final : Base<hooks::Improvement> {
-    using Act = Behaviour<std::vector<mesh::Request>&>;
+    using Act = Behaviour<std::vector<repair::Request>&>;
     using Select = Behaviour<std::span<std::uint8_t>>;
     static inline double cosine = 0.99;
-    static inline mesh::TopologyLimits limits;
+    static inline repair::TopologyLimits limits;
     static inline std::vector<std::string> classes;
     Improvement(const Params&, const dsc::plugin::Setup&) {}
-    void propose(const hooks::StepContext&, const mesh::RepairRound&,
-                 std::vector<mesh::Request>& out) override {
+    void propose(const hooks::StepContext&, const repair::RepairRound&,
+                 std::vector<repair::Request>& out) override {
         Act::act(out);
     }
     double flatness() const override { return cosine; }
-    mesh::TopologyLimits topology_limits() const override { return limits; }
+    repair::TopologyLimits topology_limits() const override { return limits; }
     std::vector<std::string> repair_classes() const override { return classes; }
-    void select(const hooks::StepContext&, std::span<const mesh::TopologyCandidate>,
+    void select(const hooks::StepContext&, std::span<const repair::TopologyCandidate>,
                 std::span<std::uint8_t> accept) override {
         Select::act(accept);
     }
@@ -419,13 +420,13 @@ TEST_CASE("initial mesh: arrays that do not fit together") {
 TEST_CASE("improvement: classes of requests have good names, and a request names one of them") {
     const Bench bench;
     const mesh::Complex complex;
-    const mesh::RepairRound round{complex, {}, {}, {}, {}, 0.1, 0.99, 0, false};
+    const repair::RepairRound round{complex, {}, {}, {}, {}, 0.1, 0.99, 0, false};
     const auto propose = [&](unsigned repair_class) {
         const auto improvement = bench.make<hooks::Improvement>();
-        Improvement::Act::act = [&](std::vector<mesh::Request>& out) {
+        Improvement::Act::act = [&](std::vector<repair::Request>& out) {
             out.emplace_back().repair_class = static_cast<std::uint8_t>(repair_class);
         };
-        std::vector<mesh::Request> out;
+        std::vector<repair::Request> out;
         return caught([&] { improvement->propose(bench.context(), round, out); });
     };
     const auto naming = [&](std::vector<std::string> names) {
@@ -452,14 +453,14 @@ TEST_CASE("improvement: requests, limits and answers out of range") {
     const Bench bench;
     const auto improvement = bench.make<hooks::Improvement>();
     const mesh::Complex complex;
-    const mesh::RepairRound round{complex, {}, {}, {}, {}, 0.1, 0.99, 0, false};
-    const auto propose = [&](const mesh::Request& request) {
-        Improvement::Act::act = [&](std::vector<mesh::Request>& out) { out.push_back(request); };
-        std::vector<mesh::Request> out;
+    const repair::RepairRound round{complex, {}, {}, {}, {}, 0.1, 0.99, 0, false};
+    const auto propose = [&](const repair::Request& request) {
+        Improvement::Act::act = [&](std::vector<repair::Request>& out) { out.push_back(request); };
+        std::vector<repair::Request> out;
         return caught([&] { improvement->propose(bench.context(), round, out); });
     };
     CHECK(propose({}).text.empty());
-    mesh::Request request;
+    repair::Request request;
     request.tet = 3;
     CHECK(propose(request).text ==
           who("improvement") + "propose at step 5 named tet 3, which does not exist, in request 0" + report);
@@ -469,19 +470,19 @@ TEST_CASE("improvement: requests, limits and answers out of range") {
           who("improvement") + "propose at step 5 named vertex 8, which does not exist, in request 0" +
               report);
     request = {};
-    request.operation = static_cast<mesh::Operation>(200);
+    request.operation = static_cast<repair::Operation>(200);
     CHECK(propose(request).code == "strategy.range");
     request = {};
-    for (float mesh::Request::*number : {&mesh::Request::accept_above, &mesh::Request::gain, &mesh::Request::least_edge}) {
+    for (float repair::Request::*number : {&repair::Request::accept_above, &repair::Request::gain, &repair::Request::least_edge}) {
         request = {};
         request.*number = std::numeric_limits<float>::quiet_NaN();
         CHECK(propose(request).code == "strategy.not_finite");
     }
-    Improvement::Act::act = [](std::vector<mesh::Request>& out) { out.clear(); };
-    std::vector<mesh::Request> earlier(2);
+    Improvement::Act::act = [](std::vector<repair::Request>& out) { out.clear(); };
+    std::vector<repair::Request> earlier(2);
     CHECK(caught([&] { improvement->propose(bench.context(), round, earlier); }).code == "strategy.size");
 
-    const std::vector<mesh::TopologyCandidate> candidates(2);
+    const std::vector<repair::TopologyCandidate> candidates(2);
     std::vector<std::uint8_t> accept(2);
     Improvement::Select::act = [](std::span<std::uint8_t> a) { a[0] = 1; };
     CHECK(caught([&] { improvement->select(bench.context(), candidates, accept); }).text ==

@@ -150,8 +150,8 @@ public:
     struct Params {};
     static void declare(config::ParamSchema<Params>&) {}
     NoRepair(const Params&, const plugin::Setup&) {}
-    void propose(const hooks::StepContext&, const mesh::RepairRound&, std::vector<mesh::Request>&) override {}
-    mesh::TopologyLimits topology_limits() const override { return {.thickness = 0.0, .min_component = 0.0}; }
+    void propose(const hooks::StepContext&, const repair::RepairRound&, std::vector<repair::Request>&) override {}
+    repair::TopologyLimits topology_limits() const override { return {.thickness = 0.0, .min_component = 0.0}; }
 };
 
 /// Asks every round for two Laplacian smoothings, of a class each: the second, of an interface vertex, is never granted.
@@ -160,21 +160,21 @@ public:
     struct Params {};
     static void declare(config::ParamSchema<Params>&) {}
     Counted(const Params&, const plugin::Setup&) {}
-    void propose(const hooks::StepContext&, const mesh::RepairRound& round, std::vector<mesh::Request>& out) override {
+    void propose(const hooks::StepContext&, const repair::RepairRound& round, std::vector<repair::Request>& out) override {
         const mesh::Complex& c = round.complex;
         ask(c, out, 1, [&c](mesh::VertexId v) { return !c.on_interface(v) && !c.on_box(v); });
         ask(c, out, 2, [&c](mesh::VertexId v) { return c.on_interface(v); });
     }
-    mesh::TopologyLimits topology_limits() const override { return {.thickness = 0.0, .min_component = 0.0}; }
+    repair::TopologyLimits topology_limits() const override { return {.thickness = 0.0, .min_component = 0.0}; }
     std::vector<std::string> repair_classes() const override { return {"never", "inside", "surface"}; }
 
 private:
     template <class Wanted>
-    static void ask(const mesh::Complex& c, std::vector<mesh::Request>& out, std::uint8_t repair_class, const Wanted& wanted) {
+    static void ask(const mesh::Complex& c, std::vector<repair::Request>& out, std::uint8_t repair_class, const Wanted& wanted) {
         mesh::VertexId v = 0;
         while (!c.vertex_alive(v) || !wanted(v)) ++v;
-        mesh::Request& request = out.emplace_back();
-        request.operation = mesh::Operation::smooth_laplacian;
+        repair::Request& request = out.emplace_back();
+        request.operation = repair::Operation::smooth_laplacian;
         request.vertices[0] = v;
         request.repair_class = repair_class;
     }

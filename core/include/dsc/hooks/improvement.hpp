@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <dsc/hooks/context.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 namespace dsc::hooks {
 
@@ -16,14 +16,14 @@ public:
     ~Improvement() override;
 
     /// Called once per repair round. Appends requests in the order in which the kernel shall try them.
-    virtual void propose(const StepContext& context, const mesh::RepairRound& round, std::vector<mesh::Request>& out) = 0;
+    virtual void propose(const StepContext& context, const repair::RepairRound& round, std::vector<repair::Request>& out) = 0;
 
     /// Cosine between unit normals above which neighbouring interface faces count as flat.
     virtual double flatness() const { return 0.995; }
 
-    virtual mesh::TopologyLimits topology_limits() const { return {}; }
+    virtual repair::TopologyLimits topology_limits() const { return {}; }
     /// Receives all candidates of a step as one batch. Sets accept[i] to 1 for those that may be committed. Sizes are equal.
-    virtual void select(const StepContext& context, std::span<const mesh::TopologyCandidate> candidates,
+    virtual void select(const StepContext& context, std::span<const repair::TopologyCandidate> candidates,
                         std::span<std::uint8_t> accept);
 
     /// Names of the classes by which requests are counted (Request::repair_class): different names, snake_case, at most

@@ -8,7 +8,7 @@
 #include <dsc/hooks/attributes.hpp>
 #include <dsc/hooks/context.hpp>
 #include <dsc/hooks/velocity_field.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 namespace dsc::hooks {
 
@@ -74,7 +74,7 @@ public:
     /// refinement or the improvement requests: they must not remove a crease or turn a face further than the rule allows. Asked
     /// before each step and each refinement. Of two rules the stricter bounds apply. For a tet close to the kernel's quality
     /// floor the rule is ignored; these cases are counted.
-    virtual std::optional<mesh::CreaseRule> keep_creases() const { return std::nullopt; }
+    virtual std::optional<repair::CreaseRule> keep_creases() const { return std::nullopt; }
     /// The largest number of calls of refine() within one refinement, from 1 to refinement_passes. Each call gets a fresh view.
     /// The calls end early when one requests no change of the mesh.
     virtual unsigned passes() const { return 1; }

@@ -5,7 +5,7 @@
 
 #include <dsc/hooks/attributes.hpp>
 #include <dsc/hooks/context.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 namespace dsc::hooks {
 
@@ -46,7 +46,7 @@ public:
     /// StepContext::planned_steps. [step]
     virtual std::uint64_t planned_steps() const { return 0; }
     /// The same as RefinementPolicy::keep_creases(), if the velocity declares the rule.
-    virtual std::optional<mesh::CreaseRule> keep_creases() const { return std::nullopt; }
+    virtual std::optional<repair::CreaseRule> keep_creases() const { return std::nullopt; }
 };
 
 }  // namespace dsc::hooks

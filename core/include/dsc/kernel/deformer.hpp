@@ -12,7 +12,7 @@
 #include <dsc/base/workers.hpp>
 #include <dsc/kernel/step_report.hpp>
 #include <dsc/mesh/complex.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 namespace dsc::kernel {
 
@@ -32,13 +32,13 @@ struct DeformerOptions {
 /// The decisions that the kernel leaves to its caller.
 struct RepairPolicy {
     /// Appends the requests of a round. Empty: no repair.
-    std::function<void(const mesh::RepairRound&, std::vector<mesh::Request>&)> propose;
+    std::function<void(const repair::RepairRound&, std::vector<repair::Request>&)> propose;
     /// Accepts topology candidates; empty: all are accepted.
-    std::function<void(std::span<const mesh::TopologyCandidate>, std::span<std::uint8_t>)> select;
-    mesh::TopologyLimits topology;
+    std::function<void(std::span<const repair::TopologyCandidate>, std::span<std::uint8_t>)> select;
+    repair::TopologyLimits topology;
     double flatness = 0.995;
     bool size_edits = true;  ///< passed to `propose`: false if a refinement owns the sizing
-    std::optional<mesh::CreaseRule> creases;  ///< rule for creases that edits must keep; empty: edits may remove any crease
+    std::optional<repair::CreaseRule> creases;  ///< rule for creases that edits must keep; empty: edits may remove any crease
     std::optional<double> quality_floor;      ///< for this step, instead of the value in the options
 };
 
@@ -68,7 +68,7 @@ struct RefineRequests {
     std::vector<FlipTo> flips;
     std::vector<MoveTo> moves;
     bool owns_sizing = false;  ///< L is not changed by splits
-    std::optional<mesh::CreaseRule> creases;  ///< rule for creases that collapses and flips must keep
+    std::optional<repair::CreaseRule> creases;  ///< rule for creases that collapses and flips must keep
 };
 
 /// Floor of a refinement: its collapses, flips and moves, and the splits of a refinement that owns the sizing, leave no touched

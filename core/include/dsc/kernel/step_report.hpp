@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <dsc/geometry/vec.hpp>
-#include <dsc/mesh/repair.hpp>
+#include <dsc/repair/contract.hpp>
 
 namespace dsc::kernel {
 
@@ -15,14 +15,14 @@ namespace dsc::kernel {
 struct OperationCounts {
     std::uint64_t tried = 0;
     std::uint64_t committed = 0;
-    std::array<std::uint64_t, mesh::refusal_count> refused{};
+    std::array<std::uint64_t, repair::refusal_count> refused{};
 
-    void add(mesh::Refusal outcome);
+    void add(repair::Refusal outcome);
     OperationCounts& operator+=(const OperationCounts& other);
 };
-using OperationTable = std::array<OperationCounts, mesh::operation_count>;
+using OperationTable = std::array<OperationCounts, repair::operation_count>;
 /// The same per Request::repair_class.
-using RepairClassTable = std::array<OperationCounts, mesh::repair_class_limit>;
+using RepairClassTable = std::array<OperationCounts, repair::repair_class_limit>;
 
 /// A change of topology; one line of events.jsonl.
 struct Event {
@@ -51,7 +51,7 @@ struct StepReport {
     OperationTable operations{};
     RepairClassTable repair_classes{};
     std::vector<Event> events;
-    mesh::EventCounts event_counts;
+    repair::EventCounts event_counts;
     double move_seconds = 0.0;       ///< wall time, for phase_s only
     double repair_seconds = 0.0;
 };

@@ -2,20 +2,20 @@
 // The parameters of a generator that fills its box with lattice tets.
 
 #include <dsc/config/params.hpp>
-#include <dsc/mesh/lattice.hpp>
+#include <dsc/generate/lattice.hpp>
 #include <string>
 #include <type_traits>
 
 namespace dsc::plugin {
 
-/// Declares the keys of a Params derived from mesh::LatticeOptions. `where` says for the documentation where the finest cells
+/// Declares the keys of a Params derived from generate::LatticeOptions. `where` says for the documentation where the finest cells
 /// are. [setup]
 template <class Params>
 void declare_lattice(config::ParamSchema<Params>& schema, const std::string& where) {
-    using Options = mesh::LatticeOptions;
+    using Options = generate::LatticeOptions;
     static_assert(std::is_base_of_v<Options, Params>);
     schema.integer("cells", static_cast<int Params::*>(&Options::cells))
-        .range(mesh::least_lattice_cells, mesh::most_lattice_cells)
+        .range(generate::least_lattice_cells, generate::most_lattice_cells)
         .unit("1")
         .costly()
         .doc("Number of finest cells along the box. The box grows to the next number that the octree allows.");
@@ -41,18 +41,18 @@ void declare_lattice(config::ParamSchema<Params>& schema, const std::string& whe
             "How much larger the cells become from one layer to the next, on average: 2 doubles them with every layer, "
             "1.26 with every third layer; 1 keeps all cells at the finest size.");
     schema
-        .choice("finest", static_cast<mesh::LatticePattern Params::*>(&Options::finest),
-                {{"parity", mesh::LatticePattern::parity}, {"bcc", mesh::LatticePattern::bcc}})
+        .choice("finest", static_cast<generate::LatticePattern Params::*>(&Options::finest),
+                {{"parity", generate::LatticePattern::parity}, {"bcc", generate::LatticePattern::bcc}})
         .doc(
             "Tets of the finest cells: 'parity' cuts each cell of a grid into five tets, with flat walls between cells; "
             "'bcc' uses the body-centred lattice, whose tets have better shapes but make a rougher interface.");
     schema.check(
         [](const Params& p) {
             const double cells = p.wanted_cells();
-            return cells >= mesh::least_lattice_cells && cells <= mesh::most_lattice_cells;
+            return cells >= generate::least_lattice_cells && cells <= generate::most_lattice_cells;
         },
-        "cell must fit at least " + std::to_string(mesh::least_lattice_cells) + " and at most " +
-            std::to_string(mesh::most_lattice_cells) + " times into twice the box");
+        "cell must fit at least " + std::to_string(generate::least_lattice_cells) + " and at most " +
+            std::to_string(generate::most_lattice_cells) + " times into twice the box");
 }
 
 }  // namespace dsc::plugin

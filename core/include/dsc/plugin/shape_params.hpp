@@ -2,7 +2,7 @@
 // The parameters that describe the shapes of a generator of initial meshes: a preset for one shape, and a list.
 
 #include <dsc/config/params.hpp>
-#include <dsc/mesh/shapes.hpp>
+#include <dsc/generate/shapes.hpp>
 #include <type_traits>
 #include <vector>
 
@@ -16,15 +16,15 @@ struct ShapeParams {
     double half_width = 1.0;
     double radius = 1.0;
     Vec3 centre = Vec3::Zero();
-    std::vector<mesh::Shape> shapes;
+    std::vector<generate::Shape> shapes;
     bool project = false;
 
     /// The preset's shape if there is one, then the list.
-    std::vector<mesh::Shape> all() const;
+    std::vector<generate::Shape> all() const;
 };
 
 /// Declares the keys of one shape in a list.
-void declare_shape(config::ParamSchema<mesh::Shape>& schema);
+void declare_shape(config::ParamSchema<generate::Shape>& schema);
 
 /// Declares `shape`, `half_width`, `radius`, `centre`, `shapes` and `project` of a Params derived from ShapeParams.
 template <class Params>
@@ -48,7 +48,7 @@ void declare_shapes(config::ParamSchema<Params>& schema) {
     schema.vec3("centre", static_cast<Vec3 Params::*>(&Params::centre))
         .unit("length")
         .doc("Centre of the first shape.");
-    schema.list("shapes", static_cast<std::vector<mesh::Shape> Params::*>(&Params::shapes), declare_shape)
+    schema.list("shapes", static_cast<std::vector<generate::Shape> Params::*>(&Params::shapes), declare_shape)
         .doc(
             "Further shapes, applied in order: each gives the tets inside it its label or cuts them away.");
     schema.boolean("project", static_cast<bool Params::*>(&Params::project))

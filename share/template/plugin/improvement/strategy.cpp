@@ -8,8 +8,8 @@
 
 namespace {
 
-using dsc::mesh::Operation;
-using dsc::mesh::Request;
+using dsc::repair::Operation;
+using dsc::repair::Request;
 
 class @CLASS@ final : public dsc::hooks::Improvement {
 public:
@@ -38,7 +38,7 @@ public:
     // Called once per repair round. `round.dirty` contains the tets to examine, worst first; the
     // kernel takes the requests in their order and carries out those that keep the mesh valid and
     // do not make it worse.
-    void propose(const dsc::hooks::StepContext&, const dsc::mesh::RepairRound& round,
+    void propose(const dsc::hooks::StepContext&, const dsc::repair::RepairRound& round,
                  std::vector<Request>& out) override {
         const dsc::mesh::Complex& complex = round.complex;
         for (const dsc::mesh::TetId tet : round.dirty) {
@@ -53,13 +53,13 @@ public:
             }
             if (quality >= params_.hopeless) continue;
             out.push_back(request(complex, tet, Operation::edge_collapse, params_.hopeless));
-            out.back().mode = dsc::mesh::CollapseMode::bounded;
+            out.back().mode = dsc::repair::CollapseMode::bounded;
         }
     }
 
     // The topology of the interface does not change.
-    dsc::mesh::TopologyLimits topology_limits() const override {
-        dsc::mesh::TopologyLimits limits;
+    dsc::repair::TopologyLimits topology_limits() const override {
+        dsc::repair::TopologyLimits limits;
         limits.thickness = 0.0;
         return limits;
     }

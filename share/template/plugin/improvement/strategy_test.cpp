@@ -5,7 +5,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/mesh/lattice.hpp>
+#include <dsc/generate/lattice.hpp>
 
 namespace {
 
@@ -14,10 +14,10 @@ using dsc::config::ConfigNode;
 
 // A ball in a box of 8 x 8 x 8 cells whose plane x = 0 is moved by `shift` cells: near 1 the tets to its right are flat.
 dsc::mesh::Complex ball(double shift) {
-    dsc::mesh::LatticeOptions options;
+    dsc::generate::LatticeOptions options;
     options.cells = 8;
-    const double cell = dsc::mesh::finest_cell(options);
-    dsc::mesh::TetMesh mesh = dsc::mesh::make_lattice(options, [](const Vec3&, double) { return false; }, "ball");
+    const double cell = dsc::generate::finest_cell(options);
+    dsc::mesh::TetMesh mesh = dsc::generate::make_lattice(options, [](const Vec3&, double) { return false; }, "ball");
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         Vec3 centre = Vec3::Zero();
         for (const std::uint32_t v : mesh.tets[t]) centre += 0.25 * mesh.points[v];
@@ -29,7 +29,7 @@ dsc::mesh::Complex ball(double shift) {
     return dsc::mesh::adopt(mesh, "ball", nullptr, 0.0);
 }
 
-std::vector<dsc::mesh::Request> proposals(const dsc::mesh::Complex& complex, double poor, double hopeless) {
+std::vector<dsc::repair::Request> proposals(const dsc::mesh::Complex& complex, double poor, double hopeless) {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
     const auto params = ConfigNode::map({{"poor", poor}, {"hopeless", hopeless}});
@@ -38,13 +38,13 @@ std::vector<dsc::mesh::Request> proposals(const dsc::mesh::Complex& complex, dou
     for (dsc::mesh::TetId t = 0; t < complex.tet_slots(); ++t) dirty.push_back(t);
     const dsc::surface::SurfaceView view;
     const dsc::hooks::StepContext step{.surface = view, .box = {}, .to_normalised = {}};
-    const dsc::mesh::RepairRound round{complex, dirty, {}, {}, {}, 1.0, strategy->flatness(), 0, true};
-    std::vector<dsc::mesh::Request> out;
+    const dsc::repair::RepairRound round{complex, dirty, {}, {}, {}, 1.0, strategy->flatness(), 0, true};
+    std::vector<dsc::repair::Request> out;
     strategy->propose(step, round, out);
     return out;
 }
 
-std::size_t count(const std::vector<dsc::mesh::Request>& requests, dsc::mesh::Operation operation) {
+std::size_t count(const std::vector<dsc::repair::Request>& requests, dsc::repair::Operation operation) {
     std::size_t found = 0;
     for (const auto& request : requests) found += request.operation == operation ? 1 : 0;
     return found;
@@ -66,18 +66,18 @@ TEST_CASE("an edge or a face of each poor tet is to be removed, each hopeless te
     const auto requests = proposals(complex, 0.3, 0.1);
     CHECK(tets_below(complex, 0.1) > 0);
     CHECK(tets_below(complex, 0.3) >= tets_below(complex, 0.1));
-    CHECK(count(requests, dsc::mesh::Operation::edge_removal) == tets_below(complex, 0.3));
-    CHECK(count(requests, dsc::mesh::Operation::face_removal) == tets_below(complex, 0.3));
-    CHECK(count(requests, dsc::mesh::Operation::edge_collapse) == tets_below(complex, 0.1));
+    CHECK(count(requests, dsc::repair::Operation::edge_removal) == tets_below(complex, 0.3));
+    CHECK(count(requests, dsc::repair::Operation::face_removal) == tets_below(complex, 0.3));
+    CHECK(count(requests, dsc::repair::Operation::edge_collapse) == tets_below(complex, 0.1));
     CHECK(proposals(complex, 0.0, 0.0).empty());
 }
 
 TEST_CASE("only free vertices are smoothed") {
     const auto complex = ball(0.98);
     const auto requests = proposals(complex, 0.3, 0.1);
-    CHECK(count(requests, dsc::mesh::Operation::smooth_optimise) > 0);
+    CHECK(count(requests, dsc::repair::Operation::smooth_optimise) > 0);
     for (const auto& request : requests) {
-        if (request.operation != dsc::mesh::Operation::smooth_optimise) continue;
+        if (request.operation != dsc::repair::Operation::smooth_optimise) continue;
         CHECK_FALSE(complex.on_interface(request.vertices[0]));
         CHECK_FALSE(complex.on_box(request.vertices[0]));
     }

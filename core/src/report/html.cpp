@@ -1,0 +1,162 @@
+// Text for HTML.
+#include "html.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <dsc/base/error.hpp>
+#include <set>
+
+namespace dsc::report::html {
+namespace {
+
+constexpr std::string_view unreadable = "\xEF\xBF\xBD";
+
+/// Length of the well-formed UTF-8 sequence at the start of `s`; 0 if there is none.
+std::size_t utf8_length(std::string_view s) {
+    const auto byte = [&](std::size_t i) { return i < s.size() ? static_cast<unsigned char>(s[i]) : 0U; };
+    const auto tail = [&](std::size_t i) { return (byte(i) & 0xC0U) == 0x80U; };
+    const unsigned first = byte(0), second = byte(1);
+    if (first < 0x80) return 1;
+    if (first >= 0xC2 && first <= 0xDF) return tail(1) ? 2 : 0;
+    if (first >= 0xE0 && first <= 0xEF) {
+        const bool overlong = first == 0xE0 && second < 0xA0, surrogate = first == 0xED && second > 0x9F;
+        return tail(1) && tail(2) && !overlong && !surrogate ? 3 : 0;
+    }
+    if (first >= 0xF0 && first <= 0xF4) {
+        const bool overlong = first == 0xF0 && second < 0x90, beyond = first == 0xF4 && second > 0x8F;
+        return tail(1) && tail(2) && tail(3) && !overlong && !beyond ? 4 : 0;
+    }
+    return 0;
+}
+
+void append_escaped(std::string& out, std::string_view character) {
+    const char c = character.front();
+    if (c == '&') {
+        out += "&amp;";
+    } else if (c == '<') {
+        out += "&lt;";
+    } else if (c == '>') {
+        out += "&gt;";
+    } else if (c == '"') {
+        out += "&quot;";
+    } else if (c == '\'') {
+        out += "&#39;";
+    } else if ((static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7F) {
+        out += unreadable;
+    } else {
+        out += character;
+    }
+}
+
+}  // namespace
+
+std::string text(std::string_view raw) {
+    std::string out;
+    out.reserve(raw.size());
+    while (!raw.empty()) {
+        const std::size_t length = utf8_length(raw);
+        if (length == 0) {
+            out += unreadable;
+        } else {
+            append_escaped(out, raw.substr(0, length));
+        }
+        raw.remove_prefix(std::max<std::size_t>(1, length));
+    }
+    return out;
+}
+
+std::string json_in_script(std::string_view json) {
+    std::string out;
+    out.reserve(json.size());
+    for (const char c : json) {
+        if (c == '<') {
+            out += "\\u003c";  // in JSON this character occurs only in strings
+        } else {
+            out += c;
+        }
+    }
+    return out;
+}
+
+std::string tag(std::string_view name, std::string_view content, std::string_view classes) {
+    std::string out = "<" + std::string(name);
+    if (!classes.empty()) out += " class=\"" + std::string(classes) + "\"";
+    return out + ">" + std::string(content) + "</" + std::string(name) + ">";
+}
+
+std::string table(const Row& header, const std::vector<Row>& rows, bool numbers) {
+    const auto row = [](const Row& cells, std::string_view cell) {
+        std::string out;
+        for (const std::string& content : cells) out += tag(cell, text(content));
+        return tag("tr", out) + "\n";
+    };
+    std::string body;
+    for (const Row& cells : rows) body += row(cells, "td");
+    return tag("div", tag("table", tag("thead", row(header, "th")) + tag("tbody", body), numbers ? "numbers" : ""), "wide") + "\n";
+}
+
+std::string facts(const std::vector<std::pair<std::string, std::string>>& rows) {
+    std::string body;
+    for (const auto& [name, value] : rows) body += tag("tr", tag("th", text(name)) + tag("td", text(value))) + "\n";
+    return tag("div", tag("table", tag("tbody", body), "facts"), "wide") + "\n";
+}
+
+std::string integer(double value) {
+    if (!std::isfinite(value)) return "-";
+    std::string digits = std::to_string(static_cast<long long>(std::llround(value)));
+    const std::size_t first = digits.front() == '-' ? 1 : 0;
+    for (std::size_t at = digits.size(); at > first + 3;) digits.insert(at -= 3, ",");
+    return digits;
+}
+
+std::string real(double value) {
+    if (!std::isfinite(value)) return "-";
+    std::array<char, 32> out{};
+    std::snprintf(out.data(), out.size(), "%.4g", value);
+    return out.data();
+}
+
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string out;
+    out.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t bits = 0;
+        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+        for (std::size_t k = 0; k < 3; ++k) {
+            bits = (bits << 8U) | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+        }
+        for (std::size_t k = 0; k < 4; ++k) out += k <= count ? digits[(bits >> (18U - 6U * k)) & 63U] : '=';
+    }
+    return out;
+}
+
+std::string fill(std::string_view page, const std::vector<std::pair<std::string, std::string>>& values) {
+    std::string out;
+    std::set<std::string> used;
+    while (true) {
+        // The first mark that is one of our names; any other @ is ordinary text.
+        std::size_t at = std::string_view::npos;
+        const std::pair<std::string, std::string>* next = nullptr;
+        for (const auto& value : values) {
+            const std::size_t found = page.find("@" + value.first + "@");
+            if (found < at) {
+                at = found;
+                next = &value;
+            }
+        }
+        if (next == nullptr) break;
+        out.append(page.substr(0, at)).append(next->second);
+        page.remove_prefix(at + next->first.size() + 2);
+        used.insert(next->first);
+    }
+    for (const auto& value : values) {
+        if (used.count(value.first) == 0)
+            throw Error(ExitCode::internal, "report.template", "the report's page has no place @" + value.first + "@");
+    }
+    return out.append(page);
+}
+
+}  // namespace dsc::report::html

@@ -1,0 +1,389 @@
+// Runs the schedule of an experiment: steps, refinements, figures, checkpoints.
+#include <algorithm>
+#include <dsc/base/error.hpp>
+#include <dsc/base/state.hpp>
+#include <dsc/kernel/deformer.hpp>
+#include <dsc/run/simulation.hpp>
+
+#include "initial_complex.hpp"
+#include "nearest_points.hpp"
+#include "refinement.hpp"
+#include "saved_run.hpp"
+#include "step_figures.hpp"
+#include "stopwatch.hpp"
+
+namespace dsc::run {
+namespace {
+
+/// Number of vertices per block of evaluate(). Constant, so that the blocks do not depend on the number of threads.
+constexpr std::size_t evaluated_block = 256;
+/// A series stalls if less than this fraction of the wanted motion was made in this many steps in a row.
+constexpr unsigned stall_steps = 5;
+constexpr double stall_ratio = 0.01;
+/// Mean speed, in current mean edges, below which vertices count as arrived (as in the kernel), so the series cannot stall.
+constexpr double stall_speed = 1e-4;
+
+class Simulation {
+public:
+    Simulation(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
+               const SimulationOptions& options)
+        : experiment_(experiment),
+          strategies_(strategies),
+          cloud_(cloud),
+          options_(options),
+          serial_(1),
+          workers_(options.workers != nullptr ? *options.workers : serial_),
+          planned_(planned_steps(experiment)),
+          resumed_(options.resume),
+          deformer_(options.resume.empty()
+                        ? kernel::Deformer(
+                              initial_complex(experiment, strategies, cloud, options.cancel, workers_, result_.totals), {}, &workers_)
+                        : kernel::Deformer::load(resumed_, {}, &workers_)) {
+        policy_.propose = [this](const repair::RepairRound& round, std::vector<repair::Request>& out) {
+            strategies_.improvement->propose(*context_, round, out);
+        };
+        policy_.select = [this](std::span<const repair::TopologyCandidate> candidates,
+                                std::span<std::uint8_t> accept) {
+            strategies_.improvement->select(*context_, candidates, accept);
+        };
+        policy_.topology = strategies_.improvement->topology_limits();
+        policy_.flatness = strategies_.improvement->flatness();
+        result_.totals.repair_class_names = strategies_.improvement->repair_classes();
+    }
+
+    SimulationResult execute() {
+        try {
+            options_.resume.empty() ? begin() : go_on();
+            while (place_.item < experiment_.schedule.size() && !over_) series();
+            if (stopped_) {
+                checkpoint();
+                result_.totals.status = Status::cancelled;
+            }
+            finish();
+        } catch (const StrategyError&) {
+            if (options_.on_strategy_failure)
+                options_.on_strategy_failure(deformer_.complex().to_mesh(), deformer_.step_count());
+            throw;
+        }
+        return std::move(result_);
+    }
+
+private:
+    /// `step`: the number in metrics.csv and events.jsonl; the first one is 1.
+    hooks::StepContext make_context(std::uint64_t step) const {
+        const std::uint64_t told = strategies_.velocity->planned_steps();
+        return {.step = step,
+                .surface = view_,
+                .cloud = cloud_,
+                .nearest = nearest_.all(),
+                .target_length = deformer_.target_length(),
+                .box = deformer_.complex().box(),
+                .to_normalised = cloud_ != nullptr ? cloud_->transform() : cloud::Transform{},
+                .seed = experiment_.seed,
+                .instance = 0,
+                .cancel = options_.cancel,
+                .workers = &workers_,
+                .planned_steps = told > 0 ? told : planned_,
+                .target_lengths = lengths_,
+                .attributes = attributes_};
+    }
+
+    /// The nearest points are used by the velocity of the next step and by the figures of this step.
+    void refresh_view() {
+        const Timed timed(result_.totals.seconds.velocity);
+        surface::build_view(deformer_.complex(), view_, &workers_, &view_memory_);
+        faces_of_points_.clear();
+        refresh_fields();
+        if (cloud_ == nullptr) return;
+        nearest_.refresh(view_, cloud_->search(), &workers_);
+    }
+
+    void refresh_fields() {
+        lengths_ = deformer_.target_lengths(view_.vertex_ids);
+        attributes_ = attributes_at(deformer_, view_.vertex_ids);
+    }
+
+    /// The context of the velocity's calls: it includes the faces of the points if the velocity needs them.
+    hooks::StepContext make_velocity_context(std::uint64_t step) {
+        hooks::StepContext context = make_context(step);
+        if (cloud_ == nullptr || !strategies_.velocity->needs_faces_of_points()) return context;
+        const Timed timed(result_.totals.seconds.velocity);
+        if (faces_of_points_.empty()) surface::nearest_faces(view_, cloud_->points(), faces_of_points_, &workers_);
+        context.faces_of_points = faces_of_points_;
+        return context;
+    }
+
+    void begin() {
+        refresh_view();
+        const hooks::StepContext context = make_context(deformer_.step_count());
+        for (const auto& observer : strategies_.observers) observer->begin(context);
+        StepMetrics row;
+        measure_row(row);
+        result_.totals.volume_initial = row.volume;
+        // The columns of the observers are known only after the first step, so row 0 does not contain their figures.
+        publish(row);
+    }
+
+    void finish() {
+        RunTotals& totals = result_.totals;
+        totals.target_length = deformer_.target_length();
+        const hooks::StepContext context = make_context(deformer_.step_count());
+        for (std::size_t i = 0; i < strategies_.observers.size(); ++i) {
+            totals.observers.emplace_back(experiment_.observers[i].type,
+                                          strategies_.observers[i]->end(context));
+        }
+        std::vector<mesh::VertexId> ids;
+        result_.mesh = deformer_.complex().to_mesh(&ids);
+        result_.attributes = attributes_at(deformer_, ids);
+        result_.surface = surface::extract_interface(result_.mesh);
+    }
+
+    /// Runs the schedule from `place_` on; afterwards `place_` is where the run continues.
+    void series() {
+        const Series& item = experiment_.schedule[place_.item];
+        hooks::RefinementPolicy* refinement = strategies_.refinements[place_.item].get();
+        if (stop_asked()) return stop();
+        const bool owned = refinement != nullptr && refinement->owns_sizing();
+        policy_.size_edits = !owned;
+        policy_.quality_floor = owned ? std::optional(kernel::refinement_floor) : std::nullopt;
+        if (!item.steps) {
+            refine(*refinement);
+            return next_item();
+        }
+        if (place_.steps == 0) result_.totals.status = Status::max_steps;
+        while (place_.steps < *item.steps) {
+            if (stop_asked()) return stop();
+            policy_.creases = creases(refinement);
+            const bool slow = advance();
+            place_.quiet = slow ? place_.quiet + 1 : 0;
+            ++place_.steps;
+            if (over_) break;
+            if (item.every && place_.steps % *item.every == 0) refine(*refinement);
+            if (item.until && strategies_.velocity->finished()) {
+                result_.totals.status = Status::converged;
+                break;
+            }
+            if (place_.stuck >= stall_steps) {
+                result_.totals.status = Status::stalled;
+                break;
+            }
+            if (experiment_.stop && place_.quiet >= experiment_.stop->patience) {
+                result_.totals.status = Status::converged;
+                break;
+            }
+            if (options_.checkpoint_every > 0 && deformer_.step_count() % options_.checkpoint_every == 0) checkpoint();
+        }
+        next_item();
+    }
+
+    std::optional<repair::CreaseRule> creases(const hooks::RefinementPolicy* refinement) const {
+        return stricter(strategies_.velocity->keep_creases(), refinement != nullptr ? refinement->keep_creases() : std::nullopt);
+    }
+
+    void next_item() { place_ = {.item = place_.item + 1}; }
+
+    /// Saves everything on which the run depends: the complex, the strategies' states, and the progress.
+    void checkpoint() {
+        if (!options_.on_checkpoint || deformer_.step_count() == 0) return;
+        StateWriter out;
+        deformer_.save(out);
+        out.value(place_);
+        save(out, result_.totals);
+        save(out, strategies_);
+        options_.on_checkpoint(out.take(), deformer_.step_count());
+    }
+
+    void go_on() {
+        resumed_.value(place_);
+        load(resumed_, result_.totals);
+        load(resumed_, strategies_);
+        refresh_view();
+        over_ = view_.vertex_count() == 0;
+    }
+
+    /// Makes one step; true if its largest speed was below the stop criterion.
+    bool advance() {
+        const hooks::StepContext context = make_velocity_context(deformer_.step_count() + 1);
+        context_ = &context;
+        StepMetrics row;
+        const double asked = velocities(context, row);
+        const double mean_edge = view_.mean_edge;
+        const kernel::StepReport report = deformer_.step(view_.vertex_ids, displacements_, policy_);
+        context_ = nullptr;
+        const double came_about = distance_gone(deformer_.complex(), view_, displacements_);
+        result_.totals.add(report);
+        for (const kernel::Event& event : report.events) tell(event);
+        tell_repairs(report);
+        refresh_view();
+        row.step = deformer_.step_count();
+        row.rounds = report.rounds;
+        row.requested = report.requested;
+        row.arrived = report.arrived;
+        row.clamped = report.clamped;
+        row.dropped_motion = report.dropped_motion;
+        row.edit_volume = report.edit_volume;
+        row.relabelled_volume = report.relabelled_volume;
+        for (const kernel::OperationCounts& counts : report.operations) row.committed += counts.committed;
+        row.events = report.events.size();
+        measure_row(row);
+        observe(row);
+        publish(row);
+
+        const bool moving = row.mean_speed > stall_speed * mean_edge;
+        place_.stuck = moving && came_about < stall_ratio * asked ? place_.stuck + 1 : 0;
+        if (view_.vertex_count() == 0) over_ = true;
+        return experiment_.stop && row.max_speed < experiment_.stop->speed * mean_edge;
+    }
+
+    /// Evaluates all displacements; returns the sum of the wanted lengths over the movable vertices.
+    double velocities(const hooks::StepContext& context, StepMetrics& row) {
+        const Timed timed(result_.totals.seconds.velocity);
+        const std::size_t count = view_.vertex_count();
+        displacements_.assign(count, Vec3::Zero());
+        strategies_.velocity->advance(context);
+        strategies_.velocity->prepare(context);
+        workers_.for_blocks(count, evaluated_block, [&](std::size_t first, std::size_t last) {
+            strategies_.velocity->evaluate({first, last},
+                                           std::span(displacements_).subspan(first, last - first));
+        });
+        hooks::Attributes attributes;
+        strategies_.velocity->publish(attributes);
+        set_attributes(deformer_, view_, attributes);
+        return measure_speeds(view_, displacements_, row);
+    }
+
+    /// Runs the passes of a refinement, each on a fresh view, until it requests no change of the mesh.
+    void refine(hooks::RefinementPolicy& refinement) {
+        const Timed timed(result_.totals.seconds.refine);
+        const bool sampling = refinement.needs_sampling();
+        const unsigned passes = refinement.passes();
+        ++result_.totals.refinements;
+        bool asked = true;
+        for (unsigned pass = 0; pass < passes && asked; ++pass) {
+            const hooks::StepContext context =
+                sampling ? make_velocity_context(deformer_.step_count()) : make_context(deformer_.step_count());
+            if (sampling) strategies_.velocity->prepare(context);
+            hooks::RefinementRequests requests;
+            refinement.refine({context, sampling ? strategies_.velocity.get() : nullptr, pass}, requests);
+            set_fields(deformer_, view_, requests);
+            relabel(context, requests);
+            kernel::RefineRequests wanted = kernel_requests(view_, requests, refinement.owns_sizing());
+            wanted.creases = creases(&refinement);
+            const kernel::RefineReport report = deformer_.refine(wanted);
+            result_.totals.crease_exceptions += report.crease_exceptions;
+            result_.totals.refine_requested += report.requested;
+            result_.totals.refine_committed += report.committed;
+            result_.totals.refine_edits.add(report);
+            asked = report.requested > 0 || !requests.relabel.empty();
+            asked ? refresh_view() : refresh_fields();
+        }
+    }
+
+    void relabel(const hooks::StepContext& context, const hooks::RefinementRequests& requests) {
+        if (requests.relabel.empty()) return;
+        std::vector<mesh::TetId> tets;
+        std::vector<mesh::Label> labels;
+        for (const auto& [tet, label] : requests.relabel) {
+            tets.push_back(tet);
+            labels.push_back(static_cast<mesh::Label>(label));
+        }
+        context_ = &context;
+        std::vector<kernel::Event> events;
+        result_.totals.refine_requested += tets.size();
+        result_.totals.refine_committed += deformer_.relabel(tets, labels, policy_, events);
+        context_ = nullptr;
+        for (const kernel::Event& event : events) {
+            result_.totals.count(event.kind);
+            tell(event);
+        }
+    }
+
+    void measure_row(StepMetrics& row) {
+        const Timed timed(result_.totals.seconds.measure);
+        measure_state(deformer_.complex(), view_, cloud_, nearest_.all(), workers_, row);
+    }
+
+    void observe(StepMetrics& row) {
+        if (strategies_.observers.empty()) return;
+        const Timed timed(result_.totals.seconds.measure);
+        const hooks::StepContext context = make_context(deformer_.step_count());
+        const hooks::StepFigures figures{row.step, row.interface_vertices, row.tets, row.volume,
+                                         row.min_tet_quality};
+        for (std::size_t i = 0; i < strategies_.observers.size(); ++i) {
+            const std::string prefix = "observers." + experiment_.observers[i].type + ".";
+            for (const auto& [figure, value] : strategies_.observers[i]->step(context, figures)) {
+                row.observers.emplace_back(prefix + figure, value);
+            }
+        }
+    }
+
+    void publish(const StepMetrics& row) {
+        result_.last = row;
+        if (options_.on_step) options_.on_step(row, planned_);
+        if (!options_.on_state) return;
+        const Timed timed(result_.totals.seconds.io);
+        options_.on_state(make_context(row.step), deformer_.complex());
+    }
+
+    void tell(const kernel::Event& event) const {
+        if (options_.on_event) options_.on_event(event);
+    }
+
+    void tell_repairs(const kernel::StepReport& report) const {
+        if (!options_.on_repairs) return;
+        const std::vector<std::string>& names = result_.totals.repair_class_names;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const kernel::OperationCounts& counts = report.repair_classes[i];
+            if (counts.tried == 0) continue;
+            options_.on_repairs({deformer_.step_count(), names[i], counts.tried, counts.committed});
+        }
+    }
+
+    bool stop_asked() const {
+        return (options_.cancel != nullptr && options_.cancel->cancelled()) ||
+               (options_.out_of_time && options_.out_of_time());
+    }
+
+    void stop() {
+        stopped_ = true;
+        over_ = true;
+    }
+
+    const Experiment& experiment_;
+    Strategies& strategies_;
+    const cloud::TargetCloud* cloud_;
+    const SimulationOptions& options_;
+    Workers serial_;
+    Workers& workers_;
+    std::uint64_t planned_;
+    SimulationResult result_;
+    SchedulePlace place_;
+    StateReader resumed_;
+    kernel::Deformer deformer_;
+    kernel::RepairPolicy policy_;
+    surface::SurfaceView view_;
+    NearestPoints nearest_;
+    std::vector<surface::FacePoint> faces_of_points_;  // empty until they are needed
+    std::vector<double> lengths_;   // per vertex of the view; empty if L is the same everywhere
+    surface::ViewMemory view_memory_;
+    hooks::Attributes attributes_;  // of the view's vertices
+    std::vector<Vec3> displacements_;
+    const hooks::StepContext* context_ = nullptr;  // of the current step, for the policy
+    bool stopped_ = false;  // stopped before the end of the schedule
+    bool over_ = false;
+};
+
+}  // namespace
+
+std::uint64_t planned_steps(const Experiment& experiment) {
+    std::uint64_t steps = 0;
+    for (const Series& item : experiment.schedule) steps += item.steps.value_or(0);
+    return steps;
+}
+
+SimulationResult simulate(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
+                          const SimulationOptions& options) {
+    return Simulation(experiment, strategies, cloud, options).execute();
+}
+
+}  // namespace dsc::run
