@@ -5,11 +5,12 @@
 // With `per_area`, K is divided by the mixed area of the vertex, which gives the Gaussian curvature
 // [Meyer2003]. It is positive on bumps and in pits alike, and negative on saddles. The vector
 // points along the normal.
+#include <numbers>
+
 #include <dsc/base/version.hpp>
 #include <dsc/geometry/corner.hpp>
 #include <dsc/hooks/curvature_estimator.hpp>
 #include <dsc/plugin/plugin.hpp>
-#include <numbers>
 
 namespace {
 
@@ -23,9 +24,8 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.boolean("per_area", &Params::per_area)
-            .doc(
-                "Divide the angle by the area that belongs to the vertex; the result is the "
-                "Gaussian curvature.");
+            .doc("Divide the angle by the area that belongs to the vertex; the result is the "
+                 "Gaussian curvature.");
     }
 
     AngularDefect(const Params& params, const dsc::plugin::Setup&) : per_area_(params.per_area) {}

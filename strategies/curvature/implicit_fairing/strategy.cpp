@@ -26,11 +26,10 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.choice("area", &Params::area, {{"mixed", Area::mixed}, {"ring", Area::ring}})
-            .doc(
-                "Area by which the sum is divided. 'mixed' is the part of the faces that belongs "
-                "to the vertex; it gives the mean curvature, 1/r on a sphere. 'ring' is the area "
-                "of all faces around the vertex; it gives the figure of the thesis, about a "
-                "third of the mean curvature.");
+            .doc("Area by which the sum is divided. 'mixed' is the part of the faces that belongs "
+                 "to the vertex; it gives the mean curvature, 1/r on a sphere. 'ring' is the area "
+                 "of all faces around the vertex; it gives the figure of the thesis, about a third "
+                 "of the mean curvature.");
     }
 
     ImplicitFairing(const Params& params, const dsc::plugin::Setup&) : area_(params.area) {}
@@ -48,8 +47,8 @@ public:
 
 private:
     Vec3 at(std::size_t vertex) const {
-        constexpr double cotangent_limit =
-            57.28996163075943;  // cot 1 degree: smaller angles are noise
+        constexpr double cotangent_limit = 57.28996163075943;  // cot 1 degree: smaller angles are
+                                                               // noise
         const auto& positions = surface_->positions;
         Vec3 sum = Vec3::Zero();
         double area = 0;

@@ -20,9 +20,8 @@ public:
             .open_low()
             .open_high()
             .unit("point distances")
-            .doc(
-                "Distance to an earlier point up to which a point is removed; 1 is the distance "
-                "that the 24 nearest points would have if they were spread evenly.");
+            .doc("Distance to an earlier point up to which a point is removed; 1 is the distance "
+                 "that the 24 nearest points would have if they were spread evenly.");
     }
 
     Clusters(const Params& params, const dsc::plugin::Setup&) : params_(params) {}

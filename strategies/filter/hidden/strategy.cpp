@@ -34,9 +34,8 @@ public:
             .range(0, 1)
             .open_high()
             .unit("1")
-            .doc(
-                "Fraction of the views; a point that this fraction of the views or fewer see is "
-                "removed.");
+            .doc("Fraction of the views; a point that this fraction of the views or fewer see is "
+                 "removed.");
     }
 
     Hidden(const Params& params, const dsc::plugin::Setup&) : params_(params) {}

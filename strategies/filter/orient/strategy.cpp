@@ -9,17 +9,18 @@
 // its viewpoint, decide the sides if they are consistent. README.md describes all steps; the
 // algorithms are dsc::cloud::orient_points, orient_by_normals, orient_by_file_normals and
 // orient_by_sensor.
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/version.hpp>
 #include <dsc/cloud/given_normals.hpp>
 #include <dsc/cloud/orientation.hpp>
 #include <dsc/hooks/cloud_filter.hpp>
 #include <dsc/plugin/plugin.hpp>
-#include <numeric>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace {
 
@@ -69,13 +70,11 @@ public:
         schema
             .choice("from", &Params::from,
                     {{"auto", From::automatic}, {"file", From::file}, {"estimate", From::estimate}})
-            .doc(
-                "Source of the normals: 'file', 'estimate' (from the points alone), or 'auto', "
-                "which uses the file if its normals or its viewpoint are consistent.");
+            .doc("Source of the normals: 'file', 'estimate' (from the points alone), or 'auto', "
+                 "which uses the file if its normals or its viewpoint are consistent.");
         schema.boolean("all_points", &Params::all_points)
-            .doc(
-                "Use every point (or every cell of a large cloud) from the beginning of the "
-                "estimate; slower, but better for parts thinner than a few points.");
+            .doc("Use every point (or every cell of a large cloud) from the beginning of the "
+                 "estimate; slower, but better for parts thinner than a few points.");
         schema.integer("iterations", &Params::iterations)
             .range(1, 1000)
             .unit("1")
@@ -83,11 +82,10 @@ public:
         schema
             .choice("one_sided", &Params::one_sided,
                     {{"auto", OneSided::automatic}, {"never", OneSided::never}})
-            .doc(
-                "Whether a cloud that was recorded from one side, such as a depth image or "
-                "terrain, is closed. 'auto' recognises it by its single layer of points and "
-                "closes it with a copy of the layer farther away; the surface of the copy can be "
-                "removed later.");
+            .doc("Whether a cloud that was recorded from one side, such as a depth image or "
+                 "terrain, is closed. 'auto' recognises it by its single layer of points and "
+                 "closes it with a copy of the layer farther away; the surface of the copy can be "
+                 "removed later.");
     }
 
     Orient(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
@@ -99,12 +97,11 @@ public:
         const bool has_normals = !cloud.normals.empty();
         if (params_.from == From::file) {
             if (!has_normals)
-                throw dsc::ConfigError(
-                    "filter.normals",
-                    (cloud.source.empty() ? "cloud" : cloud.source) +
-                        ": filter orient: from: file needs normals, but the cloud has none; "
-                        "write " +
-                        "from: estimate, or use a file with normals");
+                throw dsc::ConfigError("filter.normals",
+                                       (cloud.source.empty() ? "cloud" : cloud.source) +
+                                           ": filter orient: from: file needs normals, but the "
+                                           "cloud has none; write " +
+                                           "from: estimate, or use a file with normals");
             return with_attributes(cloud, from_file(cloud, context), false);
         }
         if (params_.from == From::estimate)

@@ -19,15 +19,13 @@ public:
         schema.real("isolated", &Params::isolated)
             .range(1.01, 1000)
             .unit("1")
-            .doc(
-                "Factor above which a point is isolated: its distance to its 8th neighbour over "
-                "that of its neighbours, and over that of most points.");
+            .doc("Factor above which a point is isolated: its distance to its 8th neighbour over "
+                 "that of its neighbours, and over that of most points.");
         schema.real("far", &Params::far)
             .range(1.01, 1e6)
             .unit("1")
-            .doc(
-                "Largest allowed factor between the distance of a point to its 8th neighbour and "
-                "that of most points.");
+            .doc("Largest allowed factor between the distance of a point to its 8th neighbour and "
+                 "that of most points.");
         schema.real("most", &Params::most)
             .range(0, 0.99)
             .unit("1")
@@ -35,9 +33,8 @@ public:
         schema.real("dirty", &Params::dirty)
             .range(0, 1)
             .unit("1")
-            .doc(
-                "Fraction of isolated points above which all points are searched in rounds for "
-                "outliers among outliers.");
+            .doc("Fraction of isolated points above which all points are searched in rounds for "
+                 "outliers among outliers.");
     }
 
     Outliers(const Params& params, const dsc::plugin::Setup&) : params_(params) {}

@@ -24,9 +24,8 @@ public:
         schema.real("deviations", &Params::deviations)
             .range(0, 1000)
             .unit("1")
-            .doc(
-                "Number of standard deviations above the mean of all points that the mean "
-                "distance of a point may have.");
+            .doc("Number of standard deviations above the mean of all points that the mean "
+                 "distance of a point may have.");
     }
 
     StatisticalOutliers(const Params& params, const dsc::plugin::Setup&) : params_(params) {}

@@ -5,6 +5,7 @@
 // where a sheet, gap or neck is thin and no cloud point supports it. proposals.cpp chooses the
 // repairs of a round, shapes.cpp those by the shape of single edges, faces and tets.
 #include <algorithm>
+
 #include <dsc/base/version.hpp>
 #include <dsc/hooks/improvement.hpp>
 #include <dsc/plugin/plugin.hpp>
@@ -33,9 +34,8 @@ public:
             schema.real("thickness", &Topology::thickness)
                 .range(0, 2)
                 .unit("target lengths (L)")
-                .doc(
-                    "Largest thickness of sheets, gaps and necks that may change topology; 0 "
-                    "switches all changes off.");
+                .doc("Largest thickness of sheets, gaps and necks that may change topology; 0 "
+                     "switches all changes off.");
             schema.real("support", &Topology::support)
                 .range(0, 10)
                 .unit("target lengths (L)")
@@ -43,16 +43,14 @@ public:
             schema.real("spacing", &Topology::spacing)
                 .range(0, 10)
                 .unit("1")
-                .doc(
-                    "Distance from necks and rims of sheets within which a cloud point forbids a "
-                    "change, in distances from the point to its sixth neighbour: where the cloud "
-                    "is sparse, few points lie on a thin part of the object.");
+                .doc("Distance from necks and rims of sheets within which a cloud point forbids a "
+                     "change, in distances from the point to its sixth neighbour: where the cloud "
+                     "is sparse, few points lie on a thin part of the object.");
             schema.real("min_component", &Topology::min_component)
                 .range(0, 1000)
                 .unit("1")
-                .doc(
-                    "Volume below which components are removed, in regular tets with edges of "
-                    "the target length.");
+                .doc("Volume below which components are removed, in regular tets with edges of the "
+                     "target length.");
         }
     };
 
@@ -69,9 +67,8 @@ public:
         schema.real("degenerate_tet_quality", &Params::degenerate_tet_quality)
             .range(0, 1)
             .unit("1")
-            .doc(
-                "Quality below which tets are removed, even if this changes the shape of the "
-                "interface within the kernel's bounds.");
+            .doc("Quality below which tets are removed, even if this changes the shape of the "
+                 "interface within the kernel's bounds.");
         schema.real("smooth_below", &Params::smooth_below)
             .range(0, 1)
             .unit("1")
@@ -87,67 +84,57 @@ public:
         schema.real("min_tet_volume", &Params::min_tet_volume)
             .range(0, 1)
             .unit("1")
-            .doc(
-                "Volume below which tets are collapsed, in regular tets with edges of the target "
-                "length.");
+            .doc("Volume below which tets are collapsed, in regular tets with edges of the target "
+                 "length.");
         schema.real("max_free_edge", &Params::max_free_edge)
             .range(0, 100)
             .unit("target lengths (L)")
-            .doc(
-                "Length above which edges from the interface into a phase are split, so that the "
-                "surface does not get stuck when it moves into large tets; 0 switches this off.");
+            .doc("Length above which edges from the interface into a phase are split, so that the "
+                 "surface does not get stuck when it moves into large tets; 0 switches this off.");
         schema.real("degenerate_edge_quality", &Params::degenerate_edge_quality)
             .range(0, 1)
             .unit("target lengths (L)")
-            .doc(
-                "Length below which edges, also inside a phase, are collapsed, even if this "
-                "changes the shape of the interface within the kernel's bounds; 0 switches this "
-                "off.");
+            .doc("Length below which edges, also inside a phase, are collapsed, even if this "
+                 "changes the shape of the interface within the kernel's bounds; 0 switches this "
+                 "off.");
         schema.real("min_edge_quality", &Params::min_edge_quality)
             .range(0, 1)
             .unit("target lengths (L)")
-            .doc(
-                "Length below which edges are collapsed if neither shape nor quality is lost; 0 "
-                "switches this off.");
+            .doc("Length below which edges are collapsed if neither shape nor quality is lost; 0 "
+                 "switches this off.");
         schema.real("degenerate_face_quality", &Params::degenerate_face_quality)
             .range(0, 0.5)
             .unit("1")
-            .doc(
-                "Quality, 1 - max |cos| over the corners, below which faces are removed, even if "
-                "this changes the shape of the interface within the kernel's bounds; 0 switches "
-                "this off.");
+            .doc("Quality, 1 - max |cos| over the corners, below which faces are removed, even if "
+                 "this changes the shape of the interface within the kernel's bounds; 0 switches "
+                 "this off.");
         schema.real("min_face_quality", &Params::min_face_quality)
             .range(0, 0.5)
             .unit("1")
-            .doc(
-                "Quality below which faces are removed if neither shape nor quality is lost; 0 "
-                "switches this off.");
+            .doc("Quality below which faces are removed if neither shape nor quality is lost; 0 "
+                 "switches this off.");
         schema.real("min_face_area", &Params::min_face_area)
             .range(0, 1)
             .unit("1")
-            .doc(
-                "Area below which the shortest edge of an interface face is collapsed, in "
-                "regular triangles with edges of the target length; 0 switches this off.");
+            .doc("Area below which the shortest edge of an interface face is collapsed, in regular "
+                 "triangles with edges of the target length; 0 switches this off.");
         schema.real("max_face_area", &Params::max_face_area)
             .range(0, 1000)
             .unit("1")
             .doc(
                 "Area above which interface faces, also flat ones, are split at their longest "
-                "edge, in regular triangles with edges of the target length; 0 switches this "
-                "off.");
+                "edge, in regular triangles with edges of the target length; 0 switches this off.");
         schema.real("max_tet_volume", &Params::max_tet_volume)
             .range(0, 1e9)
             .unit("1")
-            .doc(
-                "Volume above which tets are split at their longest edge, in regular tets with "
-                "edges of the target length; 0 switches this off.");
+            .doc("Volume above which tets are split at their longest edge, in regular tets with "
+                 "edges of the target length; 0 switches this off.");
         schema.real("flatness", &Params::flatness)
             .range(0, 1)
             .unit("1")
             .advanced()
-            .doc(
-                "Cosine between the normals of neighbouring interface faces above which they "
-                "count as flat.");
+            .doc("Cosine between the normals of neighbouring interface faces above which they "
+                 "count as flat.");
         schema.object("topology", &Params::topology, Topology::declare)
             .doc("Conditions under which the interface may change its topology.");
         schema.check([](const Params& p) { return p.degenerate_tet_quality <= p.min_tet_quality; },
@@ -172,8 +159,8 @@ public:
             [](const Params& p) {
                 return p.max_tet_volume == 0 || p.max_tet_volume >= 2 * p.min_tet_volume;
             },
-            "max_tet_volume must be at least twice min_tet_volume: the halves of a split tet "
-            "must not be too small");
+            "max_tet_volume must be at least twice min_tet_volume: the halves of a split tet must "
+            "not be too small");
     }
 
     DscImprovement(const Params& params, const dsc::plugin::Setup&)

@@ -6,6 +6,7 @@
 // border of octants is joined to each of their corners. Outside the solid there are only the box's
 // eight vertices. solid.cpp builds the tets of the solid.
 #include <algorithm>
+
 #include <dsc/base/version.hpp>
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/hooks/initial_mesh.hpp>
@@ -155,8 +156,6 @@ private:
 
 DSC_PLUGIN("corner_box", DSC_VERSION, "BSD-3-Clause",
            "Start from a sphere or box joined to the corners of the outer box") {
-    registrar.add<CornerBox>(
-        "corner_box",
-        "a sphere or box joined to the eight corners of the outer box, with no vertices between "
-        "them");
+    registrar.add<CornerBox>("corner_box", "a sphere or box joined to the eight corners of the "
+                                           "outer box, with no vertices between them");
 }

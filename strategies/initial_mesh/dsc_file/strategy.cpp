@@ -2,11 +2,12 @@
 //
 // The mesh may contain any number of labels. It must fill an axis-parallel box; the kernel
 // re-orients its tets, makes pinched vertices regular and refuses a mesh that is not a complex.
+#include <string>
+
 #include <dsc/base/version.hpp>
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/plugin/placing.hpp>
 #include <dsc/plugin/plugin.hpp>
-#include <string>
 
 namespace {
 
@@ -21,9 +22,8 @@ public:
         schema.file("file", &Params::file)
             .required()
             .extensions({".dsc", ".vtu"})
-            .doc(
-                "Labelled tet mesh that fills a box: a .dsc file of the original program, the "
-                "result of a former run, or your own file.");
+            .doc("Labelled tet mesh that fills a box: a .dsc file of the original program, the "
+                 "result of a former run, or your own file.");
         dsc::plugin::declare_coordinates(schema, &Params::coordinates);
     }
 

@@ -7,6 +7,9 @@
 // interface and surface are measured (deviation.cpp).
 #include <algorithm>
 #include <cstdio>
+#include <optional>
+#include <string>
+
 #include <dsc/base/version.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/generate/lattice.hpp>
@@ -17,8 +20,6 @@
 #include <dsc/plugin/plugin.hpp>
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <optional>
-#include <string>
 
 #include "deviation.hpp"
 #include "features.hpp"
@@ -92,16 +93,14 @@ public:
         schema.file("file", &Params::file)
             .required()
             .extensions({".obj", ".ply", ".off", ".stl"})
-            .doc(
-                "Closed, manifold surface whose faces are oriented alike; it may have several "
-                "shells and cavities.");
+            .doc("Closed, manifold surface whose faces are oriented alike; it may have several "
+                 "shells and cavities.");
         dsc::plugin::declare_coordinates(schema, &Params::coordinates);
         schema.real("fit", &Params::fit)
             .greater(0)
             .unit("length")
-            .doc(
-                "Longest half-extent to which the surface is scaled after it is centred in the "
-                "box; unset: the surface is not moved.");
+            .doc("Longest half-extent to which the surface is scaled after it is centred in the "
+                 "box; unset: the surface is not moved.");
         schema.integer("label", &Params::label)
             .range(1, 1000)
             .unit("1")
@@ -109,21 +108,18 @@ public:
         schema.real("tolerance", &Params::tolerance)
             .greater(0)
             .unit("finest cells")
-            .doc(
-                "Greatest distance allowed between surface and interface, in both directions; an "
-                "initial mesh that exceeds it is refused.");
+            .doc("Greatest distance allowed between surface and interface, in both directions; an "
+                 "initial mesh that exceeds it is refused.");
         schema.real("sharp", &Params::sharp)
             .range(0, 180)
             .unit("degrees")
-            .doc(
-                "Angle between the faces of an edge above which vertices of the interface are "
-                "moved onto the edge and its corners; 180: none are.");
+            .doc("Angle between the faces of an edge above which vertices of the interface are "
+                 "moved onto the edge and its corners; 180: none are.");
         schema.integer("intersections", &Params::intersections)
             .range(0, 1000000)
             .unit("1")
-            .doc(
-                "Number of pairs of faces that may intersect; the solid contains all points that "
-                "the surface winds around.");
+            .doc("Number of pairs of faces that may intersect; the solid contains all points that "
+                 "the surface winds around.");
         dsc::plugin::declare_lattice(schema, "the surface");
         schema.check(
             [](const Params& p) {
@@ -148,11 +144,10 @@ public:
         dsc::mesh::TetMesh out = complex.to_mesh();
         const dsc::surface::TriangleMesh interface = dsc::surface::extract_interface(out);
         if (interface.faces.empty()) {
-            throw dsc::GeometryError(
-                "from_surface.vanished",
-                std::string(name) + ": " + params_.file +
-                    " is smaller than a cell of the lattice, so it contains no tet; use more "
-                    "`cells` or `fit` it into the box");
+            throw dsc::GeometryError("from_surface.vanished",
+                                     std::string(name) + ": " + params_.file +
+                                         " is smaller than a cell of the lattice, so it contains "
+                                         "no tet; use more `cells` or `fit` it into the box");
         }
         const dsc::surface::SurfaceReport given = dsc::surface::analyse(solid.surface()),
                                           made = dsc::surface::analyse(interface);

@@ -3,12 +3,13 @@
 // Cells alternate between two mirrored patterns of five tets (four corners and a regular one in the
 // middle), so that the diagonals of neighbouring cells agree. Tets are labelled by the shapes in
 // their order; their interface is stair-stepped, or projected onto the surface of the shapes.
+#include <vector>
+
 #include <dsc/base/version.hpp>
 #include <dsc/generate/project.hpp>
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/plugin/plugin.hpp>
 #include <dsc/plugin/shape_params.hpp>
-#include <vector>
 
 namespace {
 

@@ -4,15 +4,15 @@
 // The cells are those of a balanced octree; they are filled with a few kinds of well-shaped tets
 // [LabelleShewchuk2007]. Tets are labelled by the shapes in their order; all tets at the interface
 // are in the finest cells.
-#include <dsc/base/error.hpp>
+#include <vector>
+
 #include <dsc/base/version.hpp>
 #include <dsc/generate/lattice.hpp>
-#include <dsc/generate/project.hpp>
+#include <dsc/generate/shape_mesh.hpp>
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/plugin/lattice_params.hpp>
 #include <dsc/plugin/plugin.hpp>
 #include <dsc/plugin/shape_params.hpp>
-#include <vector>
 
 namespace {
 
@@ -33,36 +33,13 @@ public:
     /// All tets are positive. Throws CancelledError, and ConfigError if a shape reaches the box or
     /// the mesh would be too large.
     dsc::mesh::TetMesh build(const dsc::hooks::InitialMeshContext& context) override {
-        const auto make = [&](std::span<const dsc::generate::Shape> shapes) {
-            return labelled(shapes, context.cancel);
-        };
-        if (!params_.project) return make(shapes_);
-        return dsc::generate::make_projected(make, shapes_, dsc::generate::finest_cell(params_),
-                                             "initial mesh 'lattice'");
+        const auto surface = params_.project ? dsc::generate::ShapeSurface::projected
+                                             : dsc::generate::ShapeSurface::stepped;
+        return dsc::generate::make_shape_mesh(params_, shapes_, "initial mesh 'lattice'", surface,
+                                              context.cancel);
     }
 
 private:
-    dsc::mesh::TetMesh labelled(std::span<const dsc::generate::Shape> shapes,
-                                const dsc::CancelToken* cancel) const {
-        const auto same = [&](const Vec3& centre, double radius) {
-            return dsc::generate::same_label_within(shapes, centre, radius);
-        };
-        dsc::mesh::TetMesh out =
-            dsc::generate::make_lattice(params_, same, "initial mesh 'lattice'", cancel);
-        for (std::size_t t = 0; t < out.tets.size(); ++t) {
-            const auto& v = out.tets[t];
-            out.labels[t] = dsc::generate::label_of(
-                shapes, {out.points[v[0]], out.points[v[1]], out.points[v[2]], out.points[v[3]]});
-        }
-        if (dsc::generate::labels_touch_box(out)) {
-            throw dsc::ConfigError(
-                "lattice.box",
-                "initial mesh 'lattice': a shape reaches the faces of the box; make the shape "
-                "smaller or `box` larger");
-        }
-        return out;
-    }
-
     Params params_;
     std::vector<dsc::generate::Shape> shapes_;
 };

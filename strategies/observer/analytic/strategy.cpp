@@ -10,14 +10,15 @@
 // It treats the whole interface as one surface, so it is meant for complexes with two labels.
 #include <algorithm>
 #include <cmath>
+#include <istream>
+#include <limits>
+#include <ostream>
+
 #include <dsc/base/version.hpp>
 #include <dsc/hooks/observer.hpp>
 #include <dsc/plugin/plugin.hpp>
 #include <dsc/surface/measure.hpp>
 #include <dsc/surface/triangle_mesh.hpp>
-#include <istream>
-#include <limits>
-#include <ostream>
 
 #include "comparison.hpp"
 
@@ -53,11 +54,10 @@ public:
                      {"sphere", Solution::sphere},
                      {"growing_sphere", Solution::growing_sphere},
                      {"shrinking_sphere", Solution::shrinking_sphere}})
-            .doc(
-                "Surface where the interface should be: 'start', its place at the start, for a "
-                "motion that returns there; 'sphere', a sphere that does not change; "
-                "'growing_sphere', a sphere whose radius grows with every step; "
-                "'shrinking_sphere', a sphere whose radius is sqrt(radius^2 - 4 t).");
+            .doc("Surface where the interface should be: 'start', its place at the start, for a "
+                 "motion that returns there; 'sphere', a sphere that does not change; "
+                 "'growing_sphere', a sphere whose radius grows with every step; "
+                 "'shrinking_sphere', a sphere whose radius is sqrt(radius^2 - 4 t).");
         schema.vec3("centre", &Params::centre).unit("length").doc("Centre of the sphere.");
         schema.real("radius", &Params::radius)
             .greater(0)
@@ -74,9 +74,8 @@ public:
             .range(0, 1)
             .open_low()
             .unit("radius")
-            .doc(
-                "Fraction of the initial radius down to which radius_error includes a shrinking "
-                "sphere.");
+            .doc("Fraction of the initial radius down to which radius_error includes a shrinking "
+                 "sphere.");
     }
 
     Analytic(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
@@ -152,8 +151,7 @@ private:
         const auto steps = static_cast<double>(step);
         switch (params_.solution) {
             case Solution::start:
-            case Solution::sphere:
-                return params_.radius;
+            case Solution::sphere: return params_.radius;
             case Solution::growing_sphere:
                 return std::max(0.0, params_.radius + params_.growth * steps);
             case Solution::shrinking_sphere:

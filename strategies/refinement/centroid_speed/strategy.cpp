@@ -6,6 +6,7 @@
 // 7]. The speed of a point is the length of velocity->sample() there, with the normal of the vertex
 // or of the face.
 #include <algorithm>
+
 #include <dsc/base/version.hpp>
 #include <dsc/hooks/refinement_policy.hpp>
 #include <dsc/plugin/plugin.hpp>
@@ -31,22 +32,19 @@ public:
         schema.real("moving", &Params::moving)
             .at_least(0)
             .unit("current mean edges")
-            .doc(
-                "Distance per step of the centroid above which a face is split if its vertices "
-                "are at rest.");
+            .doc("Distance per step of the centroid above which a face is split if its vertices "
+                 "are at rest.");
         schema.real("absolute", &Params::absolute)
             .at_least(0)
             .unit("length")
-            .doc(
-                "Distance per step that replaces both thresholds, for any mean edge; 0: not "
-                "used; 0.0015 in the program of the thesis.");
+            .doc("Distance per step that replaces both thresholds, for any mean edge; 0: not used; "
+                 "0.0015 in the program of the thesis.");
         schema.real("finest", &Params::finest)
             .at_least(0)
             .unit("point spacings")
-            .doc(
-                "Length of the longest edge below which faces are not split, in spacings of the "
-                "cloud (distance from the point nearest to the centroid to its sixth neighbour), "
-                "because the points contain no information about smaller details. 0: no bound.");
+            .doc("Length of the longest edge below which faces are not split, in spacings of the "
+                 "cloud (distance from the point nearest to the centroid to its sixth neighbour), "
+                 "because the points contain no information about smaller details. 0: no bound.");
     }
 
     CentroidSpeed(const Params& params, const dsc::plugin::Setup&) : params_(params) {}

@@ -6,13 +6,14 @@
 // last third of the run. sizing.cpp computes the target lengths, edits.cpp chooses the edits of a
 // pass on the edges of edge_mesh.cpp.
 #include <cmath>
+#include <istream>
+#include <limits>
+#include <ostream>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/version.hpp>
 #include <dsc/hooks/refinement_policy.hpp>
 #include <dsc/plugin/plugin.hpp>
-#include <istream>
-#include <limits>
-#include <ostream>
 
 #include "edge_mesh.hpp"
 #include "edits.hpp"
@@ -51,28 +52,24 @@ public:
                     {{"low", dsc::cloud::Detail::low},
                      {"medium", dsc::cloud::Detail::medium},
                      {"high", dsc::cloud::Detail::high}})
-            .doc(
-                "Level of detail: half, all or twice the number of vertices that follows from "
-                "the number of points.");
+            .doc("Level of detail: half, all or twice the number of vertices that follows from the "
+                 "number of points.");
         schema.integer("vertices", &Params::vertices)
             .at_least(0)
             .unit("vertices")
-            .doc(
-                "Number of vertices that the surface may have. 0: it follows from the number of "
-                "points; it is two per point up to 3,000 points, 20,000 at 20,000 points, and "
-                "grows with the root of their number above that.");
+            .doc("Number of vertices that the surface may have. 0: it follows from the number of "
+                 "points; it is two per point up to 3,000 points, 20,000 at 20,000 points, and "
+                 "grows with the root of their number above that.");
         schema.real("edge_length", &Params::edge_length)
             .at_least(0)
             .unit("length")
-            .doc(
-                "Length of all edges, in the units of the input. 0: it follows from the number "
-                "of vertices and the area of the cloud's points; it is longer if the points are "
-                "noisy, and local if their spacing is uneven.");
+            .doc("Length of all edges, in the units of the input. 0: it follows from the number of "
+                 "vertices and the area of the cloud's points; it is longer if the points are "
+                 "noisy, and local if their spacing is uneven.");
         schema.boolean("thin_parts", &Params::thin_parts)
-            .doc(
-                "Whether parts thinner than two edges get shorter edges: half their thickness, "
-                "at least half a point width, and up to 1.5 times as many vertices. Only with a "
-                "cloud and without an edge length.");
+            .doc("Whether parts thinner than two edges get shorter edges: half their thickness, at "
+                 "least half a point width, and up to 1.5 times as many vertices. Only with a "
+                 "cloud and without an edge length.");
     }
 
     Remesh(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
@@ -209,8 +206,6 @@ private:
 
 DSC_PLUGIN("remesh", DSC_VERSION, "BSD-3-Clause",
            "Remeshing of the interface to edges of one length") {
-    registrar.add<Remesh>(
-        "remesh",
-        "splits, collapses and flips interface edges until their length suits the number of "
-        "points of the cloud");
+    registrar.add<Remesh>("remesh", "splits, collapses and flips interface edges until their "
+                                    "length suits the number of points of the cloud");
 }

@@ -6,6 +6,7 @@
 // flow. A sphere of radius r0 has the radius sqrt(r0^2 - 4 t) at time t [Huisken1984].
 #include <algorithm>
 #include <array>
+
 #include <dsc/base/version.hpp>
 #include <dsc/hooks/curvature_estimator.hpp>
 #include <dsc/hooks/velocity_field.hpp>
@@ -26,9 +27,8 @@ public:
         schema.real("time_step", &Params::time_step)
             .greater(0)
             .unit("length^2")
-            .doc(
-                "Time per step. The step is explicit: above about an eighth of the squared "
-                "shortest edge, neighbouring vertices overtake each other.");
+            .doc("Time per step. The step is explicit: above about an eighth of the squared "
+                 "shortest edge, neighbouring vertices overtake each other.");
         schema.strategy("curvature", &Params::curvature, "curvature")
             .doc("Estimator of the mean curvature normal, 1/r on a sphere of radius r.");
     }

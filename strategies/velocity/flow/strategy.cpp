@@ -35,10 +35,9 @@ public:
                      {"part", FieldKind::part},
                      {"enright", FieldKind::enright}})
             .doc(
-                "Velocity field: 'translate' along axis; 'rotate' about axis; 'shear' along "
-                "axis, with a speed that grows along across; 'part', two sides move apart or "
-                "together along axis; 'enright', a deformation of the unit cube that returns to "
-                "the start.");
+                "Velocity field: 'translate' along axis; 'rotate' about axis; 'shear' along axis, "
+                "with a speed that grows along across; 'part', two sides move apart or together "
+                "along axis; 'enright', a deformation of the unit cube that returns to the start.");
         schema.vec3("centre", static_cast<Vec3 Params::*>(&Params::centre))
             .unit("length")
             .doc("Point where the speed of 'rotate', 'shear' and 'part' is 0.");
@@ -50,21 +49,18 @@ public:
             .doc("Direction in which the speed of 'shear' grows; perpendicular to axis.");
         schema.real("speed", &Params::speed)
             .unit("length/time, radians/time or 1/time")
-            .doc(
-                "Speed of 'translate' and of both sides of 'part' (negative: together), angle of "
-                "'rotate', growth of 'shear'.");
+            .doc("Speed of 'translate' and of both sides of 'part' (negative: together), angle of "
+                 "'rotate', growth of 'shear'.");
         schema.real("width", &Params::width)
             .greater(0)
             .unit("length")
-            .doc(
-                "Half the thickness of the layer in which 'part' changes from one side to the "
-                "other.");
+            .doc("Half the thickness of the layer in which 'part' changes from one side to the "
+                 "other.");
         schema.real("period", &Params::period)
             .greater(0)
             .unit("time")
-            .doc(
-                "Time at which 'enright' has moved everything back; the motion reverses at half "
-                "of this time.");
+            .doc("Time at which 'enright' has moved everything back; the motion reverses at half "
+                 "of this time.");
         schema.real("time_step", &Params::time_step).greater(0).unit("time").doc("Time per step.");
         schema.integer("substeps", &Params::substeps)
             .range(1, 1000)

@@ -9,11 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
+
 #include <dsc/base/version.hpp>
 #include <dsc/hooks/curvature_estimator.hpp>
 #include <dsc/hooks/velocity_field.hpp>
 #include <dsc/plugin/plugin.hpp>
-#include <vector>
 
 namespace {
 
@@ -39,16 +40,14 @@ public:
                 .unit("point spacings")
                 .doc(
                     "Distance without points from which a vertex is unsupported, in spacings of "
-                    "the cloud there (the distance from the nearest point to its sixth "
-                    "neighbour). The surface enters openings of the cloud wider than twice this "
-                    "distance: use more than the radius of holes in the data. 0: all vertices "
-                    "are supported.");
+                    "the cloud there (the distance from the nearest point to its sixth neighbour). "
+                    "The surface enters openings of the cloud wider than twice this distance: use "
+                    "more than the radius of holes in the data. 0: all vertices are supported.");
             schema.real("carve", &Unsupported::carve)
                 .range(0, 1)
                 .unit("target lengths (L)")
-                .doc(
-                    "Least distance that an unsupported vertex whose data term stalls moves "
-                    "inwards per step.");
+                .doc("Least distance that an unsupported vertex whose data term stalls moves "
+                     "inwards per step.");
         }
     };
 
@@ -62,15 +61,13 @@ public:
             schema.integer("neighbours", &Target::neighbours)
                 .range(1, 1000)
                 .unit("points")
-                .doc(
-                    "Number of nearest points; a vertex moves to their weighted mean. 1: to the "
-                    "nearest point, as in the thesis.");
+                .doc("Number of nearest points; a vertex moves to their weighted mean. 1: to the "
+                     "nearest point, as in the thesis.");
             schema.real("width", &Target::width)
                 .greater(0)
                 .unit("point spacings")
-                .doc(
-                    "Standard deviation of the Gaussian of the distance that gives the weights "
-                    "of the points.");
+                .doc("Standard deviation of the Gaussian of the distance that gives the weights of "
+                     "the points.");
         }
     };
 
@@ -89,15 +86,13 @@ public:
         schema.real("alpha", &Params::alpha)
             .range(0, 2)
             .unit("1")
-            .doc(
-                "Fraction of the normal distance to the nearest point that a vertex moves per "
-                "step.");
+            .doc("Fraction of the normal distance to the nearest point that a vertex moves per "
+                 "step.");
         schema.real("beta", &Params::beta)
             .at_least(0)
             .unit("length/curvature")
-            .doc(
-                "Distance that a vertex moves inwards per step for a curvature of 1: length^2 "
-                "for a mean curvature, length for an angle. 0 switches the curvature off.");
+            .doc("Distance that a vertex moves inwards per step for a curvature of 1: length^2 for "
+                 "a mean curvature, length for an angle. 0 switches the curvature off.");
         schema.strategy("curvature", &Params::curvature, "curvature")
             .optional()
             .doc("Estimator of the curvature that beta multiplies.");
@@ -105,10 +100,9 @@ public:
             .choice("curvature_at", &Params::curvature_at,
                     {{"everywhere", CurvatureAt::everywhere},
                      {"unsupported", CurvatureAt::unsupported}})
-            .doc(
-                "Places where the curvature acts: everywhere, as in the thesis, or only where "
-                "the surface is unsupported and the data term stalls, so that webs and leftover "
-                "pieces shrink and supported horns, ears and tips keep their shape.");
+            .doc("Places where the curvature acts: everywhere, as in the thesis, or only where the "
+                 "surface is unsupported and the data term stalls, so that webs and leftover "
+                 "pieces shrink and supported horns, ears and tips keep their shape.");
         schema.object("target", &Params::target, Target::declare)
             .doc("Point of the cloud to which a vertex moves.");
         schema.object("unsupported", &Params::unsupported, Unsupported::declare)
@@ -134,10 +128,9 @@ public:
     /// Throws ConfigError "velocity.no_cloud" if the experiment has no cloud.
     void prepare(const dsc::hooks::StepContext& context) override {
         if (context.cloud == nullptr) {
-            throw dsc::ConfigError(
-                "velocity.no_cloud",
-                "velocity 'point_cloud': the experiment has no cloud; add input: {cloud: {file: "
-                "...}}");
+            throw dsc::ConfigError("velocity.no_cloud",
+                                   "velocity 'point_cloud': the experiment has no cloud; add "
+                                   "input: {cloud: {file: ...}}");
         }
         surface_ = &context.surface;
         cloud_ = context.cloud;
@@ -239,9 +232,9 @@ private:
     std::unique_ptr<dsc::hooks::CurvatureEstimator> curvature_;
     const dsc::surface::SurfaceView* surface_ = nullptr;
     const dsc::cloud::TargetCloud* cloud_ = nullptr;
-    std::span<const dsc::cloud::Neighbour>
-        nearest_;                 // of the vertices; empty if the host has not searched
-    double carving_speed_ = 0.0;  // length per step
+    std::span<const dsc::cloud::Neighbour> nearest_;  // of the vertices; empty if the host has not
+                                                      // searched
+    double carving_speed_ = 0.0;                      // length per step
 };
 
 }  // namespace

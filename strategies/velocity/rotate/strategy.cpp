@@ -5,6 +5,7 @@
 // where R is the rotation by a fixed angle per step: vertices move along the chord to exactly the
 // place where the rotation takes them [Saul2015, ch. 4, RotateFunc].
 #include <cmath>
+
 #include <dsc/base/version.hpp>
 #include <dsc/hooks/velocity_field.hpp>
 #include <dsc/plugin/plugin.hpp>

@@ -15,13 +15,14 @@
 // README.md gives all weights.
 #include <algorithm>
 #include <cmath>
+#include <istream>
+#include <iterator>
+#include <ostream>
+
 #include <dsc/base/state.hpp>
 #include <dsc/base/version.hpp>
 #include <dsc/hooks/velocity_field.hpp>
 #include <dsc/plugin/plugin.hpp>
-#include <istream>
-#include <iterator>
-#include <ostream>
 
 #include "attachments.hpp"
 #include "bending_rows.hpp"
@@ -47,8 +48,7 @@ constexpr double unsupported_beyond = 2.0;     // point widths
 constexpr double many_unsupported = 0.005;     // fraction of vertices: the cloud has holes
 // In the second, the kernel continues motions that did not arrive in the first.
 constexpr std::uint64_t fill_repeats = 2;
-constexpr double longest_way =
-    0.7;  // target lengths per step; also to a point to which a vertex moves
+constexpr double longest_way = 0.7;        // target lengths: per step, and to a point at a vertex
 constexpr double largest_curvature = 0.5;  // divided by a point width
 constexpr double quiet_way = 0.005;        // mean, in point widths
 constexpr std::uint64_t quiet_iterations = 2;
@@ -67,32 +67,27 @@ public:
         schema.integer("iterations", &Params::iterations)
             .range(0, 1000)
             .unit("steps")
-            .doc(
-                "Number of steps of the whole motion; the bending length decreases in the first "
-                "60 % of them. 0: 14, or 24 if the cloud has holes.");
+            .doc("Number of steps of the whole motion; the bending length decreases in the first "
+                 "60 % of them. 0: 14, or 24 if the cloud has holes.");
         schema.real("smoothing", &Params::smoothing)
             .range(0, 100)
             .open_low()
             .unit("1")
-            .doc(
-                "Factor of the final bending length, over which the surface is smooth; the "
-                "length itself follows from the noise.");
+            .doc("Factor of the final bending length, over which the surface is smooth; the length "
+                 "itself follows from the noise.");
         schema.real("crease_angle", &Params::crease_angle)
             .greater(0)
             .unit("radians")
-            .doc(
-                "Angle between the faces of an edge above which the edge resists bending less "
-                "and becomes a crease.");
+            .doc("Angle between the faces of an edge above which the edge resists bending less and "
+                 "becomes a crease.");
         schema.real("noise", &Params::noise)
             .range(0, 100)
             .unit("point widths")
-            .doc(
-                "Standard deviation of the points across the surface; a point width is the root "
-                "of the area per point. 0: it is measured.");
+            .doc("Standard deviation of the points across the surface; a point width is the root "
+                 "of the area per point. 0: it is measured.");
         schema.boolean("fill_holes", &Params::fill_holes)
-            .doc(
-                "Continue the surrounding surface over holes in the cloud, once, after 2/7 of "
-                "the steps.");
+            .doc("Continue the surrounding surface over holes in the cloud, once, after 2/7 of the "
+                 "steps.");
     }
 
     SurfaceFit(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
@@ -197,10 +192,9 @@ private:
     // Prepares all data of surface and cloud for the rows.
     void measure(const dsc::hooks::StepContext& context) {
         if (context.cloud == nullptr) {
-            throw dsc::ConfigError(
-                "velocity.no_cloud",
-                "velocity 'surface_fit': the experiment has no cloud; add input: {cloud: {file: "
-                "...}}");
+            throw dsc::ConfigError("velocity.no_cloud",
+                                   "velocity 'surface_fit': the experiment has no cloud; add "
+                                   "input: {cloud: {file: ...}}");
         }
         const dsc::surface::SurfaceView& view = context.surface;
         scales_ = fit::scales_of(context.cloud->statistics(context.workers), params_.noise);

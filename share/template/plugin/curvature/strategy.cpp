@@ -6,6 +6,7 @@
 // where x is the vertex and N its outward unit normal. A circle smaller than `smallest_circle`
 // counts as one of that size. K is 1/r on a sphere of radius r.
 #include <algorithm>
+
 #include <dsc/hooks/curvature_estimator.hpp>
 #include <dsc/plugin/plugin.hpp>
 

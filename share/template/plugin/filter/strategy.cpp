@@ -3,10 +3,11 @@
 //     removed: z <= floor * height, or z > ceiling * height
 //
 // where z is measured from the bottom of the cloud's bounding box, and height is that of the box.
+#include <vector>
+
 #include <dsc/cloud/filter.hpp>
 #include <dsc/hooks/cloud_filter.hpp>
 #include <dsc/plugin/plugin.hpp>
-#include <vector>
 
 namespace {
 
@@ -24,15 +25,13 @@ public:
         schema.real("floor", &Params::floor)
             .range(0, 1)
             .unit("1")
-            .doc(
-                "Fraction of the height of the cloud's bounding box up to which points are "
-                "removed.");
+            .doc("Fraction of the height of the cloud's bounding box up to which points are "
+                 "removed.");
         schema.real("ceiling", &Params::ceiling)
             .range(0, 1)
             .unit("1")
-            .doc(
-                "Fraction of the height of the cloud's bounding box above which points are "
-                "removed.");
+            .doc("Fraction of the height of the cloud's bounding box above which points are "
+                 "removed.");
         schema.check([](const Params& p) { return p.floor < p.ceiling; },
                      "'floor' must lie below 'ceiling'");
     }

@@ -26,9 +26,8 @@ public:
         schema.real("hopeless", &Params::hopeless)
             .range(0, 1)
             .unit("1")
-            .doc(
-                "Quality below which tets are collapsed, even if this changes the shape of the "
-                "interface within the kernel's bounds.");
+            .doc("Quality below which tets are collapsed, even if this changes the shape of the "
+                 "interface within the kernel's bounds.");
         schema.check([](const Params& p) { return p.hopeless <= p.poor; },
                      "hopeless must not be above poor");
     }

@@ -5,9 +5,10 @@
 // A tet gets label 1 if its centre is inside.
 #include <array>
 #include <cmath>
+#include <utility>
+
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/plugin/plugin.hpp>
-#include <utility>
 
 namespace {
 

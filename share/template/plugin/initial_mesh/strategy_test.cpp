@@ -1,4 +1,6 @@
 // Tests of the mesh; the plugin is loaded as in a run.
+#include <numbers>
+
 #include <doctest/doctest.h>
 
 #include <dsc/base/error.hpp>
@@ -6,7 +8,6 @@
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/validate.hpp>
-#include <numbers>
 
 namespace {
 

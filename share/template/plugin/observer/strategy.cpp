@@ -6,13 +6,14 @@
 // if its smallest angle is below `narrow`.
 #include <algorithm>
 #include <cmath>
-#include <dsc/geometry/corner.hpp>
-#include <dsc/hooks/observer.hpp>
-#include <dsc/plugin/plugin.hpp>
 #include <istream>
 #include <limits>
 #include <numbers>
 #include <ostream>
+
+#include <dsc/geometry/corner.hpp>
+#include <dsc/hooks/observer.hpp>
+#include <dsc/plugin/plugin.hpp>
 
 namespace {
 

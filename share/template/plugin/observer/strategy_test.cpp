@@ -1,14 +1,15 @@
 // Tests of the figures on surfaces with known values; the plugin is loaded as in a run.
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <sstream>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/steps.hpp>
 #include <dsc/sdk/surfaces.hpp>
-#include <map>
-#include <numbers>
-#include <sstream>
 
 namespace {
 

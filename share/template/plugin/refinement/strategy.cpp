@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <dsc/hooks/refinement_policy.hpp>
-#include <dsc/plugin/plugin.hpp>
 #include <numbers>
 #include <tuple>
+
+#include <dsc/hooks/refinement_policy.hpp>
+#include <dsc/plugin/plugin.hpp>
 
 namespace {
 
@@ -25,9 +26,8 @@ public:
         schema.real("bend", &Params::bend)
             .range(0, 180)
             .unit("degrees")
-            .doc(
-                "Angle between the normals of the two faces of an edge above which the edge is "
-                "split.");
+            .doc("Angle between the normals of the two faces of an edge above which the edge is "
+                 "split.");
         schema.real("shortest", &Params::shortest)
             .range(0, 100)
             .unit("current mean edges")
