@@ -73,9 +73,9 @@ void Repairs::begin_step(const repair::RepairRound& round) {
 }
 
 void Repairs::count_insertions(const repair::RepairRound& round) {
-    for (const repair::Outcome& outcome : round.last_outcomes) {
-        const Request& request = round.last_requests[outcome.request];
-        const bool inserted = outcome.refusal == repair::Refusal::committed && request.operation == Operation::compound &&
+    for (std::size_t i = 0; i < round.last_outcomes.size(); ++i) {
+        const Request& request = round.last_requests[i];
+        const bool inserted = !round.last_outcomes[i].refused() && request.operation == Operation::compound &&
                               request.repair_class == static_cast<std::uint8_t>(RepairClass::sliver);
         if (inserted && insertions_left_ > 0) --insertions_left_;
     }

@@ -18,9 +18,9 @@ struct PassOptions {
     Workers* workers = nullptr;  ///< null: one thread
 };
 
-class Travels final : public EditListener {
+class Destinations final : public EditListener {
 public:
-    Travels(mesh::Complex& complex, RepairQueues& queues, StarLoop& loop) : complex_(complex), queues_(queues), loop_(loop) {}
+    Destinations(mesh::Complex& complex, RepairQueues& queues, StarLoop& loop) : complex_(complex), queues_(queues), loop_(loop) {}
 
     /// Begins a step: no vertex moves. [step]
     void clear();
@@ -30,7 +30,7 @@ public:
     /// Makes one attempt for every vertex that moves; returns the sum of the remaining distances. [step]
     double pass(const Limits& limits, const PassOptions& options);
     /// Drops the remaining motion; dropped_motion counts it. [step]
-    void give_up(StepReport& report);
+    void drop_remaining(StepReport& report);
 
     bool done() const { return active_.empty(); }
     /// Vertices that could not reach their destination in the last pass.
@@ -47,8 +47,8 @@ public:
     void on_interface_collapse(VertexId kept) override { near_collapses_.push_back(kept); }
 
 private:
-    struct Travel {
-        Vec3 destination;
+    struct Entry {
+        Vec3 place;
         VertexId vertex = mesh::none;  // none: arrived or dropped
         std::uint32_t birth = 0;
         std::uint32_t blocked_at = 0;  // 0: not blocked
@@ -56,17 +56,17 @@ private:
     };
     struct Pass;
 
-    Travel* way_of(VertexId v);
-    bool travels(VertexId v);
-    Vec3 destination_of(VertexId v) { return travels(v) ? way_of(v)->destination : complex_.position(v); }
+    Entry* entry_of(VertexId v);
+    bool moves(VertexId v);
+    Vec3 destination_of(VertexId v) { return moves(v) ? entry_of(v)->place : complex_.position(v); }
     void drop_dead_and_double();
 
     mesh::Complex& complex_;
     RepairQueues& queues_;
     StarLoop& loop_;
-    // One entry per moving vertex. `travel_of_` maps a vertex to its entry, which is valid if vertex and birth agree.
-    std::vector<Travel> travel_;
-    std::vector<std::uint32_t> travel_of_;
+    // One entry per moving vertex. `entry_of_vertex_` maps a vertex to its entry, which is valid if vertex and birth agree.
+    std::vector<Entry> entries_;
+    std::vector<std::uint32_t> entry_of_vertex_;
     std::vector<VertexId> active_;
     std::vector<VertexId> blocked_;
     std::vector<VertexId> near_collapses_;
