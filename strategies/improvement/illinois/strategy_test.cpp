@@ -234,7 +234,7 @@ TEST_CASE("the budget counts what was committed, and a new step has a new one") 
     round.number = 1;
     round.outcomes = {repair::Refusal::quality};
     CHECK(bench.propose(c, round).size() == 1);
-    round.outcomes = {mesh::success};
+    round.outcomes = {repair::success};
     CHECK(bench.propose(c, round).empty());
     round = {.dirty = {t}};
     CHECK(bench.propose(c, round).size() == 1);
