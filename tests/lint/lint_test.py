@@ -20,7 +20,7 @@ CLEAN = {
     "core/src/io/vtu.cpp": "#include <OpenMesh/Core/Mesh/Handles.hh>\n#include <vtkPoints.h>\n",
     "core/app/main.cpp": "#include <CLI/CLI.hpp>\n\n#include <dsc/run/experiment.hpp>\nint main() { std::cout << 1; }\n",
     "plugins/host/library.cpp": "#include <dlfcn.h>\n\n#include <dsc/plugin/entry.hpp>\n",
-    "strategies/velocity/normal/plugin.cpp": "#include <dsc/hooks/velocity_field.hpp>\n\n#include \"strategy.hpp\"\n",
+    "strategies/velocity/normal/speeds.cpp": "#include <dsc/hooks/velocity_field.hpp>\n\n#include \"fields.hpp\"\n",
     "strategies/velocity/normal/strategy_test.cpp": "#include <doctest/doctest.h>\n\n#include <dsc/kernel/deformer.hpp>\n",
     "share/doc/errors.md": "| `io.known` | a code |\n",
     "core/src/io/stl.cpp": "fail(cut ? \"io.known\" : \"io.known\", place);  // fail(\"io.comment\")\nwrite(\"metrics.csv\");\n",

@@ -1,6 +1,4 @@
 // The requests of the strategy, on small complexes with a flat tet of each class.
-#include "strategy.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>

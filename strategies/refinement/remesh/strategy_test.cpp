@@ -1,6 +1,4 @@
 // The whole refinement, through the simulation: requirements for the resulting interface.
-#include "strategy.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
