@@ -111,11 +111,7 @@ private:
     }
 
     /// Least quality of the star of v (stored in star_), with v at `position`.
-<<<<<<< HEAD
-    double quality_at(mesh::VertexId v, const Vec3& position) const { return star_quality(complex_, star_, v, position); }
-=======
     double quality_at(mesh::VertexId v, const Vec3& position) const { return mesh::star_quality(complex_, star_, v, position); }
->>>>>>> kern-rooms
 
     /// Moves interface vertices towards the surface as far as no tet becomes worse than the floor or than before.
     bool approach() {

@@ -17,11 +17,7 @@ namespace dsc::kernel {
 
 using repair::Outcome;
 using repair::Refusal;
-<<<<<<< HEAD
-using mesh::success;
-=======
 using repair::success;
->>>>>>> kern-rooms
 using mesh::TetId;
 using mesh::VertexId;
 
