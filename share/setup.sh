@@ -18,7 +18,7 @@ build_packages=(
     libboost-dev libcli11-dev libeigen3-dev libembree-dev libfmt-dev libjs-three libnanoflann-dev libopenmesh-dev libpcl-dev libpng-dev librandom123-dev
     libspdlog-dev libssl-dev libvtk9-dev libyaml-cpp-dev nlohmann-json3-dev
 )
-test_packages=(libbenchmark-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-jsonschema python3-yaml)
+test_packages=(clang-format-14 libbenchmark-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-jsonschema python3-yaml)
 full_packages=(valgrind chromium chromium-driver munge parallel python3-meshio slurm-wlm snakemake)
 
 say() { printf '%s\n' "$*" >&2; }

@@ -2,7 +2,7 @@
 // Shows the progress of a run to the user or to the calling program.
 
 #include <dsc/run/experiment.hpp>
-#include <dsc/run/figures.hpp>
+#include <dsc/run/metrics.hpp>
 #include <functional>
 
 #include "terminal.hpp"

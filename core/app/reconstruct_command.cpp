@@ -6,6 +6,7 @@
 #include <dsc/cloud/normalize.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/io/formats.hpp>
+#include <dsc/report/report.hpp>
 #include <dsc/run/input_files.hpp>
 #include <dsc/run/reconstruct.hpp>
 #include <dsc/run/run_experiment.hpp>
@@ -211,6 +212,7 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     options.cancel = &cancel_on_signals();
     options.command = command;
     options.on_step = progress_reporter(arguments.terminal, loaded.experiment);
+    options.make_report = report::report_html;
     const run::RunOutcome outcome = carry_out(loaded, plugins, options);
     report(outcome);
     deliver(list, outcome, temporary);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
+#include <dsc/report/report.hpp>
 #include <dsc/run/run_experiment.hpp>
 #include <memory>
 #include <thread>
@@ -69,6 +70,7 @@ int execute(const RunArguments& arguments, const std::vector<std::string>& comma
     options.cancel = &cancel_on_signals();
     options.command = command;
     options.on_step = progress_reporter(arguments.terminal, loaded.experiment);
+    options.make_report = report::report_html;
     const run::RunOutcome outcome = run::run_experiment(loaded, plugins.host(), options);
     report(outcome);
     data_out() << outcome.folder.string() << "\n";

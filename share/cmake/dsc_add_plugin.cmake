@@ -1,11 +1,12 @@
-# dsc_add_plugin(NAME SOURCES ... [LINK targets...] [TESTS ...] [CHECK file])
+# dsc_add_plugin(NAME SOURCES ... [LINK targets...] [TESTS ... [TEST_PLUGINS names...]] [CHECK file])
 #
 # A plugin, libdsc_NAME.so, by the same rules inside this project and outside of it:
 #   NAME     lower case, the name that DSC_PLUGIN gives
 #   SOURCES  its sources; one of them holds DSC_PLUGIN(...) { ... }
 #   LINK     further targets; a heavy or differently licensed library belongs into a plugin of its own
-#   TESTS    doctest sources, run by ctest as plugin.NAME.*: they see the strategy's own headers and, through the
+#   TESTS    doctest sources, run by ctest as plugin.NAME.*: they see the headers of its helper files and, through the
 #            macro DSC_TEST_PLUGIN, the path of the library
+#   TEST_PLUGINS  other plugins of the same build that the tests load: they are built before the tests run
 #   CHECK    notes for `dsc plugin check`: parameters that it cannot guess, tests that need not hold and why. @VARIABLES@ of
 #            CMake are filled in; the result lies beside the library, as libdsc_NAME.check.yaml
 # Targets: plugin_NAME (the library), test_plugin_NAME.
@@ -45,13 +46,14 @@ function(_dsc_install_plugin name)
   install(TARGETS plugin_${name} LIBRARY DESTINATION "${DSC_PLUGIN_INSTALL_DIR}")
 endfunction()
 
-function(_dsc_add_plugin_test name sources link)
+function(_dsc_add_plugin_test name sources link others)
   add_executable(test_plugin_${name} ${sources} $<TARGET_OBJECTS:plugin_${name}_objects> $<TARGET_OBJECTS:dsc_test_main>)
   target_include_directories(test_plugin_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(test_plugin_${name} PRIVATE dsc::sdk doctest::doctest ${link} $<TARGET_NAME_IF_EXISTS:dsc_flags>)
   set_target_properties(test_plugin_${name} PROPERTIES UNITY_BUILD OFF)
   target_compile_definitions(test_plugin_${name} PRIVATE DSC_TEST_PLUGIN="$<TARGET_FILE:plugin_${name}>")
-  add_dependencies(test_plugin_${name} plugin_${name})
+  list(TRANSFORM others PREPEND plugin_)
+  add_dependencies(test_plugin_${name} plugin_${name} ${others})
   include("${doctest_DIR}/doctest.cmake")
   doctest_discover_tests(test_plugin_${name} TEST_PREFIX "plugin.${name}." PROPERTIES LABELS "plugin" TIMEOUT 300)
 endfunction()
@@ -69,12 +71,12 @@ macro(_dsc_find_doctest)
 endmacro()
 
 function(dsc_add_plugin name)
-  cmake_parse_arguments(arg "" "CHECK" "SOURCES;LINK;TESTS" ${ARGN})
+  cmake_parse_arguments(arg "" "CHECK" "SOURCES;LINK;TESTS;TEST_PLUGINS" ${ARGN})
   if(NOT name MATCHES "^[a-z][a-z0-9_]*$")
     message(FATAL_ERROR "dsc_add_plugin(${name}): a plugin's name has the form [a-z][a-z0-9_]*")
   endif()
   if(NOT arg_SOURCES OR arg_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "dsc_add_plugin(${name} SOURCES ... [LINK ...] [TESTS ...] [CHECK ...]): wrong "
+    message(FATAL_ERROR "dsc_add_plugin(${name} SOURCES ... [LINK ...] [TESTS ... [TEST_PLUGINS ...]] [CHECK ...]): wrong "
       "'${arg_UNPARSED_ARGUMENTS}' or no sources")
   endif()
   get_target_property(outside dsc::core IMPORTED)
@@ -111,13 +113,13 @@ function(dsc_add_plugin name)
       _dsc_add_conformance_test(${name})
       if(arg_TESTS)
         _dsc_find_doctest()
-        _dsc_add_plugin_test(${name} "${arg_TESTS}" "${arg_LINK}")
+        _dsc_add_plugin_test(${name} "${arg_TESTS}" "${arg_LINK}" "${arg_TEST_PLUGINS}")
       endif()
     endif()
   else()
     set_property(GLOBAL APPEND PROPERTY DSC_PLUGINS plugin_${name})
     if(arg_TESTS AND DSC_BUILD_TESTS)
-      _dsc_add_plugin_test(${name} "${arg_TESTS}" "${arg_LINK}")
+      _dsc_add_plugin_test(${name} "${arg_TESTS}" "${arg_LINK}" "${arg_TEST_PLUGINS}")
     endif()
   endif()
 endfunction()

@@ -15,7 +15,7 @@ using namespace dsc;
 using namespace dsc::bench;
 
 constexpr int steps = 4;
-constexpr std::size_t block = 256;  // as the driver has it
+constexpr std::size_t block = 256;  // as in the simulation
 
 std::unique_ptr<hooks::VelocityField> field(const Plugins& plugins, bool linked) {
     if (!linked) return plugins.host().create<hooks::VelocityField>({"point_cloud", {}}, "velocity");

@@ -38,12 +38,12 @@ bool Operations::move(mesh::VertexId v, const Vec3& destination) {
 
 bool Operations::apply(const repair::Request& request) {
     last_ = kernel::execute(state_->bench, request);
-    return last_ == repair::Refusal::committed;
+    return !last_.refused();
 }
 
 bool Operations::remove_face(mesh::TetId t, unsigned face, float accept_above) {
     last_ = kernel::remove_faces(state_->bench, t, face, accept_above);
-    return last_ == repair::Refusal::committed;
+    return !last_.refused();
 }
 
 }  // namespace dsc::bench

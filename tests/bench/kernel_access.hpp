@@ -23,12 +23,12 @@ public:
     bool apply(const repair::Request& request);
     /// One face, where a request tries all four of a tet.
     bool remove_face(mesh::TetId t, unsigned face, float accept_above);
-    repair::Refusal last() const { return last_; }
+    repair::Outcome last() const { return last_; }
 
 private:
     struct State;
     std::unique_ptr<State> state_;
-    repair::Refusal last_ = repair::Refusal::stale;
+    repair::Outcome last_ = repair::Refusal::stale;
 };
 
 }  // namespace dsc::bench

@@ -34,7 +34,7 @@ private:
 constexpr unsigned most_rounds = 50;  // a step, as the kernel has it
 
 struct Outcome {
-    run::DriveResult result;
+    run::SimulationResult result;
     run::VolumeMeasure measure;
 };
 
@@ -53,7 +53,7 @@ Outcome drive_to(const Adversary::Destination& destination, std::uint32_t steps,
     experiment.schedule.push_back({steps, {}, {}, {}});
     run::Strategies strategies = run::make_strategies(experiment, host);
     strategies.velocity = std::make_unique<Adversary>(destination);
-    Outcome outcome{run::drive(experiment, strategies, nullptr, {}), {}};
+    Outcome outcome{run::simulate(experiment, strategies, nullptr, {}), {}};
     outcome.measure = run::measure(outcome.result.mesh);
     MESSAGE(std::string(run::name(outcome.result.totals.status))
             << " after " << outcome.result.totals.steps << " steps, " << outcome.result.totals.rounds

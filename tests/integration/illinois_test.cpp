@@ -24,7 +24,7 @@ using namespace dsc;
 using dsc::test::Cli;
 using nlohmann::json;
 
-// ---- repairs on small meshes ------------------------------------------------------------------------------------------
+// ---- repairs on small meshes --------------------------------------------------------------------
 
 /// Takes v to `target`, or says that a tet would not stay positive.
 bool place(mesh::Complex& c, mesh::VertexId v, const Vec3& target) {
@@ -113,7 +113,7 @@ Tally repair_meshes(const std::string& flat_class, bool fallbacks) {
     return tally;
 }
 
-// ---- demos ------------------------------------------------------------------------------------------------------------
+// ---- demos --------------------------------------------------------------------------------------
 
 struct Demo {
     json summary;

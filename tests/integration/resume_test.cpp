@@ -85,7 +85,7 @@ public:
         run::Strategies strategies = run::make_strategies(loaded_.experiment, host_);
         Outcome outcome;
         Workers workers(threads);
-        run::DriveOptions options;
+        run::SimulationOptions options;
         options.workers = &workers;
         options.resume = resume;
         options.checkpoint_every = every;
@@ -96,8 +96,8 @@ public:
             outcome.rows += run::csv_row(row);
         };
         options.on_event = [&](const kernel::Event& event) { outcome.rows += run::event_line(event, {}); };
-        const run::DriveResult result =
-            run::drive(loaded_.experiment, strategies, input_ ? &input_->target : nullptr, options);
+        const run::SimulationResult result =
+            run::simulate(loaded_.experiment, strategies, input_ ? &input_->target : nullptr, options);
         outcome.mesh = result.mesh;
         outcome.sums = sums(result.totals);
         return outcome;

@@ -8,8 +8,12 @@ Every rule is a function that yields findings; lint_test.py plants a violation o
 
 import os
 import re
+import shutil
+import subprocess
 import sys
 from collections import namedtuple
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from pathlib import Path, PurePosixPath
 
 Finding = namedtuple("Finding", "rule path line text")
@@ -326,10 +330,44 @@ def error_codes(tree):
         yield page, known[name], f"{name} is no error's code"
 
 
+FORMATTED = ("core/", "plugins/", "strategies/", "tests/")
+FORMAT = Path(__file__).resolve().parents[2] / ".clang-format"
+
+
+@cache
+def clang_format():
+    """The program of version 14, the one that Debian 12 has; None if it is not installed. Versions differ in their results."""
+    for name in ("clang-format-14", "clang-format"):
+        program = shutil.which(name)
+        if program and " version 14." in subprocess.run([program, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout:
+            return program
+    return None
+
+
+def form(tree):
+    """clang-format has nothing to change in a source."""
+    program = clang_format()
+    sources = [path for path in tree.files if path.startswith(FORMATTED) and PurePosixPath(path).suffix in SOURCE]
+    if program is None or not sources:
+        return
+    check = [program, f"--style=file:{FORMAT}", "--dry-run", "--Werror"]
+
+    def complaints(part):
+        return subprocess.run(check + part, cwd=tree.root, stderr=subprocess.PIPE, text=True, check=False).stderr
+
+    with ThreadPoolExecutor(2) as pool:
+        said = "".join(pool.map(complaints, (part for part in (sources[::2], sources[1::2]) if part)))
+    first = {}
+    for path, number in re.findall(r"^(\S+?):(\d+):\d+: error: code should be clang-formatted", said, re.M):
+        first.setdefault(path, int(number))
+    for path, number in first.items():
+        yield path, number, "clang-format-14 -i changes this file, first in this line"
+
+
 RULES = [
     third_party_walls, core_direction, declared_direction, strategy_direction, plugin_direction, nobody_uses_the_app,
     banned_headers, libraries_do_not_print, header_guards, short_files, file_local_names, open_ends, machine_paths, top_level, readme_commands,
-    paper_keys, linked_pages, plain_english, error_codes,
+    paper_keys, linked_pages, plain_english, error_codes, form,
 ]
 
 
@@ -346,6 +384,8 @@ def main(arguments):
     findings = check(arguments[0])
     for finding in findings:
         print(f"{finding.path}:{finding.line}: [{finding.rule}] {finding.text}")
+    if clang_format() is None:
+        print("the rule `form` was skipped: clang-format 14 is not installed (Debian 12: clang-format-14)")
     print(f"{len(RULES)} rules, {len(findings)} findings")
     return 1 if findings else 0
 

@@ -174,7 +174,8 @@ class Setup(unittest.TestCase):
             self.assertEqual(result.returncode, code)
             self.assertEqual(result.stdout.splitlines()[-1], "the closing line of ctest")
         self.assertIn(" -j2", self.calls("ctest")[0])
-        self.assertIn("doctest-dev", (self.fake / "installed").read_text())
+        installed = set((self.fake / "installed").read_text().split())
+        self.assertLessEqual({"doctest-dev", "clang-format-14"}, installed)
         self.assertNotIn("chromium", (self.fake / "installed").read_text())
         self.assertTrue(any("--preset dev" in call for call in self.calls("cmake")))
 

@@ -28,7 +28,7 @@ constexpr std::size_t searched = 16, searched_again = 128;  // more if many poin
 
 // Distance to the sixth neighbour (to the last one if there are fewer), and the number of neighbours. Coinciding points count
 // once, and points that coincide with p do not count. Equal points have equal distances, so only those are compared.
-std::pair<double, std::size_t> sixth(std::span<const Vec3> points, std::span<const Neighbour> around) {
+std::pair<double, std::size_t> sixth_neighbour_distance(std::span<const Vec3> points, std::span<const Neighbour> around) {
     double last = 0.0;
     std::size_t distinct = 0;
     for (std::size_t i = 0; i < around.size() && distinct < wanted; ++i) {
@@ -71,10 +71,10 @@ double TargetCloud::spacing(std::size_t index) const {
         spacings_->values.reserve(size());
         for (const Vec3& p : points()) {
             search_->k_nearest(p, searched, around);
-            auto [distance, distinct] = sixth(points(), around);
+            auto [distance, distinct] = sixth_neighbour_distance(points(), around);
             if (distinct < wanted) {
                 search_->k_nearest(p, searched_again, around);
-                distance = sixth(points(), around).first;
+                distance = sixth_neighbour_distance(points(), around).first;
             }
             spacings_->values.push_back(distance);
         }

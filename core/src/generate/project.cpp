@@ -1,10 +1,10 @@
 // Moves a stair-stepped interface onto a smooth surface: pushing, approaching, sliding, relaxing.
 #include <algorithm>
-#include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/local_star.hpp>
 #include <dsc/generate/project.hpp>
+#include <dsc/mesh/star_quality.hpp>
 #include <iterator>
 
 namespace dsc::generate {
@@ -110,21 +110,8 @@ private:
                                                       [this](mesh::VertexId v) { return !on_surface(v); }));
     }
 
-    double quality_at(mesh::TetId t, mesh::VertexId v, const Vec3& position) const {
-        std::array<Vec3, 4> p;
-        for (unsigned i = 0; i < 4; ++i) {
-            const mesh::VertexId w = complex_.tet(t).v[i];
-            p[i] = w == v ? position : complex_.position(w);
-        }
-        return geometry::orient3d(p[0], p[1], p[2], p[3]) == 1 ? geometry::tet_quality(p[0], p[1], p[2], p[3])
-                                                               : 0.0;
-    }
     /// Least quality of the star of v (stored in star_), with v at `position`.
-    double star_quality(mesh::VertexId v, const Vec3& position) const {
-        double least = 1.0;
-        for (const mesh::TetId t : star_) least = std::min(least, quality_at(t, v, position));
-        return least;
-    }
+    double quality_at(mesh::VertexId v, const Vec3& position) const { return mesh::star_quality(complex_, star_, v, position); }
 
     /// Moves interface vertices towards the surface as far as no tet becomes worse than the floor or than before.
     bool approach() {
@@ -134,11 +121,11 @@ private:
             const Vec3 way = nearest_(from) - from;
             if (way.norm() <= arrived * scale_) continue;
             complex_.star(v, star_);
-            const double bound = std::min(floor_, star_quality(v, from));
+            const double bound = std::min(floor_, quality_at(v, from));
             double part = 1.0;
             for (int i = 0; i <= halvings; ++i, part *= 0.5) {
                 const Vec3 to = from + part * way;
-                if (star_quality(v, to) < bound) continue;
+                if (quality_at(v, to) < bound) continue;
                 complex_.move(v, to, star_);
                 any = any || (to - from).norm() > 1e-3 * scale_ || i == 0;
                 break;
@@ -150,12 +137,12 @@ private:
     /// Moves v to `to`, or part of the distance, if that raises the least quality of its star (stored in star_).
     bool improve(mesh::VertexId v, const Vec3& to, bool along_surface) {
         const Vec3 from = complex_.position(v);
-        const double before = star_quality(v, from);
+        const double before = quality_at(v, from);
         double part = 1.0;
         for (int i = 0; i < 3; ++i, part *= 0.5) {
             const Vec3 straight = from + part * (to - from);
             const Vec3 there = along_surface ? nearest_(straight) : straight;
-            if (star_quality(v, there) <= before + least_gain) continue;
+            if (quality_at(v, there) <= before + least_gain) continue;
             complex_.move(v, there, star_);
             return true;
         }
@@ -187,7 +174,7 @@ private:
     /// triangles.
     bool escape(mesh::VertexId v, bool along_surface) {
         const double bad = along_surface ? options_.quality : 2 * options_.quality;
-        if (star_quality(v, complex_.position(v)) >= bad) return false;
+        if (quality_at(v, complex_.position(v)) >= bad) return false;
         return improve(v, away_from_worst(v), along_surface);
     }
 

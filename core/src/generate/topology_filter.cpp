@@ -49,8 +49,9 @@ public:
         return counts_of(sets, interface);
     }
 
-    // Grows the inside (sign 1) or the outside (sign -1) over the weak values; vertices that are not reached change sides.
-    void grow(double sign, TopologyFilterReport& report) {
+    // Grows the inside (sign 1) or the outside (sign -1) over the weak values. Vertices that are not reached change sides,
+    // unless the witness confirms their cluster.
+    void grow(double sign, const LoopWitness& witness, TopologyFilterReport& report) {
         UnionFind sets = certain_;
         std::vector<std::uint8_t> in(points_.size(), 0);
         std::vector<std::uint32_t> certain(points_.size(), 0);  // number of vertices of the part with this root
@@ -89,8 +90,15 @@ public:
         for (const Step& s : candidates) {
             if (in[s.vertex] == 0) left.push_back(s);
         }
-        list_clusters(left, sign, report);
-        for (const Step& s : left) values_[s.vertex] = -sign * std::min(1e-3, 0.5 * tau_);
+        for (RefusedCluster& cluster : clusters_of(left, sign)) {
+            if (witness && witness(cluster)) {
+                report.confirmed.push_back(std::move(cluster));
+                continue;
+            }
+            for (const std::uint32_t v : cluster.vertices) values_[v] = -sign * std::min(1e-3, 0.5 * tau_);
+            report.refused += cluster.vertices.size();
+            report.clusters.push_back(std::move(cluster));
+        }
     }
 
 private:
@@ -250,7 +258,8 @@ private:
         return out;
     }
 
-    void list_clusters(const std::vector<Step>& refused, double sign, TopologyFilterReport& report) const {
+    // Groups of neighbouring refused vertices, in the order of their lowest vertices.
+    std::vector<RefusedCluster> clusters_of(const std::vector<Step>& refused, double sign) const {
         std::vector<std::uint32_t> index(weak_.size(), no_slot);
         for (std::size_t i = 0; i < refused.size(); ++i) {
             index[slot_[refused[i].vertex]] = static_cast<std::uint32_t>(i);
@@ -263,23 +272,21 @@ private:
                 }
             }
         }
+        std::vector<RefusedCluster> out;
         std::vector<std::size_t> cluster(refused.size());
-        const std::size_t first = report.clusters.size();
         for (std::uint32_t i = 0; i < refused.size(); ++i) {
             const std::uint32_t root = sets.find(i);
             if (root == i) {
-                cluster[i] = report.clusters.size();
-                report.clusters.push_back({Vec3::Zero(), 0, 0, sign > 0});
+                cluster[i] = out.size();
+                out.push_back({Vec3::Zero(), 0, {}, sign > 0});
             }
-            RefusedCluster& c = report.clusters[cluster[root]];
+            RefusedCluster& c = out[cluster[root]];
             c.place += points_[refused[i].vertex];
             c.level = std::max(c.level, refused[i].level);
-            ++c.vertices;
+            c.vertices.push_back(refused[i].vertex);
         }
-        for (std::size_t i = first; i < report.clusters.size(); ++i) {
-            report.clusters[i].place /= static_cast<double>(report.clusters[i].vertices);
-        }
-        report.refused += refused.size();
+        for (RefusedCluster& c : out) c.place /= static_cast<double>(c.vertices.size());
+        return out;
     }
 
     struct Seen {
@@ -311,12 +318,12 @@ TopologyCounts count_topology(std::span<const Vec3> points, std::span<const Corn
 }
 
 TopologyFilterReport filter_topology(std::span<const Vec3> points, std::span<const Corners> tets,
-                                     std::span<double> values, double tau) {
+                                     std::span<double> values, double tau, const LoopWitness& witness) {
     TopologyFilterReport report;
     Filter filter(points, tets, values, tau);
     report.before = filter.count();
-    filter.grow(1, report);
-    filter.grow(-1, report);
+    filter.grow(1, witness, report);
+    filter.grow(-1, witness, report);
     report.inside = weakest_attachment(report, true, 1);
     report.outside = weakest_attachment(report, false, 1);
     report.after = report.refused == 0 ? report.before : filter.count();

@@ -3,14 +3,29 @@
 #include <optional>
 
 #include <dsc/geometry/quality.hpp>
+#include <dsc/mesh/star_quality.hpp>
 
 #include "kernel/creases.hpp"
 #include "kernel/operations.hpp"
 
 namespace dsc::kernel {
+
+struct CollapseScratch {
+    // Of one end of the edge.
+    struct End {
+        std::vector<TetId> star;
+        std::vector<VertexId> neighbours;  // along interface edges, by id
+    };
+    mesh::EdgeRing ring;
+    End a, b;
+    std::vector<std::array<VertexId, 3>> fan, faces;
+    std::vector<VertexId> concerned;  // vertices whose topology is tested
+};
+
 namespace {
 
 using repair::CollapseMode;
+using End = CollapseScratch::End;
 
 // The edge to collapse: `removed` is removed, `kept` lies at (1 - weight) kept + weight removed afterwards.
 struct Plan {
@@ -23,11 +38,18 @@ struct Plan {
 class Collapse {
 public:
     Collapse(Workbench& bench, VertexId a, VertexId b, bool interface_edge)
-        : bench_(bench), c_(bench.complex), interface_edge_(interface_edge) {
-        c_.star(a, bench.star_a);
-        c_.star(b, bench.star_b);
-        a_ = a;
-        b_ = b;
+        : bench_(bench), own_(bench.collapse.get()), c_(bench.complex), interface_edge_(interface_edge), a_(a), b_(b) {
+        c_.star(a, own_.a.star);
+        c_.star(b, own_.b.star);
+    }
+
+    std::span<const TetId> star_a() const { return own_.a.star; }
+    std::span<const TetId> star_b() const { return own_.b.star; }
+    float least_quality_of_stars() const {
+        float least = 1.0F;
+        for (const TetId t : own_.a.star) least = std::min(least, c_.quality(t));
+        for (const TetId t : own_.b.star) least = std::min(least, c_.quality(t));
+        return least;
     }
 
     // Whether v may be removed: never a vertex of the box, and an interface vertex only along the interface.
@@ -38,34 +60,23 @@ public:
     // Whether v may change its position.
     bool free_to_move(VertexId v) const { return removable(v); }
 
-    // Least quality of the remaining tets with both ends at `place`; ends early at `bound`.
+    // Least quality of the remaining tets with the ends that move at `place`; -1 if it is not above `bound`.
     float least(const Vec3& place, bool a_moves, bool b_moves, float bound) const {
-        float least = 2.0F;
-        const auto scan = [&](const std::vector<TetId>& star, VertexId own, VertexId other) {
-            for (const TetId t : star) {
-                const auto& v = c_.tet(t).v;
-                if (mesh::has_vertex(c_.tet(t), other)) continue;
-                std::array<const Vec3*, 4> p{};
-                for (unsigned i = 0; i < 4; ++i) p[i] = v[i] == own ? &place : &c_.position(v[i]);
-                least = std::min(least, static_cast<float>(geometry::tet_quality(*p[0], *p[1], *p[2], *p[3])));
-                if (!(least > bound)) return false;
-            }
-            return true;
+        const auto scan = [&](const End& end, VertexId v, VertexId other) {
+            return mesh::star_quality_above(bound, c_, end.star, v, place, nullptr, [&](TetId t) { return remains(t, other); });
         };
-        if (a_moves && !scan(bench_.star_a, a_, b_)) return -1.0F;
-        if (b_moves && !scan(bench_.star_b, b_, a_)) return -1.0F;
-        return least;
+        const float at_a = a_moves ? scan(own_.a, a_, b_) : 2.0F;
+        if (at_a < 0.0F || !b_moves) return at_a;
+        return std::min(at_a, scan(own_.b, b_, a_));
     }
 
     void build(const Plan& plan) {
         mesh::Edit& edit = bench_.edit;
         edit.clear();
         edit.deleted = plan.removed;
-        const auto& star_removed = plan.removed == a_ ? bench_.star_a : bench_.star_b;
-        const auto& star_kept = plan.removed == a_ ? bench_.star_b : bench_.star_a;
-        edit.removed = star_removed;
-        for (const TetId t : star_removed) {
-            if (mesh::has_vertex(c_.tet(t), plan.kept)) continue;
+        edit.removed = end(plan.removed).star;
+        for (const TetId t : end(plan.removed).star) {
+            if (!remains(t, plan.kept)) continue;
             mesh::NewTet tet{c_.tet(t).v, c_.label(t)};
             std::replace(tet.v.begin(), tet.v.end(), plan.removed, plan.kept);
             edit.added.push_back(tet);
@@ -73,8 +84,8 @@ public:
         if (plan.weight == 0.0 && !plan.wanted) return;
         edit.moved = plan.kept;
         edit.moved_to = place(plan);
-        for (const TetId t : star_kept) {
-            if (mesh::has_vertex(c_.tet(t), plan.removed)) continue;
+        for (const TetId t : end(plan.kept).star) {
+            if (!remains(t, plan.removed)) continue;
             edit.removed.push_back(t);
             edit.added.push_back({c_.tet(t).v, c_.label(t)});
         }
@@ -89,11 +100,10 @@ public:
     // Largest distance that the interface moves: from each old vertex to the new faces, and from the new place to the old
     // faces.
     double interface_distance(const Plan& plan) {
-        auto& old = bench_.faces;
-        auto& fan = bench_.fan;
-        bench_.interface_fan(plan.removed, plan.removed == a_ ? bench_.star_a : bench_.star_b, fan);
-        old = fan;
-        bench_.interface_fan(plan.kept, plan.removed == a_ ? bench_.star_b : bench_.star_a, fan);
+        auto& old = own_.faces;
+        auto& fan = own_.fan;
+        bench_.interface_fan(plan.removed, end(plan.removed).star, old);
+        bench_.interface_fan(plan.kept, end(plan.kept).star, fan);
         old.insert(old.end(), fan.begin(), fan.end());
         const Vec3 target = place(plan);
         const auto near = [](const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -115,96 +125,97 @@ public:
     bool link_condition() {
         const auto simple = [this](VertexId v) { return c_.phases(v) == 2 && !c_.on_box(v); };
         if (!simple(a_) || !simple(b_)) return false;
-        interface_neighbours(a_, bench_.star_a, bench_.near_a);
-        interface_neighbours(b_, bench_.star_b, bench_.near_b);
+        find_neighbours(own_.a, a_);
+        find_neighbours(own_.b, b_);
+        const std::vector<VertexId>&near_a = own_.a.neighbours, &near_b = own_.b.neighbours;
         std::size_t common = 0;
-        auto y = bench_.near_b.begin();
-        for (const VertexId x : bench_.near_a) {
-            while (y != bench_.near_b.end() && *y < x) ++y;
-            if (y == bench_.near_b.end() || *y != x) continue;
+        auto y = near_b.begin();
+        for (const VertexId x : near_a) {
+            while (y != near_b.end() && *y < x) ++y;
+            if (y == near_b.end() || *y != x) continue;
             if (!simple(x)) return false;
             ++common;
         }
         // The kept vertex gets the other neighbours of both; there must be at least three.
-        return common == 2 && bench_.near_a.size() + bench_.near_b.size() >= 7;
+        return common == 2 && near_a.size() + near_b.size() >= 7;
+    }
+
+    // Tests the topology at the interface vertices that both stars contain. At any other vertex no tet is removed and none is
+    // joined: only a corner of its tets changes its name.
+    Outcome check_topology() {
+        if (link_condition()) return success;
+        bench_.shared_interface_vertices(own_.a.star, own_.b.star, own_.concerned);
+        return bench_.check_topology(own_.concerned);
     }
 
 private:
-    // The other ends of v's interface edges, by id.
-    void interface_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out) const {
-        bench_.interface_fan(v, star, bench_.fan);
+    End& end(VertexId v) const { return v == a_ ? own_.a : own_.b; }
+
+    // Whether a tet of one end's star does not contain the other end.
+    bool remains(TetId t, VertexId other) const { return !mesh::has_vertex(c_.tet(t), other); }
+
+    void find_neighbours(End& end, VertexId v) const {
+        bench_.interface_fan(v, end.star, own_.fan);
+        std::vector<VertexId>& out = end.neighbours;
         out.clear();
-        for (const auto& face : bench_.fan) out.insert(out.end(), {face[1], face[2]});
+        for (const auto& face : own_.fan) out.insert(out.end(), {face[1], face[2]});
         std::sort(out.begin(), out.end());
         out.erase(std::unique(out.begin(), out.end()), out.end());
     }
 
     Workbench& bench_;
+    CollapseScratch& own_;
     mesh::Complex& c_;
     bool interface_edge_;
     VertexId a_ = mesh::none, b_ = mesh::none;
 };
 
-bool is_interface_edge(const Workbench& bench) {
-    const auto& tets = bench.ring.tets;
-    const mesh::Label first = bench.complex.label(tets.front());
-    return std::any_of(tets.begin(), tets.end(), [&](TetId t) { return bench.complex.label(t) != first; });
+bool is_interface_edge(const mesh::Complex& c, const mesh::EdgeRing& ring) {
+    const mesh::Label first = c.label(ring.tets.front());
+    return std::any_of(ring.tets.begin(), ring.tets.end(), [&](TetId t) { return c.label(t) != first; });
 }
 
-// Tests and commits the collapse in the bench.
-Refusal finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool interface_edge, float must_exceed, float old) {
-    mesh::Complex& c = bench.complex;
-    double distance = 0.0, volume = 0.0;
+// Tests and commits the collapse.
+Outcome finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool interface_edge, float must_exceed, float old) {
+    InterfaceChange change;
     collapse.build(plan);
     if (interface_edge) {
-        distance = collapse.interface_distance(plan);
-        volume = bench.phase_change();
-        const EditBounds bounds = bench.bounds_at(plan.kept, plan.removed);
-        if (distance > bounds.distance || volume > bounds.volume) return Refusal::bound;
+        change = {collapse.interface_distance(plan), bench.phase_change()};
+        if (change.exceeds(bench.bounds_at(plan.kept, plan.removed))) return Refusal::bound;
     }
-    if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
-    if (!c.link(bench.edit)) return Refusal::irregular;
-    if (interface_edge && !collapse.link_condition()) {
-        // At any other vertex no tet is removed and none is joined: only a corner of its tets changes its name.
-        bench.shared_interface_vertices(bench.vertices);
-        if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
-    }
+    if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
+    if (!bench.complex.link(bench.edit)) return Refusal::irregular;
     if (interface_edge) {
-        if (const Refusal r = check_creases(bench, plan.kept, plan.removed); r != Refusal::committed) return r;
+        if (const Outcome o = collapse.check_topology(); o.refused()) return o;
+        if (const Outcome o = check_creases(bench, plan.kept, plan.removed); o.refused()) return o;
     }
-    bench.commit(distance, volume);
+    bench.commit(change);
     if (bench.listener != nullptr) {
         bench.listener->on_collapse(plan.kept, plan.removed, plan.weight);
         if (interface_edge) bench.listener->on_interface_collapse(plan.kept);
     }
-    return Refusal::committed;
-}
-
-float least_quality_of_stars(const Workbench& bench) {
-    float least = 1.0F;
-    for (const TetId s : bench.star_a) least = std::min(least, bench.complex.quality(s));
-    for (const TetId s : bench.star_b) least = std::min(least, bench.complex.quality(s));
-    return least;
+    return success;
 }
 
 }  // namespace
 
-Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode, float accept_above) {
+Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode, float accept_above) {
     mesh::Complex& c = bench.complex;
-    c.ring(t, a, b, bench.ring);
-    if (!bench.ring.closed) return Refusal::box;
-    const bool interface_edge = is_interface_edge(bench);
+    mesh::EdgeRing& ring = bench.collapse.get().ring;
+    c.ring(t, a, b, ring);
+    if (!ring.closed) return Refusal::box;
+    const bool interface_edge = is_interface_edge(c, ring);
     if (interface_edge && (c.on_box(a) || c.on_box(b))) return Refusal::box;
     Collapse collapse(bench, a, b, interface_edge);
     const bool a_goes = collapse.removable(a), b_goes = collapse.removable(b);
     if (!a_goes && !b_goes) return c.on_box(a) || c.on_box(b) ? Refusal::box : Refusal::not_applicable;
     // In safe mode the interface may be edited only if it is flat round the vertex that leaves its place.
     const bool shape_matters = interface_edge && mode == CollapseMode::safe;
-    const bool a_moves = a_goes && (!shape_matters || bench.flat(a, bench.star_a));
-    const bool b_moves = b_goes && (!shape_matters || bench.flat(b, bench.star_b));
+    const bool a_moves = a_goes && (!shape_matters || bench.flat(a, collapse.star_a()));
+    const bool b_moves = b_goes && (!shape_matters || bench.flat(b, collapse.star_b()));
     if (!a_moves && !b_moves) return Refusal::bound;
 
-    const float old = least_quality_of_stars(bench);
+    const float old = collapse.least_quality_of_stars();
     const float must_exceed = std::min(old, accept_above);
     Plan best;
     const auto offer = [&](VertexId kept, VertexId removed, double weight, const Vec3& place, bool moves_a, bool moves_b) {
@@ -219,7 +230,7 @@ Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     }
     if (best.kept == mesh::none) return Refusal::quality;
 
-    const Refusal result = finish(bench, collapse, best, interface_edge, must_exceed, old);
+    const Outcome result = finish(bench, collapse, best, interface_edge, must_exceed, old);
     if (result != Refusal::bound || !interface_edge || !bench.limits.keeps_creases()) return result;
     // Also with exchanged ends, or into the end that lies on a crease.
     for (const auto& [kept, removed] : {std::array{a, b}, std::array{b, a}}) {
@@ -227,22 +238,23 @@ Refusal collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
         if (!(to_a ? b_moves : a_moves) || (best.kept == kept && best.weight == 0.0)) continue;
         const float least = collapse.least(c.position(kept), !to_a, to_a, must_exceed);
         if (!(least > must_exceed)) continue;
-        if (finish(bench, collapse, {kept, removed, 0.0, least}, true, must_exceed, old) == Refusal::committed) return Refusal::committed;
+        if (!finish(bench, collapse, {kept, removed, 0.0, least}, true, must_exceed, old).refused()) return success;
     }
     return result;
 }
 
-Refusal collapse_edge_to(Workbench& bench, TetId t, VertexId kept, VertexId removed, const Vec3& place) {
+Outcome collapse_edge_to(Workbench& bench, TetId t, VertexId kept, VertexId removed, const Vec3& place) {
     mesh::Complex& c = bench.complex;
-    c.ring(t, kept, removed, bench.ring);
-    if (!bench.ring.closed) return Refusal::box;
-    if (!is_interface_edge(bench)) return Refusal::not_applicable;
+    mesh::EdgeRing& ring = bench.collapse.get().ring;
+    c.ring(t, kept, removed, ring);
+    if (!ring.closed) return Refusal::box;
+    if (!is_interface_edge(c, ring)) return Refusal::not_applicable;
     if (c.on_box(kept) || c.on_box(removed)) return Refusal::box;
     Collapse collapse(bench, kept, removed, true);
     if (!collapse.removable(removed)) return Refusal::not_applicable;
     Plan plan{kept, removed};
     if (collapse.free_to_move(kept)) plan.wanted = place;
-    return finish(bench, collapse, plan, true, 0.0F, least_quality_of_stars(bench));
+    return finish(bench, collapse, plan, true, 0.0F, collapse.least_quality_of_stars());
 }
 
 }  // namespace dsc::kernel

@@ -8,6 +8,13 @@
 #include "kernel/operations.hpp"
 
 namespace dsc::kernel {
+
+struct CompoundScratch {
+    mesh::EdgeRing ring, opposite_ring;
+    std::vector<TetId> star;
+    std::vector<VertexId> concerned;  // vertices whose topology is tested
+};
+
 namespace {
 
 // Parameters of the closest points of the lines ab and cd; false if they are parallel.
@@ -56,41 +63,32 @@ double shortest_new_edge(const Workbench& bench) {
 }
 
 // Tests and commits the edit in the bench; the created vertex was made on (a, b) at s.
-Refusal finish(Workbench& bench, const repair::Request& request, VertexId a, VertexId b, double s) {
+Outcome finish(Workbench& bench, const repair::Request& request, VertexId a, VertexId b, double s) {
     mesh::Complex& c = bench.complex;
     const float old = bench.old_quality();
     const float must_exceed = std::min(old * request.gain, request.accept_above);
     if (request.least_edge > 0.0F && shortest_new_edge(bench) < static_cast<double>(request.least_edge)) return Refusal::bound;
-    if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
+    if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
     if (!c.link(bench.edit)) return Refusal::irregular;
     bool several = false;
     for (const TetId t : bench.edit.removed) several = several || c.label(t) != c.label(bench.edit.removed.front());
-    double distance = 0.0, volume = 0.0;
+    InterfaceChange change;
     if (several) {
-        volume = bench.phase_change();
         const Vec3& place = bench.edit.created_at;
-        distance = (place - ((1.0 - s) * c.position(a) + s * c.position(b))).norm();
-        const EditBounds bounds = bench.bounds_at(a, b);
-        if (distance > bounds.distance || volume > bounds.volume) return Refusal::bound;
-        bench.vertices.clear();
-        for (const TetId t : bench.edit.removed) {
-            for (const VertexId v : c.tet(t).v) {
-                if (c.on_interface(v)) bench.vertices.push_back(v);
-            }
-        }
-        std::sort(bench.vertices.begin(), bench.vertices.end());
-        bench.vertices.erase(std::unique(bench.vertices.begin(), bench.vertices.end()), bench.vertices.end());
-        bench.vertices.push_back(mesh::created_vertex);
-        if (const Refusal r = bench.check_topology(bench.vertices); r != Refusal::committed) return r;
-        if (const Refusal r = check_creases(bench); r != Refusal::committed) return r;
+        change = {(place - ((1.0 - s) * c.position(a) + s * c.position(b))).norm(), bench.phase_change()};
+        if (change.exceeds(bench.bounds_at(a, b))) return Refusal::bound;
+        std::vector<VertexId>& concerned = bench.compound.get().concerned;
+        bench.cavity_interface_vertices(concerned);
+        if (const Outcome o = bench.check_topology(concerned); o.refused()) return o;
+        if (const Outcome o = check_creases(bench); o.refused()) return o;
     }
-    const VertexId created = bench.commit(distance, volume);
+    const VertexId created = bench.commit(change);
     if (bench.listener != nullptr) bench.listener->on_split(created, a, b, s);
-    return Refusal::committed;
+    return success;
 }
 
 // Two opposite edges that are close to each other get a common vertex midway between them.
-Refusal merge_edges(Workbench& bench, TetId t, const repair::Request& request) {
+Outcome merge_edges(Workbench& bench, TetId t, const repair::Request& request) {
     mesh::Complex& c = bench.complex;
     const auto v = c.tet(t).v;
     constexpr std::array<std::array<unsigned, 4>, 3> pairs = {{{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}}};
@@ -116,21 +114,22 @@ Refusal merge_edges(Workbench& bench, TetId t, const repair::Request& request) {
         place = 0.5 * (p + q);
     }
     if (!(best < INFINITY)) return Refusal::not_applicable;
-    c.ring(t, chosen[0], chosen[1], bench.ring);
-    c.ring(t, chosen[2], chosen[3], bench.ring2);
-    if (!bench.ring.closed || !bench.ring2.closed) return Refusal::box;
+    CompoundScratch& own = bench.compound.get();
+    c.ring(t, chosen[0], chosen[1], own.ring);
+    c.ring(t, chosen[2], chosen[3], own.opposite_ring);
+    if (!own.ring.closed || !own.opposite_ring.closed) return Refusal::box;
     bench.edit.clear();
     bench.edit.creates = true;
     bench.edit.created_at = place;
     bench.edit.removed.push_back(t);
-    split_ring(bench, bench.ring, chosen[0], chosen[1], t, mesh::none);
-    split_ring(bench, bench.ring2, chosen[2], chosen[3], t, mesh::none);
+    split_ring(bench, own.ring, chosen[0], chosen[1], t, mesh::none);
+    split_ring(bench, own.opposite_ring, chosen[2], chosen[3], t, mesh::none);
     return finish(bench, request, chosen[0], chosen[1], best_s);
 }
 
 // A free vertex v of the tet that is close to an edge or a face moves into it: the edge or face is split at v's projection, and
 // v collapses there. All tets at v must have one label.
-Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, const repair::Request& request) {
+Outcome merge_vertex(Workbench& bench, TetId t, unsigned apex, const repair::Request& request) {
     mesh::Complex& c = bench.complex;
     const VertexId v = c.tet(t).v[apex];
     if (c.on_box(v) || c.on_interface(v)) return Refusal::not_applicable;
@@ -144,13 +143,14 @@ Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, const repair::Req
     const double w0 = (p1 - p).cross(p2 - p).dot(normal) / area2;
     const double w1 = (p2 - p).cross(p0 - p).dot(normal) / area2;
     const double w2 = 1.0 - w0 - w1;
-    c.star(v, bench.star_a);
+    CompoundScratch& own = bench.compound.get();
+    c.star(v, own.star);
     bench.edit.clear();
     bench.edit.creates = true;
     bench.edit.deleted = v;
-    bench.edit.removed = bench.star_a;
+    bench.edit.removed = own.star;
     const auto reconnect = [&](auto&& skip) {
-        for (const TetId s : bench.star_a) {
+        for (const TetId s : own.star) {
             if (skip(s)) continue;
             mesh::NewTet tet{c.tet(s).v, c.label(s)};
             std::replace(tet.v.begin(), tet.v.end(), v, mesh::created_vertex);
@@ -184,12 +184,12 @@ Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, const repair::Req
         b = f[(k + 1) % 3];
     }
     if (a == mesh::none) return Refusal::not_applicable;
-    c.ring(t, a, b, bench.ring);
-    if (!bench.ring.closed) return Refusal::box;
+    c.ring(t, a, b, own.ring);
+    if (!own.ring.closed) return Refusal::box;
     bench.edit.created_at = (1.0 - best_s) * c.position(a) + best_s * c.position(b);
     reconnect([&](TetId s) { return mesh::has_vertex(c.tet(s), a) && mesh::has_vertex(c.tet(s), b); });
     const std::size_t star = bench.edit.removed.size();
-    split_ring(bench, bench.ring, a, b, mesh::none, v);
+    split_ring(bench, own.ring, a, b, mesh::none, v);
     // Ring tets that contain v are in its star already.
     bench.edit.removed.erase(std::remove_if(bench.edit.removed.begin() + static_cast<std::ptrdiff_t>(star), bench.edit.removed.end(),
                                             [&](TetId s) { return mesh::has_vertex(c.tet(s), v); }),
@@ -199,18 +199,16 @@ Refusal merge_vertex(Workbench& bench, TetId t, unsigned apex, const repair::Req
 
 }  // namespace
 
-Refusal compound(Workbench& bench, TetId t, const repair::Request& request) {
+Outcome compound(Workbench& bench, TetId t, const repair::Request& request) {
     if (request.vertices[1] != mesh::none) return merge_edges(bench, t, request);
     if (request.vertices[0] != mesh::none) return merge_vertex(bench, t, mesh::index_of(bench.complex.tet(t), request.vertices[0]), request);
-    Refusal last = Refusal::not_applicable;
-    const auto keep = [&last](Refusal r) {
-        if (r != Refusal::not_applicable) last = r;
-        return r == Refusal::committed;
+    // The last outcome that says something about the tet.
+    Outcome last = Refusal::not_applicable;
+    const auto keep = [&last](Outcome o) {
+        if (o != Refusal::not_applicable) last = o;
     };
-    for (unsigned apex = 0; apex < 4; ++apex) {
-        if (keep(merge_vertex(bench, t, apex, request))) return Refusal::committed;
-    }
-    keep(merge_edges(bench, t, request));
+    for (unsigned apex = 0; apex < 4 && last.refused(); ++apex) keep(merge_vertex(bench, t, apex, request));
+    if (last.refused()) keep(merge_edges(bench, t, request));
     return last;
 }
 

@@ -6,29 +6,37 @@
 #include <dsc/geometry/quality.hpp>
 
 namespace dsc::kernel {
-namespace {
-
-// An interface face: its corners, counter-clockwise seen from the smaller label, and its unit normal.
-struct Face {
-    std::array<VertexId, 3> v;
-    Vec3 normal;
-};
-
-// An edge between two faces of one list, with the cosine between their normals.
-struct CreaseEdge {
-    VertexId a, b;  // ascending
-    double cosine;
-    bool operator<(const CreaseEdge& other) const { return a != other.a ? a < other.a : b < other.b; }
-};
 
 // The faces before and after a change, and the inner edges of each set.
-struct Patches {
+struct CreaseScratch {
+    // An interface face: its corners, counter-clockwise seen from the smaller label, and its unit normal.
+    struct Face {
+        std::array<VertexId, 3> v;
+        Vec3 normal;
+    };
+    // An edge between two faces of one list, with the cosine between their normals.
+    struct Edge {
+        VertexId a, b;  // ascending
+        double cosine;
+        bool operator<(const Edge& other) const { return a != other.a ? a < other.a : b < other.b; }
+    };
+    struct Side {
+        VertexId a, b;
+        std::uint32_t face;
+    };
     std::vector<Face> before, after;
-    std::vector<CreaseEdge> edges_before, edges_after;
+    std::vector<Edge> edges_before, edges_after;
+    std::vector<Side> sides;  // of the faces of one list
 };
 
-Patches& emptied_patches() {
-    thread_local Patches patches;
+namespace {
+
+using Face = CreaseScratch::Face;
+using CreaseEdge = CreaseScratch::Edge;
+using Patches = CreaseScratch;
+
+Patches& emptied_patches(Workbench& bench) {
+    Patches& patches = bench.creases.get();
     patches.before.clear();
     patches.after.clear();
     return patches;
@@ -43,19 +51,15 @@ Face make_face(const std::array<VertexId, 4>& tet, unsigned f, const At& at) {
 }
 
 // Edges with three faces or more, where three labels meet, are left out.
-void find_edges(const std::vector<Face>& faces, std::vector<CreaseEdge>& out) {
-    struct Side {
-        VertexId a, b;
-        std::uint32_t face;
-    };
-    std::vector<Side> sides;
+void find_edges(const std::vector<Face>& faces, std::vector<CreaseScratch::Side>& sides, std::vector<CreaseEdge>& out) {
+    sides.clear();
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
         for (unsigned k = 0; k < 3; ++k) {
             const VertexId a = faces[f].v[k], b = faces[f].v[(k + 1) % 3];
             sides.push_back({std::min(a, b), std::max(a, b), f});
         }
     }
-    std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    std::sort(sides.begin(), sides.end(), [](const auto& x, const auto& y) {
         return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.face < y.face;
     });
     out.clear();
@@ -119,26 +123,26 @@ bool loses_crease(const Patches& p, VertexId kept, VertexId removed, double crea
 }
 
 // If the cavity has a nearly flat tet, the rule does not apply.
-Refusal judge(Workbench& bench, Patches& p, VertexId kept, VertexId removed, float worst) {
-    find_edges(p.before, p.edges_before);
-    find_edges(p.after, p.edges_after);
+Outcome check_patches(Workbench& bench, Patches& p, VertexId kept, VertexId removed, float worst) {
+    find_edges(p.before, p.sides, p.edges_before);
+    find_edges(p.after, p.sides, p.edges_after);
     const Limits& limits = bench.limits;
     const bool leaves = removed != mesh::none && leaves_crease(p, kept, removed, bench.edit.moved == kept, limits.crease);
     if (!leaves && !loses_crease(p, kept, removed, limits.crease) && !turns_too_far(p, kept, removed, limits.turn)) {
-        return Refusal::committed;
+        return success;
     }
     if (!(worst < static_cast<float>(limits.crease_floor))) return Refusal::bound;
     ++bench.crease_exceptions;
-    return Refusal::committed;
+    return success;
 }
 
 }  // namespace
 
-Refusal check_creases(Workbench& bench, VertexId kept, VertexId removed) {
-    if (!bench.limits.keeps_creases()) return Refusal::committed;
+Outcome check_creases(Workbench& bench, VertexId kept, VertexId removed) {
+    if (!bench.limits.keeps_creases()) return success;
     const mesh::Complex& c = bench.complex;
     const mesh::Edit& edit = bench.edit;
-    Patches& p = emptied_patches();
+    Patches& p = emptied_patches(bench);
     const auto now = [&c](VertexId v) -> const Vec3& { return c.position(v); };
     for (const TetId t : edit.removed) {
         for (unsigned f = 0; f < 4; ++f) {
@@ -152,7 +156,7 @@ Refusal check_creases(Workbench& bench, VertexId kept, VertexId removed) {
             p.before.push_back(make_face(c.tet(other).v, mesh::neighbour_face(code), now));
         }
     }
-    if (p.before.empty()) return Refusal::committed;
+    if (p.before.empty()) return success;
     const auto then = [&bench](VertexId v) -> const Vec3& { return bench.at(v); };
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
         const mesh::NewTet& tet = edit.added[i];
@@ -167,13 +171,13 @@ Refusal check_creases(Workbench& bench, VertexId kept, VertexId removed) {
             p.after.push_back(make_face(c.tet(mesh::neighbour_tet(code)).v, mesh::neighbour_face(code), then));
         }
     }
-    return judge(bench, p, kept, removed, bench.old_quality());
+    return check_patches(bench, p, kept, removed, bench.old_quality());
 }
 
-Refusal check_creases(Workbench& bench, std::span<const TetId> tets, mesh::Label label) {
-    if (!bench.limits.keeps_creases()) return Refusal::committed;
+Outcome check_creases(Workbench& bench, std::span<const TetId> tets, mesh::Label label) {
+    if (!bench.limits.keeps_creases()) return success;
     const mesh::Complex& c = bench.complex;
-    Patches& p = emptied_patches();
+    Patches& p = emptied_patches(bench);
     const auto now = [&c](VertexId v) -> const Vec3& { return c.position(v); };
     float worst = 1.0F;
     // All of them have one label; the orientation is outwards from the larger label.
@@ -191,7 +195,7 @@ Refusal check_creases(Workbench& bench, std::span<const TetId> tets, mesh::Label
             add(p.after, t, f, label, c.label_across(t, f));
         }
     }
-    return judge(bench, p, mesh::none, mesh::none, worst);
+    return check_patches(bench, p, mesh::none, mesh::none, worst);
 }
 
 }  // namespace dsc::kernel

@@ -6,13 +6,13 @@
 
 namespace dsc::kernel {
 
-/// Tests the linked edit in the bench: `bound` if it removes a crease or turns a face too far. If `kept` and `removed` are
-/// named, the edit is a collapse, and edges of `removed` become edges of `kept`; an edge of a crease may be collapsed if the
-/// crease continues beyond the vertices that move. If a removed tet is below `Limits::crease_floor`, the rule does not apply,
-/// and the bench counts this. Without a rule it returns `committed` at no cost.
-Refusal check_creases(Workbench& bench, VertexId kept = mesh::none, VertexId removed = mesh::none);
+/// Tests the linked edit in the bench: refused with `bound` if it removes a crease or turns a face too far. If `kept` and
+/// `removed` are named, the edit is a collapse, and edges of `removed` become edges of `kept`; an edge of a crease may be
+/// collapsed if the crease continues beyond the vertices that move. If a removed tet is below `Limits::crease_floor`, the rule
+/// does not apply, and the bench counts this. Without a rule it returns success at no cost.
+Outcome check_creases(Workbench& bench, VertexId kept = mesh::none, VertexId removed = mesh::none);
 
 /// The same for relabelling tets, which is not an edit.
-Refusal check_creases(Workbench& bench, std::span<const TetId> tets, mesh::Label label);
+Outcome check_creases(Workbench& bench, std::span<const TetId> tets, mesh::Label label);
 
 }  // namespace dsc::kernel

@@ -1,212 +1,137 @@
-// A step: motion, repair and topology in turn (method.md, sections 5, 6 and 8).
+// A Deformer as a table of contents: a step, a refinement, a relabelling, lengths and attributes, checkpoints. The parts of the
+// first three are in step.cpp, refine.cpp and relabelling.cpp.
 #include <algorithm>
-#include <chrono>
-#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <dsc/base/state.hpp>
+#include <dsc/mesh/unpinch.hpp>
 
 #include "kernel/deformer_state.hpp"
 
 namespace dsc::kernel {
-namespace {
 
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+Deformer::Deformer(mesh::Complex complex, const DeformerOptions& options, Workers* workers)
+    : state_(std::make_unique<State>(std::move(complex), options, workers)) {}
+Deformer::~Deformer() = default;
+Deformer::Deformer(Deformer&&) noexcept = default;
+Deformer& Deformer::operator=(Deformer&&) noexcept = default;
 
-constexpr unsigned move_passes = 2;        // before a repair: neighbours that moved make room for each other
-constexpr double worthwhile_pass = 0.1;    // fraction of the remaining distance by which a pass must advance the vertices
+const mesh::Complex& Deformer::complex() const { return state_->complex; }
+double Deformer::target_length() const { return state_->length; }
+std::uint64_t Deformer::step_count() const { return state_->step; }
 
-void count(const Event& event, repair::EventCounts& counts) {
-    switch (event.kind) {
-        case Event::Kind::merge: ++counts.merge; break;
-        case Event::Kind::split: ++counts.split; break;
-        case Event::Kind::handle_opened: ++counts.handle_opened; break;
-        case Event::Kind::handle_closed: ++counts.handle_closed; break;
-        case Event::Kind::vanished: ++counts.vanished; break;
-        case Event::Kind::born: ++counts.born; break;
-        case Event::Kind::unpinched: ++counts.unpinched; break;
-    }
-}
-
-}  // namespace
-
-std::string_view name(Event::Kind kind) {
-    constexpr std::array<std::string_view, 7> names = {"merge",    "split", "handle_opened", "handle_closed",
-                                                       "vanished", "born",  "unpinched"};
-    return names[static_cast<std::size_t>(kind)];
-}
-
-void OperationCounts::add(repair::Refusal outcome) {
-    ++tried;
-    ++(outcome == Refusal::committed ? committed : refused[static_cast<std::size_t>(outcome)]);
-}
-
-OperationCounts& OperationCounts::operator+=(const OperationCounts& other) {
-    tried += other.tried;
-    committed += other.committed;
-    for (std::size_t i = 0; i < refused.size(); ++i) refused[i] += other.refused[i];
-    return *this;
-}
-
-void Deformer::State::begin(std::span<const VertexId> vertices, std::span<const Vec3> displacements, StepReport& report) {
-    ++step;
-    travels.clear();
-    for (const TetId t : step_changes) noted[t] = false;
-    step_changes.clear();
-    last_requests.clear();
-    outcomes.clear();
-    bench.sums = {};
-    bench.crease_exceptions = 0;
-    const Vec3 low = complex.box().low.array() + 2.0 * length;
-    const Vec3 high = complex.box().high.array() - 2.0 * length;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const VertexId v = vertices[i];
-        // In this order, so that a vertex without displacement is not even looked at.
-        if (displacements[i].isZero(0.0) || !complex.movable(v)) continue;
-        ++report.requested;
-        const Vec3 wanted = complex.position(v) + displacements[i];
-        const Vec3 inside = wanted.cwiseMax(low).cwiseMin(high);
-        if (inside != wanted) ++report.clamped;
-        travels.send(v, inside);
-    }
-}
-
-// Collects for the topology stage what changed in this step, each tet once.
-void Deformer::State::note_changes(std::span<const TetId> changed) {
-    noted.resize(std::max(noted.size(), complex.tet_slots()), false);
-    for (const TetId t : changed) {
-        if (noted[t]) continue;
-        noted[t] = true;
-        step_changes.push_back(t);
-    }
-}
-
-// The tet of a refused request waits until its neighbourhood changes.
-void Deformer::State::record(std::uint32_t i, Refusal refusal, std::uint32_t date, StepReport& report) {
-    outcomes[i] = {i, refusal};
-    const repair::Request& request = requests[i];
-    report.operations[static_cast<std::size_t>(request.operation)].add(refusal);
-    report.repair_classes[std::min<std::size_t>(request.repair_class, repair::repair_class_limit - 1)].add(refusal);
-    if (refusal == Refusal::committed) return;
-    if (refusal != Refusal::stale && request.tet != mesh::none) queues.fail(request.tet, date);
-}
-
-// Consecutive requests that smooth different vertices may run in parallel.
-struct Deformer::State::Smoothing {
-    State& state;
-    std::uint32_t first;  // request of vertex 0
-    StepReport& report;
-
-    const repair::Request& request(std::size_t i) const { return state.requests[first + i]; }
-    bool decide(std::size_t i, Refusal refusal) const {
-        state.outcomes[first + i].refusal = refusal;
-        return refusal == Refusal::committed;
-    }
-    bool ready(std::size_t i) const {
-        return decide(i, may_smooth(state.bench, request(i).vertices[0], request(i).accept_above));
-    }
-    bool attempt(std::size_t i, StarScratch& scratch) const {
-        return decide(i, plan_laplacian(state.complex, state.bench.limits, request(i).vertices[0], request(i).accept_above, scratch));
-    }
-    void settle(std::uint32_t i, bool attempted, std::uint32_t date) const {
-        const Refusal refusal = state.outcomes[first + i].refusal;
-        if (attempted && refusal != Refusal::committed) {
-            state.bench.remember(request(i).vertices[0], Workbench::Trial::laplacian, request(i).accept_above, refusal, date);
-        }
-        state.record(first + i, refusal, date, report);
-    }
-};
-
-// Whether the request is certainly a Laplacian smoothing at its turn, whatever other smoothings do before it.
-bool Deformer::State::plain_smoothing(const repair::Request& request) const {
-    const VertexId v = request.vertices[0];
-    const TetId t = request.tet;
-    return request.operation == repair::Operation::smooth_laplacian && v != mesh::none && request.vertices[1] == mesh::none &&
-           request.only_below > 1.0F && t != mesh::none && t < complex.tet_slots() && complex.tet_alive(t) &&
-           complex.birth_date(t) == request.birth_date && mesh::has_vertex(complex.tet(t), v);
-}
-
-std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) {
-    smoothed.clear();
-    for (std::size_t i = first; i < requests.size() && plain_smoothing(requests[i]); ++i) smoothed.push_back(requests[i].vertices[0]);
-    Smoothing action{*this, static_cast<std::uint32_t>(first), report};
-    star_loop.run(smoothed, workers, action);
-    return smoothed.size();
-}
-
-void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report) {
-    const auto dirty = queues.next_round();
-    note_changes(dirty);
-    requests.clear();
-    policy.propose(repair::RepairRound{complex, dirty, travels.blocked(), last_requests, outcomes, length, policy.flatness, round, settled, policy.size_edits,
-                                     bench.lengths != nullptr ? std::span<const double>(*bench.lengths) : std::span<const double>()},
-                   requests);
-    outcomes.resize(requests.size());
-    for (std::size_t i = 0; i < requests.size();) {
-        const std::size_t done = smooth_from(i, report);
-        i += done;
-        if (done > 0) continue;
-        const Refusal refusal = execute(bench, requests[i]);
-        record(static_cast<std::uint32_t>(i), refusal, complex.clock(), report);
-        ++i;
-    }
-    std::swap(last_requests, requests);
-}
-
-StepReport Deformer::State::advance(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy) {
+StepReport Deformer::step(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy) {
+    State& s = *state_;
     StepReport report;
-    apply_limits(policy.flatness, policy.creases);
-    bench.limits.set_floor(policy.quality_floor.value_or(options.quality_floor));
-    begin(vertices, displacements, report);
-    const PassOptions passes{options.free_path, options.audit, workers};
-    double best_left = INFINITY;
-    unsigned idle_rounds = 0;
-    unsigned slow_rounds = 0;
-    for (unsigned round = 0; round < options.max_rounds; ++round) {
-        auto start = Clock::now();
-        double left = travels.pass(bench.limits, passes);
-        for (unsigned again = 1; again < move_passes && !travels.done(); ++again) {
-            const double before = left;
-            left = travels.pass(bench.limits, passes);
-            if (left > before * (1.0 - worthwhile_pass)) break;
-        }
-        const std::size_t tried = travels.take_tried();
-        report.move_seconds += seconds_since(start);
-        ++report.rounds;
-        if (left < best_left * (1.0 - options.stall_ratio)) {
-            best_left = left;
-            slow_rounds = 0;
-        } else if (!travels.done() && (++slow_rounds >= options.stall_rounds || (tried == 0 && ++idle_rounds > 1))) {
-            travels.give_up(report);
-        }
-        const bool settled = travels.done();
-        if (!policy.propose) {
-            if (settled) break;
-            continue;
-        }
-        start = Clock::now();
-        repair(policy, round, settled, report);
-        report.repair_seconds += seconds_since(start);
-        if (settled && travels.done()) break;
-    }
-    travels.give_up(report);
-    const auto start = Clock::now();
-    note_changes(complex.changes());
-    topology.run(step, step_changes, policy.topology, policy.select, report.events, workers);
-    if (policy.topology.thickness > 0.0) {
-        topology.remove_small_components(step, travels.near_collapses(), policy.topology.min_component, report.events);
-    }
-    fields.settle();
-    report.repair_seconds += seconds_since(start);
-    for (const Event& event : report.events) count(event, report.event_counts);
-    report.crease_exceptions = bench.crease_exceptions;
-    report.edit_distance = bench.sums.distance;
-    report.edit_volume = bench.sums.volume;
-    report.relabelled_volume = bench.sums.relabelled;
-    report.arrived = report.requested > travels.stranded() ? report.requested - travels.stranded() : 0;
+    s.begin_step(vertices, displacements, policy, report);
+    s.move_and_repair(policy, report);
+    s.change_topology(policy, report);
+    s.sum_up(report);
     return report;
 }
 
-StepReport Deformer::step(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy) {
-    return state_->advance(vertices, displacements, policy);
+RefineReport Deformer::refine(std::span<const std::array<VertexId, 3>> faces, std::span<const std::array<VertexId, 2>> edges) {
+    RefineRequests requests;
+    requests.split_faces.assign(faces.begin(), faces.end());
+    requests.split_edges.assign(edges.begin(), edges.end());
+    return refine(requests);
+}
+
+RefineReport Deformer::refine(const RefineRequests& requests) {
+    State& s = *state_;
+    RefineReport report;
+    s.apply_limits(s.bench.limits.flatness, requests.creases);
+    const Limits before = s.bench.limits;
+    s.bench.crease_exceptions = 0;
+    s.split_all(requests, report);
+    s.edit_all(requests, report);
+    s.bench.limits = before;
+    s.fields.settle();
+    report.crease_exceptions = s.bench.crease_exceptions;
+    report.length_changed = report.splits.committed > 0 && !requests.owns_sizing;
+    if (report.length_changed) s.set_length(s.mean_interface_edge());
+    return report;
+}
+
+std::size_t Deformer::relabel(std::span<const TetId> tets, std::span<const mesh::Label> labels, const RepairPolicy& policy,
+                              std::vector<Event>& events) {
+    State& s = *state_;
+    s.apply_limits(policy.flatness);
+    const mesh::InterfaceCounts before = mesh::count_interface(s.complex);
+    std::vector<VertexId> touched;
+    const Event event = s.take_labels(tets, labels, touched);
+    if (event.tets == 0) return 0;
+    const std::size_t unpinched = mesh::unpinch(s.complex, "relabelling", touched);
+    s.fields.settle();  // unpinching creates vertices
+    append_changes(event, before, mesh::count_interface(s.complex), unpinched, events);
+    return event.tets;
+}
+
+void Deformer::set_target_length(double length) { state_->set_length(length); }
+
+void Deformer::set_target_lengths(std::span<const VertexId> vertices, std::span<const double> lengths) {
+    if (lengths.empty()) return;
+    State& s = *state_;
+    s.length = std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
+    s.fields.set(length_field, vertices, lengths, s.length);
+    s.fields_changed();
+    s.fields.settle();
+    s.apply_limits(s.bench.limits.flatness);
+}
+
+std::vector<double> Deformer::target_lengths(std::span<const VertexId> vertices) const {
+    std::vector<double> lengths;
+    if (state_->bench.lengths == nullptr) return lengths;
+    lengths.reserve(vertices.size());
+    for (const VertexId v : vertices) lengths.push_back(state_->bench.length_at(v));
+    return lengths;
+}
+
+void Deformer::set_attribute(std::string_view name, std::span<const VertexId> vertices, std::span<const double> values) {
+    state_->fields.set(name, vertices, values, 0.0);
+    state_->fields_changed();
+    state_->fields.settle();
+}
+
+std::vector<std::string> Deformer::attributes() const {
+    std::vector<std::string> names = state_->fields.names();
+    names.erase(std::remove(names.begin(), names.end(), length_field), names.end());
+    return names;
+}
+
+std::vector<double> Deformer::attribute(std::string_view name, std::span<const VertexId> vertices) const {
+    const std::vector<double>* values = state_->fields.find(name);
+    std::vector<double> out;
+    if (values == nullptr) return out;
+    out.reserve(vertices.size());
+    for (const VertexId v : vertices) {
+        out.push_back(state_->complex.on_interface(v) ? (*values)[v] : std::numeric_limits<double>::quiet_NaN());
+    }
+    return out;
+}
+
+void Deformer::save(StateWriter& out) const {
+    state_->complex.save(out);
+    out.value(state_->length);
+    out.value(state_->step);
+    out.value(state_->bench.limits);
+    state_->queues.save(out);
+    state_->topology.save(out);
+    state_->fields.save(out);
+}
+
+Deformer Deformer::load(StateReader& in, const DeformerOptions& options, Workers* workers) {
+    Deformer deformer(mesh::Complex::load(in), options, workers);
+    State& s = *deformer.state_;
+    in.value(s.length);
+    in.value(s.step);
+    in.value(s.bench.limits);
+    s.queues.load(in);
+    s.topology.load(in);
+    s.fields.load(in);
+    s.fields_changed();
+    return deformer;
 }
 
 }  // namespace dsc::kernel

@@ -1,12 +1,9 @@
-// A Deformer outside its steps: construction, lengths and attributes, checkpoints.
+// The state of a Deformer: construction, limits and lengths (method.md, section 3).
 #include "kernel/deformer_state.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
-#include <dsc/base/state.hpp>
 #include <dsc/geometry/quality.hpp>
 
 namespace dsc::kernel {
@@ -18,8 +15,8 @@ Deformer::State::State(mesh::Complex start, const DeformerOptions& wanted, Worke
       queues(complex, wanted.audit, wanted.drop_wake_up),
       topology(bench),
       star_loop(complex),
-      travels(complex, queues, star_loop),
-      fields(complex, travels),
+      destinations(complex, queues, star_loop),
+      fields(complex, destinations),
       // Wake-ups must be counted in the order of one thread.
       workers(wanted.drop_wake_up == 0 ? given : nullptr) {
     bench.listener = &fields;
@@ -72,82 +69,6 @@ void Deformer::State::set_length(double everywhere) {
     fields_changed();
     length = everywhere;
     apply_limits(bench.limits.flatness);
-}
-
-Deformer::Deformer(mesh::Complex complex, const DeformerOptions& options, Workers* workers)
-    : state_(std::make_unique<State>(std::move(complex), options, workers)) {}
-Deformer::~Deformer() = default;
-Deformer::Deformer(Deformer&&) noexcept = default;
-Deformer& Deformer::operator=(Deformer&&) noexcept = default;
-
-const mesh::Complex& Deformer::complex() const { return state_->complex; }
-double Deformer::target_length() const { return state_->length; }
-std::uint64_t Deformer::step_count() const { return state_->step; }
-
-void Deformer::set_target_length(double length) { state_->set_length(length); }
-
-void Deformer::set_target_lengths(std::span<const VertexId> vertices, std::span<const double> lengths) {
-    if (lengths.empty()) return;
-    State& s = *state_;
-    s.length = std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
-    s.fields.set(length_field, vertices, lengths, s.length);
-    s.fields_changed();
-    s.fields.settle();
-    s.apply_limits(s.bench.limits.flatness);
-}
-
-std::vector<double> Deformer::target_lengths(std::span<const VertexId> vertices) const {
-    std::vector<double> lengths;
-    if (state_->bench.lengths == nullptr) return lengths;
-    lengths.reserve(vertices.size());
-    for (const VertexId v : vertices) lengths.push_back(state_->bench.length_at(v));
-    return lengths;
-}
-
-void Deformer::set_attribute(std::string_view name, std::span<const VertexId> vertices, std::span<const double> values) {
-    state_->fields.set(name, vertices, values, 0.0);
-    state_->fields_changed();
-    state_->fields.settle();
-}
-
-std::vector<std::string> Deformer::attributes() const {
-    std::vector<std::string> names = state_->fields.names();
-    names.erase(std::remove(names.begin(), names.end(), length_field), names.end());
-    return names;
-}
-
-std::vector<double> Deformer::attribute(std::string_view name, std::span<const VertexId> vertices) const {
-    const std::vector<double>* values = state_->fields.find(name);
-    std::vector<double> out;
-    if (values == nullptr) return out;
-    out.reserve(vertices.size());
-    for (const VertexId v : vertices) {
-        out.push_back(state_->complex.on_interface(v) ? (*values)[v] : std::numeric_limits<double>::quiet_NaN());
-    }
-    return out;
-}
-
-void Deformer::save(StateWriter& out) const {
-    state_->complex.save(out);
-    out.value(state_->length);
-    out.value(state_->step);
-    out.value(state_->bench.limits);
-    state_->queues.save(out);
-    state_->topology.save(out);
-    state_->fields.save(out);
-}
-
-Deformer Deformer::load(StateReader& in, const DeformerOptions& options, Workers* workers) {
-    Deformer deformer(mesh::Complex::load(in), options, workers);
-    State& s = *deformer.state_;
-    in.value(s.length);
-    in.value(s.step);
-    in.value(s.bench.limits);
-    s.queues.load(in);
-    s.topology.load(in);
-    s.fields.load(in);
-    s.fields_changed();
-    return deformer;
 }
 
 }  // namespace dsc::kernel

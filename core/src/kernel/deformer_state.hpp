@@ -1,12 +1,13 @@
 #pragma once
-// The state of a Deformer. Its functions are in deformer.cpp (a step), refinement.cpp (between steps) and deformer_state.cpp.
+// The state of a Deformer, and the parts of a step, a refinement and a relabelling.
 
 #include <dsc/kernel/deformer.hpp>
+#include <dsc/mesh/validate.hpp>
 
 #include "kernel/operations.hpp"
 #include "kernel/queues.hpp"
 #include "kernel/topology.hpp"
-#include "kernel/travels.hpp"
+#include "kernel/destinations.hpp"
 #include "kernel/vertex_fields.hpp"
 
 namespace dsc::kernel {
@@ -24,7 +25,7 @@ struct Deformer::State {
     std::uint64_t step = 0;
 
     StarLoop star_loop;
-    Travels travels;
+    Destinations destinations;
     VertexFields fields;
     Workers* workers;  // null: one thread
 
@@ -33,6 +34,7 @@ struct Deformer::State {
     std::vector<repair::Request> requests, last_requests;
     std::vector<repair::Outcome> outcomes;
     std::vector<VertexId> smoothed;  // vertices of a batch of requests
+    std::vector<TetId> face_star;    // for split_longest_edge()
 
     State(mesh::Complex start, const DeformerOptions& wanted, Workers* given);
 
@@ -44,22 +46,37 @@ struct Deformer::State {
     void set_length(double everywhere);
     bool alive(VertexId v) const { return v < complex.vertex_slots() && complex.vertex_alive(v); }
 
-    // ---- the parts of a step
-    void begin(std::span<const VertexId> vertices, std::span<const Vec3> displacements, StepReport& report);
-    void note_changes(std::span<const TetId> changed);
-    void record(std::uint32_t i, Refusal refusal, std::uint32_t date, StepReport& report);
+    // ---- the parts of a step (step.cpp)
+    class Stall;
     struct Smoothing;
-    bool plain_smoothing(const repair::Request& request) const;
-    std::size_t smooth_from(std::size_t first, StepReport& report);
+    void begin_step(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy,
+                    StepReport& report);
+    void move_and_repair(const RepairPolicy& policy, StepReport& report);
+    double make_moves();
     void repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report);
-    StepReport advance(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy);
+    std::size_t smooth_from(std::size_t first, StepReport& report);
+    bool plain_smoothing(const repair::Request& request) const;
+    void record(std::uint32_t i, Outcome outcome, std::uint32_t date, StepReport& report);
+    void note_changes(std::span<const TetId> changed);
+    void change_topology(const RepairPolicy& policy, StepReport& report);
+    void sum_up(StepReport& report) const;
 
-    // ---- the parts of a refinement
-    Refusal split_longest_edge(const std::array<VertexId, 3>& face);
-    Refusal split(const std::array<VertexId, 2>& edge);
-    Refusal collapse(const CollapseTo& request);
-    Refusal flip(const FlipTo& request);
-    Refusal move(const MoveTo& request);
+    // ---- the parts of a refinement (refine.cpp)
+    void split_all(const RefineRequests& wanted, RefineReport& report);
+    void edit_all(const RefineRequests& wanted, RefineReport& report);
+    Outcome split_longest_edge(const std::array<VertexId, 3>& face);
+    Outcome split(const std::array<VertexId, 2>& edge);
+    Outcome collapse(const CollapseTo& request);
+    Outcome flip(const FlipTo& request);
+    Outcome move(const MoveTo& request);
+
+    // ---- the parts of a relabelling (relabelling.cpp)
+    /// Gives the tets their labels; `touched` receives their vertices by birth. The event describes all of them together.
+    Event take_labels(std::span<const TetId> tets, std::span<const mesh::Label> labels, std::vector<VertexId>& touched);
 };
+
+/// Appends a copy of the event for each shell and handle that the interface has gained or lost, and for each unpinched vertex.
+void append_changes(const Event& event, const mesh::InterfaceCounts& before, const mesh::InterfaceCounts& after, std::size_t unpinched,
+                    std::vector<Event>& events);
 
 }  // namespace dsc::kernel

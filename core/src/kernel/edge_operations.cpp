@@ -8,6 +8,12 @@
 #include "kernel/triangulations.hpp"
 
 namespace dsc::kernel {
+
+struct EdgeScratch {
+    mesh::EdgeRing ring;
+    std::vector<VertexId> corners;  // of the second polygon of a flip
+};
+
 namespace {
 
 // The best triangulation of a polygon of ring vertices: each triangle makes one tet with b above and one with a below.
@@ -63,35 +69,38 @@ void add_tets(Workbench& bench, VertexId a, VertexId b, const Fan& fan) {
 
 }  // namespace
 
-Refusal remove_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above) {
+Outcome remove_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above) {
     mesh::Complex& c = bench.complex;
-    c.ring(t, a, b, bench.ring);
-    if (!bench.ring.closed) return Refusal::box;
-    if (bench.ring.tets.size() > max_polygon) return Refusal::not_applicable;
+    mesh::EdgeRing& ring = bench.edge.get().ring;
+    c.ring(t, a, b, ring);
+    if (!ring.closed) return Refusal::box;
+    if (ring.tets.size() > max_polygon) return Refusal::not_applicable;
     float old = 1.0F;
-    for (const TetId r : bench.ring.tets) {
+    for (const TetId r : ring.tets) {
         if (c.label(r) != c.label(t)) return Refusal::not_applicable;
         old = std::min(old, c.quality(r));
     }
     bench.edit.clear();
     const float must_exceed = std::min(old, accept_above);
-    Fan fan{bench.ring.link, c.label(t)};
+    Fan fan{ring.link, c.label(t)};
     if (!triangulate(bench, a, b, must_exceed, fan)) return Refusal::quality;
-    bench.edit.removed = bench.ring.tets;
+    bench.edit.removed = ring.tets;
     add_tets(bench, a, b, fan);
-    if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
+    if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
     if (!c.link(bench.edit)) return Refusal::irregular;
-    bench.commit(0.0, 0.0);
-    return Refusal::committed;
+    bench.commit();
+    return success;
 }
 
-Refusal flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above) {
+Outcome flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above) {
     mesh::Complex& c = bench.complex;
-    c.ring(t, a, b, bench.ring);
-    if (!bench.ring.closed) return Refusal::box;
-    const std::size_t n = bench.ring.tets.size();
+    mesh::EdgeRing& ring = bench.edge.get().ring;
+    std::vector<VertexId>& corners = bench.edge.get().corners;
+    c.ring(t, a, b, ring);
+    if (!ring.closed) return Refusal::box;
+    const std::size_t n = ring.tets.size();
     // Rotates the ring so that it starts at an interface face, then finds the other interface face.
-    const auto label = [&](std::size_t i) { return c.label(bench.ring.tets[i % n]); };
+    const auto label = [&](std::size_t i) { return c.label(ring.tets[i % n]); };
     std::size_t changes = 0;
     std::size_t start = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -100,33 +109,31 @@ Refusal flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, f
         start = i;
     }
     if (changes != 2) return Refusal::not_applicable;
-    std::rotate(bench.ring.tets.begin(), bench.ring.tets.begin() + static_cast<std::ptrdiff_t>(start), bench.ring.tets.end());
-    std::rotate(bench.ring.link.begin(), bench.ring.link.begin() + static_cast<std::ptrdiff_t>(start), bench.ring.link.end());
+    std::rotate(ring.tets.begin(), ring.tets.begin() + static_cast<std::ptrdiff_t>(start), ring.tets.end());
+    std::rotate(ring.link.begin(), ring.link.begin() + static_cast<std::ptrdiff_t>(start), ring.link.end());
     std::size_t turn = 1;
     while (label(turn) == label(0)) ++turn;
     // First fan: link[0..turn]; second: link[turn..n-1], link[0].
     if (turn + 1 > max_polygon || n - turn + 1 > max_polygon || n < 3) return Refusal::not_applicable;
-    const VertexId p = bench.ring.link[0], q = bench.ring.link[turn];
+    const VertexId p = ring.link[0], q = ring.link[turn];
     const Vec3 &pa = c.position(a), &pb = c.position(b), &pp = c.position(p), &pq = c.position(q);
     if (geometry::triangle_normal(pa, pb, pp).dot(geometry::triangle_normal(pb, pa, pq)) < bench.limits.flatness) {
         return Refusal::bound;
     }
-    const double distance = geometry::segment_distance(pa, pb, pp, pq);
-    const double volume = std::abs(geometry::tet_volume(pa, pb, pp, pq));
-    const EditBounds bounds = bench.bounds_at(a, b);
-    if (distance > bounds.distance || volume > bounds.volume) return Refusal::bound;
+    const InterfaceChange change{geometry::segment_distance(pa, pb, pp, pq), std::abs(geometry::tet_volume(pa, pb, pp, pq))};
+    if (change.exceeds(bench.bounds_at(a, b))) return Refusal::bound;
     bench.edit.clear();
-    bench.edit.removed = bench.ring.tets;
+    bench.edit.removed = ring.tets;
     const float old = bench.old_quality();
     const float must_exceed = std::min(old, accept_above);
-    bench.vertices.assign(bench.ring.link.begin() + static_cast<std::ptrdiff_t>(turn), bench.ring.link.end());
-    bench.vertices.push_back(p);
-    Fan first{std::span(bench.ring.link).first(turn + 1), label(0)};
-    Fan second{bench.vertices, label(turn)};
+    corners.assign(ring.link.begin() + static_cast<std::ptrdiff_t>(turn), ring.link.end());
+    corners.push_back(p);
+    Fan first{std::span(ring.link).first(turn + 1), label(0)};
+    Fan second{corners, label(turn)};
     if (!triangulate(bench, a, b, must_exceed, first) || !triangulate(bench, a, b, must_exceed, second)) return Refusal::quality;
     add_tets(bench, a, b, first);
     add_tets(bench, a, b, second);
-    if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
+    if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
     if (!c.link(bench.edit)) return Refusal::irregular;
     // If exactly two labels meet here and each has at least two tets at the edge, a flip keeps every vertex regular. Positive
     // tets that fill the cavity contain the segment pq inside, so pq was not an edge before. In the cycles of interface
@@ -135,33 +142,34 @@ Refusal flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, f
     const std::array<VertexId, 4> touched = {a, b, p, q};
     const auto simple = [&c](VertexId v) { return c.phases(v) == 2 && !c.on_box(v); };
     if (turn < 2 || n - turn < 2 || !std::all_of(touched.begin(), touched.end(), simple)) {
-        if (const Refusal r = bench.check_topology(touched); r != Refusal::committed) return r;
+        if (const Outcome o = bench.check_topology(touched); o.refused()) return o;
     }
-    if (const Refusal r = check_creases(bench); r != Refusal::committed) return r;
-    bench.commit(distance, volume);
-    return Refusal::committed;
+    if (const Outcome o = check_creases(bench); o.refused()) return o;
+    bench.commit(change);
+    return success;
 }
 
-Refusal split_edge(Workbench& bench, TetId t, VertexId a, VertexId b, double s) {
+Outcome split_edge(Workbench& bench, TetId t, VertexId a, VertexId b, double s) {
     mesh::Complex& c = bench.complex;
-    c.ring(t, a, b, bench.ring);
-    if (!bench.ring.closed) return Refusal::box;
+    mesh::EdgeRing& ring = bench.edge.get().ring;
+    c.ring(t, a, b, ring);
+    if (!ring.closed) return Refusal::box;
     bench.edit.clear();
-    bench.edit.removed = bench.ring.tets;
+    bench.edit.removed = ring.tets;
     bench.edit.creates = true;
     bench.edit.created_at = (1.0 - s) * c.position(a) + s * c.position(b);
-    const std::size_t n = bench.ring.tets.size();
+    const std::size_t n = ring.tets.size();
     for (std::size_t i = 0; i < n; ++i) {
-        const VertexId p = bench.ring.link[i], q = bench.ring.link[(i + 1) % n];
-        const mesh::Label label = c.label(bench.ring.tets[i]);
+        const VertexId p = ring.link[i], q = ring.link[(i + 1) % n];
+        const mesh::Label label = c.label(ring.tets[i]);
         bench.edit.added.push_back({{a, mesh::created_vertex, p, q}, label});
         bench.edit.added.push_back({{mesh::created_vertex, b, p, q}, label});
     }
-    if (const Refusal r = bench.check_shape(0.0F, bench.old_quality()); r != Refusal::committed) return r;
+    if (const Outcome o = bench.check_shape(0.0F, bench.old_quality()); o.refused()) return o;
     if (!c.link(bench.edit)) return Refusal::irregular;
-    const VertexId v = bench.commit(0.0, 0.0);
+    const VertexId v = bench.commit();
     if (bench.listener != nullptr) bench.listener->on_split(v, a, b, s);
-    return Refusal::committed;
+    return success;
 }
 
 }  // namespace dsc::kernel

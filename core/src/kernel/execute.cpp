@@ -31,7 +31,7 @@ void sort_by_length(std::array<Edge, 6>& edges) {
 }
 
 // Of several refusals the most informative one: topology and bounds before quality before "does not apply".
-Refusal stronger(Refusal x, Refusal y) {
+Refusal stronger(Outcome x, Outcome y) {
     const auto rank = [](Refusal r) {
         switch (r) {
             case Refusal::irregular: return 5;
@@ -42,28 +42,28 @@ Refusal stronger(Refusal x, Refusal y) {
             default: return 0;
         }
     };
-    return rank(x) >= rank(y) ? x : y;
+    return rank(x.reason()) >= rank(y.reason()) ? x.reason() : y.reason();
 }
 
 template <class Attempt>
-Refusal first_success(const std::array<Edge, 6>& edges, Attempt&& attempt) {
+Outcome first_success(const std::array<Edge, 6>& edges, Attempt&& attempt) {
     Refusal result = Refusal::not_applicable;
     for (const Edge& e : edges) {
-        const Refusal r = attempt(e);
-        if (r == Refusal::committed) return r;
-        result = stronger(result, r);
+        const Outcome o = attempt(e);
+        if (!o.refused()) return o;
+        result = stronger(result, o);
     }
     return result;
 }
 
-Refusal on_edges(Workbench& bench, const Request& request, TetId t) {
+Outcome on_edges(Workbench& bench, const Request& request, TetId t) {
     const mesh::Complex& c = bench.complex;
     auto edges = edges_of(c, t);
     switch (request.operation) {
         case Operation::edge_removal:
             return first_success(edges, [&](const Edge& e) { return remove_edge(bench, t, e.a, e.b, request.accept_above); });
         case Operation::interface_flip:
-            return first_success(edges, [&](const Edge& e) {
+            return first_success(edges, [&](const Edge& e) -> Outcome {
                 if (!c.on_interface(e.a) || !c.on_interface(e.b)) return Refusal::not_applicable;
                 return flip_interface_edge(bench, t, e.a, e.b, request.accept_above);
             });
@@ -77,16 +77,16 @@ Refusal on_edges(Workbench& bench, const Request& request, TetId t) {
     }
 }
 
-Refusal on_faces(Workbench& bench, const Request& request, TetId t) {
+Outcome on_faces(Workbench& bench, const Request& request, TetId t) {
     Refusal result = Refusal::not_applicable;
     const mesh::Complex& c = bench.complex;
     for (unsigned f = 0; f < 4; ++f) {
         const auto& named = request.vertices;
         const bool whole_face = named[2] != mesh::none;
         if (whole_face && std::find(named.begin(), named.end(), c.tet(t).v[f]) != named.end()) continue;
-        Refusal r = Refusal::not_applicable;
+        Outcome o = Refusal::not_applicable;
         if (request.operation == Operation::face_removal) {
-            r = remove_faces(bench, t, f, request.accept_above);
+            o = remove_faces(bench, t, f, request.accept_above);
         } else {
             // Splits at the projection of the opposite vertex if it lies inside the face.
             const auto& v = c.tet(t).v;
@@ -95,10 +95,10 @@ Refusal on_faces(Workbench& bench, const Request& request, TetId t) {
             const Vec3 n = geometry::triangle_normal(a, b, d);
             const Vec3 p = c.position(v[f]) - n.dot(c.position(v[f]) - a) * n;
             const bool inside = n.dot((b - a).cross(p - a)) > 0.0 && n.dot((d - b).cross(p - b)) > 0.0 && n.dot((a - d).cross(p - d)) > 0.0;
-            if (inside) r = split_face(bench, t, f, p);
+            if (inside) o = split_face(bench, t, f, p);
         }
-        if (r == Refusal::committed) return r;
-        result = stronger(result, r);
+        if (!o.refused()) return o;
+        result = stronger(result, o);
     }
     return result;
 }
@@ -114,7 +114,7 @@ TetId tet_of(const mesh::Complex& c, const Request& request) {
 
 }  // namespace
 
-Refusal execute(Workbench& bench, const Request& request) {
+Outcome execute(Workbench& bench, const Request& request) {
     const mesh::Complex& c = bench.complex;
     TetId t = request.tet;
     if (t != mesh::none) {

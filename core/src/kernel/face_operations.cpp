@@ -59,7 +59,7 @@ private:
 
 }  // namespace
 
-Refusal remove_faces(Workbench& bench, TetId t, unsigned face, float accept_above) {
+Outcome remove_faces(Workbench& bench, TetId t, unsigned face, float accept_above) {
     mesh::Complex& c = bench.complex;
     const std::uint32_t code = c.tet(t).n[face];
     if (code == mesh::none) return Refusal::box;
@@ -79,13 +79,13 @@ Refusal remove_faces(Workbench& bench, TetId t, unsigned face, float accept_abov
     const float old = bench.old_quality();
     const float must_exceed = std::min(old, accept_above);
     if (!(std::min({e1.now, e2.now, e3.now}) > must_exceed)) return Refusal::quality;
-    if (const Refusal r = bench.check_shape(must_exceed, old); r != Refusal::committed) return r;
+    if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
     if (!c.link(bench.edit)) return Refusal::irregular;
-    bench.commit(0.0, 0.0);
-    return Refusal::committed;
+    bench.commit();
+    return success;
 }
 
-Refusal split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point) {
+Outcome split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point) {
     mesh::Complex& c = bench.complex;
     const std::uint32_t code = c.tet(t).n[face];
     if (code == mesh::none) return Refusal::box;
@@ -102,24 +102,24 @@ Refusal split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point) 
             bench.edit.added.push_back(tet);
         }
     }
-    if (const Refusal r = bench.check_shape(0.0F, bench.old_quality()); r != Refusal::committed) return r;
-    double volume = 0.0;
+    if (const Outcome o = bench.check_shape(0.0F, bench.old_quality()); o.refused()) return o;
+    InterfaceChange change;
     if (c.label(t) != c.label(other)) {
         // The point lies in the face's plane up to rounding; otherwise the split would move the interface.
-        volume = bench.phase_change();
-        if (volume > bench.bounds_at(c.tet(t).v).volume) return Refusal::bound;
+        change.volume = bench.phase_change();
+        if (change.exceeds(bench.bounds_at(c.tet(t).v))) return Refusal::bound;
     }
     if (!c.link(bench.edit)) return Refusal::irregular;
     const std::array<VertexId, 3> corners = {c.tet(t).v[mesh::face_vertices[face][0]], c.tet(t).v[mesh::face_vertices[face][1]],
                                              c.tet(t).v[mesh::face_vertices[face][2]]};
-    const VertexId v = bench.commit(0.0, volume);
+    const VertexId v = bench.commit(change);
     if (bench.listener != nullptr) {
         // Its destination is interpolated between the first two corners, at the point's projection on their edge.
         const Vec3 edge = c.position(corners[1]) - c.position(corners[0]);
         const double s = std::clamp((point - c.position(corners[0])).dot(edge) / std::max(edge.squaredNorm(), 1e-300), 0.0, 1.0);
         bench.listener->on_split(v, corners[0], corners[1], s);
     }
-    return Refusal::committed;
+    return success;
 }
 
 }  // namespace dsc::kernel

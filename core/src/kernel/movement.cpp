@@ -3,10 +3,14 @@
 
 #include <cmath>
 
-#include <dsc/geometry/predicates.hpp>
-#include <dsc/geometry/quality.hpp>
+#include <dsc/mesh/star_quality.hpp>
 
 namespace dsc::kernel {
+
+struct MoveScratch {
+    StarScratch star;
+};
+
 namespace {
 
 constexpr double arrival = 1e-4;  // in L: a vertex closer than this has arrived; a shorter move is not made
@@ -33,11 +37,9 @@ bool acceptable(const mesh::Complex& c, std::span<const TetId> star, VertexId v,
                 std::vector<float>& qualities) {
     qualities.clear();
     for (const TetId t : star) {
-        const auto& x = c.tet(t).v;
-        std::array<const Vec3*, 4> p{};
-        for (unsigned i = 0; i < 4; ++i) p[i] = x[i] == v ? &place : &c.position(x[i]);
-        const auto q = static_cast<float>(geometry::tet_quality(*p[0], *p[1], *p[2], *p[3]));
-        if (!(q >= std::min(floor, c.quality(t))) || geometry::orient3d(*p[0], *p[1], *p[2], *p[3]) != 1) return false;
+        const auto corners = mesh::corners_at(c, t, v, place);
+        const auto q = static_cast<float>(mesh::quality_of(corners));
+        if (!(q >= std::min(floor, c.quality(t))) || !mesh::exactly_positive(corners)) return false;
         qualities.push_back(q);
     }
     return true;
@@ -67,7 +69,7 @@ Motion plan_move(const mesh::Complex& complex, const Limits& limits, VertexId v,
 Motion move_towards(Workbench& bench, VertexId v, const Vec3& destination, double free_path) {
     mesh::Complex& c = bench.complex;
     if (has_arrived(c, bench.limits, v, destination)) return Motion::arrived;
-    StarScratch& scratch = bench.scratch;
+    StarScratch& scratch = bench.move.get().star;
     c.star(v, scratch.star, scratch.places);
     const Motion motion = plan_move(c, bench.limits, v, destination, free_path, scratch);
     if (motion != Motion::blocked) c.move(v, scratch.place, scratch.star, scratch.qualities);

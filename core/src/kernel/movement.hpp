@@ -1,6 +1,7 @@
 #pragma once
 // Moves one interface vertex towards its destination as far as its star stays valid (method.md, section 5.2).
 
+#include "kernel/star_loop.hpp"
 #include "kernel/workbench.hpp"
 
 namespace dsc::kernel {

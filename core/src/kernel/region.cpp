@@ -14,32 +14,35 @@ constexpr std::size_t max_region = 24;
 constexpr double max_region_volume = 8.0;  // in regular tets of edge L
 constexpr int max_growth = 10;
 
-struct BoundaryFace {
-    std::array<VertexId, 3> v;
-    bool faces_to;  // faces `to`, else `from`
-    double area;
-};
+}  // namespace
 
-struct BoundaryEdge {
-    VertexId a, b;
-    std::uint32_t face;
-};
-
-// Arrays that are reused from one region to the next.
-struct Scratch {
+struct RegionScratch {
+    struct BoundaryFace {
+        std::array<VertexId, 3> v;
+        bool faces_to;  // faces `to`, else `from`
+        double area;
+    };
+    struct BoundaryEdge {
+        VertexId a, b;
+        std::uint32_t face;
+    };
+    // Of the growth.
+    std::vector<VertexId> concerned;  // vertices of the region
     std::vector<std::size_t> group_size;
     std::vector<char> is_from, has_outside;
     std::vector<std::uint32_t> group, previous, distance, queue;
     std::vector<TetId> addition_group, addition_chain;
+    // Of the measurement.
     std::vector<BoundaryFace> faces;
     std::vector<BoundaryEdge> edges;
     std::vector<VertexId> vertices;
     std::vector<std::uint32_t> whole, patch, from_roots, to_roots;
 };
-Scratch& scratch() {
-    static thread_local Scratch own;
-    return own;
-}
+
+namespace {
+
+using BoundaryFace = RegionScratch::BoundaryFace;
+using BoundaryEdge = RegionScratch::BoundaryEdge;
 
 std::uint32_t root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -69,12 +72,13 @@ void collect_vertices(const mesh::Complex& c, const Region& region, std::vector<
     out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
-// The smallest group of `from` at the vertex if there are two or more; `out` receives the tets to add.
-void smallest_group(mesh::LocalStar& star, mesh::Label from, std::vector<TetId>& out) {
+// The smallest group of `from` at the vertex if there are two or more: addition_group receives its tets.
+void smallest_group(mesh::LocalStar& star, mesh::Label from, RegionScratch& own) {
+    std::vector<TetId>& out = own.addition_group;
     out.clear();
     const unsigned count = star.groups();
-    std::vector<std::size_t>& size = scratch().group_size;
-    std::vector<char>&is_from = scratch().is_from, &has_outside = scratch().has_outside;
+    std::vector<std::size_t>& size = own.group_size;
+    std::vector<char>&is_from = own.is_from, &has_outside = own.has_outside;
     size.assign(count, 0);
     is_from.assign(count, 0);
     has_outside.assign(count, 0);
@@ -95,13 +99,13 @@ void smallest_group(mesh::LocalStar& star, mesh::Label from, std::vector<TetId>&
     }
 }
 
-// The shortest face-connected chain of `from` tets that joins two groups of label `to` at the vertex.
-void shortest_chain(mesh::LocalStar& star, mesh::Label from, mesh::Label to, std::vector<TetId>& out) {
+// The shortest face-connected chain of `from` tets that joins two groups of label `to` at the vertex: addition_chain receives it.
+void shortest_chain(mesh::LocalStar& star, mesh::Label from, mesh::Label to, RegionScratch& own) {
+    std::vector<TetId>& out = own.addition_chain;
     out.clear();
     star.groups();
     const std::size_t n = star.nodes().size();
-    std::vector<std::uint32_t>&group = scratch().group, &previous = scratch().previous, &distance = scratch().distance;
-    std::vector<std::uint32_t>& queue = scratch().queue;
+    std::vector<std::uint32_t>&group = own.group, &previous = own.previous, &distance = own.distance, &queue = own.queue;
     group.assign(star.group_of().begin(), star.group_of().end());
     std::size_t best = n + 1;
     for (std::size_t start = 0; start < n; ++start) {
@@ -136,9 +140,10 @@ void shortest_chain(mesh::LocalStar& star, mesh::Label from, mesh::Label to, std
 }  // namespace
 
 bool regular(Workbench& bench, const Region& region) {
-    collect_vertices(bench.complex, region, bench.vertices);
+    std::vector<VertexId>& vertices = bench.region.get().concerned;
+    collect_vertices(bench.complex, region, vertices);
     mesh::LocalStar& star = bench.local_star();
-    return std::all_of(bench.vertices.begin(), bench.vertices.end(), [&](VertexId v) {
+    return std::all_of(vertices.begin(), vertices.end(), [&](VertexId v) {
         star.build(v, region.tets, region.to);
         return star.regular();
     });
@@ -148,7 +153,8 @@ RegionFault grow(Workbench& bench, Region& region) {
     const mesh::Complex& c = bench.complex;
     const double volume_limit = max_region_volume * geometry::regular_tet_volume(bench.length_at(c.tet(region.tets.front()).v));
     mesh::LocalStar& star = bench.local_star();
-    std::vector<TetId>&group = scratch().addition_group, &chain = scratch().addition_chain;
+    RegionScratch& own = bench.region.get();
+    const std::vector<TetId>&group = own.addition_group, &chain = own.addition_chain;
     for (int round = 0; round <= max_growth; ++round) {
         double volume = 0.0;
         for (const TetId t : region.tets) {
@@ -156,14 +162,15 @@ RegionFault grow(Workbench& bench, Region& region) {
             if (touches_box(c, t)) return RegionFault::box;
         }
         if (region.tets.size() > max_region || volume > volume_limit) return RegionFault::too_large;
-        collect_vertices(c, region, bench.vertices);
-        const auto bad = std::find_if(bench.vertices.begin(), bench.vertices.end(), [&](VertexId v) {
+        collect_vertices(c, region, own.concerned);
+        const auto bad = std::find_if(own.concerned.begin(), own.concerned.end(), [&](VertexId v) {
             star.build(v, region.tets, region.to);
             return !star.regular();
         });
-        if (bad == bench.vertices.end()) return RegionFault::none;
-        smallest_group(star, region.from, group);
-        shortest_chain(star, region.from, region.to, chain);
+        if (bad == own.concerned.end()) return RegionFault::none;
+        // The star is still that of the vertex found.
+        smallest_group(star, region.from, own);
+        shortest_chain(star, region.from, region.to, own);
         const auto& addition = chain.empty() || (!group.empty() && group.size() <= chain.size()) ? group : chain;
         if (addition.empty()) return RegionFault::irregular;
         for (const TetId t : addition) {
@@ -173,11 +180,12 @@ RegionFault grow(Workbench& bench, Region& region) {
     return RegionFault::irregular;
 }
 
-RegionFault measure(const Workbench& bench, Region& region) {
+RegionFault measure(Workbench& bench, Region& region) {
     const mesh::Complex& c = bench.complex;
-    std::vector<BoundaryFace>& faces = scratch().faces;
-    std::vector<BoundaryEdge>& edges = scratch().edges;
-    std::vector<VertexId>& vertices = scratch().vertices;
+    RegionScratch& own = bench.region.get();
+    std::vector<BoundaryFace>& faces = own.faces;
+    std::vector<BoundaryEdge>& edges = own.edges;
+    std::vector<VertexId>& vertices = own.vertices;
     faces.clear();
     edges.clear();
     vertices.clear();
@@ -211,7 +219,7 @@ RegionFault measure(const Workbench& bench, Region& region) {
     std::sort(edges.begin(), edges.end(), [](const BoundaryEdge& x, const BoundaryEdge& y) {
         return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.face < y.face;
     });
-    std::vector<std::uint32_t>&whole = scratch().whole, &patch = scratch().patch;
+    std::vector<std::uint32_t>&whole = own.whole, &patch = own.patch;
     whole.resize(faces.size());
     patch.resize(faces.size());
     std::iota(whole.begin(), whole.end(), 0U);
@@ -225,7 +233,7 @@ RegionFault measure(const Workbench& bench, Region& region) {
         whole[root(whole, f)] = root(whole, g);
         if (faces[f].faces_to == faces[g].faces_to) patch[root(patch, f)] = root(patch, g);
     }
-    std::vector<std::uint32_t>&from_roots = scratch().from_roots, &to_roots = scratch().to_roots;
+    std::vector<std::uint32_t>&from_roots = own.from_roots, &to_roots = own.to_roots;
     from_roots.clear();
     to_roots.clear();
     for (std::uint32_t f = 0; f < faces.size(); ++f) {

@@ -26,9 +26,11 @@ RegionFault grow(Workbench& bench, Region& region);
 /// Whether all vertices of the region are regular with label `to` on it, without growth. [step]
 bool regular(Workbench& bench, const Region& region);
 /// Computes patches, areas, volume and centroid; not_a_ball unless the boundary is one closed surface of Euler number 2. [step]
-RegionFault measure(const Workbench& bench, Region& region);
+RegionFault measure(Workbench& bench, Region& region);
 /// The length that the limit applies to: thickness of a sheet or gap, or diameter of a neck if two patches face `from`.
 double thickness(const Region& region);
+/// The relabelling of the region; valid as long as the region.
+inline Relabelling relabelling(const Region& region) { return {region.tets, region.to, region.volume}; }
 bool touches_box(const mesh::Complex& complex, TetId t);
 
 }  // namespace dsc::kernel

@@ -6,6 +6,11 @@
 #include "kernel/region.hpp"
 
 namespace dsc::kernel {
+
+struct RelabelScratch {
+    Region region;
+};
+
 namespace {
 
 // The label behind most of the tet's interface faces; its own label if it has no interface face.
@@ -25,9 +30,9 @@ mesh::Label majority_across(const mesh::Complex& c, TetId t) {
 
 }  // namespace
 
-Refusal relabel_tet(Workbench& bench, TetId t) {
+Outcome relabel_tet(Workbench& bench, TetId t) {
     mesh::Complex& c = bench.complex;
-    Region region;
+    Region& region = bench.relabel.get().region;
     region.tets.assign(1, t);
     region.from = c.label(t);
     region.to = majority_across(c, t);
@@ -40,15 +45,11 @@ Refusal relabel_tet(Workbench& bench, TetId t) {
     }
     if (measure(bench, region) != RegionFault::none) return Refusal::irregular;
     if (region.patches_from != 1 || region.patches_to != 1) return Refusal::irregular;
-    const double distance = 2.0 * region.volume / region.area_to;
-    const EditBounds bounds = bench.bounds_at(c.tet(t).v);
-    if (region.volume > bounds.volume || distance > bounds.distance) return Refusal::bound;
-    if (const Refusal r = check_creases(bench, region.tets, region.to); r != Refusal::committed) return r;
-    c.relabel(region.tets, region.to);
-    bench.sums.distance += distance;
-    bench.sums.volume += region.volume;
-    bench.sums.relabelled += region.volume;
-    return Refusal::committed;
+    const InterfaceChange change{2.0 * region.volume / region.area_to, region.volume};
+    if (change.exceeds(bench.bounds_at(c.tet(t).v))) return Refusal::bound;
+    if (const Outcome o = check_creases(bench, region.tets, region.to); o.refused()) return o;
+    bench.commit(relabelling(region), change);
+    return success;
 }
 
 }  // namespace dsc::kernel

@@ -39,10 +39,12 @@ public:
     explicit StarLoop(mesh::Complex& complex) : complex_(complex) {}
 
     /// For each vertices[i], which must be alive:
-    ///   action.ready(i)                   [parallel] false: nothing to try; reads nothing that Complex::place() writes
-    ///   action.attempt(i, scratch)        [parallel] scratch.star is filled; true: the vertex moves to scratch.place, with
-    ///                                     scratch.qualities
-    ///   action.settle(i, attempted, date) [step] once, after all of these; date: the change clock at its turn
+    /// - action.ready(i): false if there is nothing to try; reads nothing that Complex::place()
+    ///   writes [parallel]
+    /// - action.attempt(i, scratch): scratch.star is filled; true if the vertex moves to
+    ///   scratch.place, with scratch.qualities [parallel]
+    /// - action.settle(i, attempted, date): once, after all of these; date is the change clock at
+    ///   its turn [step]
     template <class Action>
     void run(std::span<const mesh::VertexId> vertices, Workers* workers, Action& action) {
         if (vertices.size() < least_split) {

@@ -155,10 +155,10 @@ RegionFault TopologyStage::start(const Seed& seed, Region& region) {
     const mesh::Complex& c = bench_.complex;
     const TetId t = c.find_edge(seed.v[0], seed.v[1]);
     if (t == mesh::none) return RegionFault::kind;
-    c.ring(t, seed.v[0], seed.v[1], bench_.ring);
-    if (!bench_.ring.closed) return RegionFault::box;
+    c.ring(t, seed.v[0], seed.v[1], ring_);
+    if (!ring_.closed) return RegionFault::box;
     region.tets.clear();
-    for (const TetId r : bench_.ring.tets) {
+    for (const TetId r : ring_.tets) {
         if (seed.v[2] == mesh::none || mesh::has_vertex(c.tet(r), seed.v[2])) region.tets.push_back(r);
     }
     if (region.tets.empty()) return RegionFault::kind;
@@ -218,7 +218,6 @@ bool TopologyStage::same_shell(std::span<const VertexId> from, std::span<const V
 double TopologyStage::length_at(const Region& region) const { return bench_.length_at(bench_.complex.tet(region.tets.front()).v); }
 
 Event TopologyStage::commit(const Region& region, std::uint64_t step) {
-    mesh::Complex& c = bench_.complex;
     Event event;
     event.step = step;
     event.place = region.centroid;
@@ -227,8 +226,7 @@ Event TopologyStage::commit(const Region& region, std::uint64_t step) {
     event.volume = region.volume;
     event.thickness = thickness(region) / length_at(region);
     const bool bridged = region.patches_to == 2 && same_shell(region.patch_a, region.patch_b);
-    c.relabel(region.tets, region.to);
-    bench_.sums.relabelled += region.volume;
+    bench_.commit(relabelling(region));
     if (region.patches_to == 2) {
         event.kind = bridged ? Event::Kind::handle_opened : Event::Kind::merge;
     } else if (region.patches_from == 2) {
@@ -244,7 +242,7 @@ Event TopologyStage::commit(const Region& region, std::uint64_t step) {
 void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, const repair::TopologyLimits& limits, const Select& select,
                         std::vector<Event>& events, Workers* workers) {
     if (!(limits.thickness > 0.0)) return;
-    mesh::Complex& c = bench_.complex;
+    const mesh::Complex& c = bench_.complex;
     collect_seeds(step, changed, workers);
     found_.clear();
     Region& region = region_;
@@ -284,10 +282,9 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
         if (!usable(f->seed, f->candidate.label, step) || region_of(f->seed, region) != RegionFault::none) continue;
         if (kind_of(region) != f->candidate.kind || thickness(region) / length_at(region) > limits.thickness) continue;
         if (shift) {
-            if (region.volume > bench_.bounds_at(c.tet(region.tets.front()).v).volume) continue;
-            c.relabel(region.tets, region.to);
-            bench_.sums.relabelled += region.volume;
-            bench_.sums.volume += region.volume;
+            const InterfaceChange change{0.0, region.volume};
+            if (change.exceeds(bench_.bounds_at(c.tet(region.tets.front()).v))) continue;
+            bench_.commit(relabelling(region), change);
             ++shifted;
         } else {
             events.push_back(commit(region, step));
@@ -324,7 +321,7 @@ bool TopologyStage::flood_component(TetId seed, double volume_limit, Region& reg
 void TopologyStage::remove_small_components(std::uint64_t step, std::span<const VertexId> near, double min_component,
                                             std::vector<Event>& events) {
     if (!(min_component > 0.0)) return;
-    mesh::Complex& c = bench_.complex;
+    const mesh::Complex& c = bench_.complex;
     Region& region = region_;
     std::vector<TetId>& seeds = component_seeds_;
     for (const VertexId v : near) {

@@ -29,7 +29,7 @@ public:
 
     /// The target length at a region.
     double length_at(const Region& region) const;
-    /// Relabels the region and returns the event; the kind must be (1,2), (2,1), (0,1) or (1,0).
+    /// Relabels the region and returns the event; the kind must be (1,2), (2,1), (0,1) or (1,0) (method.md, section 8.3).
     Event commit(const Region& region, std::uint64_t step);
 
     /// Saves which vertices rest, and since which event. [step]
@@ -76,6 +76,7 @@ private:
     std::vector<std::uint32_t> seen_;
     std::uint32_t seen_epoch_ = 0;
     std::vector<VertexId> queue_;
+    mesh::EdgeRing ring_;
     std::vector<TetId> star_;
     std::vector<VertexId> touched_;
     std::vector<TetId> component_seeds_;

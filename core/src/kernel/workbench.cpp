@@ -37,7 +37,7 @@ float Workbench::old_quality() const {
     return least;
 }
 
-Refusal Workbench::check_shape(float must_exceed, float old) {
+Outcome Workbench::check_shape(float must_exceed, float old) {
     const float floor = std::min(static_cast<float>(limits.quality_floor), old);
     edit.qualities.clear();
     for (const mesh::NewTet& t : edit.added) {
@@ -49,10 +49,10 @@ Refusal Workbench::check_shape(float must_exceed, float old) {
     for (const mesh::NewTet& t : edit.added) {
         if (geometry::orient3d(at(t.v[0]), at(t.v[1]), at(t.v[2]), at(t.v[3])) != 1) return Refusal::quality;
     }
-    return Refusal::committed;
+    return success;
 }
 
-Refusal Workbench::check_topology(std::span<const VertexId> touched) {
+Outcome Workbench::check_topology(std::span<const VertexId> touched) {
     int before = 0;
     int after = 0;
     for (const VertexId v : touched) {
@@ -65,7 +65,7 @@ Refusal Workbench::check_topology(std::span<const VertexId> touched) {
         if (!star_.regular()) return Refusal::irregular;
         after += star_.euler_share();
     }
-    return before == after ? Refusal::committed : Refusal::irregular;
+    return before == after ? success : Outcome(Refusal::irregular);
 }
 
 double Workbench::phase_change() const {
@@ -93,10 +93,17 @@ double Workbench::phase_change() const {
     return 0.5 * total;
 }
 
-VertexId Workbench::commit(double distance, double volume) {
-    sums.distance += distance;
-    sums.volume += volume;
+VertexId Workbench::commit(const InterfaceChange& change) {
+    sums.distance += change.distance;
+    sums.volume += change.volume;
     return complex.replace(edit);
+}
+
+void Workbench::commit(const Relabelling& relabelling, const InterfaceChange& change) {
+    sums.distance += change.distance;
+    sums.volume += change.volume;
+    sums.relabelled += relabelling.volume;
+    complex.relabel(relabelling.tets, relabelling.label);
 }
 
 void Workbench::interface_fan(VertexId v, std::span<const TetId> star, std::vector<std::array<VertexId, 3>>& out) const {
@@ -118,7 +125,8 @@ std::uint32_t Workbench::new_vertex_epoch() {
     return ++vertex_epoch_;
 }
 
-void Workbench::shared_interface_vertices(std::vector<VertexId>& out) {
+void Workbench::shared_interface_vertices(std::span<const TetId> star_a, std::span<const TetId> star_b,
+                                          std::vector<VertexId>& out) {
     out.clear();
     const std::uint32_t first_star = new_vertex_epoch(), listed = new_vertex_epoch();
     for (const TetId t : star_a) {
@@ -134,21 +142,34 @@ void Workbench::shared_interface_vertices(std::vector<VertexId>& out) {
     std::sort(out.begin(), out.end());
 }
 
-Refusal Workbench::known_refusal(VertexId v, Trial trial, float accept_above) const {
-    if (v >= memory_.size()) return Refusal::committed;
-    const auto i = static_cast<std::size_t>(trial);
-    const Memory& m = memory_[v];
-    if (complex.vertex_date(v) > m.date[i]) return Refusal::committed;
-    return trial == Trial::laplacian && m.accept_above != accept_above ? Refusal::committed : m.refusal[i];
+void Workbench::cavity_interface_vertices(std::vector<VertexId>& out) const {
+    out.clear();
+    for (const TetId t : edit.removed) {
+        for (const VertexId v : complex.tet(t).v) {
+            if (complex.on_interface(v)) out.push_back(v);
+        }
+    }
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    out.push_back(mesh::created_vertex);
 }
 
-Refusal Workbench::remember(VertexId v, Trial trial, float accept_above, Refusal refusal, std::uint32_t date) {
+std::optional<Refusal> Workbench::known_refusal(VertexId v, Smoother smoother, float accept_above) const {
+    if (v >= memory_.size()) return std::nullopt;
+    const auto i = static_cast<std::size_t>(smoother);
+    const Memory& m = memory_[v];
+    if (complex.vertex_date(v) > m.date[i] || !m.last[i].refused()) return std::nullopt;
+    if (smoother == Smoother::laplacian && m.accept_above != accept_above) return std::nullopt;
+    return m.last[i].reason();
+}
+
+Refusal Workbench::remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal, std::uint32_t date) {
     if (memory_.size() < complex.vertex_slots()) memory_.resize(complex.vertex_slots());
-    const auto i = static_cast<std::size_t>(trial);
+    const auto i = static_cast<std::size_t>(smoother);
     Memory& m = memory_[v];
     m.date[i] = date;
-    m.refusal[i] = refusal;
-    if (trial == Trial::laplacian) m.accept_above = accept_above;
+    m.last[i] = refusal;
+    if (smoother == Smoother::laplacian) m.accept_above = accept_above;
     return refusal;
 }
 

@@ -3,6 +3,7 @@
 // below and commits. Until then the complex is unchanged, so a refusal costs nothing.
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,11 +11,13 @@
 #include <dsc/mesh/local_star.hpp>
 #include <dsc/repair/contract.hpp>
 
-#include "kernel/star_loop.hpp"
+#include "kernel/scratch.hpp"
 
 namespace dsc::kernel {
 
+using repair::Outcome;
 using repair::Refusal;
+using repair::success;
 using mesh::TetId;
 using mesh::VertexId;
 
@@ -43,6 +46,20 @@ struct EditBounds {
     double volume = 0.0;    ///< by which a phase may change
 };
 
+/// By how much a commit changes the interface.
+struct InterfaceChange {
+    double distance = 0.0;  ///< by which the interface moves
+    double volume = 0.0;    ///< by which a phase changes
+    bool exceeds(const EditBounds& bounds) const { return distance > bounds.distance || volume > bounds.volume; }
+};
+
+/// Tets that take another label.
+struct Relabelling {
+    std::span<const TetId> tets;
+    mesh::Label label = 0;
+    double volume = 0.0;  ///< of the tets
+};
+
 /// Receives the vertices that edits create and remove, so that destinations can follow.
 class EditListener {
 public:
@@ -58,17 +75,17 @@ public:
     virtual void on_interface_collapse(VertexId kept) = 0;
 };
 
-/// Sums over committed edits.
+/// Sums over everything that was committed.
 struct EditSums {
-    double distance = 0.0;
-    double volume = 0.0;
-    double relabelled = 0.0;
+    double distance = 0.0;    ///< of the changes of the interface
+    double volume = 0.0;      ///< of the changes of the interface
+    double relabelled = 0.0;  ///< volume of the relabelled tets
 };
 
 class Workbench {
 public:
     /// The kinds of smoothing for which refusals are remembered.
-    enum class Trial : std::uint8_t { laplacian, optimise };
+    enum class Smoother : std::uint8_t { laplacian, optimise };
 
     explicit Workbench(mesh::Complex& target) : complex(target), star_(target) {}
 
@@ -80,12 +97,16 @@ public:
     EditSums sums;
     std::uint64_t crease_exceptions = 0;  ///< edits that ignored the rule for creases
 
-    // Scratch arrays of the operations; each operation fills those that it uses.
-    mesh::EdgeRing ring, ring2;
-    std::vector<TetId> star_a, star_b;
-    std::vector<VertexId> vertices, near_a, near_b;
-    StarScratch scratch;
-    std::vector<std::array<VertexId, 3>> fan, faces;
+    // The arrays of the operations (scratch.hpp).
+    Scratch<EdgeScratch> edge;
+    Scratch<CollapseScratch> collapse;
+    Scratch<SmoothScratch> smooth;
+    Scratch<VertexSplitScratch> vertex_split;
+    Scratch<CompoundScratch> compound;
+    Scratch<MoveScratch> move;
+    Scratch<RelabelScratch> relabel;
+    Scratch<RegionScratch> region;
+    Scratch<CreaseScratch> creases;
 
     /// Position after the edit's changes.
     const Vec3& at(VertexId v) const {
@@ -106,25 +127,31 @@ public:
     float old_quality() const;
     /// Writes the qualities of the added tets to edit.qualities. Refuses if one is not above `must_exceed`, below min(floor,
     /// old), or not exactly positive.
-    Refusal check_shape(float must_exceed, float old);
+    Outcome check_shape(float must_exceed, float old);
     /// Call after link(): tests that every given vertex stays regular and that the sum of their Euler shares does not change.
-    Refusal check_topology(std::span<const VertexId> touched);
+    Outcome check_topology(std::span<const VertexId> touched);
     /// Volume that changes phase: half the sum over labels of |added - removed|.
     double phase_change() const;
-    /// Links and commits. `distance` and `volume` are the changes of the interface by the edit.
-    VertexId commit(double distance, double volume);
 
-    /// Interface vertices that both stars, `star_a` and `star_b`, contain, by id.
-    void shared_interface_vertices(std::vector<VertexId>& out);
+    // Operations replace and relabel tets only by these two functions, which also count the change in the sums. (The repair of
+    // irregular vertices after a relabelling is mesh::unpinch().)
+    /// Commits the linked edit. Returns the vertex that it creates, or none.
+    VertexId commit(const InterfaceChange& change = {});
+    /// Gives the tets their new label.
+    void commit(const Relabelling& relabelling, const InterfaceChange& change = {});
 
-    /// A refused smoothing would be refused again as long as nothing in the vertex' star has changed. `known_refusal` returns
-    /// the old refusal without a new attempt; `committed` means that an attempt is useful. `trial` distinguishes the kinds of
-    /// smoothing of one vertex.
-    Refusal known_refusal(VertexId v, Trial trial, float accept_above) const;
-    Refusal remember(VertexId v, Trial trial, float accept_above, Refusal refusal) {
-        return remember(v, trial, accept_above, refusal, complex.clock());
+    /// Interface vertices that both stars contain, by id.
+    void shared_interface_vertices(std::span<const TetId> star_a, std::span<const TetId> star_b, std::vector<VertexId>& out);
+    /// Interface vertices of the edit's removed tets, by id, and then the vertex that the edit creates.
+    void cavity_interface_vertices(std::vector<VertexId>& out) const;
+
+    /// A refused smoothing would be refused again as long as nothing in the vertex' star has changed: the reason of that
+    /// refusal, or nothing if an attempt is useful. `smoother` distinguishes the kinds of smoothing of one vertex.
+    std::optional<Refusal> known_refusal(VertexId v, Smoother smoother, float accept_above) const;
+    Refusal remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal) {
+        return remember(v, smoother, accept_above, refusal, complex.clock());
     }
-    Refusal remember(VertexId v, Trial trial, float accept_above, Refusal refusal, std::uint32_t date);
+    Refusal remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal, std::uint32_t date);
     /// Forgets all refusals, because the limits have changed.
     void forget_refusals() { memory_.clear(); }
 
@@ -147,7 +174,7 @@ private:
     struct Memory {
         std::array<std::uint32_t, 2> date = {0, 0};
         float accept_above = 0.0F;  // of the Laplacian; the other kind has no bound
-        std::array<Refusal, 2> refusal = {Refusal::committed, Refusal::committed};
+        std::array<Outcome, 2> last = {};
     };
     std::vector<Memory> memory_;  // per vertex
     std::vector<std::uint32_t> vertex_marks_;

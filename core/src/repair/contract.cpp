@@ -12,7 +12,7 @@ std::string_view name(Operation operation) {
 
 std::string_view name(Refusal refusal) {
     constexpr std::array<std::string_view, refusal_count> names = {
-        "committed", "stale", "irregular", "quality", "bound", "box", "not_applicable", "no_gain"};
+        "", "stale", "irregular", "quality", "bound", "box", "not_applicable", "no_gain"};
     return names[static_cast<std::size_t>(refusal)];
 }
 

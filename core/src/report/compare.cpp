@@ -4,6 +4,7 @@
 #include <dsc/config/yaml.hpp>
 #include <dsc/report/report.hpp>
 #include <dsc/text/words.hpp>
+#include <dsc/run/metrics.hpp>
 #include <map>
 
 #include "html.hpp"
@@ -14,6 +15,9 @@
 
 namespace dsc::report {
 namespace {
+
+using run::column_name;
+using run::StepMetrics;
 
 namespace fs = std::filesystem;
 using html::tag;
@@ -111,11 +115,11 @@ std::string differences(const std::vector<Column>& columns) {
     return html::table(column_header(columns, "key"), rows, false);
 }
 
-std::string plot(const std::vector<Column>& columns, const std::string& title, const std::string& column_name, bool logarithmic) {
+std::string plot(const std::vector<Column>& columns, const std::string& title, std::string_view figure, bool logarithmic) {
     Plot out{.title = title, .x_label = "step", .curves = {}, .logarithmic = logarithmic, .from_zero = !logarithmic};
     for (const Column& column : columns) {
-        const std::vector<double>* x = column.record.metrics.find("step");
-        const std::vector<double>* y = column.record.metrics.find(column_name);
+        const std::vector<double>* x = column.record.metrics.find(column_name<&StepMetrics::step>);
+        const std::vector<double>* y = column.record.metrics.find(figure);
         if (x != nullptr && y != nullptr) out.curves.push_back({column.name, *x, *y});
     }
     return svg_plot(out);
@@ -170,12 +174,12 @@ std::string comparison_html(std::span<const fs::path> run_folders, const plugin:
     if (run_folders.empty()) throw UsageError("report.no_run", "a comparison needs runs; name their folders");
     return guarded_report([&] {
         const std::vector<Column> columns = read_columns(run_folders);
-        const std::string plots = plot(columns, "Distance, cloud to surface, mean", "cloud_to_surface_mean", true) +
-                                  plot(columns, "Distance, vertex to cloud, mean", "vertex_to_cloud_mean", true) +
-                                  plot(columns, "Vertices of the surface", "interface_vertices", false) +
-                                  plot(columns, "Least tet quality", "min_tet_quality", false) +
-                                  plot(columns, "Mean speed, normalised units per step", "mean_speed", true) +
-                                  plot(columns, "Volume, normalised units", "volume", false);
+        const std::string plots = plot(columns, "Distance, cloud to surface, mean", column_name<&StepMetrics::cloud_to_surface_mean>, true) +
+                                  plot(columns, "Distance, vertex to cloud, mean", column_name<&StepMetrics::vertex_to_cloud_mean>, true) +
+                                  plot(columns, "Vertices of the surface", column_name<&StepMetrics::interface_vertices>, false) +
+                                  plot(columns, "Least tet quality", column_name<&StepMetrics::min_tet_quality>, false) +
+                                  plot(columns, "Mean speed, normalised units per step", column_name<&StepMetrics::mean_speed>, true) +
+                                  plot(columns, "Volume, normalised units", column_name<&StepMetrics::volume>, false);
         const std::string body = section("In short", figures(columns)) + all_warnings(columns) +
                                  section("The surfaces", viewers(columns, catalogue, workers)) +
                                  section("Convergence", tag("div", plots, "plots")) + section("Time by phase", times(columns)) +

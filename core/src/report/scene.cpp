@@ -207,7 +207,7 @@ private:
 
     /// The cloud of the configuration, as the run saw it: filtered, in the input's coordinates.
     void add_cloud() {
-        const std::optional<run::Input> input = input_of(record_.resolved, input_.catalogue);
+        const std::optional<run::Input> input = run::input_of(record_.resolved, input_.catalogue);
         if (!input) return;
         if (input->cloud.sample) json_["up"] = "z";  // the up axis of the built-in shapes is z
         std::optional<run::LoadedInput> again;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <dsc/base/read_file.hpp>
 #include <dsc/io/atomic_file.hpp>
+#include <dsc/run/metrics.hpp>
 #include <map>
 
 #include "html.hpp"
@@ -14,6 +15,9 @@
 
 namespace dsc::report {
 namespace {
+
+using run::column_name;
+using run::StepMetrics;
 
 using html::integer;
 using html::real;
@@ -43,17 +47,17 @@ constexpr std::array<ThesisRow, 3> thesis_rows = {{{"bunny", 946, 5063, 10154, 0
                                                    {"teapot", 845, 2550, 5110, 0.03291, 0.00034, 0.10509},
                                                    {"cow", 893, 2355, 4848, 0.02443, 0.00026, 0.16622}}};
 
-Curve curve(const RunRecord& record, const std::string& column, const std::string& name) {
-    const std::vector<double>* x = record.metrics.find("step");
+Curve curve(const RunRecord& record, std::string_view column, const std::string& name) {
+    const std::vector<double>* x = record.metrics.find(column_name<&StepMetrics::step>);
     const std::vector<double>* y = record.metrics.find(column);
     if (x == nullptr || y == nullptr) return {};
     return {name, *x, *y};
 }
 
 /// Speeds in current mean edges, as in the stop criterion.
-Curve in_edges(const RunRecord& record, const std::string& column, const std::string& name) {
+Curve in_edges(const RunRecord& record, std::string_view column, const std::string& name) {
     Curve out = curve(record, column, name);
-    const std::vector<double>* edges = record.metrics.find("mean_edge");
+    const std::vector<double>* edges = record.metrics.find(column_name<&StepMetrics::mean_edge>);
     for (std::size_t i = 0; edges != nullptr && i < out.y.size(); ++i) out.y[i] /= (*edges)[i];
     return out;
 }
@@ -264,20 +268,21 @@ std::string plots_section(const RunRecord& record, const Scene& scene) {
     std::string convergence =
         svg_plot({.title = "Distance, normalised units",
                   .x_label = "step",
-                  .curves = {curve(record, "vertex_to_cloud_mean", "vertex to cloud, mean"),
-                             curve(record, "vertex_to_cloud_max", "vertex to cloud, largest"),
-                             curve(record, "cloud_to_surface_mean", "cloud to surface, mean")},
+                  .curves = {curve(record, column_name<&StepMetrics::vertex_to_cloud_mean>, "vertex to cloud, mean"),
+                             curve(record, column_name<&StepMetrics::vertex_to_cloud_max>, "vertex to cloud, largest"),
+                             curve(record, column_name<&StepMetrics::cloud_to_surface_mean>, "cloud to surface, mean")},
                   .logarithmic = true}) +
         svg_plot({.title = "Speed, current mean edges per step",
                   .x_label = "step",
-                  .curves = {in_edges(record, "mean_speed", "mean"), in_edges(record, "max_speed", "largest")},
+                  .curves = {in_edges(record, column_name<&StepMetrics::mean_speed>, "mean"),
+                             in_edges(record, column_name<&StepMetrics::max_speed>, "largest")},
                   .logarithmic = true}) +
-        svg_plot({.title = "Vertices of the surface", .x_label = "step", .curves = {curve(record, "interface_vertices", "")}, .from_zero = true}) +
-        svg_plot({.title = "Volume, normalised units", .x_label = "step", .curves = {curve(record, "volume", "")}, .from_zero = true}) +
+        svg_plot({.title = "Vertices of the surface", .x_label = "step", .curves = {curve(record, column_name<&StepMetrics::interface_vertices>, "")}, .from_zero = true}) +
+        svg_plot({.title = "Volume, normalised units", .x_label = "step", .curves = {curve(record, column_name<&StepMetrics::volume>, "")}, .from_zero = true}) +
         observer_plots(record);
     std::string quality =
-        svg_plot({.title = "Least tet quality", .x_label = "step", .curves = {curve(record, "min_tet_quality", "")}, .from_zero = true}) +
-        svg_plot({.title = "Operations committed", .x_label = "step", .curves = {curve(record, "committed", "")}, .from_zero = true});
+        svg_plot({.title = "Least tet quality", .x_label = "step", .curves = {curve(record, column_name<&StepMetrics::min_tet_quality>, "")}, .from_zero = true}) +
+        svg_plot({.title = "Operations committed", .x_label = "step", .curves = {curve(record, column_name<&StepMetrics::committed>, "")}, .from_zero = true});
     if (!scene.qualities.empty())
         quality += svg_histogram("Tets by quality, result", "quality: 1 for a regular tet", 0.0, 1.0, count_bins(scene.qualities, 0.0, 1.0, 40));
     if (!scene.distances.empty()) {

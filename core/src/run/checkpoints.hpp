@@ -17,7 +17,7 @@ struct Checkpoint {
     std::uint64_t steps = 0;
     double seconds = 0.0;  ///< wall time of the run up to this state
     LogState log;
-    std::string state;  ///< of the driver
+    std::string state;  ///< of the simulation
 };
 
 class Checkpoints {

@@ -1,13 +1,9 @@
-// Texts of metrics.csv and events.jsonl.
+// Texts of events.jsonl, and the sums over the steps of a run.
+#include <array>
 #include <dsc/run/figures.hpp>
 #include <dsc/text/numbers.hpp>
 
 namespace dsc::run {
-namespace {
-
-std::string number(const std::optional<double>& value) { return value ? text::exact(*value) : std::string(); }
-
-}  // namespace
 
 std::string_view name(Status status) {
     switch (status) {
@@ -21,48 +17,6 @@ std::string_view name(Status status) {
             return "cancelled";
     }
     return "cancelled";
-}
-
-std::string csv_header(const StepMetrics& row) {
-    std::string text =
-        "step,interface_vertices,interface_faces,junction_vertices,tets,mean_edge,mean_speed,max_speed,vertex_to_cloud_mean,"
-        "vertex_to_cloud_max,cloud_to_surface_mean,volume,min_tet_quality,rounds,requested,arrived,clamped,"
-        "dropped_motion,edit_volume,relabelled_volume,committed,events";
-    for (const auto& [figure, value] : row.observers) text += "," + figure;
-    return text + "\n";
-}
-
-std::string csv_row(const StepMetrics& row, std::size_t observer_columns) {
-    std::string text;
-    const auto integer = [&](std::uint64_t value) {
-        text += (text.empty() ? "" : ",") + std::to_string(value);
-    };
-    const auto real = [&](const auto& value) { text += "," + number(value); };
-    integer(row.step);
-    integer(row.interface_vertices);
-    integer(row.interface_faces);
-    integer(row.junction_vertices);
-    integer(row.tets);
-    real(row.mean_edge);
-    real(row.mean_speed);
-    real(row.max_speed);
-    real(row.vertex_to_cloud_mean);
-    real(row.vertex_to_cloud_max);
-    real(row.cloud_to_surface_mean);
-    real(row.volume);
-    real(row.min_tet_quality);
-    integer(row.rounds);
-    integer(row.requested);
-    integer(row.arrived);
-    integer(row.clamped);
-    real(row.dropped_motion);
-    real(row.edit_volume);
-    real(row.relabelled_volume);
-    integer(row.committed);
-    integer(row.events);
-    for (const auto& [figure, value] : row.observers) real(value);
-    for (std::size_t i = row.observers.size(); i < observer_columns; ++i) text += ",";
-    return text + "\n";
 }
 
 std::string event_line(const kernel::Event& event, const cloud::Transform& to_normalised) {

@@ -8,7 +8,6 @@
 #include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
 #include <dsc/run/provenance.hpp>
-#include <dsc/report/report.hpp>
 #include <dsc/run/run_folder.hpp>
 #include <dsc/run/run_experiment.hpp>
 #include <dsc/surface/surface_view.hpp>
@@ -63,9 +62,9 @@ void draw(const RunFolder& folder, const surface::TriangleMesh& surface, bool sa
 }
 
 /// The work between "running" and "done" in status.json.
-class Job {
+class ExperimentRun {
 public:
-    Job(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue, const RunOptions& options)
+    ExperimentRun(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue, const RunOptions& options)
         : loaded_(loaded),
           catalogue_(catalogue),
           options_(options),
@@ -96,7 +95,7 @@ public:
             state_.exit_code = static_cast<int>(state_.state == "done" ? ExitCode::ok : ExitCode::stopped);
             state_.totals = outcome.totals;
             folder.write("provenance.json", provenance(state_.finished));
-            if (loaded_.experiment.output.report.value_or(false)) write_report(folder, outcome);
+            if (options_.make_report && loaded_.experiment.output.report.value_or(false)) write_report(folder, outcome);
             folder.write("status.json", status_json(state_));
             return outcome;
         } catch (const Error& error) {
@@ -130,43 +129,43 @@ private:
         const cloud::Transform to_normalised = target != nullptr ? target->transform() : cloud::Transform{};
 
         RunLog run_log = resumed_ ? RunLog(folder.path(), to_normalised, resumed_->log) : RunLog(folder.path(), to_normalised);
-        DriveOptions drive_options;
-        if (resumed_) drive_options.resume = resumed_->state;
-        if (experiment.output.checkpoint) drive_options.checkpoint_every = experiment.output.checkpoint->every;
-        drive_options.on_checkpoint = [&](std::string state, std::uint64_t steps) {
+        SimulationOptions simulation_options;
+        if (resumed_) simulation_options.resume = resumed_->state;
+        if (experiment.output.checkpoint) simulation_options.checkpoint_every = experiment.output.checkpoint->every;
+        simulation_options.on_checkpoint = [&](std::string state, std::uint64_t steps) {
             checkpoints.write({state_.hash, steps, run_seconds(), run_log.state(), std::move(state)});
         };
-        drive_options.workers = &workers_;
-        drive_options.cancel = options_.cancel;
+        simulation_options.workers = &workers_;
+        simulation_options.cancel = options_.cancel;
         if (options_.time_budget) {
-            drive_options.out_of_time = [this] { return watch_.seconds() > *options_.time_budget; };
+            simulation_options.out_of_time = [this] { return watch_.seconds() > *options_.time_budget; };
         }
-        drive_options.on_step = [&](const StepMetrics& row, std::uint64_t planned) {
+        simulation_options.on_step = [&](const StepMetrics& row, std::uint64_t planned) {
             run_log.add(row);
             if (options_.on_step) options_.on_step(row, planned);
         };
-        drive_options.on_event = [&](const kernel::Event& event) { run_log.add(event); };
-        drive_options.on_repairs = [&](const ClassFigures& figures) { run_log.add(figures); };
+        simulation_options.on_event = [&](const kernel::Event& event) { run_log.add(event); };
+        simulation_options.on_repairs = [&](const ClassFigures& figures) { run_log.add(figures); };
         StateSeries states(experiment, catalogue_, folder.path());
         if (states.active()) {
-            drive_options.on_state = [&](const hooks::StepContext& context, const mesh::Complex& complex) {
+            simulation_options.on_state = [&](const hooks::StepContext& context, const mesh::Complex& complex) {
                 states.add(context, complex);
             };
         }
-        drive_options.on_strategy_failure = [&](const mesh::TetMesh& mesh, std::uint64_t steps) {
+        simulation_options.on_strategy_failure = [&](const mesh::TetMesh& mesh, std::uint64_t steps) {
             save_last_good(folder, to_input(mesh, to_normalised), steps);
         };
-        DriveResult driven = drive(experiment, strategies, target, drive_options);
+        SimulationResult end = simulate(experiment, strategies, target, simulation_options);
         run_log.close();
 
         RunOutcome outcome;
         outcome.folder = folder.path();
-        outcome.totals = driven.totals;
+        outcome.totals = end.totals;
         const Stopwatch io_watch;
         std::optional<surface::CloudEvaluation> distances;
-        if (target != nullptr && !driven.surface.faces.empty()) distances = measure_cloud_distances(driven.surface, *target, outcome);
+        if (target != nullptr && !end.surface.faces.empty()) distances = measure_cloud_distances(end.surface, *target, outcome);
         ResultFiles files(folder, experiment.output, workers_);
-        files.write(to_input(driven.mesh, to_normalised), driven.attributes, target,
+        files.write(to_input(end.mesh, to_normalised), end.attributes, target,
                     outcome.coverage ? std::span<const double>(outcome.coverage->gaps) : std::span<const double>(), outcome);
         files.measure_files(outcome);
         require_valid(outcome);
@@ -196,7 +195,7 @@ private:
     /// Made from the folder, as `dsc report` does. A result without its page is still a valid result.
     void write_report(const RunFolder& folder, RunOutcome& outcome) {
         try {
-            folder.write("report.html", report_html(folder.path(), catalogue_, &workers_, input_ ? &*input_ : nullptr));
+            folder.write("report.html", options_.make_report(folder.path(), catalogue_, &workers_, input_ ? &*input_ : nullptr));
             outcome.report = folder.file("report.html");
         } catch (const Error& error) {
             log(LogLevel::warning, std::string("the report could not be written: ") + error.what());
@@ -263,7 +262,7 @@ private:
 
 RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
                           const RunOptions& options) {
-    return Job(loaded, catalogue, options).run();
+    return ExperimentRun(loaded, catalogue, options).run();
 }
 
 bool is_finished(const fs::path& folder, const LoadedExperiment& loaded, const plugin::Catalogue& catalogue) {

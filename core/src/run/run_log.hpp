@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <dsc/run/figures.hpp>
+#include <dsc/run/metrics.hpp>
 #include <filesystem>
 #include <fstream>
 #include <optional>

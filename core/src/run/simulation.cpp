@@ -3,6 +3,7 @@
 #include <dsc/base/error.hpp>
 #include <dsc/base/state.hpp>
 #include <dsc/kernel/deformer.hpp>
+#include <dsc/run/repair_policy.hpp>
 #include <dsc/run/simulation.hpp>
 
 #include "initial_complex.hpp"
@@ -23,10 +24,10 @@ constexpr double stall_ratio = 0.01;
 /// Mean speed, in current mean edges, below which vertices count as arrived (as in the kernel), so the series cannot stall.
 constexpr double stall_speed = 1e-4;
 
-class Run {
+class Simulation {
 public:
-    Run(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
-        const DriveOptions& options)
+    Simulation(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
+               const SimulationOptions& options)
         : experiment_(experiment),
           strategies_(strategies),
           cloud_(cloud),
@@ -39,19 +40,13 @@ public:
                         ? kernel::Deformer(
                               initial_complex(experiment, strategies, cloud, options.cancel, workers_, result_.totals), {}, &workers_)
                         : kernel::Deformer::load(resumed_, {}, &workers_)) {
-        policy_.propose = [this](const repair::RepairRound& round, std::vector<repair::Request>& out) {
-            strategies_.improvement->propose(*context_, round, out);
-        };
-        policy_.select = [this](std::span<const repair::TopologyCandidate> candidates,
-                                std::span<std::uint8_t> accept) {
-            strategies_.improvement->select(*context_, candidates, accept);
-        };
-        policy_.topology = strategies_.improvement->topology_limits();
-        policy_.flatness = strategies_.improvement->flatness();
+        // Every step asks again. Asked here too, an improvement with invalid answers ends the run before its first step.
+        strategies_.improvement->topology_limits();
+        strategies_.improvement->flatness();
         result_.totals.repair_class_names = strategies_.improvement->repair_classes();
     }
 
-    DriveResult execute() {
+    SimulationResult execute() {
         try {
             options_.resume.empty() ? begin() : go_on();
             while (place_.item < experiment_.schedule.size() && !over_) series();
@@ -144,8 +139,8 @@ private:
         hooks::RefinementPolicy* refinement = strategies_.refinements[place_.item].get();
         if (stop_asked()) return stop();
         const bool owned = refinement != nullptr && refinement->owns_sizing();
-        policy_.size_edits = !owned;
-        policy_.quality_floor = owned ? std::optional(kernel::refinement_floor) : std::nullopt;
+        size_edits_ = !owned;
+        quality_floor_ = owned ? std::optional(kernel::refinement_floor) : std::nullopt;
         if (!item.steps) {
             refine(*refinement);
             return next_item();
@@ -153,7 +148,7 @@ private:
         if (place_.steps == 0) result_.totals.status = Status::max_steps;
         while (place_.steps < *item.steps) {
             if (stop_asked()) return stop();
-            policy_.creases = creases(refinement);
+            creases_ = creases(refinement);
             const bool slow = advance();
             place_.quiet = slow ? place_.quiet + 1 : 0;
             ++place_.steps;
@@ -174,6 +169,15 @@ private:
             if (options_.checkpoint_every > 0 && deformer_.step_count() % options_.checkpoint_every == 0) checkpoint();
         }
         next_item();
+    }
+
+    /// What the kernel may do and whom it asks, until the context ends.
+    kernel::RepairPolicy policy(const hooks::StepContext& context) const {
+        kernel::RepairPolicy policy = repair_policy(*strategies_.improvement, context);
+        policy.size_edits = size_edits_;
+        policy.quality_floor = quality_floor_;
+        policy.creases = creases_;
+        return policy;
     }
 
     std::optional<repair::CreaseRule> creases(const hooks::RefinementPolicy* refinement) const {
@@ -204,12 +208,10 @@ private:
     /// Makes one step; true if its largest speed was below the stop criterion.
     bool advance() {
         const hooks::StepContext context = make_velocity_context(deformer_.step_count() + 1);
-        context_ = &context;
         StepMetrics row;
         const double asked = velocities(context, row);
         const double mean_edge = view_.mean_edge;
-        const kernel::StepReport report = deformer_.step(view_.vertex_ids, displacements_, policy_);
-        context_ = nullptr;
+        const kernel::StepReport report = deformer_.step(view_.vertex_ids, displacements_, policy(context));
         const double came_about = distance_gone(deformer_.complex(), view_, displacements_);
         result_.totals.add(report);
         for (const kernel::Event& event : report.events) tell(event);
@@ -287,11 +289,9 @@ private:
             tets.push_back(tet);
             labels.push_back(static_cast<mesh::Label>(label));
         }
-        context_ = &context;
         std::vector<kernel::Event> events;
         result_.totals.refine_requested += tets.size();
-        result_.totals.refine_committed += deformer_.relabel(tets, labels, policy_, events);
-        context_ = nullptr;
+        result_.totals.refine_committed += deformer_.relabel(tets, labels, policy(context), events);
         for (const kernel::Event& event : events) {
             result_.totals.count(event.kind);
             tell(event);
@@ -352,15 +352,14 @@ private:
     const Experiment& experiment_;
     Strategies& strategies_;
     const cloud::TargetCloud* cloud_;
-    const DriveOptions& options_;
+    const SimulationOptions& options_;
     Workers serial_;
     Workers& workers_;
     std::uint64_t planned_;
-    DriveResult result_;
+    SimulationResult result_;
     SchedulePlace place_;
     StateReader resumed_;
     kernel::Deformer deformer_;
-    kernel::RepairPolicy policy_;
     surface::SurfaceView view_;
     NearestPoints nearest_;
     std::vector<surface::FacePoint> faces_of_points_;  // empty until they are needed
@@ -368,7 +367,9 @@ private:
     surface::ViewMemory view_memory_;
     hooks::Attributes attributes_;  // of the view's vertices
     std::vector<Vec3> displacements_;
-    const hooks::StepContext* context_ = nullptr;  // of the current step, for the policy
+    bool size_edits_ = true;  // these three: of the current series, for the policy
+    std::optional<double> quality_floor_;
+    std::optional<repair::CreaseRule> creases_;
     bool stopped_ = false;  // stopped before the end of the schedule
     bool over_ = false;
 };
@@ -381,9 +382,9 @@ std::uint64_t planned_steps(const Experiment& experiment) {
     return steps;
 }
 
-DriveResult drive(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
-                  const DriveOptions& options) {
-    return Run(experiment, strategies, cloud, options).execute();
+SimulationResult simulate(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
+                          const SimulationOptions& options) {
+    return Simulation(experiment, strategies, cloud, options).execute();
 }
 
 }  // namespace dsc::run

@@ -4,7 +4,7 @@
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/target.hpp>
 #include <dsc/mesh/complex.hpp>
-#include <dsc/run/figures.hpp>
+#include <dsc/run/metrics.hpp>
 #include <dsc/surface/surface_view.hpp>
 #include <span>
 

@@ -64,10 +64,8 @@ void ViewMemory::keep(const mesh::Complex& complex, const SurfaceView& view, std
 }
 
 void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMemory* memory) {
-    static thread_local std::vector<std::vector<RawFace>> blocks;
-    static thread_local std::vector<std::uint32_t> led;  // faces by leading vertex
-    static thread_local std::vector<std::uint32_t> index_of_vertex;
-    std::vector<std::uint32_t>& index = index_of_vertex;  // of this thread, also in the loop of the workers
+    ViewMemory::Arrays own;
+    auto& [blocks, index, counts] = memory != nullptr ? memory->arrays() : own;
     const auto interface = c.interface_vertices();
     view.vertex_ids.assign(interface.begin(), interface.end());
     std::sort(view.vertex_ids.begin(), view.vertex_ids.end(),
@@ -89,15 +87,13 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
         const mesh::Complex& c;
         const SurfaceView& view;
         const std::vector<std::uint32_t>& index;
-        std::vector<std::vector<RawFace>>& blocks;
+        std::vector<ViewMemory::Arrays::Block>& blocks;
         const ViewMemory* memory;
-        std::vector<std::uint32_t>& led;
-    } const job{c, view, index, blocks, memory, led};
-    led.resize(n);
+        std::vector<std::uint32_t>& counts;
+    } const job{c, view, index, blocks, memory, counts};
+    counts.resize(n);
     for_blocks(workers, n, walk_block, [&job](std::size_t begin, std::size_t end) {
-        static thread_local std::vector<mesh::TetId> star;
-        static thread_local mesh::TetIndex places;
-        std::vector<RawFace>& raw = job.blocks[begin / walk_block];
+        auto& [star, places, raw] = job.blocks[begin / walk_block];
         raw.clear();
         for (std::size_t i = begin; i < end; ++i) {
             const auto first = static_cast<std::ptrdiff_t>(raw.size());
@@ -114,18 +110,18 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
                            std::pair(job.index[b.vertices[1]], job.index[b.vertices[2]]);
                 });
             }
-            job.led[i] = static_cast<std::uint32_t>(raw.end() - raw.begin() - first);
+            job.counts[i] = static_cast<std::uint32_t>(raw.end() - raw.begin() - first);
         }
     });
     view.faces.clear();
     view.face_tets.clear();
     for (std::size_t b = 0; b * walk_block < n; ++b) {
-        for (const RawFace& face : blocks[b]) {
+        for (const RawFace& face : blocks[b].faces) {
             view.faces.push_back({index[face.vertices[0]], index[face.vertices[1]], index[face.vertices[2]]});
             view.face_tets.push_back(face.tet);
         }
     }
-    if (memory != nullptr) memory->keep(c, view, led);
+    if (memory != nullptr) memory->keep(c, view, counts);
     const std::size_t m = view.faces.size();
     view.face_normals.resize(m);
     view.face_areas.resize(m);

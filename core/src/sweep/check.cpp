@@ -120,9 +120,9 @@ std::vector<std::string> sweep_experiments(const Sweep& sweep, const run::Plugin
     for (const SweepPoint& point : sweep.points) {
         try {
             const ConfigNode root = with_all(with_all(base, sweep.set, point, faults), point.overrides, point, faults);
-            const run::LoadedExperiment loaded = resolve_experiment(root, load_once);
+            const run::LoadedExperiment loaded = run::resolve_experiment(root, load_once);
             run::make_strategies(loaded.experiment, catalogue);
-            if (read.insert(input_files(loaded, catalogue)).second) run::config_hash(loaded, catalogue);
+            if (read.insert(run::input_files(loaded, catalogue)).second) run::config_hash(loaded, catalogue);
             texts.push_back("# Point " + point.name + " of a sweep: " + config::flow_text(point.overrides) + "\n" +
                             run::resolved_text(loaded));
         } catch (const ConfigError& error) {

@@ -77,7 +77,7 @@ void declare_sweep(config::ParamSchema<SweepFile>& s) {
             "a sweep needs 'axes', 'seeds' or 'repeat'");
 }
 
-// ---- the schema sees maps of dotted paths as empty maps --------------------------------------------------------------
+// ---- the schema sees maps of dotted paths as empty maps -----------------------------------------
 
 ConfigNode blank(const ConfigNode& node) {
     return node.is_map() ? ConfigNode::map().placed(node.position()) : node;
@@ -112,7 +112,7 @@ ConfigNode without_paths(const ConfigNode& root) {
     });
 }
 
-// ---- points ---------------------------------------------------------------------------------------------------------
+// ---- points -------------------------------------------------------------------------------------
 
 Alternatives read_axis(const ConfigNode& node, const SweepAxis& axis, Diagnostics& diagnostics) {
     if (axis.grid) return grid_axis(node.at("grid"), diagnostics);

@@ -2,9 +2,7 @@
 
 #include <cmath>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/generate/lattice.hpp>
-#include <dsc/generate/project.hpp>
-#include <dsc/generate/shapes.hpp>
+#include <dsc/generate/shape_mesh.hpp>
 #include <dsc/sdk/surfaces.hpp>
 #include <numbers>
 #include <fmt/core.h>
@@ -36,20 +34,7 @@ mesh::Complex sphere_complex() {
     const std::vector<generate::Shape> shapes = {sphere};
     generate::LatticeOptions options;
     options.cells = 14;
-    const auto make = [&](std::span<const generate::Shape> labelling) {
-        const auto same = [&](const Vec3& centre, double radius) {
-            return generate::same_label_within(labelling, centre, radius);
-        };
-        mesh::TetMesh mesh = generate::make_lattice(options, same, "the fixture");
-        for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
-            const auto& [a, b, c, d] = mesh.tets[i];
-            mesh.labels[i] =
-                generate::label_of(labelling, {mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
-        }
-        return mesh;
-    };
-    return mesh::adopt(generate::make_projected(make, shapes, generate::finest_cell(options), "the fixture"),
-                       "the fixture");
+    return mesh::adopt(generate::make_shape_mesh(options, shapes, "the fixture"), "the fixture");
 }
 
 Fixture of_triangles(std::string name, const surface::TriangleMesh& mesh) {

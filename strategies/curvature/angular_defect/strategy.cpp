@@ -1,43 +1,73 @@
-#include "strategy.hpp"
-
-#include <dsc/geometry/corner.hpp>
+// Curvature `angular_defect`: a full turn minus the sum of the angles around a vertex, in radians.
+//
+//     K = 2 pi - sum of the angles of the faces at the vertex
+//
+// With `per_area`, K is divided by the mixed area of the vertex, which gives the Gaussian curvature
+// [Meyer2003]. It is positive on bumps and in pits alike, and negative on saddles. The vector
+// points along the normal.
 #include <numbers>
 
-namespace dsc::strategies {
+#include <dsc/base/version.hpp>
+#include <dsc/geometry/corner.hpp>
+#include <dsc/hooks/curvature_estimator.hpp>
+#include <dsc/plugin/plugin.hpp>
 
-void AngularDefect::declare(config::ParamSchema<Params>& schema) {
-    schema.boolean("per_area", &Params::per_area)
-        .doc("Divide the angle by the area that belongs to the vertex; the result is the Gaussian curvature.");
-}
+namespace {
 
-AngularDefect::AngularDefect(const Params& params, const plugin::Setup&) : per_area_(params.per_area) {}
+using dsc::Vec3;
 
-void AngularDefect::prepare(const hooks::StepContext& context) { surface_ = &context.surface; }
-
-double AngularDefect::at(std::size_t vertex) const {
-    const auto& positions = surface_->positions;
-    double angles = 0;
-    double area = 0;
-    for (const std::uint32_t face : surface_->faces_of(vertex)) {
-        // The corners in the order of the face, rotated so that the vertex comes first.
-        const auto& f = surface_->faces[face];
-        const std::size_t k = f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2;
-        const Vec3& a = positions[f[k]];
-        const Vec3& b = positions[f[(k + 1) % 3]];
-        const Vec3& c = positions[f[(k + 2) % 3]];
-        angles += geometry::corner_angle(a, b, c);
-        area += geometry::mixed_area(a, b, c);
+class AngularDefect final : public dsc::hooks::CurvatureEstimator {
+public:
+    /// The parameters that an experiment may set; the values here are the defaults.
+    struct Params {
+        bool per_area = false;
+    };
+    static void declare(dsc::config::ParamSchema<Params>& schema) {
+        schema.boolean("per_area", &Params::per_area)
+            .doc("Divide the angle by the area that belongs to the vertex; the result is the "
+                 "Gaussian curvature.");
     }
-    const double defect = 2 * std::numbers::pi - angles;
-    if (!per_area_) return defect;
-    return area > 0 ? defect / area : 0.0;
-}
 
-void AngularDefect::evaluate(hooks::Range range, std::span<double> scalar, std::span<Vec3> vector) const {
-    for (std::size_t i = 0; i < range.size(); ++i) {
-        scalar[i] = at(range.begin + i);
-        vector[i] = scalar[i] * surface_->normals[range.begin + i];
+    AngularDefect(const Params& params, const dsc::plugin::Setup&) : per_area_(params.per_area) {}
+
+    void prepare(const dsc::hooks::StepContext& context) override { surface_ = &context.surface; }
+
+    void evaluate(dsc::hooks::Range range, std::span<double> scalar,
+                  std::span<Vec3> vector) const override {
+        for (std::size_t i = 0; i < range.size(); ++i) {
+            scalar[i] = at(range.begin + i);
+            vector[i] = scalar[i] * surface_->normals[range.begin + i];
+        }
     }
-}
 
-}  // namespace dsc::strategies
+private:
+    double at(std::size_t vertex) const {
+        const auto& positions = surface_->positions;
+        double angles = 0;
+        double area = 0;
+        for (const std::uint32_t face : surface_->faces_of(vertex)) {
+            // The corners in the order of the face, rotated so that the vertex comes first.
+            const auto& f = surface_->faces[face];
+            const std::size_t k = f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2;
+            const Vec3& a = positions[f[k]];
+            const Vec3& b = positions[f[(k + 1) % 3]];
+            const Vec3& c = positions[f[(k + 2) % 3]];
+            angles += dsc::geometry::corner_angle(a, b, c);
+            area += dsc::geometry::mixed_area(a, b, c);
+        }
+        const double defect = 2 * std::numbers::pi - angles;
+        if (!per_area_) return defect;
+        return area > 0 ? defect / area : 0.0;
+    }
+
+    bool per_area_;
+    const dsc::surface::SurfaceView* surface_ = nullptr;
+};
+
+}  // namespace
+
+DSC_PLUGIN("angular_defect", DSC_VERSION, "BSD-3-Clause",
+           "Curvature from the angles around a vertex") {
+    registrar.add<AngularDefect>("angular_defect",
+                                 "2 pi minus the sum of the angles at the vertex");
+}

@@ -1,5 +1,4 @@
-#include "strategy.hpp"
-
+// Tests of the filter on clouds with a known result; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <cmath>

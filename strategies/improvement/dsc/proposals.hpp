@@ -11,9 +11,9 @@
 
 namespace dsc::improvement {
 
-/// Thresholds of the pipeline. Lengths are in target lengths L, volumes in regular tets of edge L, qualities are
-/// volume-length measures.
-struct Thresholds {
+/// Thresholds of the pipeline; the strategy's parameters of the same names. Lengths are in target lengths L, volumes in regular
+/// tets of edge L, qualities are volume-length measures.
+struct Thresholds : ShapeLimits {
     double min_tet_quality = 0.2;
     double degenerate_tet_quality = 0.03;
     double smooth_below = 0.5;
@@ -21,13 +21,12 @@ struct Thresholds {
     double max_edge_length = 2.0;
     double min_tet_volume = 0.2;
     double max_free_edge = 0.0;  ///< of edges from the interface into a phase; 0: no limit
-    ShapeLimits shapes;
 };
 
 /// Writes the requests of a round. It keeps only scratch memory: the result depends on the round alone.
 class Proposals {
 public:
-    explicit Proposals(const Thresholds& thresholds) : limits_(thresholds), shapes_(thresholds.shapes) {}
+    explicit Proposals(const Thresholds& thresholds) : limits_(thresholds), shapes_(thresholds) {}
     /// `workers` (null for one thread) examine the dirty tets together.
     void write(const repair::RepairRound& round, Workers* workers, std::vector<repair::Request>& out);
 

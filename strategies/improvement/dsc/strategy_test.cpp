@@ -1,5 +1,4 @@
-#include "strategy.hpp"
-
+// Tests of the requests on a mesh with a known fault; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -73,9 +73,9 @@ void Repairs::begin_step(const repair::RepairRound& round) {
 }
 
 void Repairs::count_insertions(const repair::RepairRound& round) {
-    for (const repair::Outcome& outcome : round.last_outcomes) {
-        const Request& request = round.last_requests[outcome.request];
-        const bool inserted = outcome.refusal == repair::Refusal::committed && request.operation == Operation::compound &&
+    for (std::size_t i = 0; i < round.last_outcomes.size(); ++i) {
+        const Request& request = round.last_requests[i];
+        const bool inserted = !round.last_outcomes[i].refused() && request.operation == Operation::compound &&
                               request.repair_class == static_cast<std::uint8_t>(RepairClass::sliver);
         if (inserted && insertions_left_ > 0) --insertions_left_;
     }
@@ -83,7 +83,7 @@ void Repairs::count_insertions(const repair::RepairRound& round) {
 
 void Repairs::note(const repair::RepairRound& round, mesh::TetId t, bool blocking) {
     const mesh::Complex& c = round.complex;
-    const TetShape shape = classify(corners(c, t), round.length_of(t), limits_.shape);
+    const TetShape shape = classify(corners(c, t), round.length_of(t), limits_);
     const bool by_class = blocking || shape.altitude < limits_.flat;
     if (limits_.fallbacks && shape.altitude < limits_.smooth_below) {
         for (const VertexId v : c.tet(t).v) {
@@ -178,7 +178,7 @@ void Repairs::repair_by_class(const repair::RepairRound& round, const Entry& ent
             Request request = on_tet(c, entry.tet, Operation::edge_collapse, RepairClass::wedge);
             request.vertices = {a, b, mesh::none};
             request.mode = CollapseMode::bounded;
-            request.accept_above = static_cast<float>(limits_.degenerate);
+            request.accept_above = static_cast<float>(limits_.degenerate_tet_quality);
             out.push_back(request);
             return;
         }
@@ -241,7 +241,7 @@ void Repairs::collapse(const repair::RepairRound& round, const Entry& entry, std
     Request request = on_tet(c, entry.tet, Operation::edge_collapse, RepairClass::collapse);
     request.vertices = {shortest[0], shortest[1], mesh::none};
     request.mode = CollapseMode::bounded;
-    request.accept_above = static_cast<float>(limits_.degenerate);
+    request.accept_above = static_cast<float>(limits_.degenerate_tet_quality);
     out.push_back(request);
 }
 

@@ -14,16 +14,15 @@ enum class RepairClass : std::uint8_t { wedge, tee, cap, sliver, edge_removal, f
 /// Names of RepairClass, in its order.
 std::vector<std::string> repair_class_names();
 
-/// An altitude is the least distance of a vertex of a tet from the plane of its other vertices, in min(longest edge, L).
-struct RepairLimits {
-    ShapeLimits shape;
-    double flat = 0.05;          ///< altitude below which a tet is repaired by its class
-    double flip_below = 0.1;     ///< altitude below which flips and smoothing are tried
-    double smooth_below = 0.2;   ///< altitude below which free vertices move to the mean of their neighbours
-    double degenerate = 0.05;    ///< a collapse leaves no tet below this quality, or below the previous lowest quality
-    double least_edge = 0.25;    ///< in L: no insertion makes a shorter edge or splits an edge shorter than twice this
-    double insertions = 0.2;     ///< new vertices per step, as a fraction of the interface vertices
-    double longest_spoke = 0.0;  ///< in L, of edges from the interface into a phase; 0: no limit
+/// The thresholds; the strategy's parameters of the same names. An altitude is the least distance of a vertex of a tet from the plane of its other vertices, in min(longest edge, L).
+struct RepairLimits : ShapeLimits {
+    double flat = 0.05;                    ///< altitude below which a tet is repaired by its class
+    double flip_below = 0.1;               ///< altitude below which flips and smoothing are tried
+    double smooth_below = 0.2;             ///< altitude below which free vertices move to the mean of their neighbours
+    double degenerate_tet_quality = 0.05;  ///< a collapse leaves no tet below this quality, or below the previous lowest quality
+    double least_edge = 0.25;              ///< in L: no insertion makes a shorter edge or splits one shorter than twice this
+    double insertions = 0.2;               ///< new vertices per step, as a fraction of the interface vertices
+    double longest_spoke = 0.0;            ///< in L, of edges from the interface into a phase; 0: no limit
     bool fallbacks = true;
 };
 

@@ -1,6 +1,4 @@
 // The requests of the strategy, on small complexes with a flat tet of each class.
-#include "strategy.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -234,9 +232,9 @@ TEST_CASE("the budget counts what was committed, and a new step has a new one") 
     round.last = bench.propose(c, round);
     REQUIRE(round.last.size() == 1);
     round.number = 1;
-    round.outcomes = {{0, repair::Refusal::quality}};
+    round.outcomes = {repair::Refusal::quality};
     CHECK(bench.propose(c, round).size() == 1);
-    round.outcomes = {{0, repair::Refusal::committed}};
+    round.outcomes = {repair::success};
     CHECK(bench.propose(c, round).empty());
     round = {.dirty = {t}};
     CHECK(bench.propose(c, round).size() == 1);

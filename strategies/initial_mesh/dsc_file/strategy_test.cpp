@@ -1,9 +1,9 @@
-#include "strategy.hpp"
-
+// Tests of the mesh; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/io/atomic_file.hpp>

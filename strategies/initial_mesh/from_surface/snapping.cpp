@@ -1,8 +1,7 @@
 #include "snapping.hpp"
 
 #include <algorithm>
-#include <dsc/geometry/predicates.hpp>
-#include <dsc/geometry/quality.hpp>
+#include <dsc/mesh/star_quality.hpp>
 
 namespace dsc::strategies::from_surface {
 namespace {
@@ -17,18 +16,6 @@ constexpr double last_quality = 0.08;
 constexpr double edge_reach = 0.35, corner_reach = 1.5;
 constexpr double least_quality = 0.05;
 
-/// The lowest quality in the star of v with v at `position`; 0 if a tet would not be positive.
-double star_quality(const mesh::Complex& c, mesh::VertexId v, const Vec3& position, const std::vector<mesh::TetId>& star) {
-    double least = 1.0;
-    for (const mesh::TetId t : star) {
-        std::array<Vec3, 4> p;
-        for (unsigned i = 0; i < 4; ++i) p[i] = c.tet(t).v[i] == v ? position : c.position(c.tet(t).v[i]);
-        if (geometry::orient3d(p[0], p[1], p[2], p[3]) != 1) return 0.0;
-        least = std::min(least, geometry::tet_quality(p[0], p[1], p[2], p[3]));
-    }
-    return least;
-}
-
 /// The movable interface vertex within reach of the corner whose tets keep the best shape when it moves there; none if the tets
 /// of all would be bad.
 mesh::VertexId best_for(const mesh::Complex& c, const Vec3& corner, double reach, std::vector<mesh::TetId>& star) {
@@ -37,7 +24,7 @@ mesh::VertexId best_for(const mesh::Complex& c, const Vec3& corner, double reach
     for (const mesh::VertexId v : c.interface_vertices()) {
         if (!c.movable(v) || (c.position(v) - corner).norm() > reach) continue;
         c.star(v, star);
-        const double quality = star_quality(c, v, corner, star);
+        const double quality = mesh::star_quality(c, star, v, corner);
         const bool older = best != mesh::none && c.birth(v) < c.birth(best);
         if (quality < best_quality || (quality == best_quality && !older)) continue;
         best = v;

@@ -1,9 +1,9 @@
-#include "strategy.hpp"
-
+// Tests of the mesh; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/validate.hpp>

@@ -1,9 +1,9 @@
-#include "strategy.hpp"
-
+// Tests of the mesh; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <array>
 #include <cmath>
+#include <dsc/base/error.hpp>
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/host/host.hpp>

@@ -1,10 +1,9 @@
 #include "confidence.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <dsc/cloud/search.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <dsc/text/numbers.hpp>
-#include <dsc/text/words.hpp>
 #include <string>
 
 namespace dsc::strategies {
@@ -21,15 +20,23 @@ std::size_t changed(const Labels& labels, bool inside) {
     }));
 }
 
+std::string counted(std::size_t count, const char* one, const char* many) { return std::to_string(count) + " " + (count == 1 ? one : many); }
+
 std::string in_words(const generate::TopologyCounts& counts) {
-    return text::counted(counts.components, "component") + ", " + text::counted(counts.cavities, "cavity", "cavities") + ", genus " +
+    return counted(counts.components, "component", "components") + ", " + counted(counts.cavities, "cavity", "cavities") + ", genus " +
            std::to_string(counts.genus());
+}
+
+std::string rounded(double value, int digits) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return text;
 }
 
 }  // namespace
 
 bool doubtful(const Labels& labels, const cloud::Orientation& orientation) {
-    return labels.changed_share() > most_changed || orientation.residual > retry_residual;
+    return labels.weak_share() > most_changed || orientation.residual > retry_residual;
 }
 
 StartSurface measure_start(const mesh::TetMesh& mesh, const cloud::Orientation& orientation, double cloud_area) {
@@ -65,22 +72,22 @@ hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orie
                                           "between the two, where nothing was measured. --trim (in an experiment output: "
                                           "{trim: {}}) writes only the measured side."});
     } else if (orientation.residual > open_residual || area_ratio > open_area) {
-        out.push_back({"cloud.open", "The cloud seems to be open, such as a scan of one side: the closed surface has " + text::fixed(area_ratio, 2) +
+        out.push_back({"cloud.open", "The cloud seems to be open, such as a scan of one side: the closed surface has " + rounded(area_ratio, 2) +
                                          " times the area of the points, and the winding field has a residual of " +
-                                         text::fixed(orientation.residual, 3) + ". Where there are no points, the surface is a "
+                                         rounded(orientation.residual, 3) + ". Where there are no points, the surface is a "
                                                                             "guess. --trim (in an experiment output: {trim: {}}) writes it "
                                          "without these parts."});
     }
     if (labels.changed_share() > most_changed) {
         out.push_back({"topology.doubtful",
-                       "The topology is doubtful: at " + text::counted(labels.filter.clusters.size() + changed(labels, true) + changed(labels, false), "place", "places") + " (" +
-                           text::fixed(100.0 * labels.changed_share(), 1) +
+                       "The topology is doubtful: at " + counted(labels.filter.clusters.size() + changed(labels, true) + changed(labels, false), "place", "places") + " (" +
+                           rounded(100.0 * labels.changed_share(), 1) +
                            " vertices per 100 points) the solid or a gap is thinner than about one spacing of the points. Without the "
                            "filter: " + in_words(labels.filter.before) + "; with it: " + in_words(labels.counts) +
                            ". Use a denser cloud to decide these places."});
     } else if (orientation.residual > most_residual) {
         out.push_back({"topology.doubtful", "The topology is doubtful: the winding field has a residual of " +
-                                                text::fixed(orientation.residual, 3) +
+                                                rounded(orientation.residual, 3) +
                                                 " at the points, so the normals of some points may point to the wrong side. "
                                                 "Use a denser or less noisy cloud."});
     }
@@ -100,6 +107,7 @@ void add_figures(const Labels& labels, const cloud::Orientation& orientation, co
     whole("settled_vertices", labels.settled());
     add("changed_share", labels.changed_share());
     whole("refused_places", labels.filter.clusters.size());
+    whole("confirmed_places", labels.filter.confirmed.size());
     whole("components_before_filter", labels.filter.before.components);
     whole("cavities_before_filter", labels.filter.before.cavities);
     add("genus_before_filter", static_cast<double>(labels.filter.before.genus()));

@@ -10,15 +10,13 @@
 
 namespace dsc::strategies {
 
-/// Changed vertices per sample above which the topology is doubtful.
-inline constexpr double most_changed = 0.004;
 /// Residual of the winding field above which a finer orientation is tried, and above which the topology stays doubtful; noisy
 /// clouds with correct labels reach 0.14.
 inline constexpr double retry_residual = 0.135, most_residual = 0.15;
 /// Residual, and area of the start per area of the points, above which the cloud is open.
 inline constexpr double open_residual = 0.17, open_area = 1.3;
 
-/// Whether a finer orientation may help. [setup]
+/// Whether a finer orientation may help: confirmed vertices count like changed ones. [setup]
 bool doubtful(const Labels& labels, const cloud::Orientation& orientation);
 
 /// Figures of the initial interface about the cloud.

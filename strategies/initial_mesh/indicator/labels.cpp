@@ -7,6 +7,8 @@
 #include <dsc/cloud/winding_field.hpp>
 #include <dsc/generate/graded_lattice.hpp>
 
+#include "witness.hpp"
+
 namespace dsc::strategies {
 namespace {
 
@@ -68,9 +70,8 @@ void evaluate(const cloud::WindingField& field, const generate::GradedLattice& l
 }
 
 /// Splits cells with both labels that are too large for the samples there, until there are none.
-unsigned refine(generate::GradedLattice& lattice, std::span<const cloud::SurfaceSample> samples, std::span<const Vec3> places,
+unsigned refine(generate::GradedLattice& lattice, std::span<const cloud::SurfaceSample> samples, const cloud::NearestSearch& search,
                 const cloud::WindingField& field, const LabelOptions& options, std::vector<double>& values, Workers* workers) {
-    const cloud::NearestSearch search(places);
     const auto too_large = [&](const generate::GradedLattice::Leaf& leaf) {
         if (!generate::has_mixed_signs(leaf, values)) return false;
         const cloud::Neighbour near = search.nearest(lattice.points()[leaf.vertices[8]]);
@@ -82,6 +83,21 @@ unsigned refine(generate::GradedLattice& lattice, std::span<const cloud::Surface
         evaluate(field, lattice, before, values, workers);
     }
     return most_rounds;
+}
+
+/// Filters the values. Samples may confirm loops if weak values are rare: where they are not, the normals of the samples are as
+/// doubtful as the values.
+generate::TopologyFilterReport filter_loops(Labels& labels, std::span<const cloud::SurfaceSample> samples,
+                                            const cloud::NearestSearch& search, const LabelOptions& options) {
+    const auto &points = labels.lattice.points;
+    const auto &tets = labels.lattice.tets;
+    const std::vector<double> unfiltered = labels.values;
+    const generate::LoopWitness witness = tangent_plane_witness(samples, search, points, unfiltered);
+    generate::TopologyFilterReport report = generate::filter_topology(points, tets, labels.values, options.certain, witness);
+    const auto most = static_cast<std::size_t>(most_changed * static_cast<double>(labels.samples));
+    if (report.confirmed.empty() || report.refused <= most) return report;
+    labels.values = unfiltered;
+    return generate::filter_topology(points, tets, labels.values, options.certain);
 }
 
 /// Keeps only those cells small that the interface needs.
@@ -117,17 +133,24 @@ double Labels::changed_share() const {
     return samples == 0 ? 0.0 : static_cast<double>(filter.refused + settled()) / static_cast<double>(samples);
 }
 
+double Labels::weak_share() const {
+    std::size_t confirmed = 0;
+    for (const generate::RefusedCluster& cluster : filter.confirmed) confirmed += cluster.vertices.size();
+    return changed_share() + (samples == 0 ? 0.0 : static_cast<double>(confirmed) / static_cast<double>(samples));
+}
+
 Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& options, double half_box, Workers* workers,
                      const CancelToken* cancel) {
     const std::vector<cloud::SurfaceSample> samples = used_samples(orientation);
     std::vector<Vec3> places;
     places.reserve(samples.size());
     for (const cloud::SurfaceSample& sample : samples) places.push_back(sample.position);
+    const cloud::NearestSearch search(places);
     const cloud::WindingField field = cloud::winding_field(samples, smoothing);
     generate::GradedLattice lattice = make_lattice(samples, options, half_box);
     Labels out;
     evaluate(field, lattice, 0, out.values, workers);
-    out.rounds = refine(lattice, samples, places, field, options, out.values, workers);
+    out.rounds = refine(lattice, samples, search, field, options, out.values, workers);
     out.samples = orientation.samples.size();
     out.width = width_quantile(samples, 0.5);
 
@@ -136,7 +159,7 @@ Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& 
     out.lattice.labels.assign(out.lattice.tets.size(), 0);
     const auto &points = out.lattice.points;
     const auto &tets = out.lattice.tets;
-    out.filter = generate::filter_topology(points, tets, out.values, options.certain);
+    out.filter = filter_loops(out, samples, search, options);
     const std::vector<std::uint32_t> near = vertices_near(lattice, places);
     generate::ComponentOptions settle;
     settle.cavities = options.cavities;

@@ -14,6 +14,9 @@ namespace dsc::strategies {
 /// The name of this strategy in messages.
 inline constexpr const char* generator_name = "initial mesh 'indicator'";
 
+/// Changed vertices per sample above which the topology is doubtful.
+inline constexpr double most_changed = 0.004;
+
 /// Constants of the labelling; lengths are in widths of the samples (cloud::SurfaceSample::width).
 struct LabelOptions {
     double cell = 1.0;          ///< edge of the cells at the samples, from this to 1.2 times this
@@ -40,6 +43,8 @@ struct Labels {
     /// Refused and changed vertices per sample: the share of the cloud whose topology was decided by the filters, not by the
     /// field.
     double changed_share() const;
+    /// The same with the vertices of confirmed places, where the field alone was too weak to decide.
+    double weak_share() const;
 };
 
 /// Labels the box of half-width `half_box` round the origin, or a slightly larger one. The orientation is in normalised units and has samples. Throws ConfigError

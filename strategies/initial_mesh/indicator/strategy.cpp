@@ -67,7 +67,7 @@ void Indicator::declare(config::ParamSchema<Params>& schema) {
         .open_high()
         .unit("1")
         .doc("Difference of the winding number from 1/2 from which a label is certain. A handle is kept only if its body and "
-             "its hole are certain everywhere along it.");
+             "its hole are certain everywhere along it, or if the samples round it confirm it.");
     schema.boolean("remove_islands", static_cast<bool Params::*>(&LabelOptions::remove_islands))
         .doc("Whether bodies smaller than `least_volume` are removed; the largest body is always kept.");
     schema.choice("cavities", static_cast<generate::CavityPolicy Params::*>(&LabelOptions::cavities),
@@ -110,7 +110,7 @@ mesh::TetMesh Indicator::build(const hooks::InitialMeshContext& context) {
         cloud::Orientation again = cloud::orient_points(cloud.points(), finer, context.workers, context.cancel).orientation;
         Labels other = label_lattice(again, params_, half_box, context.workers, context.cancel);
         ++attempts;
-        if (other.changed_share() > labels.changed_share()) continue;
+        if (other.weak_share() > labels.weak_share()) continue;
         taken = attempts;
         labels = std::move(other);
         orientation = std::move(again);

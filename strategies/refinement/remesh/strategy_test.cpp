@@ -1,6 +1,4 @@
-// The whole refinement, through the driver: requirements for the resulting interface.
-#include "strategy.hpp"
-
+// The whole refinement, through the simulation: requirements for the resulting interface.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -48,7 +46,7 @@ struct Job {
     const cloud::TargetCloud* cloud = nullptr;
 };
 
-run::DriveResult drive(const Job& job, const run::DriveOptions& options = {}) {
+run::SimulationResult simulate(const Job& job, const run::SimulationOptions& options = {}) {
     run::Experiment experiment;
     run::Strategies strategies;
     const auto remesher = [&] { return plugins().create<hooks::RefinementPolicy>({"remesh", job.remesh}, "schedule.1.refine"); };
@@ -66,7 +64,7 @@ run::DriveResult drive(const Job& job, const run::DriveOptions& options = {}) {
     strategies.improvement = plugins().create<hooks::Improvement>(
         {"dsc", ConfigNode::map({{"topology", ConfigNode::map({{"thickness", 0.0}})}})}, "improvement");
     strategies.velocity = std::make_unique<Still>();
-    return run::drive(experiment, strategies, job.cloud, options);
+    return run::simulate(experiment, strategies, job.cloud, options);
 }
 
 ConfigNode ball(int cells) {
@@ -102,13 +100,13 @@ double well_sized(const surface::TriangleMesh& mesh, double l) {
     return static_cast<double>(good) / static_cast<double>(edges.size());
 }
 
-long genus_of(const run::DriveResult& result) { return mesh::count_interface(mesh::adopt(result.mesh, "result", nullptr, 0.0)).genus(); }
+long genus_of(const run::SimulationResult& result) { return mesh::count_interface(mesh::adopt(result.mesh, "result", nullptr, 0.0)).genus(); }
 
-run::DriveResult with_threads(const Job& job, unsigned threads) {
+run::SimulationResult with_threads(const Job& job, unsigned threads) {
     Workers workers(threads);
-    run::DriveOptions options;
+    run::SimulationOptions options;
     options.workers = &workers;
-    return drive(job, options);
+    return simulate(job, options);
 }
 
 }  // namespace
@@ -116,7 +114,7 @@ run::DriveResult with_threads(const Job& job, unsigned threads) {
 TEST_CASE("a sphere's edges get the wanted length, shorter or longer, and it stays a sphere") {
     for (const double l : {0.1, 0.22}) {
         CAPTURE(l);
-        const run::DriveResult result = drive({ball(20), length(l), 0, true, 4, nullptr});
+        const run::SimulationResult result = simulate({ball(20), length(l), 0, true, 4, nullptr});
         CHECK(well_sized(result.surface, l) > 0.95);
         CHECK(genus_of(result) == 0);
         CHECK(result.totals.target_length == l);
@@ -132,7 +130,7 @@ TEST_CASE("a sphere's edges get the wanted length, shorter or longer, and it sta
 TEST_CASE("a ring keeps its hole") {
     for (const double l : {0.08, 0.18}) {
         CAPTURE(l);
-        const run::DriveResult result = drive({washer(28), length(l), 0, true, 4, nullptr});
+        const run::SimulationResult result = simulate({washer(28), length(l), 0, true, 4, nullptr});
         CHECK(well_sized(result.surface, l) > 0.95);
         CHECK(genus_of(result) == 1);
     }
@@ -141,8 +139,8 @@ TEST_CASE("a ring keeps its hole") {
 TEST_CASE("a cube keeps its twelve edges where creases are kept") {
     for (const double l : {0.06, 0.2}) {
         CAPTURE(l);
-        const run::DriveResult result =
-            drive({ConfigNode::map({{"cells", 24}, {"shape", "cube"}, {"half_width", 0.75}}), length(l), 4, true, 4, nullptr});
+        const run::SimulationResult result =
+            simulate({ConfigNode::map({{"cells", 24}, {"shape", "cube"}, {"half_width", 0.75}}), length(l), 4, true, 4, nullptr});
         CHECK(well_sized(result.surface, l) > 0.95);
         // Along every edge of the cube, edges of the interface form one line from corner to corner.
         std::map<std::array<int, 3>, double> along;
@@ -169,17 +167,17 @@ TEST_CASE("a cube keeps its twelve edges where creases are kept") {
 TEST_CASE("the budget is met within a tenth") {
     for (const int vertices : {300, 1500}) {
         CAPTURE(vertices);
-        const run::DriveResult result = drive({ball(20), ConfigNode::map({{"vertices", vertices}}), 0, true, 6, nullptr});
+        const run::SimulationResult result = simulate({ball(20), ConfigNode::map({{"vertices", vertices}}), 0, true, 6, nullptr});
         CHECK(static_cast<double>(result.surface.points.size()) == doctest::Approx(0.95 * vertices).epsilon(0.1));
     }
 }
 
 TEST_CASE("the number of threads does not matter") {
     const Job job{ball(16), length(0.13), 0, true, 3, nullptr};
-    const run::DriveResult one = with_threads(job, 1);
+    const run::SimulationResult one = with_threads(job, 1);
     REQUIRE(one.totals.refine_committed > 500);
     for (const unsigned threads : {2U, 3U}) {
-        const run::DriveResult other = with_threads(job, threads);
+        const run::SimulationResult other = with_threads(job, threads);
         CHECK(other.mesh.points == one.mesh.points);
         CHECK(other.mesh.tets == one.mesh.tets);
         CHECK(other.mesh.labels == one.mesh.labels);
@@ -189,14 +187,14 @@ TEST_CASE("the number of threads does not matter") {
 TEST_CASE("a run that was stopped continues to the same surface") {
     const Job job{ball(16), length(0.15), 0, true, 8, nullptr};
     std::map<std::uint64_t, std::string> states;
-    run::DriveOptions options;
+    run::SimulationOptions options;
     options.checkpoint_every = 1;
     options.on_checkpoint = [&](std::string state, std::uint64_t step) { states[step] = std::move(state); };
-    const run::DriveResult whole = drive(job, options);
+    const run::SimulationResult whole = simulate(job, options);
     for (const std::uint64_t step : {1U, 3U, 6U}) {
-        run::DriveOptions on;
+        run::SimulationOptions on;
         on.resume = states.at(step);
-        const run::DriveResult end = drive(job, on);
+        const run::SimulationResult end = simulate(job, on);
         CHECK(end.mesh.points == whole.mesh.points);
         CHECK(end.mesh.tets == whole.mesh.tets);
     }

@@ -1,5 +1,4 @@
-#include "strategy.hpp"
-
+// Tests of the velocity on surfaces with known values; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <dsc/host/host.hpp>

@@ -22,10 +22,11 @@ struct Field {
 ///  translate  speed a
 ///  rotate     speed a x r
 ///  shear      speed (r.b) a, b the unit vector along `across`
-///  part       speed tanh(s/w) a - speed/(2w) sech^2(s/w) (r - s a), s = r.a: the two sides go apart (together where
-///             the speed is negative) as rigid bodies, what lies between them is drawn thin (squeezed flat)
-///  enright    the deformation field of [Enright2002] on the unit cube, from [LeVeque1996], times cos(pi t / period): it
-///             brings everything back at t = period
+///  part       speed tanh(s/w) a - speed/(2w) sech^2(s/w) (r - s a), s = r.a: the two sides go
+///             apart (together where the speed is negative) as rigid bodies, what lies between them
+///             is drawn thin (squeezed flat)
+///  enright    the deformation field of [Enright2002] on the unit cube, from [LeVeque1996], times
+///             cos(pi t / period): it brings everything back at t = period
 Vec3 velocity(const Field& field, const Vec3& point, double time);
 
 /// Displacement during `step` of a point that moves with the field from `time` on: `parts` steps of the

@@ -1,12 +1,14 @@
-#include "strategy.hpp"
-
+// Tests of the fields and of the velocity; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/steps.hpp>
 #include <dsc/sdk/surfaces.hpp>
 #include <sstream>
+
+#include "fields.hpp"
 
 namespace {
 

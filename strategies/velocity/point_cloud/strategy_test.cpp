@@ -1,9 +1,9 @@
-#include "strategy.hpp"
-
+// Tests of the velocity on surfaces beside known clouds; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <dsc/base/error.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/surfaces.hpp>

@@ -1,8 +1,8 @@
-#include "strategy.hpp"
-
+// Tests of the velocity on surfaces with known values; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/steps.hpp>
 #include <dsc/sdk/surfaces.hpp>

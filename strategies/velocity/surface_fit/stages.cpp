@@ -7,9 +7,7 @@ namespace dsc::strategies::fit {
 namespace {
 
 constexpr double random_regularity = 1.1;  // random points have 1, with estimated widths up to 1.05
-constexpr double start_bending = 1.5;    // widths: enough to move a staircase to the surface
-constexpr double settling_part = 0.6;    // fraction of the iterations in which the bending length decreases to its last value
-constexpr double start_part = 1.0 / 3.0;  // fraction of the iterations in which points reach twice as far
+constexpr double start_bending = 1.5;      // widths: enough to move a staircase to the surface
 
 }  // namespace
 

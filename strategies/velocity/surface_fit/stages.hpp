@@ -5,6 +5,11 @@
 
 namespace dsc::strategies::fit {
 
+/// Fraction of the iterations in which points reach twice as far and creases are not yet kept.
+inline constexpr double start_part = 1.0 / 3.0;
+/// Fraction of the iterations in which the bending length decreases to its last value.
+inline constexpr double settling_part = 0.6;
+
 /// The statistics of the cloud that the fit uses. Lengths are in normalised units.
 struct Scales {
     double width = 0.0;   ///< h: median of the point widths

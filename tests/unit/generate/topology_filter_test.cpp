@@ -35,7 +35,7 @@ TopologyFilterReport filtered(Sampled& s) {
     CHECK(report.after == counted(s));
     std::size_t in_clusters = 0, changed = 0;
     for (const RefusedCluster& c : report.clusters) {
-        in_clusters += c.vertices;
+        in_clusters += c.vertices.size();
         CHECK(c.level < tau);
     }
     for (std::size_t v = 0; v < old.size(); ++v) {
@@ -142,6 +142,42 @@ TEST_CASE("a bridge that closes a ring goes if its values are weak and stays if 
         CHECK((report.clusters[0].place - Vec3(0.6, 0, 0)).norm() < 0.15);
         CHECK(report.clusters[0].level == doctest::Approx(level));
         CHECK(report.attachments.empty());
+    }
+}
+
+TEST_CASE("a witness keeps a weak bridge and a weak tunnel, with their values") {
+    const Function ring = [](const Vec3& x) { return torus(x, 0.6, 0.2); };
+    const Function ball_shape = [](const Vec3& x) { return ball(x, Vec3::Zero(), 0.6); };
+    const auto tunnel = [](const Vec3& x) { return std::hypot(x[0] - 0.013, x[1] + 0.02) - 0.08; };
+    const Sampled bridge = sample(0.06, ring, [&](const Vec3& x) {
+        const double solid = clipped(ring(x) / 0.1);
+        return x[0] > 0 && std::abs(x[1]) < 0.1 && solid > 0 ? std::min(0.05, solid) : solid;
+    });
+    const Sampled drilled = sample(
+        0.05, [&](const Vec3& x) { return std::min(std::abs(ball_shape(x)), std::abs(tunnel(x))); },
+        [&](const Vec3& x) {
+            const double solid = clipped(ball_shape(x) / 0.1);
+            return tunnel(x) < 0 && solid > 0 ? -0.05 : solid;
+        });
+    for (const bool inside : {true, false}) {
+        CAPTURE(inside);
+        const Sampled& solid = inside ? bridge : drilled;
+        std::vector<double> values = solid.values;
+        std::size_t asked = 0;
+        const auto keep = [&](const RefusedCluster& cluster) {
+            ++asked;
+            CHECK(cluster.was_inside == inside);
+            CHECK_FALSE(cluster.vertices.empty());
+            for (const std::uint32_t v : cluster.vertices) CHECK((solid.values[v] > 0) == inside);
+            return true;
+        };
+        const TopologyFilterReport report = filter_topology(solid.lattice.points(), solid.tets, values, tau, keep);
+        CHECK(asked == 1);
+        CHECK(report.confirmed.size() == 1);
+        CHECK(report.clusters.empty());
+        CHECK(report.refused == 0);
+        CHECK(values == solid.values);
+        check_counts(report.after, 1, 0, 1);
     }
 }
 

@@ -160,14 +160,14 @@ void run_sequence(mesh::Complex& c, std::uint64_t seed, Tally& tally) {
         if (n % 3 == 0) request.accept_above = -1.0F;
         const bool conserved = keeps_labels(operation) && n % 10 == 0;
         const auto before = conserved ? volumes(c) : std::map<mesh::Label, double>{};
-        const Refusal refusal = execute(bench, request);
+        const Outcome outcome = execute(bench, request);
         const auto o = static_cast<std::size_t>(operation);
         ++tally.tried[o];
-        ++tally.reasons[static_cast<std::size_t>(refusal)];
-        if (refusal == Refusal::committed) {
+        ++tally.reasons[static_cast<std::size_t>(outcome.reason())];
+        if (!outcome.refused()) {
             ++tally.committed[o];
         } else {
-            ++tally.refused[o][static_cast<std::size_t>(refusal)];
+            ++tally.refused[o][static_cast<std::size_t>(outcome.reason())];
         }
         if (conserved) {
             const auto after = volumes(c);

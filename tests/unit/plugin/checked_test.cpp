@@ -15,6 +15,7 @@ namespace {
 using dsc::Vec3;
 namespace hooks = dsc::hooks;
 namespace mesh = dsc::mesh;
+namespace repair = dsc::repair;
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 

@@ -189,7 +189,7 @@ TEST_CASE("a vertex of a thinned surface has the value of the nearest vertex of 
 }
 
 TEST_CASE("levels: the outer hundredths are cut, what is not finite has none, huge bounds and a single value are allowed") {
-    run::AttributeSource source;
+    report::AttributeSource source;
     std::vector<double> values;
     for (int i = 0; i <= 1000; ++i) {
         source.points.emplace_back(i, 0, 0);
@@ -200,7 +200,7 @@ TEST_CASE("levels: the outer hundredths are cut, what is not finite has none, hu
     values[500] = no_value;
     source.arrays = {{"ramp", values}, {"same", std::vector<double>(1001, 4.0)}, {"huge", std::vector<double>(1001, -1.7e308)}};
     std::fill(source.arrays[2].values.begin() + 500, source.arrays[2].values.end(), 1.7e308);
-    const ordered_json packed = run::pack_attributes(source, source.points, nullptr);
+    const ordered_json packed = report::pack_attributes(source, source.points, nullptr);
     REQUIRE(packed.size() == 3);
     const double low = packed[0]["low"], high = packed[0]["high"];
     CHECK(std::abs(low - 10) <= 1);
@@ -208,7 +208,7 @@ TEST_CASE("levels: the outer hundredths are cut, what is not finite has none, hu
     const auto ramp = decoded(packed[0]["data"]), same = decoded(packed[1]["data"]), huge = decoded(packed[2]["data"]);
     CHECK(ramp[0] == 0);
     CHECK(ramp[1000] == 254);
-    CHECK(ramp[500] == run::no_level);
+    CHECK(ramp[500] == report::no_level);
     for (int i = 20; i < 980; ++i) {
         if (i != 500) CHECK(std::abs(ramp[static_cast<std::size_t>(i)] - 254 * (i - low) / (high - low)) <= 0.5 + 1e-9);
     }
@@ -219,13 +219,13 @@ TEST_CASE("levels: the outer hundredths are cut, what is not finite has none, hu
     Workers three(3);
     std::vector<Vec3> between;
     for (int i = 0; i < 2000; ++i) between.emplace_back(0.5 * i + 0.1, 1, 0);
-    CHECK(run::pack_attributes(source, between, &three) == run::pack_attributes(source, between, nullptr));
-    CHECK(run::pack_attributes({}, between, nullptr).empty());
+    CHECK(report::pack_attributes(source, between, &three) == report::pack_attributes(source, between, nullptr));
+    CHECK(report::pack_attributes({}, between, nullptr).empty());
 }
 
 TEST_CASE("attributes are known by their names and values; points off the surface have none") {
     const double infinite = std::numeric_limits<double>::infinity();
-    const auto kept = run::attributes_among({{"gap", {1, no_value}},
+    const auto kept = report::attributes_among({{"gap", {1, no_value}},
                                              {"distance", {1, 2}},
                                              {"<b>", {1, 2}},
                                              {"none", {no_value, infinite}},
@@ -235,7 +235,7 @@ TEST_CASE("attributes are known by their names and values; points off the surfac
     CHECK(kept[0].name == "gap");
     CHECK(kept[0].values[0] == 1);
     CHECK(kept[1].name == "age");
-    const run::AttributeSource on = run::with_values(
+    const report::AttributeSource on = report::with_values(
         {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{"gap", {no_value, 2, no_value}}, {"age", {no_value, no_value, 3}}}});
     CHECK(on.points == std::vector<Vec3>{{1, 0, 0}, {2, 0, 0}});
     CHECK(on.arrays[0].values[0] == 2);

@@ -68,6 +68,7 @@ run::RunOutcome work(const Folder& folder, const std::string& name, const std::s
     run::RunOptions options;
     options.folder = folder.path() / name;
     options.command = {"dsc", "run", "<b>bold</b>.yaml"};
+    options.make_report = report::report_html;
     const run::RunOutcome outcome = run::run_experiment(loaded, catalogue, options);
     fs::current_path(here);
     return outcome;
@@ -292,12 +293,12 @@ TEST_CASE("warnings: what a reader must know") {
     const Folder folder;
     work(folder, "run", minimal);
     report::RunRecord record = report::read_record(folder.path() / "run");
-    CHECK(run::warnings(record).empty());
-    for (const run::Check& check : run::validity(record)) CHECK(check.holds);
+    CHECK(report::warnings(record).empty());
+    for (const report::Check& check : report::validity(record)) CHECK(check.holds);
     const auto with = [&](const char* key, const nlohmann::ordered_json& value) {
         const auto before = record.summary;
         record.summary[key] = value;
-        const std::vector<std::string> said = run::warnings(record);
+        const std::vector<std::string> said = report::warnings(record);
         record.summary = before;
         REQUIRE(said.size() == 1);
         return said.front();

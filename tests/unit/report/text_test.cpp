@@ -10,7 +10,7 @@
 #include "run/state_series.hpp"
 
 using namespace dsc;
-namespace html = dsc::run::html;
+namespace html = dsc::report::html;
 
 TEST_CASE("text cannot become markup, whatever its bytes are") {
     CHECK(html::text("<script>\"'&</script>") == "&lt;script&gt;&quot;&#39;&amp;&lt;/script&gt;");
@@ -59,12 +59,12 @@ TEST_CASE("metrics: columns, empty cells, and tables that are none") {
 }
 
 TEST_CASE("plots: round ticks, gaps, a logarithmic axis, names escaped") {
-    CHECK(run::axis_ticks(0, 10, 5) == std::vector<double>{0, 2, 4, 6, 8, 10});
-    CHECK(run::axis_ticks(3, 3, 5).empty());
-    CHECK_FALSE(std::signbit(run::axis_ticks(0, 10, 5).front()));
+    CHECK(report::axis_ticks(0, 10, 5) == std::vector<double>{0, 2, 4, 6, 8, 10});
+    CHECK(report::axis_ticks(3, 3, 5).empty());
+    CHECK_FALSE(std::signbit(report::axis_ticks(0, 10, 5).front()));
     const double none = std::nan("");
-    const run::Plot plot{.title = "<t>", .x_label = "<x>", .curves = {{"<c>", {0, 1, 2, 3, 4}, {1, none, 3, 4, 5}}, {"d", {0, 4}, {2, 2}}}};
-    const std::string svg = run::svg_plot(plot);
+    const report::Plot plot{.title = "<t>", .x_label = "<x>", .curves = {{"<c>", {0, 1, 2, 3, 4}, {1, none, 3, 4, 5}}, {"d", {0, 4}, {2, 2}}}};
+    const std::string svg = report::svg_plot(plot);
     CHECK(svg.find("<t>") == std::string::npos);
     CHECK(svg.find("<x>") == std::string::npos);
     CHECK(svg.find("<c>") == std::string::npos);
@@ -74,22 +74,22 @@ TEST_CASE("plots: round ticks, gaps, a logarithmic axis, names escaped") {
     const std::string d = svg.substr(at + 9, svg.find('"', at + 9) - at - 9);
     CHECK(std::count(d.begin(), d.end(), 'M') == 2);
     CHECK(std::count(d.begin(), d.end(), 'L') == 2);
-    CHECK(run::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {none, 1}}}}).empty());
-    CHECK(run::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {0, -1}}}, .logarithmic = true}).empty());
-    const std::string logarithmic = run::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1, 2}, {0.001, 0.0, 1}}}, .logarithmic = true});
+    CHECK(report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {none, 1}}}}).empty());
+    CHECK(report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {0, -1}}}, .logarithmic = true}).empty());
+    const std::string logarithmic = report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1, 2}, {0.001, 0.0, 1}}}, .logarithmic = true});
     CHECK(logarithmic.find(">0.01<") != std::string::npos);
     CHECK(logarithmic.find("nan") == std::string::npos);
-    CHECK(run::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {7, 7}}}}).find("nan") == std::string::npos);
+    CHECK(report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {7, 7}}}}).find("nan") == std::string::npos);
 }
 
 TEST_CASE("histograms count every value once; shares leave out nothing that took time") {
-    CHECK(run::count_bins({0, 0.1, 0.5, 0.99, 1, 2, -1, std::nan("")}, 0, 1, 2) == std::vector<std::size_t>{3, 4});
-    CHECK(run::svg_histogram("t", "x", 0, 1, {3, 0, 4}).find(": 4<") != std::string::npos);
-    const std::string shares = run::svg_shares({{"a", 1}, {"b", 0}, {"c", 3}}, "s");
+    CHECK(report::count_bins({0, 0.1, 0.5, 0.99, 1, 2, -1, std::nan("")}, 0, 1, 2) == std::vector<std::size_t>{3, 4});
+    CHECK(report::svg_histogram("t", "x", 0, 1, {3, 0, 4}).find(": 4<") != std::string::npos);
+    const std::string shares = report::svg_shares({{"a", 1}, {"b", 0}, {"c", 3}}, "s");
     CHECK(shares.find("a 1 s") != std::string::npos);
     CHECK(shares.find("b 0 s") == std::string::npos);
     CHECK(shares.find("width=\"705.0\"") != std::string::npos);
-    CHECK(run::svg_shares({{"a", 0}}, "s").empty());
+    CHECK(report::svg_shares({{"a", 0}}, "s").empty());
 }
 
 TEST_CASE("a report keeps a handful of steps, from the first one on, closer at the start") {

@@ -5,9 +5,11 @@
 
 #include <cmath>
 #include <dsc/base/error.hpp>
+#include <dsc/base/read_file.hpp>
 #include <dsc/run/figures.hpp>
 #include <dsc/run/input.hpp>
 #include <dsc/run/measure.hpp>
+#include <dsc/run/metrics.hpp>
 #include <dsc/run/run_folder.hpp>
 
 #include "fakes.hpp"
@@ -216,6 +218,22 @@ TEST_CASE("metrics: empty cells without a cloud, columns of observers") {
     CHECK(run::csv_row(row, 1) == "3,0,0,0,0,0.1,0,0,,,,0,0,0,0,0,0,0,0,0,0,0,\n");
     const auto commas = [](const std::string& text) { return std::count(text.begin(), text.end(), ','); };
     CHECK(commas(header) == commas(run::csv_row(row, 1)));
+}
+
+TEST_CASE("metrics: a column has the cell of its figure, and a row of the documentation") {
+    run::StepMetrics row;
+    row.volume = 0.25;
+    std::string cell;
+    for (const run::MetricsColumn& column : run::metrics_columns)
+        if (column.name == "volume") column.append(cell, row);
+    CHECK(cell == "0.25");
+    CHECK(run::column_name<&run::StepMetrics::volume> == "volume");
+    const std::string page = read_file(std::string(DSC_SOURCE_DIR) + "/share/doc/experiment.md");
+    std::string table;
+    for (const run::MetricsColumn& column : run::metrics_columns) {
+        table += "| `" + std::string(column.name) + "` | " + std::string(column.unit) + " | " + std::string(column.meaning) + " |\n";
+    }
+    CHECK(page.find(table) != std::string::npos);
 }
 
 TEST_CASE("events are told in the input's coordinates") {

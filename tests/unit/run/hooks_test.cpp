@@ -1,4 +1,4 @@
-// What the driver promises strategies: how often it calls them, what they are told, and what becomes of what they publish.
+// What the simulation promises strategies: how often it calls them, what they are told, and what becomes of what they publish.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -101,7 +101,7 @@ struct Fixture {
             r = std::move(remesher);
         }
     }
-    run::DriveResult drive(const run::DriveOptions& options = {}) { return run::drive(loaded.experiment, strategies, nullptr, options); }
+    run::SimulationResult simulate(const run::SimulationOptions& options = {}) { return run::simulate(loaded.experiment, strategies, nullptr, options); }
 };
 
 }  // namespace
@@ -110,7 +110,7 @@ TEST_CASE("advance runs once per step, and only a refinement that samples prepar
     for (const bool sampling : {false, true}) {
         Fixture f("[{steps: 3, every: 1, refine: {type: all}}, {refine: {type: all}}]");
         for (auto& r : f.strategies.refinements) static_cast<Remesher&>(*r).sampling = sampling;
-        f.drive();
+        f.simulate();
         CHECK(f.velocity->advances == 3);
         CHECK(f.velocity->wrong == 0);
         CHECK(f.velocity->order == (sampling ? "appappappp" : "apapap"));
@@ -120,14 +120,14 @@ TEST_CASE("advance runs once per step, and only a refinement that samples prepar
 
 TEST_CASE("until: finished ends a series as converged, and belongs to one with steps") {
     Fixture f("[{steps: 9, until: finished}, {steps: 2}]");
-    const run::DriveResult result = f.drive();
+    const run::SimulationResult result = f.simulate();
     CHECK(result.totals.steps == 5);
     Fixture g("[{steps: 9, until: finished}]");
-    CHECK(g.drive().totals.status == run::Status::converged);
+    CHECK(g.simulate().totals.status == run::Status::converged);
     Fixture h("[{steps: 2, until: finished}]");
-    CHECK(h.drive().totals.status == run::Status::max_steps);
+    CHECK(h.simulate().totals.status == run::Status::max_steps);
     Fixture deaf("[{steps: 9}]");
-    CHECK(deaf.drive().totals.steps == 9);
+    CHECK(deaf.simulate().totals.steps == 9);
     CHECK_THROWS_AS(load_text(minimal, {"schedule=[{refine: {type: all}, until: finished}]"}), ConfigError);
     CHECK_THROWS_AS(load_text(minimal, {"schedule=[{steps: 2, until: tomorrow}]"}), ConfigError);
 }
@@ -136,7 +136,7 @@ TEST_CASE("a refinement is called with fresh views until it asks for nothing, or
     Fixture f("[{refine: {type: all}}]");
     f.refinement->most = 8;
     f.refinement->wanted = 3;
-    run::DriveResult result = f.drive();
+    run::SimulationResult result = f.simulate();
     CHECK(f.refinement->passes_seen == std::vector<unsigned>{0, 1, 2, 3});
     CHECK(f.refinement->grown == 4);
     CHECK(result.totals.refine_committed == 3);
@@ -144,11 +144,11 @@ TEST_CASE("a refinement is called with fresh views until it asks for nothing, or
     Fixture g("[{refine: {type: all}}]");
     g.refinement->most = hooks::refinement_passes;
     g.refinement->wanted = 1000;
-    g.drive();
+    g.simulate();
     CHECK(g.refinement->passes_seen.size() == 32);
     Fixture once("[{refine: {type: all}}]");
     once.refinement->wanted = 1000;
-    once.drive();
+    once.simulate();
     CHECK(once.refinement->passes_seen.size() == 1);
 }
 
@@ -158,7 +158,7 @@ TEST_CASE("L is the owner's, or the mean edge after splits") {
         f.refinement->owns = owns;
         f.refinement->length = 0.4;
         f.refinement->wanted = 1;
-        const run::DriveResult result = f.drive();
+        const run::SimulationResult result = f.simulate();
         CHECK((result.totals.target_length == 0.4) == owns);
         REQUIRE(f.refinement->lengths_seen.size() == 3);
         CHECK((f.refinement->lengths_seen[2] == 0.4) == owns);
@@ -169,7 +169,7 @@ TEST_CASE("where a refinement owns the sizing, steps leave no tet below 0.02; el
     for (const bool owns : {true, false}) {
         Fixture f("[{steps: 60, every: 60, refine: {type: all}}]", 60);
         f.refinement->owns = owns;
-        const mesh::TetMesh mesh = f.drive().mesh;
+        const mesh::TetMesh mesh = f.simulate().mesh;
         double least = 1.0;
         for (const auto& [a, b, c, d] : mesh.tets) {
             least = std::min(least, geometry::tet_quality(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]));
@@ -181,7 +181,7 @@ TEST_CASE("where a refinement owns the sizing, steps leave no tet below 0.02; el
 TEST_CASE("attributes are carried to the end of the run, and a run that was stopped goes on to the same bytes") {
     const std::string schedule = "[{steps: 4, every: 2, refine: {type: all}}, {refine: {type: all}}]";
     std::map<std::uint64_t, std::string> states;
-    run::DriveOptions options;
+    run::SimulationOptions options;
     options.checkpoint_every = 1;
     options.on_checkpoint = [&](std::string state, std::uint64_t steps) { states[steps] = std::move(state); };
     std::size_t with_attributes = 0;
@@ -195,7 +195,7 @@ TEST_CASE("attributes are carried to the end of the run, and a run that was stop
         for (auto& r : fixture.strategies.refinements) static_cast<Remesher&>(*r).wanted = 1;
     };
     remesh(f);
-    const run::DriveResult whole = f.drive(options);
+    const run::SimulationResult whole = f.simulate(options);
     CHECK(with_attributes == 4);
     CHECK(f.refinement->with_height == 1);
     REQUIRE(whole.attributes.size() == 1);
@@ -219,9 +219,9 @@ TEST_CASE("attributes are carried to the end of the run, and a run that was stop
         REQUIRE(states.count(from) == 1);
         Fixture resumed(schedule, 4);
         remesh(resumed);
-        run::DriveOptions on;
+        run::SimulationOptions on;
         on.resume = states[from];
-        const run::DriveResult end = resumed.drive(on);
+        const run::SimulationResult end = resumed.simulate(on);
         CHECK(end.mesh.points == whole.mesh.points);
         CHECK(std::equal(end.attributes[0].values.begin(), end.attributes[0].values.end(), whole.attributes[0].values.begin(),
                          [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }));

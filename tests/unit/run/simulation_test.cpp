@@ -1,4 +1,4 @@
-// The driver with the real kernel and small strategies.
+// The simulation with the real kernel and small strategies.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -19,21 +19,21 @@ using dsc::test::minimal;
 
 namespace {
 
-struct Driven {
-    run::DriveResult result;
+struct Simulated {
+    run::SimulationResult result;
     std::vector<run::StepMetrics> rows;
 };
 
-Driven drive(const std::vector<std::string>& overrides, Workers* workers = nullptr) {
+Simulated simulate(const std::vector<std::string>& overrides, Workers* workers = nullptr) {
     const dsc::test::Strategies catalogue;
     const run::LoadedExperiment loaded = load_text(minimal, overrides);
     run::Strategies strategies = run::make_strategies(loaded.experiment, catalogue);
-    Driven driven;
-    run::DriveOptions options;
+    Simulated simulated;
+    run::SimulationOptions options;
     options.workers = workers;
-    options.on_step = [&](const run::StepMetrics& row, std::uint64_t) { driven.rows.push_back(row); };
-    driven.result = run::drive(loaded.experiment, strategies, nullptr, options);
-    return driven;
+    options.on_step = [&](const run::StepMetrics& row, std::uint64_t) { simulated.rows.push_back(row); };
+    simulated.result = run::simulate(loaded.experiment, strategies, nullptr, options);
+    return simulated;
 }
 
 // Goes half of the way to the nearest point, and counts where the host's answer is not the search's.
@@ -79,7 +79,7 @@ TEST_CASE("strategies find the cloud point nearest to each vertex, also after a 
     const Homing& velocity = *homing;
     strategies.velocity = std::move(homing);
     std::size_t wrong = 0, states = 0;
-    run::DriveOptions options;
+    run::SimulationOptions options;
     run::StepMetrics last;
     options.on_step = [&](const run::StepMetrics& row, std::uint64_t) { last = row; };
     options.on_state = [&](const hooks::StepContext& context, const mesh::Complex&) {
@@ -93,14 +93,14 @@ TEST_CASE("strategies find the cloud point nearest to each vertex, also after a 
         wrong += last.vertex_to_cloud_max == largest ? 0 : 1;
         ++states;
     };
-    run::drive(loaded.experiment, strategies, &target, options);
+    run::simulate(loaded.experiment, strategies, &target, options);
     CHECK(states == 5);
     CHECK(wrong == 0);
     CHECK(velocity.wrong == 0);
 }
 
 TEST_CASE("steps shrink the cube as the velocity says") {
-    const Driven d = drive({"velocity.factor=-0.05", "schedule.0.steps=2"});
+    const Simulated d = simulate({"velocity.factor=-0.05", "schedule.0.steps=2"});
     REQUIRE(d.rows.size() == 3);
     CHECK(d.rows[0].step == 0);
     CHECK(d.rows[2].step == 2);
@@ -117,42 +117,42 @@ TEST_CASE("steps shrink the cube as the velocity says") {
 
 TEST_CASE("converged: the last series ended slow, further items still run") {
     const std::vector<std::string> slow = {"velocity.factor=0", "stop={speed: 1.0e-3, patience: 2}"};
-    const Driven one = drive({slow[0], slow[1], "schedule.0.steps=9"});
+    const Simulated one = simulate({slow[0], slow[1], "schedule.0.steps=9"});
     CHECK(one.result.totals.status == run::Status::converged);
     CHECK(one.result.totals.steps == 2);
-    const Driven three =
-        drive({slow[0], slow[1], "schedule=[{steps: 9}, {refine: {type: all}}, {steps: 9}]"});
+    const Simulated three =
+        simulate({slow[0], slow[1], "schedule=[{steps: 9}, {refine: {type: all}}, {steps: 9}]"});
     CHECK(three.result.totals.steps == 4);
     CHECK(three.result.totals.refinements == 1);
     CHECK(three.result.surface.faces.size() > 192);
-    const Driven fast = drive({"velocity.factor=-0.01", slow[1], "schedule.0.steps=3"});
+    const Simulated fast = simulate({"velocity.factor=-0.01", slow[1], "schedule.0.steps=3"});
     CHECK(fast.result.totals.status == run::Status::max_steps);
 }
 
 TEST_CASE("stalled: without repair the motion is blocked in the end") {
-    const Driven d = drive({"velocity.factor=0", "velocity.shift=[0.2, 0, 0]", "schedule.0.steps=100"});
+    const Simulated d = simulate({"velocity.factor=0", "velocity.shift=[0.2, 0, 0]", "schedule.0.steps=100"});
     CHECK(d.result.totals.status == run::Status::stalled);
     CHECK(d.result.totals.steps < 100);
     CHECK(run::measure(d.result.mesh).solid());
 }
 
 TEST_CASE("refinement: by faces, by a sizing field, every so many steps") {
-    CHECK(drive({"schedule=[{refine: {type: all}}]"}).result.surface.points.size() > 98);
-    const Driven coarse = drive({"schedule=[{refine: {type: all, sizing: 5}}]"});
+    CHECK(simulate({"schedule=[{refine: {type: all}}]"}).result.surface.points.size() > 98);
+    const Simulated coarse = simulate({"schedule=[{refine: {type: all, sizing: 5}}]"});
     CHECK(coarse.result.surface.points.size() == 98);
     CHECK(coarse.result.totals.refine_requested == 0);
     // Edges are 0.25 and 0.354 long: 0.3 splits each diagonal once.
-    const Driven fine = drive({"schedule=[{refine: {type: all, sizing: 0.3}}]"});
+    const Simulated fine = simulate({"schedule=[{refine: {type: all, sizing: 0.3}}]"});
     CHECK(fine.result.totals.refine_committed == 96);
-    const Driven often =
-        drive({"velocity.factor=0", "schedule=[{steps: 4, every: 2, refine: {type: all, sizing: 5}}]"});
+    const Simulated often =
+        simulate({"velocity.factor=0", "schedule=[{steps: 4, every: 2, refine: {type: all, sizing: 5}}]"});
     CHECK(often.result.totals.refinements == 2);
 }
 
 TEST_CASE("a refinement that samples is refused beside a velocity that cannot be sampled") {
     const std::vector<std::string> bad = {"schedule=[{refine: {type: all, sampling: true}}]"};
-    CHECK_THROWS_AS(drive(bad), ConfigError);
-    CHECK_NOTHROW(drive({bad[0], "velocity.sampled=true"}));
+    CHECK_THROWS_AS(simulate(bad), ConfigError);
+    CHECK_NOTHROW(simulate({bad[0], "velocity.sampled=true"}));
 }
 
 TEST_CASE("cancelled: before the first step nothing has moved") {
@@ -161,9 +161,9 @@ TEST_CASE("cancelled: before the first step nothing has moved") {
     run::Strategies strategies = run::make_strategies(loaded.experiment, catalogue);
     CancelToken token;
     token.cancel();
-    run::DriveOptions options;
+    run::SimulationOptions options;
     options.cancel = &token;
-    const run::DriveResult result = run::drive(loaded.experiment, strategies, nullptr, options);
+    const run::SimulationResult result = run::simulate(loaded.experiment, strategies, nullptr, options);
     CHECK(result.totals.status == run::Status::cancelled);
     CHECK(result.totals.steps == 0);
 }
@@ -172,7 +172,7 @@ TEST_CASE("the result does not depend on the number of threads") {
     Workers three(3);
     const std::vector<std::string> overrides = {"velocity.factor=-0.08",
                                                 "schedule=[{steps: 3}, {refine: {type: all}}, {steps: 3}]"};
-    const Driven a = drive(overrides), b = drive(overrides, &three);
+    const Simulated a = simulate(overrides), b = simulate(overrides, &three);
     CHECK(run::identical(a.result.surface, b.result.surface));
     CHECK(a.result.mesh.tets == b.result.mesh.tets);
     CHECK(a.result.last.volume == b.result.last.volume);

@@ -33,15 +33,19 @@ struct ReadOptions {
 };
 
 /// Reads the bytes of a cloud's file. Messages name the file. Its extension, in upper or lower case, decides the format:
-/// - .pcd (ascii, binary, binary_compressed) and .ply (ascii, binary of both byte orders) with x y z, normals, colours or
-///   intensities of any numeric type; points with NaN or infinity are left out and counted;
-/// - .obj: `v x y z` or `v x y z r g b`, and `vn` by the corners of `f` or one per point; other statements are skipped;
-/// - .xyz .txt .asc .pts .csv: columns separated by blanks, tabs, commas or semicolons, quoted or not. The positions are the
-///   columns named x, y, z in a header line or in a comment before the first point, else the first three. Colours come from
-///   r, g, b or red, green, blue; normals from nx, ny, nz or normal_x, ...; greys from intensity if there are no colours.
-///   Without such a header, columns 4 to 6 of six, and 7 to 9 of nine, are colours if they contain only integers from 0 to 255
-///   (at least one above 1), and normals if they are unit vectors in every line. Comments (# or //), empty lines and the count
-///   lines of .pts are skipped.
+/// - .pcd (ascii, binary, binary_compressed) and .ply (ascii, binary of both byte orders) with
+///   x y z, normals, colours or intensities of any numeric type; points with NaN or infinity are
+///   left out and counted;
+/// - .obj: `v x y z` or `v x y z r g b`, and `vn` by the corners of `f` or one per point; other
+///   statements are skipped;
+/// - .xyz .txt .asc .pts .csv: columns separated by blanks, tabs, commas or semicolons, quoted or
+///   not. The positions are the columns named x, y, z in a header line or in a comment before the
+///   first point, else the first three. Colours come from r, g, b or red, green, blue; normals from
+///   nx, ny, nz or normal_x, ...; greys from intensity if there are no colours. Without such a
+///   header, columns 4 to 6 of six, and 7 to 9 of nine, are colours if they contain only integers
+///   from 0 to 255 (at least one above 1), and normals if they are unit vectors in every line.
+///   Comments (# or //), empty lines and the count lines of .pts are skipped.
+///
 /// A normal is scaled to a unit vector; a normal without a direction becomes zero. Whether normals agree with the points is not
 /// tested here. Throws IoError for bytes that are empty, without points, truncated or malformed, for NaN and infinity in text,
 /// for formats that are not supported (.las, .laz, .e57, range grids in PLY, ...), and "io.columns" if the chosen columns are

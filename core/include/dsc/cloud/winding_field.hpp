@@ -14,8 +14,8 @@ namespace dsc::cloud {
 
 /// The field of vectors mu_j at positions y_j, and the operators that orient a cloud with it. With d = y_j - x and
 /// rho^2 = |d|^2 + (eps^2 + eps_j^2) / 2,
-///   w(x)       = 1/(4 pi) sum_j mu_j . d / rho^3                              (A mu at the positions),
-///   -grad w(x) = 1/(4 pi) sum_j [mu_j / rho^3 - 3 (mu_j . d) d / rho^5]       (G mu at the positions),
+///   w(x)       = 1/(4 pi) sum_j mu_j . d / rho^3                         (A mu at the positions),
+///   -grad w(x) = 1/(4 pi) sum_j [mu_j / rho^3 - 3 (mu_j . d) d / rho^5]  (G mu at the positions),
 ///   (A^T r)_j  = 1/(4 pi) sum_i r_i (y_j - x_i) / rho^3.
 /// Sources that are far from a group of targets are replaced by one source at their weighted mean. The sums are computed in
 /// float after the positions are moved and scaled, so coordinates may be large. Errors of w of 0.01 are usual; they decrease

@@ -37,9 +37,18 @@ void require_sound(const Schema& schema);
 /// ```
 /// struct Params { double alpha = 0.2; std::optional<double> radius; config::StrategyConfig curvature; };
 /// static void declare(config::ParamSchema<Params>& s) {
-///     s.real("alpha", &Params::alpha).range(0, 1).open_low().unit("1").doc("Fraction of the distance per step.");
-///     s.real("radius", &Params::radius).greater(0).unit("length").doc("Radius; unset: nearest point.");
-///     s.strategy("curvature", &Params::curvature, "curvature").optional().doc("None: no smoothing.");
+///     s.real("alpha", &Params::alpha)
+///         .range(0, 1)
+///         .open_low()
+///         .unit("1")
+///         .doc("Fraction of the distance per step.");
+///     s.real("radius", &Params::radius)
+///         .greater(0)
+///         .unit("length")
+///         .doc("Radius; unset: nearest point.");
+///     s.strategy("curvature", &Params::curvature, "curvature")
+///         .optional()
+///         .doc("None: no smoothing.");
 ///     s.check([](const Params& p) { return p.alpha < 1 || p.radius; }, "alpha 1 needs a radius");
 /// }
 /// ```

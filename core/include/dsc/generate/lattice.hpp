@@ -16,7 +16,7 @@ enum class LatticePattern { parity, bcc };
 /// Sizes of a lattice, in the mesh's units.
 struct LatticeOptions {
     int cells = 30;              ///< number of finest cells along the box
-    std::optional<double> cell;  ///< edge of the finest cells, instead of `cells`
+    std::optional<double> cell{};  ///< edge of the finest cells, instead of `cells`
     double box = 1.5;            ///< half the edge of the box; the box may become larger
     Vec3 box_centre = Vec3::Zero();
     int layers = 2;       ///< layers of finest cells on each side of the refined places, at least 2

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <dsc/geometry/vec.hpp>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,13 +31,16 @@ TopologyCounts count_topology(std::span<const Vec3> points,
                               std::span<const std::array<std::uint32_t, 4>> tets,
                               std::span<const double> values);
 
-/// Neighbouring vertices whose label was changed.
+/// Neighbouring vertices that growth refused, because they close a loop.
 struct RefusedCluster {
     Vec3 place;        ///< mean of the vertices
-    double level = 0;  ///< largest absolute value before the change
-    std::size_t vertices = 0;
-    bool was_inside = false;  ///< true: a bridge was cut; false: a tunnel was closed
+    double level = 0;  ///< largest absolute value
+    std::vector<std::uint32_t> vertices{};
+    bool was_inside = false;  ///< true: a bridge; false: a tunnel
 };
+
+/// Decides by evidence other than the values whether a bridge or a tunnel is real, so that it keeps its labels.
+using LoopWitness = std::function<bool(const RefusedCluster&)>;
 
 /// A part with values of at least tau that is connected to a larger part only through a vertex of a lower value.
 struct Attachment {
@@ -50,7 +54,8 @@ struct Attachment {
 struct TopologyFilterReport {
     TopologyCounts before, after;
     std::size_t refused = 0;                    ///< number of changed labels, over both passes
-    std::vector<RefusedCluster> clusters;       ///< bridges first, each kind in the order of its lowest vertices
+    std::vector<RefusedCluster> clusters;       ///< that changed; bridges first, each kind in the order of its lowest vertices
+    std::vector<RefusedCluster> confirmed;      ///< that the witness kept, in the same order
     std::vector<Attachment> attachments;        ///< of the inside first, in the order of growth
     std::optional<Attachment> inside, outside;  ///< those with the lowest level, for parts of any size
 };
@@ -59,11 +64,12 @@ struct TopologyFilterReport {
 /// The vertex with the strongest value comes first; of equal ones the first. A vertex is refused while the grown part of its
 /// link has more components than the whole grown part has near it, because the vertex would close a loop. It is tested again
 /// after a neighbour has been added. Vertices that stay refused get the other sign and the absolute value 1e-3, or tau / 2 if
-/// that is less. Parts that start below tau, and the joining of parts, are allowed. One value per point; tau > 0 in units of
-/// the values; the tets must fill a box and conform. O(T + U log U) for T tets and U values below tau. [step]
+/// that is less, unless `witness` keeps their cluster. Parts that start below tau, and the joining of parts, are allowed. One
+/// value per point; tau > 0 in units of the values; the tets must fill a box and conform. O(T + U log U) for T tets and U
+/// values below tau. [step]
 TopologyFilterReport filter_topology(std::span<const Vec3> points,
                                      std::span<const std::array<std::uint32_t, 4>> tets,
-                                     std::span<double> values, double tau = 0.2);
+                                     std::span<double> values, double tau = 0.2, const LoopWitness& witness = {});
 
 /// The attachment with the lowest level, of the inside or the outside, of parts with at least that many vertices; the first of
 /// equal ones. None if all such parts stay separate or are connected by values of at least tau. [parallel]

@@ -33,7 +33,7 @@ struct StepContext {
     std::span<const cloud::Neighbour> nearest = {};  ///< nearest cloud point of each view vertex; empty if not searched yet
     double target_length = 0.0;                 ///< L
     Box3 box;
-    cloud::Transform to_normalised;             ///< from the units of the input to normalised units; the identity without input
+    cloud::Transform to_normalised{};           ///< from the units of the input to normalised units; the identity without input
     std::uint64_t seed = 0;
     std::uint64_t instance = 0;                 ///< stream id of this strategy's place in the experiment
     const CancelToken* cancel = nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-// Figures of a step or a refinement.
+// Figures of a step or a refinement (method.md, section 9).
 
 #include <array>
 #include <cstdint>
@@ -17,7 +17,7 @@ struct OperationCounts {
     std::uint64_t committed = 0;
     std::array<std::uint64_t, repair::refusal_count> refused{};
 
-    void add(repair::Refusal outcome);
+    void add(repair::Outcome outcome);
     OperationCounts& operator+=(const OperationCounts& other);
 };
 using OperationTable = std::array<OperationCounts, repair::operation_count>;

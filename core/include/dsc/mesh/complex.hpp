@@ -95,7 +95,7 @@ class Complex {
 public:
     Complex() = default;
 
-    // ---- sizes and plain reads ------------------------------------------------------------------------------------
+    // ---- sizes and plain reads ------------------------------------------------------------------
     /// Slots include dead entries: loop over the slots and test whether each is alive.
     std::size_t vertex_slots() const { return vertices_.size(); }
     std::size_t tet_slots() const { return tets_.size(); }
@@ -139,7 +139,7 @@ public:
     bool interface_face(TetId t, unsigned face) const { return labels_[t] != label_across(t, face); }
     double volume(TetId t) const;
 
-    // ---- walks ----------------------------------------------------------------------------------------------------
+    // ---- walks ----------------------------------------------------------------------------------
     /// All tets that contain v, the seed first; `places` maps a tet to its place in `out`. [parallel]
     void star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
     /// The same with a table that belongs to the complex. [step]
@@ -150,7 +150,7 @@ public:
     /// A tet that contains both vertices; none if a and b are not joined. [step]
     TetId find_edge(VertexId a, VertexId b) const;
 
-    // ---- the three primitives -------------------------------------------------------------------------------------
+    // ---- the three primitives -------------------------------------------------------------------
     /// Computes the neighbours of the added tets. False if the added tets do not fill the boundary of the cavity exactly (a
     /// face used twice, a hole, a change of the box). Changes only the edit. [step]
     bool link(Edit& edit) const;
@@ -176,13 +176,13 @@ public:
     /// Ids of the tets that the last replace() wrote, in the order of Edit::added.
     std::span<const TetId> last_added() const { return last_added_; }
 
-    // ---- change tracking ------------------------------------------------------------------------------------------
+    // ---- change tracking ------------------------------------------------------------------------
     /// Tets made, moved or relabelled since the last call of take_changes(), each once; may include dead ids.
     std::span<const TetId> changes() const { return changes_; }
     /// Moves the change list to `out` and starts a new one.
     void take_changes(std::vector<TetId>& out);
 
-    // ---- making and copying ---------------------------------------------------------------------------------------
+    // ---- making and copying ---------------------------------------------------------------------
     /// Builds a complex from arrays that are already positive, conforming and box-filling (for files see adopt()). `neighbours`
     /// as in Tet::n.
     static Complex assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::span<const Label> labels,

@@ -53,12 +53,19 @@
 #define DSC_ABI_MINOR 0
 
 /// The fingerprint of the translation unit that contains it. `align` changes with -mavx, which moves every Eigen member.
-#define DSC_FINGERPRINT \
-    "abi_major=" DSC_TEXT(DSC_ABI_MAJOR) ";cxx11abi=" DSC_FINGERPRINT_CXX11ABI                             \
-    ";eigen=" DSC_TEXT(EIGEN_WORLD_VERSION) "." DSC_TEXT(EIGEN_MAJOR_VERSION)                              \
-    ";align=" DSC_TEXT(EIGEN_MAX_ALIGN_BYTES) ";real=f64;index=u32;dbgstl=" DSC_FINGERPRINT_DBGSTL         \
-    ";san=" DSC_FINGERPRINT_SAN ";compiler=" DSC_FINGERPRINT_COMPILER ";cxx=" DSC_TEXT(__cplusplus)        \
+// clang-format off
+#define DSC_FINGERPRINT                                                        \
+    "abi_major=" DSC_TEXT(DSC_ABI_MAJOR)                                       \
+    ";cxx11abi=" DSC_FINGERPRINT_CXX11ABI                                      \
+    ";eigen=" DSC_TEXT(EIGEN_WORLD_VERSION) "." DSC_TEXT(EIGEN_MAJOR_VERSION)  \
+    ";align=" DSC_TEXT(EIGEN_MAX_ALIGN_BYTES)                                  \
+    ";real=f64;index=u32"                                                      \
+    ";dbgstl=" DSC_FINGERPRINT_DBGSTL                                          \
+    ";san=" DSC_FINGERPRINT_SAN                                                \
+    ";compiler=" DSC_FINGERPRINT_COMPILER                                      \
+    ";cxx=" DSC_TEXT(__cplusplus)                                              \
     ";build=" DSC_FINGERPRINT_BUILD
+// clang-format on
 
 namespace dsc::plugin {
 

@@ -56,16 +56,26 @@ struct Request {
 /// The largest number of classes of requests.
 inline constexpr std::size_t repair_class_limit = 16;
 
-/// The outcome of a request: `committed`, or the reason for the refusal (method.md, section 4.1).
-enum class Refusal : std::uint8_t { committed, stale, irregular, quality, bound, box, not_applicable, no_gain };
+/// The reason why a request is refused (method.md, section 4.1). The value 0 belongs to no reason.
+enum class Refusal : std::uint8_t { stale = 1, irregular, quality, bound, box, not_applicable, no_gain };
+/// The size of a table by reason; its entry 0 is not used.
 inline constexpr std::size_t refusal_count = 8;
 std::string_view name(Refusal refusal);
 
-/// The outcome of one request.
-struct Outcome {
-    std::uint32_t request = 0;  ///< index into the round's requests
-    Refusal refusal = Refusal::committed;
+/// The outcome of a request or of one of its tests: success, or the reason for the refusal.
+class [[nodiscard]] Outcome {
+public:
+    constexpr Outcome() = default;  ///< success
+    constexpr Outcome(Refusal reason) : reason_(reason) {}
+    constexpr bool refused() const { return reason_ != Refusal{}; }
+    /// The value 0 if nothing was refused.
+    constexpr Refusal reason() const { return reason_; }
+    friend constexpr bool operator==(Outcome, Outcome) = default;
+
+private:
+    Refusal reason_{};
 };
+inline constexpr Outcome success{};
 
 /// The rule for creases, which edits must keep (method.md, section 4.10). It is tested on the present geometry.
 struct CreaseRule {
@@ -80,7 +90,7 @@ struct RepairRound {
                                            ///< then tets with a refused request near which something has changed since
     std::span<const mesh::VertexId> blocked;     ///< interface vertices that could not reach their destination
     std::span<const Request> last_requests;
-    std::span<const Outcome> last_outcomes;
+    std::span<const Outcome> last_outcomes;  ///< one per entry of last_requests
     double target_length;                  ///< L: mean interface edge at adoption, or the value of the last refinement
     double flatness;                       ///< cosine between normals above which two interface faces count as flat
     unsigned round;                        ///< 0 in the first round of a step

@@ -1,5 +1,5 @@
 #pragma once
-// The figures of a run: one row of metrics.csv per step, and the sums that summary.json contains.
+// The figures of a run: the lines of events.jsonl, and the sums that summary.json contains.
 
 #include <cstdint>
 #include <dsc/cloud/normalize.hpp>
@@ -18,43 +18,6 @@ namespace dsc::run {
 enum class Status { converged, max_steps, stalled, cancelled };
 std::string_view name(Status status);
 
-/// A row of metrics.csv, normalised units. Row 0 is the state before the first step.
-struct StepMetrics {
-    std::uint64_t step = 0;
-    std::size_t interface_vertices = 0;
-    std::size_t interface_faces = 0;
-    std::size_t junction_vertices = 0;  ///< interface vertices where three labels or more meet; they do not move
-    std::size_t tets = 0;
-    double mean_edge = 0.0;   ///< of the interface
-    double mean_speed = 0.0;  ///< length of the displacements of the movable vertices
-    double max_speed = 0.0;
-    std::optional<double>
-        vertex_to_cloud_mean;  ///< interface vertices to the nearest cloud point; empty without cloud
-    std::optional<double> vertex_to_cloud_max;
-    std::optional<double>
-        cloud_to_surface_mean;  ///< at no more than cloud_probes points, evenly selected, to the surface
-    double volume = 0.0;        ///< of all labels above 0
-    double min_tet_quality = 0.0;
-    unsigned rounds = 0;
-    std::size_t requested = 0;
-    std::size_t arrived = 0;
-    std::size_t clamped = 0;
-    double dropped_motion = 0.0;
-    double edit_volume = 0.0;
-    double relabelled_volume = 0.0;
-    std::uint64_t committed = 0;  ///< operations in the step
-    std::size_t events = 0;
-    std::vector<std::pair<std::string, double>> observers;  ///< "observers.ID.figure"
-};
-
-/// Cloud points at which cloud_to_surface_mean is measured each step; the summary uses all of them.
-inline constexpr std::size_t cloud_probes = 150;
-
-/// First line of metrics.csv for rows like `row`, with its newline.
-std::string csv_header(const StepMetrics& row);
-/// The row with its newline; numbers are in the shortest form that reads back to the same double. Missing figures of observers,
-/// as in row 0, become empty cells up to `observer_columns`.
-std::string csv_row(const StepMetrics& row, std::size_t observer_columns = 0);
 /// A line of events.jsonl: place and volume in the input's units, with its newline.
 std::string event_line(const kernel::Event& event, const cloud::Transform& to_normalised);
 

@@ -20,12 +20,17 @@ namespace dsc::run {
 struct RunOptions {
     std::filesystem::path folder;  ///< empty: runs/NAME/HASH, with 12 digits of the hash
     unsigned threads = 1;
-    std::optional<double> time_budget;  ///< seconds; the run ends after the step in which this time is exceeded
+    std::optional<double> time_budget{};  ///< seconds; the run ends after the step in which this time is exceeded
     const CancelToken* cancel = nullptr;
     bool picture = true;  ///< draw preview.png; not useful for a temporary folder
     bool resume = false;  ///< continue from the last checkpoint in the folder; in a new folder, start at the beginning
-    std::vector<std::string> command;  ///< as typed, for provenance.json
-    std::function<void(const StepMetrics&, std::uint64_t planned)> on_step;
+    std::vector<std::string> command{};  ///< as typed, for provenance.json
+    std::function<void(const StepMetrics&, std::uint64_t planned)> on_step{};
+    /// Makes the text of report.html from the folder of the run, if the experiment requests a report: report::report_html.
+    /// Empty: no report is written. `input` is the input that the run has loaded, null if it has none.
+    std::function<std::string(const std::filesystem::path& folder, const plugin::Catalogue& catalogue, Workers* workers,
+                              const LoadedInput* input)>
+        make_report{};
 };
 
 /// Figures of the result as the folder contains it.
@@ -34,7 +39,7 @@ struct RunOutcome {
     std::vector<std::filesystem::path> surfaces;  ///< in result/
     std::vector<std::filesystem::path> volumes;
     std::filesystem::path picture;  ///< empty if no picture was requested
-    std::filesystem::path report;  ///< empty if the experiment requests no report
+    std::filesystem::path report;  ///< empty if none was requested or written
     RunTotals totals;
     SurfaceMeasure surface;
     std::map<mesh::Label, SurfaceMeasure> label_surfaces;  ///< of surface_LABEL.*, if there are two labels above 0 or more

@@ -10,6 +10,7 @@
 #include <dsc/plugin/catalogue.hpp>
 #include <dsc/run/experiment.hpp>
 #include <dsc/run/figures.hpp>
+#include <dsc/run/metrics.hpp>
 #include <dsc/surface/triangle_mesh.hpp>
 #include <functional>
 #include <memory>
@@ -34,7 +35,7 @@ struct Strategies {
 Strategies make_strategies(const Experiment& experiment, const plugin::Catalogue& catalogue);
 
 /// The inputs of a run besides the experiment.
-struct DriveOptions {
+struct SimulationOptions {
     Workers* workers = nullptr;           ///< null: one thread
     const CancelToken* cancel = nullptr;  ///< checked between steps
     std::function<bool()> out_of_time;    ///< checked between steps; true ends the run like a cancellation
@@ -47,14 +48,14 @@ struct DriveOptions {
     /// rethrown afterwards.
     std::function<void(const mesh::TetMesh&, std::uint64_t steps)> on_strategy_failure;
     /// Called every `checkpoint_every` steps and when the run is stopped: with the state of the run and the number of complete
-    /// steps. A later drive() of the same experiment with this state as `resume` gives the same result.
+    /// steps. A later simulate() of the same experiment with this state as `resume` gives the same result.
     std::function<void(std::string state, std::uint64_t steps)> on_checkpoint;
     std::uint64_t checkpoint_every = 0;  ///< in steps; 0: only when the run is stopped
     std::string_view resume;             ///< a state from on_checkpoint; empty: start at the beginning
 };
 
 /// The end of a run, in normalised units.
-struct DriveResult {
+struct SimulationResult {
     mesh::TetMesh mesh;
     surface::TriangleMesh surface;  ///< label interface of `mesh`
     hooks::Attributes attributes;   ///< published by strategies, per point of `mesh`; NaN off the interface
@@ -70,7 +71,7 @@ std::uint64_t planned_steps(const Experiment& experiment);
 /// steps, or the series has `until: finished` and the velocity has finished. Stalled: less than 1 % of the wanted motion was
 /// made in five steps in a row. The status is that of the last series. The result depends on neither the workers nor the
 /// callbacks. Throws GeometryError (mesh, cloud outside the box), StrategyError. [setup]
-DriveResult drive(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
-                  const DriveOptions& options);
+SimulationResult simulate(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
+                          const SimulationOptions& options);
 
 }  // namespace dsc::run

@@ -36,8 +36,8 @@ struct SurfaceView {
     }
 };
 
-/// What the last view of a complex found round each vertex. It belongs to one complex; a new or loaded complex needs a new
-/// memory.
+/// What the last view of a complex found round each vertex, and the arrays that build_view() reuses. It belongs to one complex;
+/// a new or loaded complex needs a new memory.
 class ViewMemory {
 public:
     /// A face of the interface, its vertex of least birth first, and the tet with the larger label behind it.
@@ -51,7 +51,22 @@ public:
     /// Stores the faces of a view of this complex; vertex i leads `counts[i]` of them.
     void keep(const mesh::Complex& complex, const SurfaceView& view, std::span<const std::uint32_t> counts);
 
+    /// Arrays of build_view().
+    struct Arrays {
+        /// Of a block of the view's vertices.
+        struct Block {
+            std::vector<mesh::TetId> star;
+            mesh::TetIndex places;    ///< of the star's tets
+            std::vector<Face> faces;  ///< that the vertices of the block lead
+        };
+        std::vector<Block> blocks;
+        std::vector<std::uint32_t> index;   ///< view index per complex vertex
+        std::vector<std::uint32_t> counts;  ///< number of faces that each view vertex leads
+    };
+    Arrays& arrays() { return arrays_; }
+
 private:
+    Arrays arrays_;
     std::uint32_t clock_ = 0;                 // of the complex when the view was made
     std::vector<std::uint32_t> births_;       // of the view's vertices
     std::vector<std::uint32_t> starts_;       // first face that vertex i leads

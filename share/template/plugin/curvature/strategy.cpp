@@ -1,5 +1,12 @@
-// Curvature `@NAME@`: the mean curvature of the circles that touch the surface at a vertex and pass through its neighbours.
+// Curvature `@NAME@`: the mean curvature of the circles that touch the surface at a vertex and pass
+// through its neighbours.
+//
+//     K = mean over the neighbours y of 2 N.(x - y) / |x - y|^2
+//
+// where x is the vertex and N its outward unit normal. A circle smaller than `smallest_circle`
+// counts as one of that size. K is 1/r on a sphere of radius r.
 #include <algorithm>
+
 #include <dsc/hooks/curvature_estimator.hpp>
 #include <dsc/plugin/plugin.hpp>
 
@@ -18,7 +25,8 @@ public:
             .range(0, 100)
             .open_low()
             .unit("current mean edges")
-            .doc("Least radius of the circles; a smaller circle counts as a circle of this radius.");
+            .doc(
+                "Least radius of the circles; a smaller circle counts as a circle of this radius.");
     }
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
@@ -29,8 +37,10 @@ public:
         limit_ = 1 / (params_.smallest_circle * surface_->mean_edge);
     }
 
-    // Several threads call this at the same time, each for its own range: it only reads, and writes only its two outputs.
-    void evaluate(dsc::hooks::Range range, std::span<double> scalar, std::span<Vec3> vector) const override {
+    // Several threads call this at the same time, each for its own range: it only reads, and writes
+    // only its two outputs.
+    void evaluate(dsc::hooks::Range range, std::span<double> scalar,
+                  std::span<Vec3> vector) const override {
         for (std::size_t i = 0; i < range.size(); ++i) {
             const std::size_t v = range.begin + i;
             scalar[i] = at(v);
@@ -39,7 +49,8 @@ public:
     }
 
 private:
-    // Around a closed vertex every neighbour is in two faces, so the mean over the faces is the mean over the neighbours.
+    // Around a closed vertex every neighbour is in two faces, so the mean over the faces is the
+    // mean over the neighbours.
     double at(std::size_t vertex) const {
         double sum = 0;
         std::size_t count = 0;
@@ -48,7 +59,8 @@ private:
                 const Vec3 back = surface_->positions[vertex] - surface_->positions[v];
                 const double square = back.squaredNorm();
                 if (!(square > 0)) continue;  // the vertex itself, or a neighbour in the same place
-                sum += std::clamp(2 * surface_->normals[vertex].dot(back) / square, -limit_, limit_);
+                const double bend = 2 * surface_->normals[vertex].dot(back) / square;
+                sum += std::clamp(bend, -limit_, limit_);
                 ++count;
             }
         }

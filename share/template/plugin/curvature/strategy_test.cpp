@@ -1,7 +1,8 @@
-// Tests of the curvature on surfaces with known values. The strategy is loaded from the plugin, as in a run.
+// Tests of the curvature on surfaces with known values; the plugin is loaded as in a run.
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/steps.hpp>
 #include <dsc/sdk/surfaces.hpp>

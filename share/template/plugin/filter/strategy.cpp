@@ -1,8 +1,13 @@
 // Filter `@NAME@`: removes the floor under a scanned object, and points above the object.
+//
+//     removed: z <= floor * height, or z > ceiling * height
+//
+// where z is measured from the bottom of the cloud's bounding box, and height is that of the box.
+#include <vector>
+
 #include <dsc/cloud/filter.hpp>
 #include <dsc/hooks/cloud_filter.hpp>
 #include <dsc/plugin/plugin.hpp>
-#include <vector>
 
 namespace {
 
@@ -20,12 +25,15 @@ public:
         schema.real("floor", &Params::floor)
             .range(0, 1)
             .unit("1")
-            .doc("Fraction of the height of the cloud's bounding box up to which points are removed.");
+            .doc("Fraction of the height of the cloud's bounding box up to which points are "
+                 "removed.");
         schema.real("ceiling", &Params::ceiling)
             .range(0, 1)
             .unit("1")
-            .doc("Fraction of the height of the cloud's bounding box above which points are removed.");
-        schema.check([](const Params& p) { return p.floor < p.ceiling; }, "'floor' must lie below 'ceiling'");
+            .doc("Fraction of the height of the cloud's bounding box above which points are "
+                 "removed.");
+        schema.check([](const Params& p) { return p.floor < p.ceiling; },
+                     "'floor' must lie below 'ceiling'");
     }
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
@@ -48,7 +56,9 @@ public:
             }
         }
         if (kept.empty())
-            throw dsc::GeometryError("@NAME@.nothing_left", cloud.source + ": filter @NAME@ removes all points; widen the range");
+            throw dsc::GeometryError(
+                "@NAME@.nothing_left",
+                cloud.source + ": filter @NAME@ removes all points; widen the range");
         // pick() keeps the colours of the points and all attributes from earlier filters.
         Filtered result{dsc::cloud::pick(cloud, kept), {}};
         result.report.kept = kept.size();
@@ -65,5 +75,6 @@ private:
 }  // namespace
 
 DSC_PLUGIN("@NAME@", "0.1.0", "BSD-3-Clause", "Filter @NAME@") {
-    registrar.add<@CLASS@>("@NAME@", "removes the floor under a scanned object and points above the object");
+    registrar.add<@CLASS@>("@NAME@",
+                           "removes the floor under a scanned object and points above the object");
 }

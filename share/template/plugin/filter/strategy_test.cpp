@@ -1,4 +1,4 @@
-// Tests of the filter on a cloud with a known result. The strategy is loaded from the plugin, as in a run.
+// Tests of the filter on a cloud with a known result; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <dsc/base/error.hpp>
@@ -15,7 +15,8 @@ Filtered filtered(const Cloud& cloud, double floor, double ceiling) {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
     const auto params = ConfigNode::map({{"floor", floor}, {"ceiling", ceiling}});
-    return host.create<dsc::hooks::CloudFilter>({"@NAME@", params}, "input.cloud.filters.0")->apply(cloud, {});
+    return host.create<dsc::hooks::CloudFilter>({"@NAME@", params}, "input.cloud.filters.0")
+        ->apply(cloud, {});
 }
 
 // Eleven points above each other; the confidence of each is its height.
@@ -43,7 +44,8 @@ TEST_CASE("points at the floor and above the ceiling are removed and counted") {
 TEST_CASE("points keep the attributes from earlier filters") {
     const Filtered result = filtered(pole(), 0.25, 0.85);
     REQUIRE(result.cloud.confidence.size() == 6);
-    for (std::size_t i = 0; i < 6; ++i) CHECK(result.cloud.confidence[i] == pole().confidence[i + 3]);
+    for (std::size_t i = 0; i < 6; ++i)
+        CHECK(result.cloud.confidence[i] == pole().confidence[i + 3]);
 }
 
 TEST_CASE("a filter that would remove all points is an error") {

@@ -1,4 +1,8 @@
-// Improvement `@NAME@`: removes an edge or a face of a poor tet and moves its free vertices; collapses a hopeless tet.
+// Improvement `@NAME@`: removes an edge or a face of a poor tet and moves its free vertices;
+// collapses a hopeless tet.
+//
+// A tet is poor if its volume-length quality is below `poor`, and hopeless if it is below
+// `hopeless`.
 #include <dsc/hooks/improvement.hpp>
 #include <dsc/plugin/plugin.hpp>
 
@@ -22,15 +26,17 @@ public:
         schema.real("hopeless", &Params::hopeless)
             .range(0, 1)
             .unit("1")
-            .doc("Quality below which tets are collapsed, even if this changes the shape of the interface within the kernel's "
-                 "bounds.");
-        schema.check([](const Params& p) { return p.hopeless <= p.poor; }, "hopeless must not be above poor");
+            .doc("Quality below which tets are collapsed, even if this changes the shape of the "
+                 "interface within the kernel's bounds.");
+        schema.check([](const Params& p) { return p.hopeless <= p.poor; },
+                     "hopeless must not be above poor");
     }
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
 
-    // Called once per repair round. `round.dirty` contains the tets to examine, worst first; the kernel takes the requests in
-    // their order and carries out those that keep the mesh valid and do not make it worse.
+    // Called once per repair round. `round.dirty` contains the tets to examine, worst first; the
+    // kernel takes the requests in their order and carries out those that keep the mesh valid and
+    // do not make it worse.
     void propose(const dsc::hooks::StepContext&, const dsc::repair::RepairRound& round,
                  std::vector<Request>& out) override {
         const dsc::mesh::Complex& complex = round.complex;
@@ -58,8 +64,10 @@ public:
     }
 
 private:
-    // For the current tet: the request is skipped if another operation has changed or repaired the tet before.
-    static Request request(const dsc::mesh::Complex& complex, dsc::mesh::TetId tet, Operation operation, double below) {
+    // For the current tet: the request is skipped if another operation has changed or repaired the
+    // tet before.
+    static Request request(const dsc::mesh::Complex& complex, dsc::mesh::TetId tet,
+                           Operation operation, double below) {
         Request request;
         request.operation = operation;
         request.tet = tet;
@@ -74,5 +82,6 @@ private:
 }  // namespace
 
 DSC_PLUGIN("@NAME@", "0.1.0", "BSD-3-Clause", "Improvement @NAME@") {
-    registrar.add<@CLASS@>("@NAME@", "removes an edge or a face of poor tets, and collapses hopeless tets");
+    registrar.add<@CLASS@>("@NAME@",
+                           "removes an edge or a face of poor tets, and collapses hopeless tets");
 }

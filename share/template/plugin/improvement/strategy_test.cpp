@@ -1,23 +1,26 @@
-// Tests of the requests on a mesh with a known fault. The strategy is loaded from the plugin, as in a run.
+// Tests of the requests on a mesh with a known fault; the plugin is loaded as in a run.
+#include <cmath>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/error.hpp>
+#include <dsc/generate/lattice.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/generate/lattice.hpp>
 
 namespace {
 
 using dsc::Vec3;
 using dsc::config::ConfigNode;
 
-// A ball in a box of 8 x 8 x 8 cells whose plane x = 0 is moved by `shift` cells: near 1 the tets to its right are flat.
+// A ball in a box of 8 x 8 x 8 cells whose plane x = 0 is moved by `shift` cells: near 1 the tets
+// to its right are flat.
 dsc::mesh::Complex ball(double shift) {
     dsc::generate::LatticeOptions options;
     options.cells = 8;
     const double cell = dsc::generate::finest_cell(options);
-    dsc::mesh::TetMesh mesh = dsc::generate::make_lattice(options, [](const Vec3&, double) { return false; }, "ball");
+    dsc::mesh::TetMesh mesh = dsc::generate::make_lattice(
+        options, [](const Vec3&, double) { return false; }, "ball");
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         Vec3 centre = Vec3::Zero();
         for (const std::uint32_t v : mesh.tets[t]) centre += 0.25 * mesh.points[v];
@@ -29,7 +32,8 @@ dsc::mesh::Complex ball(double shift) {
     return dsc::mesh::adopt(mesh, "ball", nullptr, 0.0);
 }
 
-std::vector<dsc::repair::Request> proposals(const dsc::mesh::Complex& complex, double poor, double hopeless) {
+std::vector<dsc::repair::Request> proposals(const dsc::mesh::Complex& complex, double poor,
+                                            double hopeless) {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
     const auto params = ConfigNode::map({{"poor", poor}, {"hopeless", hopeless}});
@@ -38,13 +42,15 @@ std::vector<dsc::repair::Request> proposals(const dsc::mesh::Complex& complex, d
     for (dsc::mesh::TetId t = 0; t < complex.tet_slots(); ++t) dirty.push_back(t);
     const dsc::surface::SurfaceView view;
     const dsc::hooks::StepContext step{.surface = view, .box = {}, .to_normalised = {}};
-    const dsc::repair::RepairRound round{complex, dirty, {}, {}, {}, 1.0, strategy->flatness(), 0, true};
+    const dsc::repair::RepairRound round{
+        complex, dirty, {}, {}, {}, 1.0, strategy->flatness(), 0, true};
     std::vector<dsc::repair::Request> out;
     strategy->propose(step, round, out);
     return out;
 }
 
-std::size_t count(const std::vector<dsc::repair::Request>& requests, dsc::repair::Operation operation) {
+std::size_t count(const std::vector<dsc::repair::Request>& requests,
+                  dsc::repair::Operation operation) {
     std::size_t found = 0;
     for (const auto& request : requests) found += request.operation == operation ? 1 : 0;
     return found;
@@ -61,7 +67,8 @@ std::size_t tets_below(const dsc::mesh::Complex& complex, double quality) {
 
 TEST_CASE("good tets are not changed") { CHECK(proposals(ball(0.0), 0.3, 0.05).empty()); }
 
-TEST_CASE("an edge or a face of each poor tet is to be removed, each hopeless tet is to be collapsed") {
+TEST_CASE(
+    "an edge or a face of each poor tet is to be removed, each hopeless tet is to be collapsed") {
     const auto complex = ball(0.98);
     const auto requests = proposals(complex, 0.3, 0.1);
     CHECK(tets_below(complex, 0.1) > 0);

@@ -1,9 +1,14 @@
 // Initial mesh `@NAME@`: a torus around the z axis in a box of tets.
+//
+//     inside: hypot(hypot(x, y) - ring, z) < tube
+//
+// A tet gets label 1 if its centre is inside.
 #include <array>
 #include <cmath>
+#include <utility>
+
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/plugin/plugin.hpp>
-#include <utility>
 
 namespace {
 
@@ -18,14 +23,23 @@ public:
         double tube = 0.35;
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
-        schema.integer("cells", &Params::cells).range(4, 100).unit("1").doc("Number of cells along each edge of the box.");
+        schema.integer("cells", &Params::cells)
+            .range(4, 100)
+            .unit("1")
+            .doc("Number of cells along each edge of the box.");
         schema.real("ring", &Params::ring)
             .range(0, 1.4)
             .unit("length")
             .doc("Radius of the circle that the tube follows.");
-        schema.real("tube", &Params::tube).range(0, 1.4).open_low().unit("length").doc("Radius of the tube.");
-        schema.check([](const Params& p) { return p.tube < p.ring; }, "tube must be less than ring, otherwise there is no hole");
-        schema.check([](const Params& p) { return p.ring + p.tube <= 1.4; }, "ring + tube must be at most 1.4, to stay in the box");
+        schema.real("tube", &Params::tube)
+            .range(0, 1.4)
+            .open_low()
+            .unit("length")
+            .doc("Radius of the tube.");
+        schema.check([](const Params& p) { return p.tube < p.ring; },
+                     "tube must be less than ring, otherwise there is no hole");
+        schema.check([](const Params& p) { return p.ring + p.tube <= 1.4; },
+                     "ring + tube must be at most 1.4, to stay in the box");
     }
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
@@ -58,9 +72,11 @@ private:
         }
     }
 
-    // Six tets, one for each path along the edges of the cell from its lowest to its highest corner. All cells are cut in the
-    // same way, so neighbours have the same diagonal on the face between them.
-    void add_cell(dsc::mesh::TetMesh& mesh, unsigned cells, const std::array<unsigned, 3>& lowest) const {
+    // Six tets, one for each path along the edges of the cell from its lowest to its highest
+    // corner. All cells are cut in the same way, so neighbours have the same diagonal on the face
+    // between them.
+    void add_cell(dsc::mesh::TetMesh& mesh, unsigned cells,
+                  const std::array<unsigned, 3>& lowest) const {
         constexpr std::array<std::array<std::size_t, 3>, 6> ways = {
             {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
         for (std::size_t w = 0; w < ways.size(); ++w) {
@@ -71,7 +87,8 @@ private:
                 ++corner[ways[w][c]];
                 tet[c + 1] = index(corner, cells);
             }
-            if (w >= 3) std::swap(tet[2], tet[3]);  // the last three are mirror images: make them positive
+            // The last three are mirror images: make them positive.
+            if (w >= 3) std::swap(tet[2], tet[3]);
             Vec3 centre = Vec3::Zero();
             for (const std::uint32_t v : tet) centre += 0.25 * mesh.points[v];
             mesh.tets.push_back(tet);

@@ -1,4 +1,6 @@
-// Tests of the mesh. The strategy is loaded from the plugin, as in a run.
+// Tests of the mesh; the plugin is loaded as in a run.
+#include <numbers>
+
 #include <doctest/doctest.h>
 
 #include <dsc/base/error.hpp>
@@ -6,7 +8,6 @@
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/validate.hpp>
-#include <numbers>
 
 namespace {
 
@@ -34,7 +35,8 @@ TEST_CASE("every tet is positive and together they fill the box") {
 }
 
 TEST_CASE("the label is a torus: one surface with a hole, of the right volume") {
-    const auto complex = dsc::mesh::adopt(build(ConfigNode::map({{"ring", 0.8}, {"tube", 0.4}})), "@NAME@");
+    const auto complex =
+        dsc::mesh::adopt(build(ConfigNode::map({{"ring", 0.8}, {"tube", 0.4}})), "@NAME@");
     CHECK(dsc::mesh::validate(complex).valid());
     const auto counts = dsc::mesh::count_interface(complex);
     CHECK(counts.shells == 1);

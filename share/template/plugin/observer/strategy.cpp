@@ -1,13 +1,19 @@
 // Observer `@NAME@`: the sphericity of the surface, and the fraction of narrow faces.
+//
+//     sphericity = cbrt(36 pi V^2) / A
+//
+// where V is the volume inside the surface and A its area; it is 1 for a sphere. A face is narrow
+// if its smallest angle is below `narrow`.
 #include <algorithm>
 #include <cmath>
-#include <dsc/geometry/corner.hpp>
-#include <dsc/hooks/observer.hpp>
-#include <dsc/plugin/plugin.hpp>
 #include <istream>
 #include <limits>
 #include <numbers>
 #include <ostream>
+
+#include <dsc/geometry/corner.hpp>
+#include <dsc/hooks/observer.hpp>
+#include <dsc/plugin/plugin.hpp>
 
 namespace {
 
@@ -29,10 +35,13 @@ public:
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
 
-    void begin(const dsc::hooks::StepContext& context) override { least_sphericity_ = sphericity(context.surface); }
+    void begin(const dsc::hooks::StepContext& context) override {
+        least_sphericity_ = sphericity(context.surface);
+    }
 
     // Called after each step, for a row of metrics.csv. The names are the same in every step.
-    dsc::hooks::Figures step(const dsc::hooks::StepContext& context, const dsc::hooks::StepFigures&) override {
+    dsc::hooks::Figures step(const dsc::hooks::StepContext& context,
+                             const dsc::hooks::StepFigures&) override {
         const double now = sphericity(context.surface);
         least_sphericity_ = std::min(least_sphericity_, now);
         return {{"sphericity", now}, {"narrow_faces", narrow_faces(context.surface)}};
@@ -45,23 +54,27 @@ public:
                 {"least_sphericity", least_sphericity_}};
     }
 
-    // Writes everything that is kept between steps, so that a resumed run continues as if it had never stopped.
+    // Writes everything that is kept between steps, so that a resumed run continues as if it had
+    // never stopped.
     void save(std::ostream& out) const override {
         out.precision(std::numeric_limits<double>::max_digits10);
         out << "1 " << least_sphericity_ << " end\n";
     }
+
     void load(std::istream& in) override {
         int version = 0;
         double least = 0;
         std::string mark;
         if (!(in >> version >> least >> mark) || version != 1 || mark != "end")
-            throw dsc::StrategyError("@NAME@.state", "the saved state of observer '@NAME@' is damaged; start the run again");
+            throw dsc::StrategyError(
+                "@NAME@.state",
+                "the saved state of observer '@NAME@' is damaged; start the run again");
         least_sphericity_ = least;
     }
 
 private:
-    // In mean edges, so that the sums work for a surface of any size. The volume is that of the tets
-    // between the first vertex and the faces.
+    // In mean edges, so that the sums work for a surface of any size. The volume is that of the
+    // tets between the first vertex and the faces.
     static double sphericity(const SurfaceView& surface) {
         const auto at = [&](std::uint32_t v) {
             return Vec3((surface.positions[v] - surface.positions[0]) / surface.mean_edge);
@@ -86,7 +99,8 @@ private:
             const Vec3& p = surface.positions[a];
             const Vec3& q = surface.positions[b];
             const Vec3& r = surface.positions[c];
-            const double least = std::min({dsc::geometry::corner_angle(p, q, r), dsc::geometry::corner_angle(q, r, p),
+            const double least = std::min({dsc::geometry::corner_angle(p, q, r),
+                                           dsc::geometry::corner_angle(q, r, p),
                                            dsc::geometry::corner_angle(r, p, q)});
             if (least < bound) ++count;
         }

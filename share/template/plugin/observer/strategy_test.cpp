@@ -1,14 +1,15 @@
-// Tests of the figures on surfaces with known values. The strategy is loaded from the plugin, as in a run.
+// Tests of the figures on surfaces with known values; the plugin is loaded as in a run.
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <sstream>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/steps.hpp>
 #include <dsc/sdk/surfaces.hpp>
-#include <map>
-#include <numbers>
-#include <sstream>
 
 namespace {
 
@@ -19,7 +20,8 @@ using Table = std::map<std::string, double>;
 struct Bench {
     Bench() { host.load(DSC_TEST_PLUGIN); }
     std::unique_ptr<dsc::hooks::Observer> make(double narrow = 15.0) const {
-        return host.create<dsc::hooks::Observer>({"@NAME@", ConfigNode::map({{"narrow", narrow}})}, "observers.0");
+        return host.create<dsc::hooks::Observer>({"@NAME@", ConfigNode::map({{"narrow", narrow}})},
+                                                 "observers.0");
     }
     dsc::host::Host host;
 };
@@ -36,7 +38,8 @@ Table end(dsc::hooks::Observer& observer, const dsc::surface::TriangleMesh& mesh
 }
 
 dsc::surface::TriangleMesh stretched(double factor) {
-    return dsc::sdk::moved(dsc::sdk::icosphere(3, 0.7), [factor](const Vec3& p) { return Vec3(factor * p.x(), p.y(), p.z()); });
+    return dsc::sdk::moved(dsc::sdk::icosphere(3, 0.7),
+                           [factor](const Vec3& p) { return Vec3(factor * p.x(), p.y(), p.z()); });
 }
 
 }  // namespace
@@ -47,7 +50,8 @@ TEST_CASE("a sphere is round, an octahedron less so") {
     CHECK(step(*observer, stretched(1.0)).at("sphericity") == doctest::Approx(1.0).epsilon(0.01));
     CHECK(step(*observer, stretched(3.0)).at("sphericity") < 0.9);
     dsc::surface::TriangleMesh octahedron;
-    octahedron.points = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)};
+    octahedron.points = {Vec3(1, 0, 0),  Vec3(0, 1, 0), Vec3(-1, 0, 0),
+                         Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)};
     for (std::uint32_t i = 0; i < 4; ++i) {
         octahedron.faces.push_back({i, (i + 1) % 4, 4});
         octahedron.faces.push_back({(i + 1) % 4, i, 5});
@@ -58,7 +62,8 @@ TEST_CASE("a sphere is round, an octahedron less so") {
 
 TEST_CASE("narrow faces are those with a small angle") {
     const Bench bench;
-    CHECK(step(*bench.make(40.0), dsc::sdk::square(3, 1.0)).at("narrow_faces") == 0.0);  // their least angle is 45 degrees
+    // The least angle of these faces is 45 degrees.
+    CHECK(step(*bench.make(40.0), dsc::sdk::square(3, 1.0)).at("narrow_faces") == 0.0);
     CHECK(step(*bench.make(50.0), dsc::sdk::square(3, 1.0)).at("narrow_faces") == 1.0);
 }
 

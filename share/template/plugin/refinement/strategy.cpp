@@ -1,11 +1,15 @@
 // Refinement `@NAME@`: splits the interface edges at which the surface bends.
+//
+// An edge is split if the angle between the normals of its two faces is above `bend` and its length
+// is at least `shortest`.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <dsc/hooks/refinement_policy.hpp>
-#include <dsc/plugin/plugin.hpp>
 #include <numbers>
 #include <tuple>
+
+#include <dsc/hooks/refinement_policy.hpp>
+#include <dsc/plugin/plugin.hpp>
 
 namespace {
 
@@ -22,7 +26,8 @@ public:
         schema.real("bend", &Params::bend)
             .range(0, 180)
             .unit("degrees")
-            .doc("Angle between the normals of the two faces of an edge above which the edge is split.");
+            .doc("Angle between the normals of the two faces of an edge above which the edge is "
+                 "split.");
         schema.real("shortest", &Params::shortest)
             .range(0, 100)
             .unit("current mean edges")
@@ -31,8 +36,10 @@ public:
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
 
-    // Called between two steps. The kernel carries out the requests where it can, and counts the others.
-    void refine(const dsc::hooks::RefinementContext& context, dsc::hooks::RefinementRequests& out) override {
+    // Called between two steps. The kernel carries out the requests where it can, and counts the
+    // others.
+    void refine(const dsc::hooks::RefinementContext& context,
+                dsc::hooks::RefinementRequests& out) override {
         const SurfaceView& surface = context.step.surface;
         const double flat = std::cos(params_.bend * std::numbers::pi / 180);
         const double shortest = params_.shortest * surface.mean_edge;
@@ -49,14 +56,16 @@ public:
     }
 
 private:
-    using Side = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;  // lower vertex, higher vertex, face
+    // Lower vertex, higher vertex, face.
+    using Side = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>;
 
     // Every edge once per face, sorted, so that the two sides of an edge follow each other.
     static std::vector<Side> sides_of(const SurfaceView& surface) {
         std::vector<Side> sides;
         for (std::uint32_t face = 0; face < surface.face_count(); ++face) {
             for (std::size_t k = 0; k < 3; ++k) {
-                const auto [a, b] = std::minmax(surface.faces[face][k], surface.faces[face][(k + 1) % 3]);
+                const auto [a, b] =
+                    std::minmax(surface.faces[face][k], surface.faces[face][(k + 1) % 3]);
                 sides.emplace_back(a, b, face);
             }
         }

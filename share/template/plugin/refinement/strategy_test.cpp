@@ -1,4 +1,4 @@
-// Tests of the requests on surfaces with known values. The strategy is loaded from the plugin, as in a run.
+// Tests of the requests on surfaces with known values; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <dsc/host/host.hpp>
@@ -10,12 +10,13 @@ namespace {
 using dsc::Vec3;
 using dsc::config::ConfigNode;
 
-std::vector<std::array<std::uint32_t, 2>> split_edges(const dsc::surface::SurfaceView& view, double bend,
-                                                      double shortest = 0.0) {
+std::vector<std::array<std::uint32_t, 2>> split_edges(const dsc::surface::SurfaceView& view,
+                                                      double bend, double shortest = 0.0) {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
     const auto params = ConfigNode::map({{"bend", bend}, {"shortest", shortest}});
-    const auto policy = host.create<dsc::hooks::RefinementPolicy>({"@NAME@", params}, "schedule.1.refine");
+    const auto policy =
+        host.create<dsc::hooks::RefinementPolicy>({"@NAME@", params}, "schedule.1.refine");
     const auto step = dsc::sdk::step_context(view);
     dsc::hooks::RefinementRequests requests;
     policy->refine({step}, requests);
@@ -41,7 +42,8 @@ TEST_CASE("the edges of a fold are split, those of flat parts are not") {
 
 TEST_CASE("short edges are not split") {
     const auto view = folded();
-    CHECK(split_edges(view, 20.0, 0.49 / view.mean_edge).size() == 4);  // the fold's edges are 0.5 long
+    // The edges of the fold are 0.5 long.
+    CHECK(split_edges(view, 20.0, 0.49 / view.mean_edge).size() == 4);
     CHECK(split_edges(view, 20.0, 0.51 / view.mean_edge).empty());
 }
 

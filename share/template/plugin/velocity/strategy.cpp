@@ -1,5 +1,9 @@
-// Velocity `@NAME@`: a balloon. Every interface vertex moves outwards along its normal and, like a skin under tension,
-// towards the mean of its neighbours.
+// Velocity `@NAME@`: a balloon. Every interface vertex moves outwards along its normal and, like a
+// skin under tension, towards the mean of its neighbours.
+//
+//     displacement = inflation * (mean edge) * N + tension * (mean of the neighbours - x)
+//
+// where x is the vertex and N its outward unit normal.
 #include <dsc/hooks/velocity_field.hpp>
 #include <dsc/plugin/plugin.hpp>
 
@@ -27,13 +31,15 @@ public:
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
 
-    // Called before the other calls of a step. The context is valid until the next call; advance() keeps state between steps.
+    // Called before the other calls of a step. The context is valid until the next call; advance()
+    // keeps state between steps.
     void prepare(const dsc::hooks::StepContext& context) override {
         surface_ = &context.surface;
         outwards_ = params_.inflation * surface_->mean_edge;
     }
 
-    // Several threads call this at the same time, each for its own range: it only reads, and writes only `out`.
+    // Several threads call this at the same time, each for its own range: it only reads, and writes
+    // only `out`.
     void evaluate(dsc::hooks::Range range, std::span<Vec3> out) const override {
         for (std::size_t i = 0; i < out.size(); ++i) {
             const std::size_t v = range.begin + i;
@@ -43,7 +49,8 @@ public:
     }
 
 private:
-    // Around a closed vertex every neighbour is in two faces, so the mean over the faces is the mean over the neighbours.
+    // Around a closed vertex every neighbour is in two faces, so the mean over the faces is the
+    // mean over the neighbours.
     Vec3 mean_of_neighbours(std::size_t vertex) const {
         Vec3 sum = Vec3::Zero();
         std::size_t count = 0;
@@ -65,5 +72,6 @@ private:
 }  // namespace
 
 DSC_PLUGIN("@NAME@", "0.1.0", "BSD-3-Clause", "Velocity @NAME@") {
-    registrar.add<@CLASS@>("@NAME@", "a balloon: moves outwards along the normals, held back by tension");
+    registrar.add<@CLASS@>("@NAME@",
+                           "a balloon: moves outwards along the normals, held back by tension");
 }

@@ -1,4 +1,4 @@
-// Tests of the velocity on surfaces with known values. The strategy is loaded from the plugin, as in a run.
+// Tests of the velocity on surfaces with known values; the plugin is loaded as in a run.
 #include <doctest/doctest.h>
 
 #include <dsc/host/host.hpp>
@@ -10,8 +10,8 @@ namespace {
 using dsc::Vec3;
 using dsc::config::ConfigNode;
 
-std::vector<Vec3> displacements(const dsc::surface::SurfaceView& view, double inflation, double tension,
-                                unsigned threads = 1, std::size_t block = 64) {
+std::vector<Vec3> displacements(const dsc::surface::SurfaceView& view, double inflation,
+                                double tension, unsigned threads = 1, std::size_t block = 64) {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
     const auto params = ConfigNode::map({{"inflation", inflation}, {"tension", tension}});
@@ -35,7 +35,8 @@ TEST_CASE("without inflation a spike is pulled in and a plane stays") {
     const std::size_t middle = 4 * 9 + 4;
     CHECK(displacements(dsc::sdk::view_of(mesh), 0.0, 0.5)[middle].norm() < 1e-15);
     mesh.points[middle].z() = 0.4;
-    CHECK((displacements(dsc::sdk::view_of(mesh), 0.0, 0.5)[middle] - Vec3(0, 0, -0.2)).norm() < 1e-15);
+    CHECK((displacements(dsc::sdk::view_of(mesh), 0.0, 0.5)[middle] - Vec3(0, 0, -0.2)).norm() <
+          1e-15);
 }
 
 TEST_CASE("blocks and threads make no difference") {

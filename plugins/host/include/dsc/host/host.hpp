@@ -39,7 +39,7 @@ public:
     /// | plugin.not_elf | not a shared library for this machine, or a damaged one |
     /// | plugin.no_entry | a library without the entry of a dsc plugin |
     /// | plugin.magic, plugin.size, plugin.abi | an entry of another layout or version |
-    /// | plugin.fingerprint | built by another compiler, standard library or options; both fingerprints are printed |
+    /// | plugin.fingerprint | another compiler, standard library or options; both are printed |
     /// | plugin.crash, plugin.hang | it crashes or does not load in time |
     /// | plugin.load | the dynamic linker refused it |
     /// | plugin.enroll | enroll threw, or registered nothing or something malformed |

@@ -1,0 +1,142 @@
+// Destinations of the moving vertices: passes of movement, and updates after edits (method.md, sections 5 and 9).
+#include "kernel/destinations.hpp"
+
+#include <string>
+
+#include <dsc/base/error.hpp>
+
+namespace dsc::kernel {
+
+void Destinations::clear() {
+    active_.clear();
+    entries_.clear();
+    near_collapses_.clear();
+    tried_ = 0;
+    stranded_ = 0;
+}
+
+// The entry of v, even if v no longer exists; null if it has none.
+Destinations::Entry* Destinations::entry_of(VertexId v) {
+    if (v >= entry_of_vertex_.size() || entry_of_vertex_[v] >= entries_.size()) return nullptr;
+    Entry& entry = entries_[entry_of_vertex_[v]];
+    return entry.vertex == v ? &entry : nullptr;
+}
+
+bool Destinations::moves(VertexId v) {
+    const Entry* entry = entry_of(v);
+    return entry != nullptr && entry->birth == complex_.birth(v);
+}
+
+void Destinations::send(VertexId v, const Vec3& destination) {
+    if (entry_of_vertex_.size() < complex_.vertex_slots()) entry_of_vertex_.resize(complex_.vertex_slots(), mesh::none);
+    Entry* entry = entry_of(v);
+    if (entry == nullptr) {
+        entry_of_vertex_[v] = static_cast<std::uint32_t>(entries_.size());
+        entry = &entries_.emplace_back();
+    }
+    *entry = {destination, v, complex_.birth(v), 0, 0};
+    active_.push_back(v);
+}
+
+void Destinations::on_split(VertexId vertex, VertexId a, VertexId b, double s) {
+    if (!complex_.movable(vertex) || (!moves(a) && !moves(b))) return;
+    send(vertex, (1.0 - s) * destination_of(a) + s * destination_of(b));
+}
+
+void Destinations::on_collapse(VertexId kept, VertexId removed, double s) {
+    // The removed id no longer exists, but its entry does: births differ only after the slot is used again.
+    const bool goes = entry_of(removed) != nullptr;
+    const bool stays = moves(kept);
+    if ((!goes && !stays) || !complex_.movable(kept) || s == 0.0) return;
+    const Vec3 from = stays ? entry_of(kept)->place : complex_.position(kept);
+    const Vec3 to = goes ? entry_of(removed)->place : complex_.position(kept);
+    send(kept, (1.0 - s) * from + s * to);
+}
+
+// What a pass does with active_[i].
+struct Destinations::Pass {
+    enum Fate : std::uint8_t { asleep, arrived, moved, stopped };
+
+    Destinations& all;
+    const Limits& limits;
+    const PassOptions& options;
+
+    Entry& at(std::size_t i) const { return all.entries_[all.entry_of_vertex_[all.active_[i]]]; }
+    void decide(std::size_t i, Fate fate) const { all.fates_[i] = fate; }
+
+    bool ready(std::size_t i) const {
+        const VertexId v = all.active_[i];
+        const Entry& entry = at(i);
+        if (entry.blocked_at != 0 && !all.queues_.awake(v, entry.blocked_at)) {
+            decide(i, asleep);
+            if (options.audit && all.complex_.vertex_date(v) > entry.blocked_at) {
+                throw GeometryError("kernel.audit", "audit: vertex " + std::to_string(v) +
+                                                        " sleeps though its star changed; the queues of the kernel lost a wake-up");
+            }
+            return false;
+        }
+        decide(i, arrived);
+        return !has_arrived(all.complex_, limits, v, entry.place);
+    }
+
+    bool attempt(std::size_t i, StarScratch& scratch) const {
+        const Motion motion = plan_move(all.complex_, limits, all.active_[i], at(i).place, options.free_path, scratch);
+        decide(i, motion == Motion::arrived ? arrived : motion == Motion::moved ? moved : stopped);
+        return motion != Motion::blocked;
+    }
+
+    void settle(std::size_t i, bool, std::uint32_t date) const {
+        const auto fate = static_cast<Fate>(all.fates_[i]);
+        if (fate == asleep) return;
+        ++all.tried_;
+        Entry& entry = at(i);
+        entry.blocked_at = fate == stopped ? date : 0;
+        if (fate == arrived) entry.vertex = mesh::none;
+    }
+};
+
+void Destinations::drop_dead_and_double() {
+    ++pass_;
+    std::size_t kept = 0;
+    for (const VertexId v : active_) {
+        if (v >= complex_.vertex_slots() || !complex_.vertex_alive(v) || !moves(v) || !complex_.movable(v)) continue;
+        Entry& entry = *entry_of(v);
+        if (entry.listed == pass_) continue;
+        entry.listed = pass_;
+        active_[kept++] = v;
+    }
+    active_.resize(kept);
+}
+
+double Destinations::pass(const Limits& limits, const PassOptions& options) {
+    drop_dead_and_double();
+    fates_.resize(active_.size());
+    Pass action{*this, limits, options};
+    loop_.run(active_, options.workers, action);
+    blocked_.clear();
+    double left = 0.0;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < active_.size(); ++i) {
+        if (fates_[i] == Pass::arrived) continue;
+        const VertexId v = active_[i];
+        const Entry& entry = *entry_of(v);
+        if (entry.blocked_at != 0) blocked_.push_back(v);
+        left += (entry.place - complex_.position(v)).norm();
+        active_[kept++] = v;
+    }
+    active_.resize(kept);
+    return left;
+}
+
+void Destinations::drop_remaining(StepReport& report) {
+    for (const VertexId v : active_) {
+        if (!complex_.vertex_alive(v) || !moves(v)) continue;
+        Entry& entry = *entry_of(v);
+        report.dropped_motion += (entry.place - complex_.position(v)).norm();
+        entry.vertex = mesh::none;
+        ++stranded_;
+    }
+    active_.clear();
+}
+
+}  // namespace dsc::kernel

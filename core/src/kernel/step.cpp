@@ -1,0 +1,209 @@
+// The parts of a step: motion and repair in turn, then topology (method.md, sections 5, 6 and 8).
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "kernel/deformer_state.hpp"
+
+namespace dsc::kernel {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+void count(const Event& event, repair::EventCounts& counts) {
+    switch (event.kind) {
+        case Event::Kind::merge: ++counts.merge; break;
+        case Event::Kind::split: ++counts.split; break;
+        case Event::Kind::handle_opened: ++counts.handle_opened; break;
+        case Event::Kind::handle_closed: ++counts.handle_closed; break;
+        case Event::Kind::vanished: ++counts.vanished; break;
+        case Event::Kind::born: ++counts.born; break;
+        case Event::Kind::unpinched: ++counts.unpinched; break;
+    }
+}
+
+}  // namespace
+
+void Deformer::State::begin_step(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy,
+                                 StepReport& report) {
+    apply_limits(policy.flatness, policy.creases);
+    bench.limits.set_floor(policy.quality_floor.value_or(options.quality_floor));
+    ++step;
+    destinations.clear();
+    for (const TetId t : step_changes) noted[t] = false;
+    step_changes.clear();
+    last_requests.clear();
+    outcomes.clear();
+    bench.sums = {};
+    bench.crease_exceptions = 0;
+    const Vec3 low = complex.box().low.array() + 2.0 * length;
+    const Vec3 high = complex.box().high.array() - 2.0 * length;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const VertexId v = vertices[i];
+        // In this order, so that a vertex without displacement is not even looked at.
+        if (displacements[i].isZero(0.0) || !complex.movable(v)) continue;
+        ++report.requested;
+        const Vec3 wanted = complex.position(v) + displacements[i];
+        const Vec3 inside = wanted.cwiseMax(low).cwiseMin(high);
+        if (inside != wanted) ++report.clamped;
+        destinations.send(v, inside);
+    }
+}
+
+// Collects for the topology stage what changed in this step, each tet once.
+void Deformer::State::note_changes(std::span<const TetId> changed) {
+    noted.resize(std::max(noted.size(), complex.tet_slots()), false);
+    for (const TetId t : changed) {
+        if (noted[t]) continue;
+        noted[t] = true;
+        step_changes.push_back(t);
+    }
+}
+
+// The tet of a refused request waits until its neighbourhood changes.
+void Deformer::State::record(std::uint32_t i, Outcome outcome, std::uint32_t date, StepReport& report) {
+    outcomes[i] = outcome;
+    const repair::Request& request = requests[i];
+    report.operations[static_cast<std::size_t>(request.operation)].add(outcome);
+    report.repair_classes[std::min<std::size_t>(request.repair_class, repair::repair_class_limit - 1)].add(outcome);
+    if (!outcome.refused()) return;
+    if (outcome != Refusal::stale && request.tet != mesh::none) queues.fail(request.tet, date);
+}
+
+// Consecutive requests that smooth different vertices may run in parallel.
+struct Deformer::State::Smoothing {
+    State& state;
+    std::uint32_t first;  // request of vertex 0
+    StepReport& report;
+
+    const repair::Request& request(std::size_t i) const { return state.requests[first + i]; }
+    bool decide(std::size_t i, Outcome outcome) const {
+        state.outcomes[first + i] = outcome;
+        return !outcome.refused();
+    }
+    bool ready(std::size_t i) const {
+        return decide(i, may_smooth(state.bench, request(i).vertices[0], request(i).accept_above));
+    }
+    bool attempt(std::size_t i, StarScratch& scratch) const {
+        return decide(i, plan_laplacian(state.complex, state.bench.limits, request(i).vertices[0], request(i).accept_above, scratch));
+    }
+    void settle(std::uint32_t i, bool attempted, std::uint32_t date) const {
+        const Outcome outcome = state.outcomes[first + i];
+        if (attempted && outcome.refused()) {
+            state.bench.remember(request(i).vertices[0], Workbench::Smoother::laplacian, request(i).accept_above, outcome.reason(), date);
+        }
+        state.record(first + i, outcome, date, report);
+    }
+};
+
+// Whether the request is certainly a Laplacian smoothing at its turn, whatever other smoothings do before it.
+bool Deformer::State::plain_smoothing(const repair::Request& request) const {
+    const VertexId v = request.vertices[0];
+    const TetId t = request.tet;
+    return request.operation == repair::Operation::smooth_laplacian && v != mesh::none && request.vertices[1] == mesh::none &&
+           request.only_below > 1.0F && t != mesh::none && t < complex.tet_slots() && complex.tet_alive(t) &&
+           complex.birth_date(t) == request.birth_date && mesh::has_vertex(complex.tet(t), v);
+}
+
+std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) {
+    smoothed.clear();
+    for (std::size_t i = first; i < requests.size() && plain_smoothing(requests[i]); ++i) smoothed.push_back(requests[i].vertices[0]);
+    Smoothing action{*this, static_cast<std::uint32_t>(first), report};
+    star_loop.run(smoothed, workers, action);
+    return smoothed.size();
+}
+
+void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report) {
+    const auto dirty = queues.next_round();
+    note_changes(dirty);
+    requests.clear();
+    policy.propose(repair::RepairRound{complex, dirty, destinations.blocked(), last_requests, outcomes, length, policy.flatness, round, settled,
+                                     policy.size_edits,
+                                     bench.lengths != nullptr ? std::span<const double>(*bench.lengths) : std::span<const double>()},
+                   requests);
+    outcomes.resize(requests.size());
+    for (std::size_t i = 0; i < requests.size();) {
+        const std::size_t done = smooth_from(i, report);
+        i += done;
+        if (done > 0) continue;
+        const Outcome outcome = execute(bench, requests[i]);
+        record(static_cast<std::uint32_t>(i), outcome, complex.clock(), report);
+        ++i;
+    }
+    std::swap(last_requests, requests);
+}
+
+// The remaining motion is dropped if it no longer falls, or if nothing can be tried any more (method.md, section 5.3).
+class Deformer::State::Stall {
+public:
+    explicit Stall(const DeformerOptions& options) : options_(options) {}
+
+    /// After the passes of a round: `left` is the remaining distance, `tried` the number of attempted moves.
+    bool reached(double left, std::size_t tried, bool done) {
+        if (left < best_left_ * (1.0 - options_.stall_ratio)) {
+            best_left_ = left;
+            slow_rounds_ = 0;
+            return false;
+        }
+        return !done && (++slow_rounds_ >= options_.stall_rounds || (tried == 0 && ++idle_rounds_ > 1));
+    }
+
+private:
+    const DeformerOptions& options_;
+    double best_left_ = INFINITY;
+    unsigned idle_rounds_ = 0;
+    unsigned slow_rounds_ = 0;
+};
+
+// Returns the sum of the remaining distances.
+double Deformer::State::make_moves() {
+    const PassOptions passes{options.free_path, options.audit, workers};
+    const double left = destinations.pass(bench.limits, passes);
+    // A second pass, because neighbours that moved make room for each other.
+    return destinations.done() ? left : destinations.pass(bench.limits, passes);
+}
+
+void Deformer::State::move_and_repair(const RepairPolicy& policy, StepReport& report) {
+    Stall stall(options);
+    for (unsigned round = 0; round < options.max_rounds; ++round) {
+        auto start = Clock::now();
+        const double left = make_moves();
+        const std::size_t tried = destinations.take_tried();
+        report.move_seconds += seconds_since(start);
+        ++report.rounds;
+        if (stall.reached(left, tried, destinations.done())) destinations.drop_remaining(report);
+        const bool settled = destinations.done();
+        if (!policy.propose) {
+            if (settled) break;
+            continue;
+        }
+        start = Clock::now();
+        repair(policy, round, settled, report);
+        report.repair_seconds += seconds_since(start);
+        if (settled && destinations.done()) break;
+    }
+    destinations.drop_remaining(report);
+}
+
+void Deformer::State::change_topology(const RepairPolicy& policy, StepReport& report) {
+    const auto start = Clock::now();
+    note_changes(complex.changes());
+    topology.run(step, step_changes, policy.topology, policy.select, report.events, workers);
+    if (policy.topology.thickness > 0.0) {
+        topology.remove_small_components(step, destinations.near_collapses(), policy.topology.min_component, report.events);
+    }
+    fields.settle();
+    report.repair_seconds += seconds_since(start);
+}
+
+void Deformer::State::sum_up(StepReport& report) const {
+    for (const Event& event : report.events) count(event, report.event_counts);
+    report.crease_exceptions = bench.crease_exceptions;
+    report.edit_distance = bench.sums.distance;
+    report.edit_volume = bench.sums.volume;
+    report.relabelled_volume = bench.sums.relabelled;
+    report.arrived = report.requested > destinations.stranded() ? report.requested - destinations.stranded() : 0;
+}
+
+}  // namespace dsc::kernel
