@@ -6,7 +6,7 @@
 #include <dsc/surface/surface_view.hpp>
 #include <string>
 
-namespace dsc::strategies {
+namespace dsc::indicator {
 namespace {
 
 /// Distance from the nearest sample, in local widths, beyond which the interface closes a gap in the data.
@@ -124,4 +124,4 @@ void add_figures(const Labels& labels, const cloud::Orientation& orientation, co
     add("gap_share", start.gap_share);
 }
 
-}  // namespace dsc::strategies
+}  // namespace dsc::indicator

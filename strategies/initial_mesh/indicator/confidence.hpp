@@ -8,7 +8,7 @@
 
 #include "labels.hpp"
 
-namespace dsc::strategies {
+namespace dsc::indicator {
 
 /// Residual of the winding field above which a finer orientation is tried, and above which the topology stays doubtful; noisy
 /// clouds with correct labels reach 0.14.
@@ -31,4 +31,4 @@ StartSurface measure_start(const mesh::TetMesh& mesh, const cloud::Orientation& 
 hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orientation, const StartSurface& start);
 void add_figures(const Labels& labels, const cloud::Orientation& orientation, const StartSurface& start, hooks::Figures& out);
 
-}  // namespace dsc::strategies
+}  // namespace dsc::indicator

@@ -9,7 +9,7 @@
 
 #include "witness.hpp"
 
-namespace dsc::strategies {
+namespace dsc::indicator {
 namespace {
 
 /// Smoothing length of the field, in widths of the samples.
@@ -179,4 +179,4 @@ Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& 
     return out;
 }
 
-}  // namespace dsc::strategies
+}  // namespace dsc::indicator

@@ -9,7 +9,7 @@
 #include <dsc/generate/topology_filter.hpp>
 #include <vector>
 
-namespace dsc::strategies {
+namespace dsc::indicator {
 
 /// The name of this strategy in messages.
 inline constexpr const char* generator_name = "initial mesh 'indicator'";
@@ -52,4 +52,4 @@ struct Labels {
 Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& options, double half_box,
                      Workers* workers, const CancelToken* cancel);
 
-}  // namespace dsc::strategies
+}  // namespace dsc::indicator

@@ -1,4 +1,4 @@
-#include "strategy.hpp"
+// Tests of the labels and the start; the plugin is loaded as in a run.
 
 #include <doctest/doctest.h>
 
@@ -167,29 +167,29 @@ TEST_CASE("half a ball is closed by a copy behind it, and a warning reports this
 }
 
 TEST_CASE("refused vertices and residuals beyond the limits are doubtful") {
-    dsc::strategies::Labels labels;
+    dsc::indicator::Labels labels;
     labels.samples = 1000;
     dsc::cloud::Orientation orientation;
     orientation.residual = 0.05;
-    CHECK_FALSE(dsc::strategies::doubtful(labels, orientation));
-    CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).empty());
+    CHECK_FALSE(dsc::indicator::doubtful(labels, orientation));
+    CHECK(dsc::indicator::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).empty());
     labels.filter.refused = 3;
-    CHECK_FALSE(dsc::strategies::doubtful(labels, orientation));
-    CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).empty());
+    CHECK_FALSE(dsc::indicator::doubtful(labels, orientation));
+    CHECK(dsc::indicator::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).empty());
     labels.components.resize(1);
     labels.components.front().kept = false;
     labels.components.front().vertices = 2;
-    CHECK(dsc::strategies::doubtful(labels, orientation));
-    CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "topology.doubtful");
+    CHECK(dsc::indicator::doubtful(labels, orientation));
+    CHECK(dsc::indicator::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "topology.doubtful");
     labels.filter.refused = 0;
     labels.components.clear();
     orientation.residual = 0.14;
-    CHECK(dsc::strategies::doubtful(labels, orientation));
-    CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).empty());
+    CHECK(dsc::indicator::doubtful(labels, orientation));
+    CHECK(dsc::indicator::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).empty());
     orientation.residual = 0.16;
-    CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "topology.doubtful");
+    CHECK(dsc::indicator::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "topology.doubtful");
     orientation.residual = 0.2;
-    CHECK(dsc::strategies::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "cloud.open");
+    CHECK(dsc::indicator::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "cloud.open");
 }
 
 TEST_CASE("an experiment without a cloud is refused") {

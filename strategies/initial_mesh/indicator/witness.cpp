@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace dsc::strategies {
+namespace dsc::indicator {
 namespace {
 
 /// Number of samples that vote about a vertex.
@@ -36,4 +36,4 @@ generate::LoopWitness tangent_plane_witness(std::span<const cloud::SurfaceSample
     };
 }
 
-}  // namespace dsc::strategies
+}  // namespace dsc::indicator

@@ -5,7 +5,7 @@
 #include <dsc/cloud/search.hpp>
 #include <dsc/generate/topology_filter.hpp>
 
-namespace dsc::strategies {
+namespace dsc::indicator {
 
 /// A witness for generate::filter_topology() that asks the nearest samples of each refused vertex on which side of their tangent
 /// planes the vertex lies. A handle that is about two spacings thick has weak values of the field, yet all samples round it
@@ -15,4 +15,4 @@ namespace dsc::strategies {
 generate::LoopWitness tangent_plane_witness(std::span<const cloud::SurfaceSample> samples, const cloud::NearestSearch& search,
                                         std::span<const Vec3> points, std::span<const double> values);
 
-}  // namespace dsc::strategies
+}  // namespace dsc::indicator
