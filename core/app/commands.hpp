@@ -1,10 +1,12 @@
 #pragma once
-// The commands of `dsc`. Each function adds one to the parser; its action, run after parsing, returns the exit code.
+// The commands of `dsc`. Each function adds one to the parser; its action, run after parsing,
+// returns the exit code.
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
+
+#include <CLI/CLI.hpp>
 
 namespace dsc::app {
 

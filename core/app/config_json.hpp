@@ -1,8 +1,9 @@
 #pragma once
 // Values of a configuration as JSON.
 
-#include <dsc/config/node.hpp>
 #include <nlohmann/json.hpp>
+
+#include <dsc/config/node.hpp>
 
 namespace dsc::app {
 

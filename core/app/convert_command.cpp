@@ -1,4 +1,8 @@
 // dsc convert
+#include <memory>
+
+#include <fmt/core.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/cloud/read.hpp>
@@ -8,8 +12,6 @@
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/surface/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <memory>
-#include <fmt/core.h>
 
 #include "commands.hpp"
 #include "files.hpp"
@@ -42,29 +44,33 @@ int execute(const ConvertArguments& arguments) {
     const io::Format* format = io::find_format(arguments.output);
     const bool is_cloud = cloud::is_cloud_file(arguments.output);
     if (format == nullptr && !is_cloud) {
-        throw UsageError("usage.format", arguments.output + " does not have the extension of a format that dsc writes; use " +
-                                             io::surface_extensions() + " for a surface, " +
-                                             io::volume_extensions() +
-                                             " for a volume, " + std::string(cloud::cloud_extensions()) +
-                                             " for a cloud");
+        throw UsageError(
+            "usage.format",
+            arguments.output + " does not have the extension of a format that dsc writes; use " +
+                io::surface_extensions() + " for a surface, " + io::volume_extensions() +
+                " for a volume, " + std::string(cloud::cloud_extensions()) + " for a cloud");
     }
     Content content = read_any(arguments.input, arguments.columns);
     if (format == nullptr) {
         cloud::write_cloud(arguments.output, points_of(std::move(content)));
     } else if (format->volume) {
         if (!content.volume) {
-            throw UsageError("convert.no_volume", arguments.input +
-                                                      " contains no tets, so no volume can be written; make one "
-                                                      "with dsc reconstruct");
+            throw UsageError("convert.no_volume",
+                             arguments.input + " contains no tets, so no volume can be written; "
+                                               "make one with dsc reconstruct");
         }
         if (const std::size_t turned = mesh::orient(*content.volume); turned > 0) {
-            log(LogLevel::info, fmt::format("{} tets of {} had negative orientation; they are written with positive orientation", turned, arguments.input));
+            log(LogLevel::info, fmt::format("{} tets of {} had negative orientation; they are "
+                                            "written with positive orientation",
+                                            turned, arguments.input));
         }
         io::write_volume(arguments.output, *content.volume);
     } else if (content.cloud) {
         cloud::write_cloud(arguments.output, *content.cloud);
     } else {
-        const surface::TriangleMesh surface = content.surface ? std::move(*content.surface) : surface::extract_interface(*content.volume);
+        const surface::TriangleMesh surface = content.surface
+                                                  ? std::move(*content.surface)
+                                                  : surface::extract_interface(*content.volume);
         io::write_surface(arguments.output, surface, {}, surface::vertex_normals(surface));
     }
     data_out() << arguments.output << "\n";
@@ -74,11 +80,12 @@ int execute(const ConvertArguments& arguments) {
 }  // namespace
 
 void add_convert(CLI::App& app, Context& context) {
-    CLI::App* command =
-        app.add_subcommand("convert", "Convert a file to another format, or a volume to its surface or its points");
+    CLI::App* command = app.add_subcommand(
+        "convert", "Convert a file to another format, or a volume to its surface or its points");
     const auto arguments = std::make_shared<ConvertArguments>();
     command->add_option("IN", arguments->input, "Surface, volume or cloud")->required();
-    command->add_option("OUT", arguments->output, "Output; its extension selects the format")->required();
+    command->add_option("OUT", arguments->output, "Output; its extension selects the format")
+        ->required();
     add_columns(*command, arguments->columns);
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <dsc/config/yaml.hpp>
 #include <limits>
+
+#include <dsc/config/yaml.hpp>
 
 #include "config_json.hpp"
 
@@ -124,8 +125,7 @@ void yaml_block(const config::Schema& schema, const std::string& indent, std::st
 std::string list_text(const std::vector<Described>& all) {
     std::array<std::size_t, 3> width{};
     const auto cells = [](const Described& d) {
-        return std::array<std::string, 3>{d.kind, d.id,
-                                          d.plugin + " " + d.version};
+        return std::array<std::string, 3>{d.kind, d.id, d.plugin + " " + d.version};
     };
     for (const Described& d : all) {
         const auto row = cells(d);

@@ -1,10 +1,12 @@
 #pragma once
 // Describes a strategy and its parameters for people, programs and experiments.
 
-#include <dsc/config/schema.hpp>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <dsc/config/schema.hpp>
 
 namespace dsc::app {
 
@@ -26,7 +28,8 @@ nlohmann::ordered_json full_json(const Described& described);
 std::string description_text(const Described& described);
 /// The parameters with their defaults as a commented block for an experiment.
 std::string yaml_text(const Described& described);
-/// A reference page in Markdown. It names no file and no version, so that it changes only with the declaration.
+/// A reference page in Markdown. It names no file and no version, so that it changes only with the
+/// declaration.
 std::string markdown_text(const Described& described);
 
 /// The purpose of a field and, in brackets, the values that it accepts.

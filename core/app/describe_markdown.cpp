@@ -22,7 +22,8 @@ std::string code(const std::string& text) { return text.empty() ? "" : "`" + tex
 
 /// Makes a sentence of a summary.
 std::string sentence(std::string text) {
-    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+        text[0] = static_cast<char>(text[0] - 'a' + 'A');
     return text + ".";
 }
 
@@ -43,7 +44,8 @@ struct Besides {
     std::string old_names;
 };
 
-void add_rows(const config::Schema& schema, const std::string& path, std::string& rows, Besides& besides) {
+void add_rows(const config::Schema& schema, const std::string& path, std::string& rows,
+              Besides& besides) {
     for (const Field& field : schema.fields()) {
         const std::string name = config::join_path(path, field.name);
         rows += "| " + code(name) + " | " + type_cell(field) + " | " + default_cell(field) + " | " +
@@ -69,7 +71,8 @@ std::string markdown_text(const Described& d) {
     std::string rows;
     Besides besides;
     add_rows(*d.schema, "", rows, besides);
-    text += "| parameter | type | default | unit | meaning |\n| --- | --- | --- | --- | --- |\n" + rows;
+    text +=
+        "| parameter | type | default | unit | meaning |\n| --- | --- | --- | --- | --- |\n" + rows;
     if (!besides.conditions.empty()) text += "\n## Conditions\n" + besides.conditions;
     if (!besides.old_names.empty()) text += "\n## Old names, still accepted\n" + besides.old_names;
     return text + "\n## With all defaults\n```yaml\n" + yaml_text(d) + "```\n";

@@ -2,8 +2,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <dsc/base/error.hpp>
 #include <string_view>
+
+#include <dsc/base/error.hpp>
 
 namespace dsc::app {
 
@@ -16,8 +17,9 @@ double parse_duration(const std::string& text) {
                            : unit == "h"               ? 3600.0
                                                        : 0.0;
     if (error != std::errc() || seconds == 0.0 || !std::isfinite(value) || value <= 0.0) {
-        throw UsageError("usage.duration",
-                         "--time-budget " + text + " is not a length of time; write 90, 90s, 10m or 1.5h");
+        throw UsageError(
+            "usage.duration",
+            "--time-budget " + text + " is not a length of time; write 90, 90s, 10m or 1.5h");
     }
     return value * seconds;
 }

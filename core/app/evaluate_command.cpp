@@ -1,13 +1,14 @@
 // dsc evaluate
+#include <fstream>
+#include <memory>
+#include <thread>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/read.hpp>
 #include <dsc/cloud/statistics.hpp>
 #include <dsc/run/coverage.hpp>
 #include <dsc/surface/distance.hpp>
-#include <fstream>
-#include <memory>
-#include <thread>
 
 #include "commands.hpp"
 #include "figures_output.hpp"
@@ -32,7 +33,8 @@ ordered_json against_truth(const surface::TriangleMesh& result, const EvaluateAr
     surface::EvaluateOptions options;
     options.samples = arguments.samples;
     options.workers = &workers;
-    const surface::Evaluation e = surface::evaluate(result, read_any_surface(arguments.truth), options);
+    const surface::Evaluation e =
+        surface::evaluate(result, read_any_surface(arguments.truth), options);
     return {{"file", arguments.truth},
             {"samples", arguments.samples},
             {"diagonal", e.diagonal},
@@ -49,13 +51,16 @@ ordered_json against_truth(const surface::TriangleMesh& result, const EvaluateAr
 ordered_json truth_formulas() {
     return {
         {"diagonal", "diagonal of the bounding box of the truth"},
-        {"accuracy_percent", "100 * mean over samples r of the result of dist(r, truth) / diagonal"},
-        {"completeness_percent", "100 * mean over samples t of the truth of dist(t, result) / diagonal"},
+        {"accuracy_percent",
+         "100 * mean over samples r of the result of dist(r, truth) / diagonal"},
+        {"completeness_percent",
+         "100 * mean over samples t of the truth of dist(t, result) / diagonal"},
         {"chamfer_percent", "(accuracy_percent + completeness_percent) / 2"},
         {"hausdorff_percent", "100 * largest of all these distances / diagonal"},
-        {"hausdorff99_percent", "100 * larger of the 99 % quantiles of the two directions / diagonal"},
-        {"f_score_x_percent",
-         "2 P R / (P + R); P = share of the result's samples, R = share of the truth's samples, closer than x % of the diagonal"},
+        {"hausdorff99_percent",
+         "100 * larger of the 99 % quantiles of the two directions / diagonal"},
+        {"f_score_x_percent", "2 P R / (P + R); P = share of the result's samples, R = share of "
+                              "the truth's samples, closer than x % of the diagonal"},
         {"normal_consistency",
          "mean over both directions of |n . n'|, for the face of a sample and the nearest face"},
         {"dist", "distance to the nearest point of the triangles; samples are uniform by area"}};
@@ -80,7 +85,8 @@ ordered_json distances(const surface::DistanceFigures& f, double factor) {
 ordered_json against_cloud(const surface::TriangleMesh& result, const EvaluateArguments& arguments,
                            Workers& workers) {
     const cloud::Cloud cloud = cloud::read_cloud(arguments.cloud, nullptr, {arguments.columns});
-    const surface::CloudDistances between = surface::cloud_distances(result, cloud.points, &workers);
+    const surface::CloudDistances between =
+        surface::cloud_distances(result, cloud.points, &workers);
     const surface::CloudEvaluation e = surface::evaluate_cloud(between);
     const double diagonal = bounding_box(cloud.points).diagonal();
     ordered_json figures = {{"file", arguments.cloud},
@@ -95,7 +101,8 @@ ordered_json against_cloud(const surface::TriangleMesh& result, const EvaluateAr
         figures["vertex_to_cloud_normalised"] = distances(e.vertex_to_cloud, *scale);
     }
     const cloud::Statistics statistics = cloud::measure_cloud(cloud.points, &workers);
-    const run::Coverage c = run::measure_coverage(result, cloud.points, between, statistics, {}, &workers);
+    const run::Coverage c =
+        run::measure_coverage(result, cloud.points, between, statistics, {}, &workers);
     figures["coverage"] = {{"spacing", c.width},
                            {"noise", c.noise},
                            {"far_points", c.far_points},
@@ -107,21 +114,23 @@ ordered_json against_cloud(const surface::TriangleMesh& result, const EvaluateAr
 }
 
 ordered_json cloud_formulas() {
-    return {{"vertex_to_cloud",
-             "over the result's vertices v: distance to the nearest cloud point (table 6.2 of the thesis)"},
+    return {{"vertex_to_cloud", "over the result's vertices v: distance to the nearest cloud point "
+                                "(table 6.2 of the thesis)"},
             {"cloud_to_surface",
              "over the cloud's points p: distance to the nearest point of the result's triangles"},
-            {"coverage.far_points",
-             "points farther from the surface than 3 noise scales plus 1 spacing; a spacing is the root of the area per point"},
-            {"coverage.unsupported_percent", "100 * area of the surface without a point within 3 spacings / its area"},
+            {"coverage.far_points", "points farther from the surface than 3 noise scales plus 1 "
+                                    "spacing; a spacing is the root of the area per point"},
+            {"coverage.unsupported_percent",
+             "100 * area of the surface without a point within 3 spacings / its area"},
             {"_percent", "100 * distance / diagonal of the cloud's bounding box"},
-            {"_normalised",
-             "distance * scale of the run's normalisation (the units of table 6.2); for run folders only"}};
+            {"_normalised", "distance * scale of the run's normalisation (the units of table 6.2); "
+                            "for run folders only"}};
 }
 
 int execute(const EvaluateArguments& arguments) {
     if (arguments.truth.empty() && arguments.cloud.empty()) {
-        throw UsageError("usage.evaluate", "nothing to compare the result with; add --truth MESH or --cloud CLOUD");
+        throw UsageError("usage.evaluate",
+                         "nothing to compare the result with; add --truth MESH or --cloud CLOUD");
     }
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));
     const surface::TriangleMesh result = read_any_surface(arguments.result);
@@ -143,8 +152,8 @@ int execute(const EvaluateArguments& arguments) {
 }  // namespace
 
 void add_evaluate(CLI::App& app, Context& context) {
-    CLI::App* command =
-        app.add_subcommand("evaluate", "Measure how near a result is to the true surface or to its cloud");
+    CLI::App* command = app.add_subcommand(
+        "evaluate", "Measure how near a result is to the true surface or to its cloud");
     const auto arguments = std::make_shared<EvaluateArguments>();
     command->add_option("RESULT", arguments->result, "Surface, volume or run folder")->required();
     command->add_option("--truth", arguments->truth, "True surface");

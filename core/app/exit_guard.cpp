@@ -1,14 +1,15 @@
 #include "exit_guard.hpp"
 
+#include <atomic>
+#include <cstdlib>
+#include <string>
+
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <dsc/base/error.hpp>
 #include <dsc/plugin/guarded.hpp>
 #include <dsc/run/run_experiment.hpp>
-#include <string>
 
 #include "standard_streams.hpp"
 
@@ -21,8 +22,8 @@ std::atomic<pid_t> guarded_process{0};
     while (true) ::syscall(SYS_exit_group, code);
 }
 
-/// Whether the process ends although main() has not ended. Returns true at the first call only, so that a failure while the error
-/// is handled does not cause a second error.
+/// Whether the process ends although main() has not ended. Returns true at the first call only, so
+/// that a failure while the error is handled does not cause a second error.
 bool unexpected() noexcept {
     pid_t self = ::getpid();
     return guarded_process.compare_exchange_strong(self, 0);
@@ -32,7 +33,8 @@ bool unexpected() noexcept {
     try {
         const std::string call = plugin::current_call();
         const std::string who = call.empty() ? "a plugin or a library" : call;
-        const std::string text = who + " ended the process; a strategy must throw instead; report this to the plugin's authors";
+        const std::string text = who + " ended the process; a strategy must throw instead; report "
+                                       "this to the plugin's authors";
         tell("error: " + text + "\n");
         run::abandon_runs(PluginError("strategy.exit", text));
     } catch (...) {
@@ -60,7 +62,8 @@ int leave(int code) noexcept {
 
 }  // namespace dsc::app
 
-// The program's functions take precedence over those of the C library: a plugin that calls one of these reaches the guard.
+// The program's functions take precedence over those of the C library: a plugin that calls one of
+// these reaches the guard.
 extern "C" {
 __attribute__((visibility("default"))) void _exit(int code) {
     dsc::app::on_exit_of_anyone();

@@ -21,7 +21,8 @@ void flatten(const ordered_json& value, const std::string& name, Lines& lines) {
                                                       : value.dump());
         return;
     }
-    for (const auto& [key, item] : value.items()) flatten(item, name.empty() ? key : name + "." + key, lines);
+    for (const auto& [key, item] : value.items())
+        flatten(item, name.empty() ? key : name + "." + key, lines);
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 #pragma once
 // Prints figures on stdout: JSON for programs, aligned lines for people.
 
-#include <dsc/geometry/vec.hpp>
 #include <nlohmann/json.hpp>
+
+#include <dsc/geometry/vec.hpp>
 
 namespace dsc::app {
 

@@ -1,7 +1,10 @@
 #include "files.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/replace_file.hpp>
 #include <dsc/cloud/read.hpp>
@@ -9,7 +12,6 @@
 #include <dsc/io/read.hpp>
 #include <dsc/surface/surface_view.hpp>
 #include <dsc/text/words.hpp>
-#include <nlohmann/json.hpp>
 
 namespace dsc::app {
 
@@ -44,8 +46,8 @@ Content read_any(const fs::path& file, const std::vector<std::string>& columns) 
 void add_columns(CLI::App& command, std::vector<std::string>& columns) {
     command
         .add_option("--columns", columns,
-                    "Columns of a text cloud: X,Y,Z or X,Y,Z,RED,GREEN,BLUE, given by their names in the header or by "
-                    "their numbers from 1")
+                    "Columns of a text cloud: X,Y,Z or X,Y,Z,RED,GREEN,BLUE, given by their names "
+                    "in the header or by their numbers from 1")
         ->delimiter(',')
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -56,14 +58,16 @@ surface::TriangleMesh read_any_surface(const fs::path& path) {
         for (const char* name : {"surface.obj", "surface.ply", "surface.off", "surface.stl"}) {
             if (fs::exists(path / "result" / name)) return io::read_surface(path / "result" / name);
         }
-        throw IoError("io.no_result", path.string(), "", "is a folder that does not contain result/surface.*",
+        throw IoError("io.no_result", path.string(), "",
+                      "is a folder that does not contain result/surface.*",
                       "name a file or the folder of a finished run");
     }
     Content content = read_any(path);
     if (content.volume) return surface::extract_interface(*content.volume);
     if (content.cloud) {
-        throw UsageError("file.no_surface",
-                         path.string() + " contains points without faces; give a surface or a volume");
+        throw UsageError(
+            "file.no_surface",
+            path.string() + " contains points without faces; give a surface or a volume");
     }
     return std::move(*content.surface);
 }
@@ -89,7 +93,8 @@ void require_output(const fs::path& out, const fs::path& input) {
     }
     const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
     if (!fs::is_directory(folder)) {
-        throw IoError("io.folder", out.string(), "", "its folder " + folder.string() + " does not exist",
+        throw IoError("io.folder", out.string(), "",
+                      "its folder " + folder.string() + " does not exist",
                       "create the folder first");
     }
     if (fs::is_directory(out)) {

@@ -1,13 +1,14 @@
 #pragma once
 // Reads the files that are named on the command line.
 
-#include <dsc/cloud/read.hpp>
-#include <dsc/mesh/tet_mesh.hpp>
-#include <dsc/surface/triangle_mesh.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <dsc/cloud/read.hpp>
+#include <dsc/mesh/tet_mesh.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
 
 namespace CLI {
 class App;
@@ -24,15 +25,16 @@ struct Content {
     std::vector<cloud::FoundProperty> properties{};  ///< properties of a cloud
 };
 
-/// Reads a surface, a volume or a cloud. A surface file without faces is read as a cloud. `columns` are those of a text
-/// cloud (cloud::ReadOptions). Throws IoError.
+/// Reads a surface, a volume or a cloud. A surface file without faces is read as a cloud. `columns`
+/// are those of a text cloud (cloud::ReadOptions). Throws IoError.
 Content read_any(const std::filesystem::path& file, const std::vector<std::string>& columns = {});
 
 /// Adds the option --columns to a command that reads a cloud.
 void add_columns(CLI::App& command, std::vector<std::string>& columns);
 
-/// Reads the surface in `path`: a surface file, the label interface of a volume, or the result of a run folder.
-/// Throws IoError "io.no_result" for a folder without one, UsageError "file.no_surface" for a cloud.
+/// Reads the surface in `path`: a surface file, the label interface of a volume, or the result of a
+/// run folder. Throws IoError "io.no_result" for a folder without one, UsageError "file.no_surface"
+/// for a cloud.
 surface::TriangleMesh read_any_surface(const std::filesystem::path& path);
 
 /// Whether the text is UTF-8, as JSON and experiments need it.
@@ -41,8 +43,9 @@ bool is_utf8(const std::string& text);
 /// Whether both names lead to the same file.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// To be called for every output before the work begins. Throws UsageError "file.same" when `out` is the input, IoError
-/// "io.folder" when its folder does not exist, "io.write" when it cannot be written.
+/// To be called for every output before the work begins. Throws UsageError "file.same" when `out`
+/// is the input, IoError "io.folder" when its folder does not exist, "io.write" when it cannot be
+/// written.
 void require_output(const std::filesystem::path& out, const std::filesystem::path& input);
 
 }  // namespace dsc::app

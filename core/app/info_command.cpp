@@ -1,5 +1,9 @@
 // dsc info
 #include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/given_normals.hpp>
@@ -9,9 +13,6 @@
 #include <dsc/io/read.hpp>
 #include <dsc/run/measure.hpp>
 #include <dsc/text/words.hpp>
-#include <filesystem>
-#include <memory>
-#include <thread>
 
 #include "commands.hpp"
 #include "figures_output.hpp"
@@ -56,8 +57,10 @@ ordered_json surface_figures(const run::SurfaceMeasure& measure) {
             {"solid", measure.solid()}};
 }
 
-/// Compares the surface that was written beside a volume, if there is one, with the volume's interface.
-ordered_json conformity(const std::filesystem::path& volume, const surface::TriangleMesh& interface) {
+/// Compares the surface that was written beside a volume, if there is one, with the volume's
+/// interface.
+ordered_json conformity(const std::filesystem::path& volume,
+                        const surface::TriangleMesh& interface) {
     ordered_json all = ordered_json::object();
     for (const char* name : {"surface.obj", "surface.ply", "surface.off"}) {
         const std::filesystem::path file = volume.parent_path() / name;
@@ -113,7 +116,8 @@ ordered_json statistics_figures(const cloud::Statistics& s) {
 /// Every property of the file of points, and its use.
 ordered_json properties(const std::vector<cloud::FoundProperty>& found) {
     ordered_json all = ordered_json::object();
-    for (const cloud::FoundProperty& property : found) all[property.name] = property.use.empty() ? "not used" : property.use;
+    for (const cloud::FoundProperty& property : found)
+        all[property.name] = property.use.empty() ? "not used" : property.use;
     return all;
 }
 
@@ -124,7 +128,8 @@ void add_orientation(const cloud::Cloud& cloud, Workers& workers, ordered_json& 
         figures["viewpoint"] = {at.x(), at.y(), at.z()};
     }
     try {
-        const cloud::GivenOrientation by_normals = cloud::orient_by_file_normals(cloud, {}, &workers);
+        const cloud::GivenOrientation by_normals =
+            cloud::orient_by_file_normals(cloud, {}, &workers);
         if (!by_normals.note.empty()) figures["normals"] = by_normals.note;
         if (by_normals.oriented) return;
         const cloud::GivenOrientation by_sensor = cloud::orient_by_sensor(cloud, {}, &workers);
@@ -134,7 +139,8 @@ void add_orientation(const cloud::Cloud& cloud, Workers& workers, ordered_json& 
     }
 }
 
-/// Properties of the points of a surface file that can also be read as a cloud; empty for other files.
+/// Properties of the points of a surface file that can also be read as a cloud; empty for other
+/// files.
 ordered_json surface_properties(const std::string& file) {
     const std::string extension = text::lower_case_extension(file);
     if (extension != ".ply" && extension != ".obj") return nullptr;
@@ -156,14 +162,15 @@ ordered_json cloud_figures(const Content& content, Workers& workers) {
         spacing += distance;
         if (points.size() > 1 && distance == 0.0) ++repeated;
     }
-    ordered_json figures = {{"points", points.size()},
-                            {"coloured", !content.cloud->colours.empty()},
-                            {"dropped_not_finite", content.dropped},
-                            {"points_with_a_twin", repeated},
-                            {"mean_spacing", spacing / static_cast<double>(points.size())},
-                            {"statistics", statistics_figures(cloud::measure_cloud(search, &workers))},
-                            {"box", box_figures(bounding_box(points))},
-                            {"solid", false}};
+    ordered_json figures = {
+        {"points", points.size()},
+        {"coloured", !content.cloud->colours.empty()},
+        {"dropped_not_finite", content.dropped},
+        {"points_with_a_twin", repeated},
+        {"mean_spacing", spacing / static_cast<double>(points.size())},
+        {"statistics", statistics_figures(cloud::measure_cloud(search, &workers))},
+        {"box", box_figures(bounding_box(points))},
+        {"solid", false}};
     if (!content.properties.empty()) figures["properties"] = properties(content.properties);
     add_orientation(*content.cloud, workers, figures);
     return figures;
@@ -177,12 +184,14 @@ int execute(const InfoArguments& arguments) {
     if (is_run) {
         figures["kind"] = "run";
         figures.update(run_figures(arguments.file));
-        figures["solid"] = figures.contains("result") && run::measure(read_any_surface(arguments.file), &workers).solid();
+        figures["solid"] = figures.contains("result") &&
+                           run::measure(read_any_surface(arguments.file), &workers).solid();
     } else if (content.surface) {
         figures["kind"] = "surface";
         figures.update(surface_figures(run::measure(*content.surface, &workers)));
         figures["coloured"] = !content.surface->colours.empty();
-        if (const ordered_json found = surface_properties(arguments.file); !found.is_null()) figures["properties"] = found;
+        if (const ordered_json found = surface_properties(arguments.file); !found.is_null())
+            figures["properties"] = found;
     } else if (content.volume) {
         figures["kind"] = "volume";
         figures.update(volume_figures(arguments.file, run::measure(*content.volume, &workers)));
@@ -192,10 +201,10 @@ int execute(const InfoArguments& arguments) {
     }
     print_figures(figures, arguments.json);
     if (arguments.require_solid && !figures["solid"].get<bool>()) {
-        throw GeometryError("info.not_solid",
-                            arguments.file +
-                                " is not a valid solid: closed, manifold, oriented outwards, without "
-                                "self-intersections; the figures on stdout show what is wrong");
+        throw GeometryError(
+            "info.not_solid",
+            arguments.file + " is not a valid solid: closed, manifold, oriented outwards, without "
+                             "self-intersections; the figures on stdout show what is wrong");
     }
     return 0;
 }
@@ -203,12 +212,15 @@ int execute(const InfoArguments& arguments) {
 }  // namespace
 
 void add_info(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("info", "Show figures of a surface, a volume, a cloud or a run folder");
+    CLI::App* command =
+        app.add_subcommand("info", "Show figures of a surface, a volume, a cloud or a run folder");
     const auto arguments = std::make_shared<InfoArguments>();
-    command->add_option("FILE", arguments->file, "Surface, volume, cloud or run folder")->required();
+    command->add_option("FILE", arguments->file, "Surface, volume, cloud or run folder")
+        ->required();
     add_columns(*command, arguments->columns);
     command->add_flag("--json", arguments->json, "Print JSON instead of text");
-    command->add_flag("--require-solid", arguments->require_solid, "Exit with code 5 if the file does not bound a valid solid");
+    command->add_flag("--require-solid", arguments->require_solid,
+                      "Exit with code 5 if the file does not bound a valid solid");
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

@@ -2,9 +2,10 @@
 #include "json_schema.hpp"
 
 #include <algorithm>
+#include <map>
+
 #include <dsc/plugin/kind.hpp>
 #include <dsc/run/experiment.hpp>
-#include <map>
 
 namespace dsc::app {
 namespace {
@@ -42,7 +43,8 @@ ordered_json kind_schema(const std::string& kind, const std::vector<Described>& 
     ordered_json schema = {
         {"properties",
          {{"type",
-           {{"description", "Which " + kind + " strategy; its parameters are keys of the same map."},
+           {{"description",
+             "Which " + kind + " strategy; its parameters are keys of the same map."},
             {"type", "string"},
             {"if", reference(variable_definition())},
             {"else", {{"enum", ids}, {"enumDescriptions", summaries}}}}}}}};
@@ -72,7 +74,8 @@ ordered_json definitions(const std::vector<Described>& strategies) {
             ordered_json& schema = all[id_definition(d)];
             schema = {{"description", joined(d.summary, conditions_text(*d.schema))}};
             schema.update(map_schema(*d.schema, d.id));
-            schema.erase("type");  // where null is allowed, an `if` on the keys of a map is also true for null
+            schema.erase("type");  // where null is allowed, an `if` on the keys of a map is also
+                                   // true for null
         }
     }
     return all;
@@ -84,7 +87,9 @@ std::string variable_definition() { return "variable"; }
 std::string kind_definition(const std::string& kind) { return kind; }
 std::string required_definition(const std::string& kind) { return "complete_" + kind; }
 
-ordered_json reference(const std::string& definition) { return {{"$ref", "#/definitions/" + definition}}; }
+ordered_json reference(const std::string& definition) {
+    return {{"$ref", "#/definitions/" + definition}};
+}
 
 ordered_json json_schema(const std::vector<Described>& strategies) {
     const config::Schema& experiment = *run::experiment_schema();
@@ -92,11 +97,11 @@ ordered_json json_schema(const std::vector<Described>& strategies) {
                            {"title", "dsc experiment, format 1"},
                            {"description", conditions_text(experiment)}};
     schema.update(map_schema(experiment));
-    schema["properties"]["include"] = {{"description",
-                                        "A file or a list of files that this file completes: maps are merged, "
-                                        "lists are replaced, and this file comes last."},
-                                       {"type", {"string", "array"}},
-                                       {"items", {{"type", "string"}}}};
+    schema["properties"]["include"] = {
+        {"description", "A file or a list of files that this file completes: maps are merged, "
+                        "lists are replaced, and this file comes last."},
+        {"type", {"string", "array"}},
+        {"items", {{"type", "string"}}}};
     schema["if"] = {{"required", {"include"}}};
     schema["else"] = required_schema(experiment);
     schema["definitions"] = definitions(strategies);

@@ -20,12 +20,14 @@ void add_bounds(const Field& field, ordered_json& schema) {
     const bool high_declared =
         field.maximum && (!integer || field.maximum->value <= double(field.storage_max));
     if (low_declared) {
-        schema[field.minimum->open ? "exclusiveMinimum" : "minimum"] = number_json(field.minimum->value);
+        schema[field.minimum->open ? "exclusiveMinimum" : "minimum"] =
+            number_json(field.minimum->value);
     } else if (integer) {
         schema["minimum"] = field.storage_min;
     }
     if (high_declared) {
-        schema[field.maximum->open ? "exclusiveMaximum" : "maximum"] = number_json(field.maximum->value);
+        schema[field.maximum->open ? "exclusiveMaximum" : "maximum"] =
+            number_json(field.maximum->value);
     } else if (integer) {
         schema["maximum"] = field.storage_max;
     }
@@ -37,8 +39,8 @@ ordered_json number_schema(const Field& field, const char* type) {
     return schema;
 }
 
-/// Text that may also come from a variable, whose value only the program knows. `values` comes last, so that an editor
-/// completes them.
+/// Text that may also come from a variable, whose value only the program knows. `values` comes
+/// last, so that an editor completes them.
 ordered_json choice_schema(const Field& field) {
     ordered_json values = field.choices;
     if (field.optional) values.push_back(nullptr);
@@ -55,7 +57,8 @@ std::string either_case(char c) {
 /// A pattern for the end of a file name, or for a variable that may contain it.
 ordered_json file_schema(const Field& field) {
     ordered_json schema = {{"type", "string"}};
-    const bool may_be_empty = field.default_value.is_string() && field.default_value.as_string().empty();
+    const bool may_be_empty =
+        field.default_value.is_string() && field.default_value.as_string().empty();
     if (field.extensions.empty()) {
         if (!may_be_empty) schema["minLength"] = 1;
         return schema;
@@ -73,7 +76,8 @@ ordered_json list_schema(const Field& field, ordered_json items) {
     ordered_json schema = {{"type", "array"}, {"items", std::move(items)}};
     const bool vector = field.type == FieldType::vec3;
     const std::size_t least = vector ? 3 : field.min_size.value_or(0);
-    const std::size_t most = vector ? 3 : field.max_size.value_or(std::numeric_limits<std::size_t>::max());
+    const std::size_t most =
+        vector ? 3 : field.max_size.value_or(std::numeric_limits<std::size_t>::max());
     if (least > 0) schema["minItems"] = least;
     if (most != std::numeric_limits<std::size_t>::max()) schema["maxItems"] = most;
     return schema;
@@ -99,37 +103,25 @@ ordered_json map_item(const config::Schema& object) {
 
 ordered_json bare_schema(const Field& field) {
     switch (field.type) {
-        case FieldType::boolean:
-            return {{"type", "boolean"}};
-        case FieldType::integer:
-            return number_schema(field, "integer");
-        case FieldType::real:
-            return number_schema(field, "number");
-        case FieldType::string:
-            return {{"type", "string"}};
-        case FieldType::choice:
-            return choice_schema(field);
-        case FieldType::file:
-            return file_schema(field);
+        case FieldType::boolean: return {{"type", "boolean"}};
+        case FieldType::integer: return number_schema(field, "integer");
+        case FieldType::real: return number_schema(field, "number");
+        case FieldType::string: return {{"type", "string"}};
+        case FieldType::choice: return choice_schema(field);
+        case FieldType::file: return file_schema(field);
         case FieldType::vec3:
-        case FieldType::real_list:
-            return list_schema(field, number_schema(field, "number"));
-        case FieldType::integer_list:
-            return list_schema(field, number_schema(field, "integer"));
-        case FieldType::string_list:
-            return list_schema(field, string_item(field));
-        case FieldType::object:
-            return map_schema(*field.object);
-        case FieldType::object_list:
-            return list_schema(field, map_item(*field.object));
+        case FieldType::real_list: return list_schema(field, number_schema(field, "number"));
+        case FieldType::integer_list: return list_schema(field, number_schema(field, "integer"));
+        case FieldType::string_list: return list_schema(field, string_item(field));
+        case FieldType::object: return map_schema(*field.object);
+        case FieldType::object_list: return list_schema(field, map_item(*field.object));
         case FieldType::strategy:
             return {{"type", "object"}, {"allOf", {reference(kind_definition(field.kind))}}};
         case FieldType::strategy_list:
-            return list_schema(
-                field,
-                {{"type", "object"},
-                 {"allOf",
-                  {reference(kind_definition(field.kind)), reference(required_definition(field.kind))}}});
+            return list_schema(field, {{"type", "object"},
+                                       {"allOf",
+                                        {reference(kind_definition(field.kind)),
+                                         reference(required_definition(field.kind))}}});
     }
     return true;
 }
@@ -142,14 +134,16 @@ void add_old_name(const config::Schema& schema, const config::Deprecation& old, 
     value["deprecationMessage"] = "now called '" + old.new_name + "'";
     value["doNotSuggest"] = true;
     map["properties"][old.old_name] = std::move(value);
-    map["allOf"].push_back(
-        {{"if", {{"required", {old.new_name}}}}, {"then", {{"properties", {{old.old_name, false}}}}}});
+    map["allOf"].push_back({{"if", {{"required", {old.new_name}}}},
+                            {"then", {{"properties", {{old.old_name, false}}}}}});
 }
 
-/// Whether the field must be given although it has defaults, because something inside it is required.
+/// Whether the field must be given although it has defaults, because something inside it is
+/// required.
 bool is_needed(const Field& field) {
     if (field.required) return true;
-    return field.type == FieldType::object && !field.optional && !required_schema(*field.object).empty();
+    return field.type == FieldType::object && !field.optional &&
+           !required_schema(*field.object).empty();
 }
 
 /// `{"required": [name]}`, or the same with one of the old names.
@@ -169,7 +163,8 @@ void add_required(const config::Schema& schema, const std::string& name, ordered
 
 ordered_json value_schema(const Field& field) {
     std::string description = doc_text(field);
-    if (field.object && !field.object->checks().empty()) description += " " + conditions_text(*field.object);
+    if (field.object && !field.object->checks().empty())
+        description += " " + conditions_text(*field.object);
     ordered_json schema = {{"description", description}};
     schema.update(bare_schema(field));
     // An object without a value has its defaults.

@@ -1,11 +1,12 @@
 // The `dsc` command: parses, dispatches, and turns every error into one message and an exit code.
-#include <dsc/base/error.hpp>
-#include <dsc/run/provenance.hpp>
 #include <exception>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <dsc/base/error.hpp>
+#include <dsc/run/provenance.hpp>
 
 #include "commands.hpp"
 #include "exit_guard.hpp"
@@ -15,7 +16,8 @@
 
 namespace {
 
-/// Diagnostics of a configuration already contain severity and place; every other message gets "error:".
+/// Diagnostics of a configuration already contain severity and place; every other message gets
+/// "error:".
 void print_error(const dsc::Error& error) {
     std::string_view text = error.what();
     while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
@@ -27,7 +29,8 @@ void print_error(const dsc::Error& error) {
 void add_help(CLI::App& app, dsc::app::Context& context) {
     CLI::App* help = app.add_subcommand("help", "Show the help of a command");
     const auto words = std::make_shared<std::vector<std::string>>();
-    help->add_option("COMMAND", *words, "Command, such as run or plugin check; default: all commands");
+    help->add_option("COMMAND", *words,
+                     "Command, such as run or plugin check; default: all commands");
     help->callback([&app, &context, words] {
         context.action = [&app, words] {
             dsc::app::data_out() << dsc::app::help_text(app, *words);
@@ -46,10 +49,14 @@ void add_help(CLI::App& app, dsc::app::Context& context) {
 dsc::Error with_choice_of_columns(const CLI::App& app, const dsc::Error& error) {
     const std::string& remedy = error.remedy();
     constexpr std::string_view request = "by their numbers from 1";
-    if (remedy.size() < request.size() || remedy.compare(remedy.size() - request.size(), request.size(), request) != 0) return error;
+    if (remedy.size() < request.size() ||
+        remedy.compare(remedy.size() - request.size(), request.size(), request) != 0)
+        return error;
     const auto commands = app.get_subcommands();
-    const bool option = !commands.empty() && commands.front()->get_option_no_throw("--columns") != nullptr;
-    return {error.exit_code(), error.code(), error.place(), error.cause(), remedy + (option ? ": --columns X,Y,Z" : ": input.cloud.columns")};
+    const bool option =
+        !commands.empty() && commands.front()->get_option_no_throw("--columns") != nullptr;
+    return {error.exit_code(), error.code(), error.place(), error.cause(),
+            remedy + (option ? ": --columns X,Y,Z" : ": input.cloud.columns")};
 }
 
 /// Writes the remaining data. If this fails, the exit code of a job that has failed is kept.
@@ -63,12 +70,13 @@ void finish_data(int code) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("Turns point clouds without normals into watertight surfaces and conforming tet meshes.", "dsc");
+    CLI::App app(
+        "Turns point clouds without normals into watertight surfaces and conforming tet meshes.",
+        "dsc");
     app.set_version_flag("--version", dsc::run::version_text);
     app.require_subcommand(1);
-    app.footer(
-        "Exit codes: 0 ok, 1 internal, 2 usage, 3 config, 4 plugin or strategy, 5 geometry, 6 input/output, "
-        "75 stopped.");
+    app.footer("Exit codes: 0 ok, 1 internal, 2 usage, 3 config, 4 plugin or strategy, 5 geometry, "
+               "6 input/output, 75 stopped.");
     dsc::app::Context context;
     context.command_line.assign(argv, argv + argc);
     dsc::app::add_run(app, context);
@@ -123,7 +131,8 @@ int run_and_explain(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         dsc::app::tell("error: out of memory; use a smaller cloud or a coarser mesh\n");
     } catch (const std::exception& error) {
-        dsc::app::tell(std::string("error: internal: ") + error.what() + "; please report it with the command\n");
+        dsc::app::tell(std::string("error: internal: ") + error.what() +
+                       "; please report it with the command\n");
     } catch (...) {
         dsc::app::tell("error: internal: unknown exception; please report it with the command\n");
     }

@@ -1,9 +1,10 @@
 // dsc plugin check FILE|ID
+#include <memory>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/conformance/check.hpp>
 #include <dsc/io/atomic_file.hpp>
-#include <memory>
 
 #include "commands.hpp"
 #include "files.hpp"
@@ -52,14 +53,15 @@ std::filesystem::path find_strategy(const CheckArguments& arguments, const host:
             (arguments.kind.empty() || plugin::kind_name(info.strategy->kind) == arguments.kind);
         if (!wanted) continue;
         if (!file.empty() && file != info.plugin->file)
-            throw UsageError("usage.strategy",
-                             "two kinds have a strategy '" + arguments.target + "'; choose one with --kind");
+            throw UsageError("usage.strategy", "two kinds have a strategy '" + arguments.target +
+                                                   "'; choose one with --kind");
         file = info.plugin->file;
         strategies.push_back({info.strategy->kind, info.strategy->id});
     }
     if (!file.empty()) return file;
     const auto near = config::closest(arguments.target, ids);
-    throw UsageError("usage.strategy", "'" + arguments.target + "' is neither a file nor the name of a strategy" +
+    throw UsageError("usage.strategy", "'" + arguments.target +
+                                           "' is neither a file nor the name of a strategy" +
                                            (near ? "; did you mean '" + *near + "'?" : "") +
                                            "; dsc plugin list shows all strategies");
 }
@@ -72,7 +74,9 @@ std::string formatted(const conformance::Report& report, const std::string& form
 
 int execute(const CheckArguments& arguments) {
     if (arguments.list) return list_tests();
-    if (arguments.target.empty()) throw UsageError("usage.check", "a plugin file or a strategy id is missing; give one of them");
+    if (arguments.target.empty())
+        throw UsageError("usage.check",
+                         "a plugin file or a strategy id is missing; give one of them");
     if (!arguments.output.empty()) require_output(arguments.output, arguments.target);
     conformance::CheckOptions options;
     options.level = conformance::find_level(arguments.level).value();
@@ -110,17 +114,21 @@ void add_plugin_check(CLI::App& plugin, Context& context) {
     const auto arguments = std::make_shared<CheckArguments>();
     command->add_option("FILE|ID", arguments->target,
                         "Plugin library, or the id of a strategy on the search path");
-    command->add_option("--kind", arguments->kind, "Kind of the strategy, needed if two kinds have the same id");
-    command->add_option("--level", arguments->level, "Level of the tests: smoke, standard or strict")
+    command->add_option("--kind", arguments->kind,
+                        "Kind of the strategy, needed if two kinds have the same id");
+    command
+        ->add_option("--level", arguments->level, "Level of the tests: smoke, standard or strict")
         ->check(CLI::IsMember({"smoke", "standard", "strict"}))
         ->capture_default_str();
     command->add_option("--only", arguments->only, "Run only this test; may be repeated");
-    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of libraries; may be repeated")
+    command
+        ->add_option("--plugin", arguments->plugins,
+                     "Plugin library or folder of libraries; may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command->add_option(
-        "--notes", arguments->notes,
-        "File with parameters without a default and waived tests; default: libdsc_NAME.check.yaml beside the plugin");
+    command->add_option("--notes", arguments->notes,
+                        "File with parameters without a default and waived tests; default: "
+                        "libdsc_NAME.check.yaml beside the plugin");
     command->add_option("--format", arguments->format, "Format of the report: text, json or junit")
         ->check(CLI::IsMember({"text", "json", "junit"}))
         ->capture_default_str();
@@ -129,13 +137,15 @@ void add_plugin_check(CLI::App& plugin, Context& context) {
         ->add_option("--seed", arguments->seed,
                      "Random seed; the same seed repeats the same checks")
         ->capture_default_str();
-    command->add_option("--fuzz", arguments->fuzz, "Number of random parameter sets per strategy")->capture_default_str();
+    command->add_option("--fuzz", arguments->fuzz, "Number of random parameter sets per strategy")
+        ->capture_default_str();
     command
         ->add_option("--timeout", arguments->limit,
                      "Time limit per test in seconds; ten times as much under a sanitizer")
         ->check(CLI::Range(0.1, 1e5))
         ->capture_default_str();
-    command->add_flag("--in-process", arguments->in_process, "Run all tests in this process (for debugging)");
+    command->add_flag("--in-process", arguments->in_process,
+                      "Run all tests in this process (for debugging)");
     command->add_flag("--list", arguments->list, "List the tests and run none");
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });

@@ -1,7 +1,8 @@
 // dsc plugin list | describe ID | path
+#include <memory>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
-#include <memory>
 
 #include "commands.hpp"
 #include "describe.hpp"
@@ -21,10 +22,11 @@ struct PluginArguments {
     std::string format = "text";
 };
 
-/// Why a library is not among the plugins: the gate refused it, or it crashes or hangs when it is loaded.
+/// Why a library is not among the plugins: the gate refused it, or it crashes or hangs when it is
+/// loaded.
 std::string_view state(const host::Fault& fault) {
-    const bool broken = fault.code == "plugin.crash" || fault.code == "plugin.hang" || fault.code == "plugin.enroll" ||
-                        fault.code == "plugin.load";
+    const bool broken = fault.code == "plugin.crash" || fault.code == "plugin.hang" ||
+                        fault.code == "plugin.enroll" || fault.code == "plugin.load";
     return broken ? "broken" : "rejected";
 }
 
@@ -51,7 +53,8 @@ int list(const PluginArguments& arguments) {
         print_json(all, host.faults());
     } else {
         data_out() << list_text(all);
-        for (const host::Fault& fault : host.faults()) data_out() << state(fault) << "  " << fault.message << "\n";
+        for (const host::Fault& fault : host.faults())
+            data_out() << state(fault) << "  " << fault.message << "\n";
     }
     return host.faults().empty() ? 0 : static_cast<int>(ExitCode::plugin);
 }
@@ -68,19 +71,23 @@ int describe(const PluginArguments& arguments) {
     std::vector<std::string> ids;
     for (const Described& d : all) {
         ids.push_back(d.id);
-        if (d.id == arguments.id && (arguments.kind.empty() || d.kind == arguments.kind)) found.push_back(d);
+        if (d.id == arguments.id && (arguments.kind.empty() || d.kind == arguments.kind))
+            found.push_back(d);
     }
     if (found.empty()) {
         const auto near = config::closest(arguments.id, ids);
-        throw UsageError("usage.strategy", "'" + arguments.id + "' is not the name of a strategy" +
-                                               (arguments.kind.empty() ? "" : " of kind " + arguments.kind) +
-                                               (near ? "; did you mean '" + *near + "'?" : "") +
-                                               "; dsc plugin list shows all strategies");
+        throw UsageError("usage.strategy",
+                         "'" + arguments.id + "' is not the name of a strategy" +
+                             (arguments.kind.empty() ? "" : " of kind " + arguments.kind) +
+                             (near ? "; did you mean '" + *near + "'?" : "") +
+                             "; dsc plugin list shows all strategies");
     }
     if (arguments.format == "json") {
         ordered_json array = ordered_json::array();
         for (const Described& d : found) array.push_back(full_json(d));
-        data_out() << (array.size() == 1 ? array[0] : array).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+        data_out() << (array.size() == 1 ? array[0] : array)
+                          .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+                   << "\n";
         return 0;
     }
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -100,12 +107,15 @@ int path(const PluginArguments& arguments) {
 }  // namespace
 
 void add_plugin(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("plugin", "List, describe, create and check plugins and their strategies");
+    CLI::App* command = app.add_subcommand(
+        "plugin", "List, describe, create and check plugins and their strategies");
     command->require_subcommand(1);
     const auto arguments = std::make_shared<PluginArguments>();
-    const auto add = [&](const char* name, const char* text, int (*action)(const PluginArguments&)) {
+    const auto add = [&](const char* name, const char* text,
+                         int (*action)(const PluginArguments&)) {
         CLI::App* sub = command->add_subcommand(name, text);
-        sub->add_option("--plugin", arguments->plugins, "Plugin library or folder of libraries; may be repeated")
+        sub->add_option("--plugin", arguments->plugins,
+                        "Plugin library or folder of libraries; may be repeated")
             ->expected(1)
             ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         sub->callback([arguments, action, &context] {
@@ -117,8 +127,11 @@ void add_plugin(CLI::App& app, Context& context) {
         ->add_flag("--json", arguments->json, "Print JSON instead of text");
     CLI::App* describing = add("describe", "Describe the parameters of a strategy", describe);
     describing->add_option("ID", arguments->id, "Id of the strategy")->required();
-    describing->add_option("--kind", arguments->kind, "Kind of the strategy, needed if two kinds have the same id");
-    describing->add_option("--format", arguments->format, "Format: text, json, yaml (a block for an experiment) or md (a page)")
+    describing->add_option("--kind", arguments->kind,
+                           "Kind of the strategy, needed if two kinds have the same id");
+    describing
+        ->add_option("--format", arguments->format,
+                     "Format: text, json, yaml (a block for an experiment) or md (a page)")
         ->check(CLI::IsMember({"text", "json", "yaml", "md"}))
         ->capture_default_str();
     add("path", "Show where dsc looks for plugins, in order", path);

@@ -1,8 +1,10 @@
 // dsc plugin doctor FILE
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
 #include <dsc/base/error.hpp>
 #include <dsc/host/doctor.hpp>
-#include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "plugins.hpp"
@@ -18,14 +20,10 @@ struct DoctorArguments {
 
 std::string_view name(host::Examination::Result result) {
     switch (result) {
-        case host::Examination::Result::ok:
-            return "ok";
-        case host::Examination::Result::note:
-            return "note";
-        case host::Examination::Result::failed:
-            return "FAIL";
-        case host::Examination::Result::not_reached:
-            return "-";
+        case host::Examination::Result::ok: return "ok";
+        case host::Examination::Result::note: return "note";
+        case host::Examination::Result::failed: return "FAIL";
+        case host::Examination::Result::not_reached: return "-";
     }
     return "?";
 }
@@ -45,9 +43,11 @@ std::string text(const std::vector<host::Examination>& examinations) {
 std::string json(const std::string& file, const std::vector<host::Examination>& examinations) {
     nlohmann::ordered_json steps = nlohmann::ordered_json::array();
     for (const host::Examination& e : examinations) {
-        steps.push_back({{"step", e.step}, {"result", std::string(name(e.result))}, {"text", e.text}});
+        steps.push_back(
+            {{"step", e.step}, {"result", std::string(name(e.result))}, {"text", e.text}});
     }
-    return nlohmann::ordered_json{{"file", file}, {"healthy", host::healthy(examinations)}, {"steps", steps}}
+    return nlohmann::ordered_json{
+               {"file", file}, {"healthy", host::healthy(examinations)}, {"steps", steps}}
                .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
            "\n";
 }
@@ -62,7 +62,8 @@ int execute(const DoctorArguments& arguments) {
 }  // namespace
 
 void add_plugin_doctor(CLI::App& plugin, Context& context) {
-    CLI::App* command = plugin.add_subcommand("doctor", "Find out step by step why a file is not a working plugin");
+    CLI::App* command =
+        plugin.add_subcommand("doctor", "Find out step by step why a file is not a working plugin");
     const auto arguments = std::make_shared<DoctorArguments>();
     command->add_option("FILE", arguments->file, "Plugin library, libdsc_NAME.so")->required();
     command->add_flag("--json", arguments->json, "Print JSON instead of text");

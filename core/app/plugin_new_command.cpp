@@ -1,10 +1,11 @@
 // dsc plugin new NAME --kind KIND
+#include <filesystem>
+#include <memory>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/host/search_path.hpp>
-#include <filesystem>
-#include <memory>
 
 #include "commands.hpp"
 #include "plugin_project.hpp"
@@ -26,20 +27,23 @@ plugin::Kind kind_of_word(const std::string& word) {
     for (const plugin::Kind kind : plugin::all_kinds) names.emplace_back(plugin::kind_name(kind));
     const auto near = config::closest(word, names);
     throw UsageError("usage.kind", "there is no kind of strategy '" + word + "'" +
-                                       (near ? "; did you mean '" + *near + "'?" : "") + "; the kinds are " + config::join(names));
+                                       (near ? "; did you mean '" + *near + "'?" : "") +
+                                       "; the kinds are " + config::join(names));
 }
 
-/// dsc would use a library of the same name in the user's folder instead of its own one, and ignore the strategies of the latter.
+/// dsc would use a library of the same name in the user's folder instead of its own one, and ignore
+/// the strategies of the latter.
 void require_free_name(const std::string& name) {
     std::error_code error;
     const fs::path built_in = host::installed_folder() / ("libdsc_" + name + ".so");
     if (fs::exists(built_in, error)) {
-        throw UsageError("usage.plugin_taken", "'" + name + "' is the name of a plugin that comes with dsc (" +
-                                                   built_in.string() +
-                                                   "); choose another name");
+        throw UsageError("usage.plugin_taken",
+                         "'" + name + "' is the name of a plugin that comes with dsc (" +
+                             built_in.string() + "); choose another name");
     }
     if (fs::symlink_status(name, error).type() != fs::file_type::not_found) {
-        throw UsageError("usage.exists", name + " already exists here; use another name or another folder");
+        throw UsageError("usage.exists",
+                         name + " already exists here; use another name or another folder");
     }
 }
 
@@ -49,13 +53,14 @@ void log_next(const std::string& name) {
     std::error_code error;
     if (!fs::exists(package / "dscConfig.cmake", error)) {
         log(LogLevel::warning, "this dsc is not installed, but " + name +
-                                   " needs an installed dsc: run cmake --install BUILD_FOLDER --prefix PREFIX, "
-                                   "then use PREFIX/bin/dsc");
+                                   " needs an installed dsc: run cmake --install BUILD_FOLDER "
+                                   "--prefix PREFIX, then use PREFIX/bin/dsc");
         return;
     }
-    log(LogLevel::info, "next: cmake -S " + name + " -B " + name + "/build -Ddsc_DIR='" + package.string() + "'");
-    log(LogLevel::info, "then: cmake --build " + name + "/build && ctest --test-dir " + name + "/build && dsc run " + name +
-                            "/experiment.yaml");
+    log(LogLevel::info,
+        "next: cmake -S " + name + " -B " + name + "/build -Ddsc_DIR='" + package.string() + "'");
+    log(LogLevel::info, "then: cmake --build " + name + "/build && ctest --test-dir " + name +
+                            "/build && dsc run " + name + "/experiment.yaml");
 }
 
 int execute(const NewArguments& arguments) {
@@ -73,15 +78,20 @@ int execute(const NewArguments& arguments) {
 
 void add_plugin_new(CLI::App& plugin, Context& context) {
     CLI::App* command =
-        plugin.add_subcommand("new", "Create the new folder NAME with a project for your own strategy: code, test, "
-                                     "experiment, page");
+        plugin.add_subcommand("new", "Create the new folder NAME with a project for your own "
+                                     "strategy: code, test, experiment, page");
     const auto arguments = std::make_shared<NewArguments>();
-    command->add_option("NAME", arguments->name, "Name of lower case letters, digits and _; the library becomes libdsc_NAME.so")
+    command
+        ->add_option("NAME", arguments->name,
+                     "Name of lower case letters, digits and _; the library becomes libdsc_NAME.so")
         ->required();
-    command->add_option("--kind", arguments->kind, "Kind: velocity, curvature, refinement, initial_mesh, improvement, "
-                                                   "observer or filter")
+    command
+        ->add_option(
+            "--kind", arguments->kind,
+            "Kind: velocity, curvature, refinement, initial_mesh, improvement, observer or filter")
         ->required();
-    command->callback([arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    command->callback(
+        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }
 
 }  // namespace dsc::app

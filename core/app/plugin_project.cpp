@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
+
+#include <fmt/core.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/version.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/plugin/entry.hpp>
 #include <dsc/text/words.hpp>
-#include <map>
-#include <fmt/core.h>
 
 #include "plugin_templates.hpp"
 #include "temporary_folder.hpp"
@@ -39,21 +41,25 @@ std::string in_camel_case(std::string_view name) {
 std::string class_name(const std::string& name, plugin::Kind kind) {
     const std::string ending = in_camel_case(plugin::kind_name(kind));
     std::string out = in_camel_case(name);
-    const bool ends_so =
-        out.size() > ending.size() && out.compare(out.size() - ending.size(), ending.size(), ending) == 0;
+    const bool ends_so = out.size() > ending.size() &&
+                         out.compare(out.size() - ending.size(), ending.size(), ending) == 0;
     return ends_so ? out : out + ending;
 }
 
-/// Replaces @NAME@ and similar words by their values. Throws if a word between two @ is not the name of a value.
+/// Replaces @NAME@ and similar words by their values. Throws if a word between two @ is not the
+/// name of a value.
 std::string filled(const EmbeddedFile& file, const Values& values) {
     std::string out;
     std::string_view rest = file.text;
     for (std::size_t at = rest.find('@'); at != std::string_view::npos; at = rest.find('@')) {
         const std::size_t end = rest.find('@', at + 1);
-        const auto value = end == std::string_view::npos ? values.end() : values.find(rest.substr(at + 1, end - at - 1));
+        const auto value = end == std::string_view::npos
+                               ? values.end()
+                               : values.find(rest.substr(at + 1, end - at - 1));
         if (value == values.end()) {
             throw Error(ExitCode::internal, "internal.template",
-                        "the template " + std::string(file.path) + " contains an @ that does not belong to a value");
+                        "the template " + std::string(file.path) +
+                            " contains an @ that does not belong to a value");
         }
         out.append(rest.substr(0, at)).append(value->second);
         rest.remove_prefix(end + 1);
@@ -66,11 +72,15 @@ std::string filled(const EmbeddedFile& file, const Values& values) {
 void require_plugin_name(const std::string& name) {
     constexpr std::size_t longest = sizeof(plugin::PluginEntry::name) - 1;
     if (text::is_id(name) && name.size() <= longest) return;
-    throw UsageError("usage.plugin_name", fmt::format("'{}' cannot be the name of a plugin; use lower case letters, digits and _, with a letter first, at most {}", name, longest));
+    throw UsageError("usage.plugin_name",
+                     fmt::format("'{}' cannot be the name of a plugin; use lower case letters, "
+                                 "digits and _, with a letter first, at most {}",
+                                 name, longest));
 }
 
 std::vector<ProjectFile> plugin_project(const std::string& name, plugin::Kind kind) {
-    Values values = {{"NAME", name}, {"CLASS", class_name(name, kind)}, {"DSC_VERSION", DSC_VERSION}};
+    Values values = {
+        {"NAME", name}, {"CLASS", class_name(name, kind)}, {"DSC_VERSION", DSC_VERSION}};
     const std::string own = std::string(plugin::kind_name(kind)) + "/";
     for (const EmbeddedFile& file : plugin_templates()) {
         if (file.path == own + "page.md") values["PAGE"] = filled(file, values);
@@ -83,7 +93,8 @@ std::vector<ProjectFile> plugin_project(const std::string& name, plugin::Kind ki
         if ((folder == own && base != "page.md") || folder == "shared/")
             files.push_back({std::string(base), filled(file, values)});
     }
-    std::sort(files.begin(), files.end(), [](const ProjectFile& a, const ProjectFile& b) { return a.name < b.name; });
+    std::sort(files.begin(), files.end(),
+              [](const ProjectFile& a, const ProjectFile& b) { return a.name < b.name; });
     return files;
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 // The files in share/template/plugin, which are part of the program.
 
-#include <dsc/base/embedded_file.hpp>
 #include <span>
+
+#include <dsc/base/embedded_file.hpp>
 
 namespace dsc::app {
 

@@ -4,7 +4,8 @@ namespace dsc::app {
 
 Plugins::Plugins(std::vector<std::string> command_line) : command_line_(std::move(command_line)) {}
 
-std::vector<host::SearchEntry> Plugins::search_path(const std::vector<std::string>& experiment) const {
+std::vector<host::SearchEntry> Plugins::search_path(
+    const std::vector<std::string>& experiment) const {
     host::SearchOptions options;
     options.command_line.assign(command_line_.begin(), command_line_.end());
     options.experiment.assign(experiment.begin(), experiment.end());

@@ -1,9 +1,9 @@
 #include "progress.hpp"
 
-#include <fmt/core.h>
-
 #include <chrono>
 #include <memory>
+
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "standard_streams.hpp"
@@ -27,18 +27,16 @@ class Progress {
 public:
     enum class Form { live, lines, json };
 
-    Progress(Form form, const run::Experiment& experiment) : form_(form), estimate_(experiment.schedule) {}
+    Progress(Form form, const run::Experiment& experiment)
+        : form_(form), estimate_(experiment.schedule) {}
 
     void operator()(const run::StepMetrics& row, std::uint64_t planned) {
         const double now = std::chrono::duration<double>(Clock::now() - start_).count();
         estimate_.add(row.step, row.interface_vertices, now);
         switch (form_) {
-            case Form::live:
-                return live(row, planned, now);
-            case Form::lines:
-                return line(row, planned, now);
-            case Form::json:
-                return json(row, planned, now);
+            case Form::live: return live(row, planned, now);
+            case Form::lines: return line(row, planned, now);
+            case Form::json: return json(row, planned, now);
         }
     }
 
@@ -46,8 +44,8 @@ private:
     using Clock = std::chrono::steady_clock;
 
     std::string text(const run::StepMetrics& row, std::uint64_t planned, double now) const {
-        std::string text =
-            fmt::format("step {}/{}, {} interface vertices", row.step, planned, row.interface_vertices);
+        std::string text = fmt::format("step {}/{}, {} interface vertices", row.step, planned,
+                                       row.interface_vertices);
         if (row.cloud_to_surface_mean)
             text += fmt::format(", cloud to surface {:.5f}", *row.cloud_to_surface_mean);
         text += fmt::format(", least quality {:.3f}, {}", row.min_tet_quality, duration(now));
@@ -60,9 +58,12 @@ private:
         const bool last = row.step >= planned;
         if (!last && now - told_ < rewrite_seconds) return;
         told_ = now;
-        // "\r" does not rewrite a line that wraps; the last column stays free, because some terminals already wrap there.
+        // "\r" does not rewrite a line that wraps; the last column stays free, because some
+        // terminals already wrap there.
         const unsigned columns = stderr_columns();
-        tell(fmt::format("\r{}\x1b[K{}", text(row, planned, now).substr(0, columns > 1 ? columns - 1 : 1), last ? "\n" : ""));
+        tell(fmt::format("\r{}\x1b[K{}",
+                         text(row, planned, now).substr(0, columns > 1 ? columns - 1 : 1),
+                         last ? "\n" : ""));
     }
 
     void line(const run::StepMetrics& row, std::uint64_t planned, double now) {
@@ -101,8 +102,8 @@ private:
 void add_progress(CLI::App& command, TerminalOptions& options) {
     command
         .add_option("--progress", options.progress,
-                    "Progress: auto (a live line on a terminal, otherwise a line every 10 % or 30 s), never, or json "
-                    "(an object per step)")
+                    "Progress: auto (a live line on a terminal, otherwise a line every 10 % or 30 "
+                    "s), never, or json (an object per step)")
         ->check(CLI::IsMember({"auto", "never", "json"}))
         ->capture_default_str();
 }
@@ -111,11 +112,13 @@ std::function<void(const run::StepMetrics&, std::uint64_t)> progress_reporter(
     const TerminalOptions& options, const run::Experiment& experiment) {
     using Form = Progress::Form;
     if (options.progress == "never" || (options.quiet && options.progress != "json")) return {};
-    const Form form = options.progress == "json"   ? Form::json
+    const Form form = options.progress == "json" ? Form::json
                       : stderr_rewrites()        ? Form::live
                                                  : Form::lines;
     const auto progress = std::make_shared<Progress>(form, experiment);
-    return [progress](const run::StepMetrics& row, std::uint64_t planned) { (*progress)(row, planned); };
+    return [progress](const run::StepMetrics& row, std::uint64_t planned) {
+        (*progress)(row, planned);
+    };
 }
 
 }  // namespace dsc::app

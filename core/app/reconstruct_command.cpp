@@ -1,5 +1,10 @@
 // dsc reconstruct
 #include <algorithm>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <thread>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/base/read_file.hpp>
@@ -11,20 +16,16 @@
 #include <dsc/run/reconstruct.hpp>
 #include <dsc/run/run_experiment.hpp>
 #include <dsc/text/words.hpp>
-#include <memory>
-#include <optional>
-#include <sstream>
-#include <thread>
 
 #include "commands.hpp"
 #include "exit_guard.hpp"
 #include "files.hpp"
 #include "outcome.hpp"
 #include "plugins.hpp"
-#include "standard_streams.hpp"
-#include "temporary_folder.hpp"
 #include "progress.hpp"
 #include "reconstruct_remedies.hpp"
+#include "standard_streams.hpp"
+#include "temporary_folder.hpp"
 
 namespace dsc::app {
 namespace {
@@ -65,14 +66,17 @@ std::vector<Target> targets(const ReconstructArguments& arguments) {
     for (const std::string& name : names) {
         const io::Format* format = io::find_format(name);
         if (format == nullptr) {
-            throw UsageError("usage.format", name + " does not have the extension of a format that dsc writes; use " +
-                                                 io::surface_extensions() + " for the surface, " +
-                                                 io::volume_extensions() + " for the volume");
+            throw UsageError("usage.format",
+                             name +
+                                 " does not have the extension of a format that dsc writes; use " +
+                                 io::surface_extensions() + " for the surface, " +
+                                 io::volume_extensions() + " for the volume");
         }
         require_output(name, arguments.cloud);
         for (const Target& other : list) {
             if (same_file(other.file, name))
-                throw UsageError("usage.output", name + " is given twice with -o; give each file once");
+                throw UsageError("usage.output",
+                                 name + " is given twice with -o; give each file once");
         }
         list.push_back({name, std::string(format->extension.substr(1)), format->volume});
     }
@@ -88,8 +92,8 @@ config::ConfigNode wanted(const std::vector<Target>& list, bool volume,
     }
     std::vector<config::ConfigNode> nodes;
     for (std::size_t i = 0; i < formats.size(); ++i) {
-        if (std::find(formats.begin(), formats.begin() + static_cast<std::ptrdiff_t>(i), formats[i]) ==
-            formats.begin() + static_cast<std::ptrdiff_t>(i)) {
+        if (std::find(formats.begin(), formats.begin() + static_cast<std::ptrdiff_t>(i),
+                      formats[i]) == formats.begin() + static_cast<std::ptrdiff_t>(i)) {
             nodes.emplace_back(formats[i]);
         }
     }
@@ -100,12 +104,13 @@ fs::path source_of(const Target& target, const run::RunOutcome& outcome) {
     for (const fs::path& file : target.volume ? outcome.volumes : outcome.surfaces) {
         if (text::lower_case_extension(file) == "." + target.format) return file;
     }
-    throw Error(ExitCode::internal, "reconstruct.format", "the run did not write ." + target.format);
+    throw Error(ExitCode::internal, "reconstruct.format",
+                "the run did not write ." + target.format);
 }
 
-/// Refuses a cloud from which no surface can be made, before anything else happens. The message uses the name that the caller
-/// gave: the experiment contains the absolute name, and its filters would be the first to see the cloud. The run uses the cloud
-/// that was read here.
+/// Refuses a cloud from which no surface can be made, before anything else happens. The message
+/// uses the name that the caller gave: the experiment contains the absolute name, and its filters
+/// would be the first to see the cloud. The run uses the cloud that was read here.
 std::shared_ptr<run::InputFiles> read_good_cloud(const ReconstructArguments& arguments) {
     const auto files = std::make_shared<run::InputFiles>();
     const cloud::Cloud& cloud = files->cloud(arguments.cloud, arguments.columns).cloud;
@@ -119,8 +124,11 @@ std::optional<double> noise_of(const std::string& smooth) {
     std::istringstream text(smooth);
     double value = 0.0;
     if (!(text >> value) || !text.eof() || !(value >= 0.0 && value <= 100.0)) {
-        throw UsageError("usage.smooth", "--smooth " + smooth + " is neither auto nor a number from 0 to 100; give the standard deviation of the "
-                                         "points' noise in spacings, such as 0.3");
+        throw UsageError(
+            "usage.smooth",
+            "--smooth " + smooth +
+                " is neither auto nor a number from 0 to 100; give the standard deviation of the "
+                "points' noise in spacings, such as 0.3");
     }
     return value;
 }
@@ -136,8 +144,10 @@ run::ReconstructOptions options_of(const ReconstructArguments& arguments) {
     return options;
 }
 
-/// Copies the outputs from the run folder. If one cannot be written, the others are still written and the run folder is kept.
-void deliver(const std::vector<Target>& list, const run::RunOutcome& outcome, std::optional<TemporaryFolder>& temporary) {
+/// Copies the outputs from the run folder. If one cannot be written, the others are still written
+/// and the run folder is kept.
+void deliver(const std::vector<Target>& list, const run::RunOutcome& outcome,
+             std::optional<TemporaryFolder>& temporary) {
     std::string faults;
     for (const Target& target : list) {
         try {
@@ -149,10 +159,12 @@ void deliver(const std::vector<Target>& list, const run::RunOutcome& outcome, st
     }
     if (faults.empty()) return;
     if (temporary) temporary->keep();
-    throw IoError("io.write", faults + "the result is kept in " + (outcome.folder / "result").string());
+    throw IoError("io.write",
+                  faults + "the result is kept in " + (outcome.folder / "result").string());
 }
 
-/// An experiment is UTF-8 text, but a file name need not be UTF-8: such a file gets a link with a plain name.
+/// An experiment is UTF-8 text, but a file name need not be UTF-8: such a file gets a link with a
+/// plain name.
 fs::path plain_name(const fs::path& cloud, std::optional<TemporaryFolder>& links) {
     const fs::path whole = fs::absolute(cloud);
     if (is_utf8(whole.string())) return whole;
@@ -162,13 +174,16 @@ fs::path plain_name(const fs::path& cloud, std::optional<TemporaryFolder>& links
     return link;
 }
 
-/// Runs the experiment. A run that is stopped before there is a surface leaves nothing behind, and the message states this.
-run::RunOutcome carry_out(const run::LoadedExperiment& loaded, const Plugins& plugins, const run::RunOptions& options) {
+/// Runs the experiment. A run that is stopped before there is a surface leaves nothing behind, and
+/// the message states this.
+run::RunOutcome carry_out(const run::LoadedExperiment& loaded, const Plugins& plugins,
+                          const run::RunOptions& options) {
     try {
         return run::run_experiment(loaded, plugins.host(), options);
     } catch (const CancelledError& error) {
         throw CancelledError(std::string(error.what()) +
-                             "; it was stopped before there was a surface, so no output was written and nothing is kept; with --keep-run FOLDER "
+                             "; it was stopped before there was a surface, so no output was "
+                             "written and nothing is kept; with --keep-run FOLDER "
                              "the run folder is kept even if the run is stopped");
     } catch (const Error& error) {
         throw with_own_remedy(error);
@@ -178,20 +193,23 @@ run::RunOutcome carry_out(const run::LoadedExperiment& loaded, const Plugins& pl
 int execute(const ReconstructArguments& arguments, const std::vector<std::string>& command) {
     start_log(arguments.terminal);
     if (!fs::exists(arguments.cloud)) {
-        throw IoError("io.missing", arguments.cloud, "", "does not exist", "check the name of the cloud");
+        throw IoError("io.missing", arguments.cloud, "", "does not exist",
+                      "check the name of the cloud");
     }
     const std::vector<Target> list = targets(arguments);
     const std::shared_ptr<run::InputFiles> files = read_good_cloud(arguments);
     std::optional<TemporaryFolder> links;
-    config::ConfigNode root = run::reconstruction_of(plain_name(arguments.cloud, links).string(), options_of(arguments));
+    config::ConfigNode root =
+        run::reconstruction_of(plain_name(arguments.cloud, links).string(), options_of(arguments));
     const bool kept = !arguments.keep_run.empty();
     using Names = std::vector<std::string>;
     const config::ConfigNode* const given = root.find("output");
-    const config::ConfigNode output = (given != nullptr ? *given : config::ConfigNode::map())
-                 .with("report", kept)
-                 .with("normals", true)
-                 .with("surface", wanted(list, false, kept ? Names{"obj", "ply"} : Names{"obj"}))
-                 .with("volume", wanted(list, true, kept ? Names{"vtu", "dsc"} : Names{"dsc"}));
+    const config::ConfigNode output =
+        (given != nullptr ? *given : config::ConfigNode::map())
+            .with("report", kept)
+            .with("normals", true)
+            .with("surface", wanted(list, false, kept ? Names{"obj", "ply"} : Names{"obj"}))
+            .with("volume", wanted(list, true, kept ? Names{"vtu", "dsc"} : Names{"dsc"}));
     root = root.with("output", output);
     Plugins plugins(arguments.plugins);
     run::LoadedExperiment loaded = run::resolve_experiment(root, plugins.loader());
@@ -207,8 +225,8 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     run::RunOptions options;
     options.folder = kept ? fs::path(arguments.keep_run) : temporary->path() / "run";
     options.picture = kept;
-    options.threads =
-        arguments.threads != 0 ? arguments.threads : std::max(1U, std::thread::hardware_concurrency());
+    options.threads = arguments.threads != 0 ? arguments.threads
+                                             : std::max(1U, std::thread::hardware_concurrency());
     options.cancel = &cancel_on_signals();
     options.command = command;
     options.on_step = progress_reporter(arguments.terminal, loaded.experiment);
@@ -216,7 +234,8 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     const run::RunOutcome outcome = carry_out(loaded, plugins, options);
     report(outcome);
     deliver(list, outcome, temporary);
-    if (exit_code(outcome) != 0 || !arguments.strict || outcome.totals.warnings.empty()) return exit_code(outcome);
+    if (exit_code(outcome) != 0 || !arguments.strict || outcome.totals.warnings.empty())
+        return exit_code(outcome);
     log(LogLevel::error, "--strict: the result was written, but there are warnings about it");
     return static_cast<int>(ExitCode::geometry);
 }
@@ -224,48 +243,66 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
 }  // namespace
 
 void add_reconstruct(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("reconstruct", "Reconstruct a surface and a volume from a point cloud");
+    CLI::App* command =
+        app.add_subcommand("reconstruct", "Reconstruct a surface and a volume from a point cloud");
     const auto arguments = std::make_shared<ReconstructArguments>();
-    command->add_option("CLOUD", arguments->cloud, "Point cloud: .obj .ply .pcd .xyz .txt .asc .pts .csv")
+    command
+        ->add_option("CLOUD", arguments->cloud,
+                     "Point cloud: .obj .ply .pcd .xyz .txt .asc .pts .csv")
         ->required();
     add_columns(*command, arguments->columns);
     command
-        ->add_option("-o,--output", arguments->outputs,
-                     "Output; may be repeated. The extension selects the format: .obj .ply .off .stl surface, .vtu .dsc .msh "
-                     ".mesh volume. Default: STEM_surface.ply and STEM_volume.vtu in the current folder")
+        ->add_option(
+            "-o,--output", arguments->outputs,
+            "Output; may be repeated. The extension selects the format: .obj .ply .off .stl "
+            "surface, .vtu .dsc .msh "
+            ".mesh volume. Default: STEM_surface.ply and STEM_volume.vtu in the current folder")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_option("--detail", arguments->detail, "Level of detail: low, medium or high")
         ->check(CLI::IsMember({"low", "medium", "high"}))
         ->capture_default_str();
-    command->add_option("--edge-length", arguments->edge_length,
-                    "Edge length of the triangles, in the units of the cloud; replaces --detail")
+    command
+        ->add_option("--edge-length", arguments->edge_length,
+                     "Edge length of the triangles, in the units of the cloud; replaces --detail")
         ->check(CLI::PositiveNumber)
         ->excludes("--detail");
-    command->add_option("--vertices", arguments->vertices, "Number of vertices that the surface may have; replaces --detail")
+    command
+        ->add_option("--vertices", arguments->vertices,
+                     "Number of vertices that the surface may have; replaces --detail")
         ->check(CLI::Range(100, 10000000))
         ->excludes("--detail")
         ->excludes("--edge-length");
-    command->add_option("--smooth", arguments->smooth,
-                    "Noise of the points: auto (it is measured) or its standard deviation in spacings; larger is smoother")
+    command
+        ->add_option("--smooth", arguments->smooth,
+                     "Noise of the points: auto (it is measured) or its standard deviation in "
+                     "spacings; larger is smoother")
         ->type_name("auto|NUMBER")
         ->capture_default_str();
-    command->add_flag("--trim", arguments->trim, "Write the surface without the parts that no points support, such as the back of a scan from one side");
-    command->add_flag("--strict", arguments->strict,
-                      "Exit with code 5 if there are warnings about the result; the result is still written");
-    command->add_flag("--print-config", arguments->print_config, "Print the experiment that would be run, and run nothing");
+    command->add_flag("--trim", arguments->trim,
+                      "Write the surface without the parts that no points support, such as the "
+                      "back of a scan from one side");
+    command->add_flag(
+        "--strict", arguments->strict,
+        "Exit with code 5 if there are warnings about the result; the result is still written");
+    command->add_flag("--print-config", arguments->print_config,
+                      "Print the experiment that would be run, and run nothing");
     command->add_option("--keep-run", arguments->keep_run, "Keep the run folder under this name");
     command
         ->add_option("--threads", arguments->threads,
                      "Number of threads; default: all. The result does not depend on it")
         ->check(CLI::Range(1U, 1024U));
-    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of libraries; may be repeated")
+    command
+        ->add_option("--plugin", arguments->plugins,
+                     "Plugin library or folder of libraries; may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     add_progress(*command, arguments->terminal);
     add_verbosity(*command, arguments->terminal);
     command->callback([arguments, &context] {
-        context.action = [arguments, &context] { return execute(*arguments, context.command_line); };
+        context.action = [arguments, &context] {
+            return execute(*arguments, context.command_line);
+        };
     });
 }
 

@@ -9,9 +9,10 @@ namespace dsc::app {
 namespace {
 
 constexpr std::string_view check_cloud =
-    "check with dsc info that the points cover the surface of one solid on all sides and densely enough, and remove points far "
-    "away from it";
-constexpr std::string_view check_file = "save the cloud again with finite coordinates, closer to the origin";
+    "check with dsc info that the points cover the surface of one solid on all sides and densely "
+    "enough, and remove points far away from it";
+constexpr std::string_view check_file =
+    "save the cloud again with finite coordinates, closer to the origin";
 
 struct Remedy {
     std::string_view code;
@@ -33,9 +34,11 @@ constexpr std::array<Remedy, 12> remedies = {{{"run.vanished", check_cloud},
 }  // namespace
 
 Error with_own_remedy(const Error& error) {
-    const auto found = std::find_if(remedies.begin(), remedies.end(), [&](const Remedy& r) { return r.code == error.code(); });
+    const auto found = std::find_if(remedies.begin(), remedies.end(),
+                                    [&](const Remedy& r) { return r.code == error.code(); });
     if (found == remedies.end()) return error;
-    return {error.exit_code(), error.code(), error.place(), error.cause().substr(0, error.cause().find("; ")), found->text};
+    return {error.exit_code(), error.code(), error.place(),
+            error.cause().substr(0, error.cause().find("; ")), found->text};
 }
 
 }  // namespace dsc::app

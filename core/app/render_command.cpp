@@ -1,5 +1,12 @@
 // dsc render
 #include <charconv>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/base/workers.hpp>
@@ -7,12 +14,6 @@
 #include <dsc/io/read.hpp>
 #include <dsc/report/report.hpp>
 #include <dsc/text/words.hpp>
-#include <filesystem>
-#include <memory>
-#include <string>
-#include <thread>
-#include <utility>
-#include <vector>
 
 #include "commands.hpp"
 #include "files.hpp"
@@ -51,8 +52,9 @@ Coloured read_coloured(const RenderArguments& arguments) {
     std::filesystem::path file = arguments.input;
     if (std::filesystem::is_directory(file)) file = file / "result" / "surface.ply";
     if (text::lower_case_extension(file) != ".ply") {
-        throw UsageError("usage.colour", file.string() + ": --colour needs numbers per vertex, which only a .ply contains; "
-                                         "give a .ply file");
+        throw UsageError("usage.colour",
+                         file.string() + ": --colour needs numbers per vertex, which only a .ply "
+                                         "contains; give a .ply file");
     }
     std::vector<io::DataArray> arrays;
     surface::TriangleMesh mesh = io::read_surface(file, &arrays);
@@ -61,15 +63,17 @@ Coloured read_coloured(const RenderArguments& arguments) {
         if (array.name == arguments.colour) return {std::move(mesh), std::move(array.values)};
         names += (names.empty() ? "" : ", ") + array.name;
     }
-    throw UsageError("usage.colour", file.string() + ": the vertices have no property '" + arguments.colour + "' of floats; they have " +
+    throw UsageError("usage.colour", file.string() + ": the vertices have no property '" +
+                                         arguments.colour + "' of floats; they have " +
                                          (names.empty() ? "none" : names));
 }
 
-/// The axis that the picture and the report of a run use: z for the built-in shapes, y for models from files. A file does not
-/// state its axis, so the log reports the axis that was chosen.
+/// The axis that the picture and the report of a run use: z for the built-in shapes, y for models
+/// from files. A file does not state its axis, so the log reports the axis that was chosen.
 io::UpAxis up_axis(const RenderArguments& arguments) {
     if (arguments.up != "auto") return arguments.up == "z" ? io::UpAxis::z : io::UpAxis::y;
-    const bool z = std::filesystem::is_directory(arguments.input) && report::stands_along_z(arguments.input);
+    const bool z =
+        std::filesystem::is_directory(arguments.input) && report::stands_along_z(arguments.input);
     log(LogLevel::info, z ? "z points up, as in the report of the run; --up y lets y point up"
                           : "y points up; use --up z for a model whose height is along z");
     return z ? io::UpAxis::z : io::UpAxis::y;
@@ -87,14 +91,16 @@ int paint(const RenderArguments& arguments, io::RenderOptions& options) {
     io::write_png(arguments.output, io::render(surface.mesh, options));
     const io::ColourBounds bounds = io::colour_bounds(surface.values);
     data_out() << arguments.output << "\n"
-              << arguments.colour << ": " << bounds.low << " and less is blue, " << bounds.high << " and more is red\n";
+               << arguments.colour << ": " << bounds.low << " and less is blue, " << bounds.high
+               << " and more is red\n";
     return 0;
 }
 
 int execute(const RenderArguments& arguments) {
     if (text::lower_case_extension(arguments.output) != ".png") {
-        throw UsageError("usage.format",
-                         arguments.output + ": pictures are written as .png; give a .png file with -o");
+        throw UsageError(
+            "usage.format",
+            arguments.output + ": pictures are written as .png; give a .png file with -o");
     }
     require_output(arguments.output, arguments.input);
     io::RenderOptions options;
@@ -110,20 +116,25 @@ int execute(const RenderArguments& arguments) {
 }  // namespace
 
 void add_render(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("render", "Draw a shaded picture of a surface, a volume or a run");
+    CLI::App* command =
+        app.add_subcommand("render", "Draw a shaded picture of a surface, a volume or a run");
     const auto arguments = std::make_shared<RenderArguments>();
     command->add_option("FILE", arguments->input, "Surface, volume or run folder")->required();
     command->add_option("-o,--output", arguments->output, "Picture, .png")->required();
     command->add_option("--view", arguments->view, "Side from which the object is seen")
         ->check(CLI::IsMember({"front", "back", "left", "right", "top", "bottom", "iso"}))
         ->capture_default_str();
-    command->add_option("--up", arguments->up, "Axis that points up: y, z, or auto, which prints the axis that it chose")
+    command
+        ->add_option("--up", arguments->up,
+                     "Axis that points up: y, z, or auto, which prints the axis that it chose")
         ->check(CLI::IsMember({"auto", "y", "z"}))
         ->capture_default_str();
-    command->add_option("--size", arguments->size, "Width and height in pixels")->capture_default_str();
+    command->add_option("--size", arguments->size, "Width and height in pixels")
+        ->capture_default_str();
     command->add_flag("--edges", arguments->edges, "Draw the edges of the triangles");
-    command->add_option("--colour", arguments->colour,
-                        "Property of the vertices of a .ply that colours the surface, such as an attribute");
+    command->add_option(
+        "--colour", arguments->colour,
+        "Property of the vertices of a .ply that colours the surface, such as an attribute");
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

@@ -1,9 +1,10 @@
 // dsc report
+#include <memory>
+#include <thread>
+
 #include <dsc/base/error.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/report/report.hpp>
-#include <memory>
-#include <thread>
 
 #include "commands.hpp"
 #include "files.hpp"
@@ -23,7 +24,8 @@ struct ReportArguments {
 
 fs::path output_of(const ReportArguments& arguments) {
     if (!arguments.output.empty()) return arguments.output;
-    return arguments.folders.size() == 1 ? fs::path(arguments.folders.front()) / "report.html" : fs::path("comparison.html");
+    return arguments.folders.size() == 1 ? fs::path(arguments.folders.front()) / "report.html"
+                                         : fs::path("comparison.html");
 }
 
 int execute(const ReportArguments& arguments) {
@@ -31,11 +33,13 @@ int execute(const ReportArguments& arguments) {
     const fs::path output = output_of(arguments);
     if (!arguments.output.empty()) require_output(output, "");
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));
-    // The plugins provide the filters of the cloud. Without them the page is still written, and it states what is missing.
+    // The plugins provide the filters of the cloud. Without them the page is still written, and it
+    // states what is missing.
     Plugins plugins(arguments.plugins);
     const host::Host& host = plugins.load_what_works(report::plugins_of_runs(folders));
-    const std::string page = folders.size() == 1 ? report::report_html(folders.front(), host, &workers)
-                                                 : report::comparison_html(folders, host, &workers);
+    const std::string page = folders.size() == 1
+                                 ? report::report_html(folders.front(), host, &workers)
+                                 : report::comparison_html(folders, host, &workers);
     io::write_file(output, page);
     data_out() << output.string() << "\n";
     return 0;
@@ -44,14 +48,18 @@ int execute(const ReportArguments& arguments) {
 }  // namespace
 
 void add_report(CLI::App& app, Context& context) {
-    CLI::App* command = app.add_subcommand("report", "Write a page that shows one run or compares several runs");
+    CLI::App* command =
+        app.add_subcommand("report", "Write a page that shows one run or compares several runs");
     const auto arguments = std::make_shared<ReportArguments>();
     command->add_option("DIR", arguments->folders, "Folders of finished runs")->required();
     command
         ->add_option("-o,--output", arguments->output,
-                     "Page to write; default: DIR/report.html, for several runs comparison.html in the current folder")
+                     "Page to write; default: DIR/report.html, for several runs comparison.html in "
+                     "the current folder")
         ->expected(1);
-    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of libraries; may be repeated")
+    command
+        ->add_option("--plugin", arguments->plugins,
+                     "Plugin library or folder of libraries; may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->callback(

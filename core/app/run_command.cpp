@@ -1,11 +1,12 @@
 // dsc run
 #include <cmath>
+#include <memory>
+#include <thread>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/report/report.hpp>
 #include <dsc/run/run_experiment.hpp>
-#include <memory>
-#include <thread>
 
 #include "commands.hpp"
 #include "duration.hpp"
@@ -31,20 +32,23 @@ struct RunArguments {
     TerminalOptions terminal;
 };
 
-int check(const run::LoadedExperiment& loaded, const host::Host& host, const RunArguments& arguments) {
+int check(const run::LoadedExperiment& loaded, const host::Host& host,
+          const RunArguments& arguments) {
     run::make_strategies(loaded.experiment, host);
-    const std::filesystem::path folder = arguments.folder.empty() ? run::default_folder(loaded, host)
-                                                                  : std::filesystem::path(arguments.folder);
+    const std::filesystem::path folder = arguments.folder.empty()
+                                             ? run::default_folder(loaded, host)
+                                             : std::filesystem::path(arguments.folder);
     if (arguments.print_config) return 0;
     data_out() << arguments.config << ": valid, " << run::planned_steps(loaded.experiment)
-              << " steps, would write " << folder.string() << "\n";
+               << " steps, would write " << folder.string() << "\n";
     return 0;
 }
 
 int execute(const RunArguments& arguments, const std::vector<std::string>& command) {
     start_log(arguments.terminal);
-    const std::optional<double> budget =
-        arguments.time_budget.empty() ? std::nullopt : std::optional(parse_duration(arguments.time_budget));
+    const std::optional<double> budget = arguments.time_budget.empty()
+                                             ? std::nullopt
+                                             : std::optional(parse_duration(arguments.time_budget));
     Plugins plugins(arguments.plugins);
     const run::LoadedExperiment loaded =
         run::load_experiment(arguments.config, arguments.overrides, plugins.loader());
@@ -54,8 +58,9 @@ int execute(const RunArguments& arguments, const std::vector<std::string>& comma
     if (arguments.check) return check(loaded, plugins.host(), arguments);
     if (arguments.print_config) return 0;
 
-    const std::filesystem::path folder =
-        arguments.folder.empty() ? run::default_folder(loaded, plugins.host()) : std::filesystem::path(arguments.folder);
+    const std::filesystem::path folder = arguments.folder.empty()
+                                             ? run::default_folder(loaded, plugins.host())
+                                             : std::filesystem::path(arguments.folder);
     if (arguments.resume && run::is_finished(folder, loaded, plugins.host())) {
         log(LogLevel::info, folder.string() + " is finished; there is nothing to resume");
         data_out() << folder.string() << "\n";
@@ -64,8 +69,8 @@ int execute(const RunArguments& arguments, const std::vector<std::string>& comma
     run::RunOptions options;
     options.folder = folder;
     options.resume = arguments.resume;
-    options.threads =
-        arguments.threads != 0 ? arguments.threads : std::max(1U, std::thread::hardware_concurrency());
+    options.threads = arguments.threads != 0 ? arguments.threads
+                                             : std::max(1U, std::thread::hardware_concurrency());
     options.time_budget = budget;
     options.cancel = &cancel_on_signals();
     options.command = command;
@@ -83,26 +88,34 @@ void add_run(CLI::App& app, Context& context) {
     CLI::App* command = app.add_subcommand("run", "Run an experiment");
     const auto arguments = std::make_shared<RunArguments>();
     command->add_option("CONFIG", arguments->config, "Experiment, a YAML file")->required();
-    command->add_option("KEY=VALUE", arguments->overrides, "Values that replace those of the file, by dotted path");
+    command->add_option("KEY=VALUE", arguments->overrides,
+                        "Values that replace those of the file, by dotted path");
     command->add_option("-o,--output", arguments->folder, "Run folder; default: runs/NAME/HASH");
     command
         ->add_option("--threads", arguments->threads,
                      "Number of threads; default: all. The result does not depend on it")
         ->check(CLI::Range(1U, 1024U));
-    command->add_option("--plugin", arguments->plugins, "Plugin library or folder of libraries; may be repeated")
+    command
+        ->add_option("--plugin", arguments->plugins,
+                     "Plugin library or folder of libraries; may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->add_flag("--check", arguments->check, "Check the experiment and run nothing");
     command->add_flag("--print-config", arguments->print_config,
                       "Print the experiment with all defaults, and run nothing");
-    command->add_flag("--resume", arguments->resume,
-                      "Continue from the last checkpoint in the run folder, or from the start if there is none; a finished run "
-                      "is not changed, and the run of another experiment is refused");
-    command->add_option("--time-budget", arguments->time_budget, "Save a checkpoint and stop, with exit code 75, after this time: 90, 90s, 10m, 1.5h");
+    command->add_flag(
+        "--resume", arguments->resume,
+        "Continue from the last checkpoint in the run folder, or from the start if there is none; "
+        "a finished run is not changed, and the run of another experiment is refused");
+    command->add_option(
+        "--time-budget", arguments->time_budget,
+        "Save a checkpoint and stop, with exit code 75, after this time: 90, 90s, 10m, 1.5h");
     add_progress(*command, arguments->terminal);
     add_verbosity(*command, arguments->terminal);
     command->callback([arguments, &context] {
-        context.action = [arguments, &context] { return execute(*arguments, context.command_line); };
+        context.action = [arguments, &context] {
+            return execute(*arguments, context.command_line);
+        };
     });
 }
 

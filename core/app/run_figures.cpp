@@ -1,12 +1,13 @@
 #include "run_figures.hpp"
 
 #include <algorithm>
+#include <string>
+#include <vector>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/run/run_folder.hpp>
-#include <string>
-#include <vector>
 
 namespace dsc::app {
 namespace {
@@ -26,7 +27,8 @@ ordered_json object_in(const fs::path& file) {
 std::vector<std::string> names_in(const fs::path& folder) {
     std::vector<std::string> names;
     std::error_code error;
-    for (auto i = fs::directory_iterator(folder, error); !error && i != fs::directory_iterator(); i.increment(error)) {
+    for (auto i = fs::directory_iterator(folder, error); !error && i != fs::directory_iterator();
+         i.increment(error)) {
         names.push_back(i->path().filename().string());
     }
     std::sort(names.begin(), names.end());
@@ -37,7 +39,8 @@ std::vector<std::string> names_in(const fs::path& folder) {
 
 ordered_json run_figures(const fs::path& folder) {
     if (!run::RunFolder::is_ours(folder)) {
-        throw IoError("io.no_run", folder.string(), "", "is not a run folder", "give a file or a run folder");
+        throw IoError("io.no_run", folder.string(), "", "is not a run folder",
+                      "give a file or a run folder");
     }
     const ordered_json status = object_in(folder / "status.json");
     ordered_json figures;
@@ -51,11 +54,14 @@ ordered_json run_figures(const fs::path& folder) {
         figures["state"] = "killed";
         figures["remedy"] = "dsc run --resume continues from the last checkpoint";
     }
-    if (const auto checkpoints = names_in(folder / "checkpoint"); !checkpoints.empty()) figures["last_checkpoint"] = checkpoints.back();
+    if (const auto checkpoints = names_in(folder / "checkpoint"); !checkpoints.empty())
+        figures["last_checkpoint"] = checkpoints.back();
     if (const auto files = names_in(folder / "result"); !files.empty()) figures["result"] = files;
     std::error_code error;
-    if (fs::exists(folder / "report.html", error)) figures["report"] = (folder / "report.html").string();
-    if (const ordered_json summary = object_in(folder / "summary.json"); !summary.is_null()) figures["summary"] = summary;
+    if (fs::exists(folder / "report.html", error))
+        figures["report"] = (folder / "report.html").string();
+    if (const ordered_json summary = object_in(folder / "summary.json"); !summary.is_null())
+        figures["summary"] = summary;
     return figures;
 }
 

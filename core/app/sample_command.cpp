@@ -1,8 +1,9 @@
 // dsc sample
+#include <memory>
+
 #include <dsc/cloud/shapes.hpp>
 #include <dsc/cloud/write.hpp>
 #include <dsc/io/write.hpp>
-#include <memory>
 
 #include "commands.hpp"
 #include "files.hpp"
@@ -40,18 +41,30 @@ int execute(const SampleArguments& arguments) {
 }  // namespace
 
 void add_sample(CLI::App& app, Context& context) {
-    CLI::App* command =
-        app.add_subcommand("sample", "Sample a cloud of a built-in shape: teapot, sphere, torus or box_tunnel");
+    CLI::App* command = app.add_subcommand(
+        "sample", "Sample a cloud of a built-in shape: teapot, sphere, torus or box_tunnel");
     const auto arguments = std::make_shared<SampleArguments>();
-    command->add_option("SHAPE", arguments->shape, "Shape: teapot, sphere, torus or box_tunnel")->required();
-    command->add_option("-n", arguments->n, "Number of points")->required()->check(CLI::Range(1, 100000000));
-    command->add_option("-o,--output", arguments->output, "Cloud to write: .obj .ply .pcd .xyz .txt .asc .pts .csv")->required();
-    command->add_option("--noise", arguments->noise, "Standard deviation of the noise, in diagonals of the bounding box")
+    command->add_option("SHAPE", arguments->shape, "Shape: teapot, sphere, torus or box_tunnel")
+        ->required();
+    command->add_option("-n", arguments->n, "Number of points")
+        ->required()
+        ->check(CLI::Range(1, 100000000));
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "Cloud to write: .obj .ply .pcd .xyz .txt .asc .pts .csv")
+        ->required();
+    command
+        ->add_option("--noise", arguments->noise,
+                     "Standard deviation of the noise, in diagonals of the bounding box")
         ->check(CLI::Range(0.0, 1.0));
-    command->add_option("--outliers", arguments->outliers, "Fraction of the points that lie anywhere in the box")
+    command
+        ->add_option("--outliers", arguments->outliers,
+                     "Fraction of the points that lie anywhere in the box")
         ->check(CLI::Range(0.0, 1.0));
-    command->add_option("--seed", arguments->seed, "Seed of the random numbers")->capture_default_str();
-    command->add_option("--mesh", arguments->mesh, "Also write the true surface: .obj, .ply, .off or .stl");
+    command->add_option("--seed", arguments->seed, "Seed of the random numbers")
+        ->capture_default_str();
+    command->add_option("--mesh", arguments->mesh,
+                        "Also write the true surface: .obj, .ply, .off or .stl");
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

@@ -10,9 +10,11 @@ namespace dsc::app {
 
 void add_schema(CLI::App& app, Context& context) {
     CLI::App* command = app.add_subcommand(
-        "schema", "Print the JSON Schema (draft-07) of an experiment, for editors and other checkers");
+        "schema",
+        "Print the JSON Schema (draft-07) of an experiment, for editors and other checkers");
     const auto paths = std::make_shared<std::vector<std::string>>();
-    command->add_option("--plugin", *paths, "Plugin library or folder of libraries; may be repeated")
+    command
+        ->add_option("--plugin", *paths, "Plugin library or folder of libraries; may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command->callback([paths, &context] {

@@ -1,27 +1,28 @@
 #include "standard_streams.hpp"
 
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <ostream>
+#include <streambuf>
+#include <string>
+#include <system_error>
+
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <csignal>
-#include <cstdlib>
 #include <dsc/base/error.hpp>
-#include <ostream>
-#include <streambuf>
-#include <string>
-#include <system_error>
 
 namespace dsc::app {
 namespace {
 
 constexpr int lowest_private = 10;  // shells leave the descriptors below to scripts
 
-/// Writes all of the text, in spite of interruptions and also to non-blocking descriptors. Returns 0, or the errno of the
-/// failure.
+/// Writes all of the text, in spite of interruptions and also to non-blocking descriptors. Returns
+/// 0, or the errno of the failure.
 int write_whole(int to, std::string_view text, int patience_ms) noexcept {
     while (!text.empty()) {
         const ::ssize_t count = ::write(to, text.data(), text.size());
@@ -99,8 +100,9 @@ void flush_data() {
         std::signal(SIGPIPE, SIG_DFL);
         static_cast<void>(std::raise(SIGPIPE));
     }
-    throw IoError("io.write", "stdout cannot be written: " + std::generic_category().message(failure) +
-                                      "; check the file or program that receives it");
+    throw IoError("io.write",
+                  "stdout cannot be written: " + std::generic_category().message(failure) +
+                      "; check the file or program that receives it");
 }
 
 void tell(std::string_view text) noexcept {
@@ -110,7 +112,8 @@ void tell(std::string_view text) noexcept {
 
 bool stderr_rewrites() {
     const char* const kind = std::getenv("TERM");
-    return ::isatty(STDERR_FILENO) != 0 && kind != nullptr && *kind != '\0' && std::string_view(kind) != "dumb";
+    return ::isatty(STDERR_FILENO) != 0 && kind != nullptr && *kind != '\0' &&
+           std::string_view(kind) != "dumb";
 }
 
 unsigned stderr_columns() {

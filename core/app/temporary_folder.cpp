@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+
 #include <dsc/base/error.hpp>
 
 namespace dsc::app {
@@ -21,8 +22,8 @@ TemporaryFolder::TemporaryFolder() {
 TemporaryFolder::TemporaryFolder(const std::filesystem::path& parent, const std::string& name) {
     std::string pattern = (parent / (name + "-XXXXXX")).string();
     if (mkdtemp(pattern.data()) == nullptr) {
-        throw IoError("io.folder", parent.string(), "", std::string("no folder can be created there (") +
-                          std::strerror(errno) + ")",
+        throw IoError("io.folder", parent.string(), "",
+                      std::string("no folder can be created there (") + std::strerror(errno) + ")",
                       "change to a writable folder");
     }
     path_ = pattern;

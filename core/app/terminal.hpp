@@ -1,9 +1,11 @@
 #pragma once
 // The log on stderr, and the signals that end a job.
 
-#include <CLI/CLI.hpp>
-#include <dsc/base/progress.hpp>
 #include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <dsc/base/progress.hpp>
 
 namespace dsc::app {
 
@@ -18,8 +20,8 @@ void add_verbosity(CLI::App& command, TerminalOptions& options);
 /// Sends the library's log to stderr. [setup]
 void start_log(const TerminalOptions& options);
 
-/// Set by SIGINT, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1; a second SIGINT or SIGTERM ends the process at once. A SIGHUP that
-/// was ignored when the program started stays ignored. [setup]
+/// Set by SIGINT, SIGTERM, SIGHUP, SIGXCPU and SIGUSR1; a second SIGINT or SIGTERM ends the process
+/// at once. A SIGHUP that was ignored when the program started stays ignored. [setup]
 const CancelToken& cancel_on_signals();
 
 }  // namespace dsc::app

@@ -15,8 +15,8 @@ constexpr double usual_growth = 1.35;   // growth of the vertices per refinement
 TimeEstimate::TimeEstimate(const std::vector<run::Series>& schedule) {
     for (const run::Series& item : schedule) {
         if (!item.steps) refinements_.push_back(planned_);
-        for (std::uint64_t step = item.every.value_or(0); step != 0 && step <= item.steps.value_or(0);
-             step += *item.every)
+        for (std::uint64_t step = item.every.value_or(0);
+             step != 0 && step <= item.steps.value_or(0); step += *item.every)
             refinements_.push_back(planned_ + step);
         planned_ += item.steps.value_or(0);
     }
@@ -50,7 +50,8 @@ std::optional<double> TimeEstimate::remaining() const {
     if (costs_.empty()) return std::nullopt;
     std::vector<double> sorted = costs_;
     std::sort(sorted.begin(), sorted.end());
-    const double cost = sorted[static_cast<std::size_t>(cheap * static_cast<double>(sorted.size() - 1))];
+    const double cost =
+        sorted[static_cast<std::size_t>(cheap * static_cast<double>(sorted.size() - 1))];
     const double factor = growths_ > 0 ? std::exp(growth_ / growths_) : usual_growth;
     double vertices = vertices_;
     double work = 0;

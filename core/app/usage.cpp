@@ -1,9 +1,10 @@
 #include "usage.hpp"
 
 #include <algorithm>
+#include <optional>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
-#include <optional>
 
 namespace dsc::app {
 namespace {
@@ -27,9 +28,12 @@ std::optional<std::string> meant(const std::string& word, const std::vector<std:
     return longer.size() == 1 ? longer.front() : config::closest(word, names);
 }
 
-std::string hint(const std::optional<std::string>& name) { return name ? "; did you mean '" + *name + "'?" : ""; }
+std::string hint(const std::optional<std::string>& name) {
+    return name ? "; did you mean '" + *name + "'?" : "";
+}
 
-/// The innermost command that the words name, and the first word after it that is not an option of it.
+/// The innermost command that the words name, and the first word after it that is not an option of
+/// it.
 struct Reached {
     const CLI::App* command;
     std::string name;     ///< "dsc plugin"
@@ -40,7 +44,8 @@ Reached reach(const CLI::App& app, const std::vector<std::string>& words) {
     Reached at{&app, app.get_name(), ""};
     for (const std::string& word : words) {
         const std::vector<const CLI::App*> commands = below(*at.command);
-        const auto found = std::find_if(commands.begin(), commands.end(), [&](const CLI::App* c) { return c->get_name() == word; });
+        const auto found = std::find_if(commands.begin(), commands.end(),
+                                        [&](const CLI::App* c) { return c->get_name() == word; });
         if (found == commands.end()) {
             if (!commands.empty() && word.rfind("-", 0) != 0) at.unknown = word;
             break;
@@ -67,21 +72,25 @@ std::string unknown_option(const CLI::App& app, const Reached& at) {
         for (const CLI::Option* option : at.command->get_options()) {
             for (const std::string& known : option->get_lnames()) names.push_back("--" + known);
         }
-        const std::string wanted = "--" + name.substr(std::min(name.find_first_not_of('-'), name.size()));
-        return at.name + " has no option '" + name + "'" + hint(meant(wanted, names)) + "; see " + at.name + " --help";
+        const std::string wanted =
+            "--" + name.substr(std::min(name.find_first_not_of('-'), name.size()));
+        return at.name + " has no option '" + name + "'" + hint(meant(wanted, names)) + "; see " +
+               at.name + " --help";
     }
     return {};
 }
 
 }  // namespace
 
-std::string usage_text(const CLI::App& app, const std::vector<std::string>& words, const CLI::ParseError& error) {
+std::string usage_text(const CLI::App& app, const std::vector<std::string>& words,
+                       const CLI::ParseError& error) {
     const Reached at = reach(app, words);
     if (!at.unknown.empty()) return unknown_command(at) + "; see " + at.name + " --help";
     if (std::string option = unknown_option(app, at); !option.empty()) return option;
     const std::vector<const CLI::App*> commands = below(*at.command);
     if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
-        return at.name + " needs a command: " + config::join(names_of(commands), ", ") + "; see " + at.name + " --help";
+        return at.name + " needs a command: " + config::join(names_of(commands), ", ") + "; see " +
+               at.name + " --help";
     }
     std::string text = error.what();
     std::replace(text.begin(), text.end(), '\n', ' ');

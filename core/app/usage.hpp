@@ -1,17 +1,21 @@
 #pragma once
 // Messages for wrong calls: the command or option that was probably meant, and where the help is.
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 namespace dsc::app {
 
-/// One line about a call that the parser refuses, without "error: ". It names an unknown command or option, and the one that
-/// was probably meant. `words`: the call as typed, without the name of the program. [setup]
-std::string usage_text(const CLI::App& app, const std::vector<std::string>& words, const CLI::ParseError& error);
+/// One line about a call that the parser refuses, without "error: ". It names an unknown command or
+/// option, and the one that was probably meant. `words`: the call as typed, without the name of the
+/// program. [setup]
+std::string usage_text(const CLI::App& app, const std::vector<std::string>& words,
+                       const CLI::ParseError& error);
 
-/// The help of the command that the words name, or of `app` if there are no words. Throws UsageError "usage.command". [setup]
+/// The help of the command that the words name, or of `app` if there are no words. Throws
+/// UsageError "usage.command". [setup]
 std::string help_text(const CLI::App& app, const std::vector<std::string>& words);
 
 }  // namespace dsc::app

@@ -1,9 +1,23 @@
-// Other reconstructions, all of CGAL (GPL, so in tests only), for tests/accuracy/compare.py. They get positions alone, as dsc does.
+// Other reconstructions, all of CGAL (GPL, so in tests only), for tests/accuracy/compare.py. They
+// get positions alone, as dsc does.
 //
 //     dsc_peers advancing_front|scale_space|poisson CLOUD.obj OUT.off
 //     dsc_peers crossings MESH.off          prints the number of pairs of faces that cross
 //
 // Exits 1 where a method gives no surface, 2 for a wrong call.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <CGAL/Advancing_front_surface_reconstruction.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -19,19 +33,6 @@
 #include <CGAL/poisson_surface_reconstruction.h>
 #include <CGAL/property_map.h>
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <exception>
-#include <fstream>
-#include <iostream>
-#include <iterator>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -42,7 +43,8 @@ using Mesh = CGAL::Surface_mesh<Point>;
 
 constexpr unsigned neighbours = 16;
 constexpr unsigned smoothing_rounds = 4;
-// Of Poisson's triangles, in average spacings and degrees. CGAL's own 30 and 0.375 are far coarser than the points, and less accurate.
+// Of Poisson's triangles, in average spacings and degrees. CGAL's own 30 and 0.375 are far coarser
+// than the points, and less accurate.
 constexpr double least_angle = 20.0;
 constexpr double largest_radius = 1.0;
 constexpr double largest_distance = 0.1;
@@ -112,7 +114,8 @@ Soup advancing_front(Points points) {
     return soup;
 }
 
-/// The smoothed points decide how the given ones are joined. The smoothed points themselves lose far more at creases than they gain in noise.
+/// The smoothed points decide how the given ones are joined. The smoothed points themselves lose
+/// far more at creases than they gain in noise.
 Soup scale_space(const Points& points) {
     namespace scale = CGAL::Scale_space_reconstruction_3;
     CGAL::Scale_space_surface_reconstruction_3<Kernel> method(points.begin(), points.end());
@@ -133,11 +136,11 @@ Soup poisson(const Points& points) {
     const auto maps = CGAL::parameters::point_map(place).normal_map(normal);
     CGAL::pca_estimate_normals<CGAL::Sequential_tag>(cloud, neighbours, maps);
     cloud.erase(CGAL::mst_orient_normals(cloud, neighbours, maps), cloud.end());
-    const double spacing =
-        CGAL::compute_average_spacing<CGAL::Sequential_tag>(cloud, 6, CGAL::parameters::point_map(place));
+    const double spacing = CGAL::compute_average_spacing<CGAL::Sequential_tag>(
+        cloud, 6, CGAL::parameters::point_map(place));
     Mesh mesh;
-    if (!CGAL::poisson_surface_reconstruction_delaunay(cloud.begin(), cloud.end(), place, normal, mesh,
-                                                       spacing, least_angle, largest_radius,
+    if (!CGAL::poisson_surface_reconstruction_delaunay(cloud.begin(), cloud.end(), place, normal,
+                                                       mesh, spacing, least_angle, largest_radius,
                                                        largest_distance)) {
         return {};
     }
@@ -146,13 +149,15 @@ Soup poisson(const Points& points) {
     for (const Mesh::Face_index f : mesh.faces()) {
         Face corners{};
         std::size_t i = 0;
-        for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f))) corners.at(i++) = v;
+        for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f)))
+            corners.at(i++) = v;
         soup.faces.push_back(corners);
     }
     return soup;
 }
 
-/// Points that would make the mesh non-manifold are doubled first, so that any surface can be judged.
+/// Points that would make the mesh non-manifold are doubled first, so that any surface can be
+/// judged.
 std::size_t crossings(Soup soup) {
     namespace pmp = CGAL::Polygon_mesh_processing;
     pmp::orient_polygon_soup(soup.points, soup.faces);
@@ -176,8 +181,8 @@ int run(const std::vector<std::string>& words) {
     } else if (words.size() == 3 && words[0] == "poisson") {
         write(poisson(read_cloud(words[1])), words[2]);
     } else {
-        std::cerr << "usage: dsc_peers advancing_front|scale_space|poisson CLOUD.obj OUT.off, or dsc_peers "
-                     "crossings MESH.off\n";
+        std::cerr << "usage: dsc_peers advancing_front|scale_space|poisson CLOUD.obj OUT.off, or "
+                     "dsc_peers crossings MESH.off\n";
         return 2;
     }
     return 0;
@@ -187,8 +192,8 @@ int run(const std::vector<std::string>& words) {
 
 int main(int count, char** words) {
     try {
-        CGAL::get_default_random() =
-            CGAL::Random(1);  // so that Poisson, which starts from random places, can be repeated
+        CGAL::get_default_random() = CGAL::Random(1);  // so that Poisson, which starts from random
+                                                       // places, can be repeated
         return run({words + 1, words + count});
     } catch (const std::exception& error) {
         std::cerr << "dsc_peers: " << error.what() << '\n';

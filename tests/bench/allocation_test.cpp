@@ -1,8 +1,10 @@
-// A settled step allocates nothing: view, velocity, movement, repair and topology work in memory that they have.
+// A settled step allocates nothing: view, velocity, movement, repair and topology work in memory
+// that they have.
 #include <atomic>
 #include <cstdlib>
-#include <doctest/doctest.h>
 #include <new>
+
+#include <doctest/doctest.h>
 
 #include "pipeline.hpp"
 
@@ -42,7 +44,8 @@ TEST_CASE("a settled step of the thesis' protocol allocates nothing") {
         least = std::min<std::size_t>(least, allocations);
         sum += allocations;
     }
-    MESSAGE("allocations in " << steps << " settled steps: " << sum << ", in the least of them " << least);
+    MESSAGE("allocations in " << steps << " settled steps: " << sum << ", in the least of them "
+                              << least);
     CHECK(sum == 0);
     // The counter counts: the same call on an empty pipeline allocates.
     counting = true;

@@ -1,6 +1,7 @@
 #include "candidates.hpp"
 
 #include <algorithm>
+
 #include <dsc/base/random.hpp>
 
 namespace dsc::bench {
@@ -21,10 +22,11 @@ class Taken {
 public:
     explicit Taken(const Complex& complex) : taken_(complex.vertex_slots(), 0) {}
 
-    /// Takes the ends of an edge unless a vertex round them is taken. An operation at an edge changes only tets that
-    /// hold one of its ends, so no two places then share a tet that changes.
+    /// Takes the ends of an edge unless a vertex round them is taken. An operation at an edge
+    /// changes only tets that hold one of its ends, so no two places then share a tet that changes.
     bool take(const Place& place, std::span<const VertexId> around) {
-        if (std::any_of(around.begin(), around.end(), [this](VertexId v) { return taken_[v] != 0; }))
+        if (std::any_of(around.begin(), around.end(),
+                        [this](VertexId v) { return taken_[v] != 0; }))
             return false;
         taken_[place.a] = taken_[place.b] = 1;
         return true;
@@ -34,9 +36,11 @@ private:
     std::vector<std::uint8_t> taken_;
 };
 
-void add_star(const Complex& complex, VertexId v, std::vector<TetId>& star, std::vector<VertexId>& out) {
+void add_star(const Complex& complex, VertexId v, std::vector<TetId>& star,
+              std::vector<VertexId>& out) {
     complex.star(v, star);
-    for (const TetId t : star) out.insert(out.end(), complex.tet(t).v.begin(), complex.tet(t).v.end());
+    for (const TetId t : star)
+        out.insert(out.end(), complex.tet(t).v.begin(), complex.tet(t).v.end());
 }
 
 }  // namespace
@@ -93,7 +97,8 @@ std::vector<Place> edges(const Complex& complex, bool stars,
             complex.ring(t, place.a, place.b, ring);
             if (!ring.closed) continue;
             place.ring = ring.tets.size();
-            for (const TetId r : ring.tets) place.on_interface |= complex.label(r) != complex.label(t);
+            for (const TetId r : ring.tets)
+                place.on_interface |= complex.label(r) != complex.label(t);
             if (!wanted(place)) continue;
             around.clear();
             if (stars) {
@@ -127,7 +132,7 @@ std::vector<Place> faces(const Complex& complex) {
 }
 
 repair::Request request_at(const Complex& complex, repair::Operation operation, const Place& place,
-                         float accept_above) {
+                           float accept_above) {
     repair::Request request;
     request.tet = place.tet;
     request.birth_date = complex.birth_date(place.tet);

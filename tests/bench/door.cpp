@@ -1,10 +1,13 @@
-// dsc_door plugin|linked: steps of the deformer driven by velocity point_cloud, which comes through the plugin's door, with
-// the checks that it is wrapped in, or is linked into this program and called directly. door.py compares the instructions.
+// dsc_door plugin|linked: steps of the deformer driven by velocity point_cloud, which comes through
+// the plugin's door, with the checks that it is wrapped in, or is linked into this program and
+// called directly. door.py compares the instructions.
 #include <cstdio>
+#include <string>
+
+#include <velocity/point_cloud/strategy.hpp>
+
 #include <dsc/base/error.hpp>
 #include <dsc/run/input.hpp>
-#include <string>
-#include <velocity/point_cloud/strategy.hpp>
 
 #include "pipeline.hpp"
 #include "resources.hpp"
@@ -18,7 +21,8 @@ constexpr int steps = 4;
 constexpr std::size_t block = 256;  // as in the simulation
 
 std::unique_ptr<hooks::VelocityField> field(const Plugins& plugins, bool linked) {
-    if (!linked) return plugins.host().create<hooks::VelocityField>({"point_cloud", {}}, "velocity");
+    if (!linked)
+        return plugins.host().create<hooks::VelocityField>({"point_cloud", {}}, "velocity");
     return std::make_unique<strategies::PointCloud>(strategies::PointCloud::Params{},
                                                     plugin::Setup(plugins.host(), "velocity"));
 }
@@ -26,9 +30,11 @@ std::unique_ptr<hooks::VelocityField> field(const Plugins& plugins, bool linked)
 std::string outcome(bool linked) {
     const Plugins plugins;
     const run::LoadedExperiment loaded = thesis(plugins, "teapot", false);
-    const run::LoadedInput input = run::load_input(*loaded.experiment.input, loaded.experiment.seed, plugins.host(), *loaded.files);
+    const run::LoadedInput input = run::load_input(*loaded.experiment.input, loaded.experiment.seed,
+                                                   plugins.host(), *loaded.files);
     Body body(initial_complex(plugins, strategy("grid", std::vector<std::string>{"cells=20"})),
-              plugins.host().create<hooks::Improvement>(strategy("dsc", {}), "improvement"), &input.target);
+              plugins.host().create<hooks::Improvement>(strategy("dsc", {}), "improvement"),
+              &input.target);
     const auto velocity = field(plugins, linked);
     const auto displace = [&](const hooks::StepContext& context, std::span<Vec3> out) {
         velocity->prepare(context);

@@ -1,11 +1,13 @@
-// dsc_gate SCENARIO: one small fixed piece of work, whose instructions gate.py counts. Only what lies inside the function
-// dsc_measured counts. Prints what came out of the work, so that a change of results can be told from a change of cost.
+// dsc_gate SCENARIO: one small fixed piece of work, whose instructions gate.py counts. Only what
+// lies inside the function dsc_measured counts. Prints what came out of the work, so that a change
+// of results can be told from a change of cost.
 #include <cstdio>
-#include <dsc/base/error.hpp>
-#include <dsc/base/random.hpp>
 #include <functional>
 #include <map>
 #include <string>
+
+#include <dsc/base/error.hpp>
+#include <dsc/base/random.hpp>
 
 #include "pipeline.hpp"
 #include "resources.hpp"
@@ -94,19 +96,20 @@ std::string repair() {
 std::string topology() {
     const Plugins plugins;
     Body body = make_body(plugins, {"cells=14", "shape=none",
-                                    "shapes=[{shape: sphere, centre: [-0.6, 0, 0], radius: 0.45}, {shape: "
-                                    "sphere, centre: [0.6, 0, 0], radius: 0.45}]"});
+                                    "shapes=[{shape: sphere, centre: [-0.6, 0, 0], radius: 0.45}, "
+                                    "{shape: sphere, centre: [0.6, 0, 0], radius: 0.45}]"});
     std::size_t events = 0;
     measured([&] {
         for (int step = 0; step < 6; ++step) {
             const double length = 0.25 * body.deformer().target_length();
-            events += body.step([&](const hooks::StepContext& context, std::span<Vec3> out) {
-                              for (std::size_t i = 0; i < out.size(); ++i) {
-                                  out[i] = Vec3(context.surface.positions[i].x() < 0.0 ? length : -length,
-                                                0.0, 0.0);
-                              }
-                          })
-                          .events;
+            events +=
+                body.step([&](const hooks::StepContext& context, std::span<Vec3> out) {
+                        for (std::size_t i = 0; i < out.size(); ++i) {
+                            out[i] = Vec3(context.surface.positions[i].x() < 0.0 ? length : -length,
+                                          0.0, 0.0);
+                        }
+                    })
+                    .events;
         }
     });
     if (events == 0)
@@ -118,9 +121,9 @@ std::string topology() {
 /// A cube on its way to the teapot, the velocity and all.
 std::string deform() {
     const Plugins plugins;
-    Protocol protocol(
-        plugins, plugins.load(thesis_file("teapot"), {"input.cloud={sample: {shape: teapot, n: 1000}}",
-                                                      "initial_mesh.cells=14", "schedule=[{steps: 5}]"}));
+    Protocol protocol(plugins, plugins.load(thesis_file("teapot"),
+                                            {"input.cloud={sample: {shape: teapot, n: 1000}}",
+                                             "initial_mesh.cells=14", "schedule=[{steps: 5}]"}));
     measured([&] { protocol.run_to(5); });
     return state_of(protocol.body());
 }
@@ -128,11 +131,12 @@ std::string deform() {
 /// Refinement and the steps after it.
 std::string refine() {
     const Plugins plugins;
-    Protocol protocol(plugins,
-                      plugins.load(thesis_file("teapot"),
-                                   {"input.cloud={sample: {shape: teapot, n: 1000}}", "initial_mesh.cells=10",
-                                    "schedule=[{steps: 5}, {refine: {type: average_area}}, {refine: {type: "
-                                    "average_area}}, {steps: 3}]"}));
+    Protocol protocol(
+        plugins,
+        plugins.load(thesis_file("teapot"),
+                     {"input.cloud={sample: {shape: teapot, n: 1000}}", "initial_mesh.cells=10",
+                      "schedule=[{steps: 5}, {refine: {type: average_area}}, {refine: {type: "
+                      "average_area}}, {steps: 3}]"}));
     protocol.run_to(5);
     measured([&] { protocol.run_to(8); });
     return state_of(protocol.body());

@@ -24,8 +24,8 @@ nlohmann::ordered_json quiet_steps(Body& body) {
     }
     const double stride = 0.05 * body.deformer().target_length();
     for (unsigned i = 0; i < steps; ++i) {
-        one.push_back(1e3 *
-                      deformer_seconds(body.step([&](const hooks::StepContext& context, std::span<Vec3> out) {
+        one.push_back(1e3 * deformer_seconds(body.step([&](const hooks::StepContext& context,
+                                                           std::span<Vec3> out) {
                           const auto& movable = context.surface.movable;
                           std::size_t v = out.size() / 2;
                           while (v + 1 < out.size() && movable[v] == 0) ++v;
@@ -51,8 +51,8 @@ nlohmann::ordered_json exteriors(const Plugins& plugins) {
                   plugins.host().create<hooks::Improvement>(improvement, "improvement"));
         out[name] = quiet_steps(body);
     }
-    out["ratio"] =
-        out["ten times the tets"]["idle_ms"].get<double>() / out["thesis' box"]["idle_ms"].get<double>();
+    out["ratio"] = out["ten times the tets"]["idle_ms"].get<double>() /
+                   out["thesis' box"]["idle_ms"].get<double>();
     return out;
 }
 

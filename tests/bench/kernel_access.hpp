@@ -1,10 +1,11 @@
 #pragma once
-// The kernel's local operations, which are private to it. Of all benchmarks only kernel_access.cpp includes their headers,
-// so a change inside the kernel ends there.
+// The kernel's local operations, which are private to it. Of all benchmarks only kernel_access.cpp
+// includes their headers, so a change inside the kernel ends there.
+
+#include <memory>
 
 #include <dsc/mesh/complex.hpp>
 #include <dsc/repair/contract.hpp>
-#include <memory>
 
 namespace dsc::bench {
 

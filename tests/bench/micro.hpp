@@ -1,10 +1,11 @@
 #pragma once
-// How a micro benchmark is declared and timed: a batch over many simplices of a snapshot, the CPU time of one attempt.
-
-#include <benchmark/benchmark.h>
+// How a micro benchmark is declared and timed: a batch over many simplices of a snapshot, the CPU
+// time of one attempt.
 
 #include <functional>
 #include <string>
+
+#include <benchmark/benchmark.h>
 
 #include "resources.hpp"
 #include "snapshots.hpp"
@@ -12,8 +13,8 @@
 namespace dsc::bench {
 
 /// Registers NAME on each snapshot as SNAPSHOT/NAME. The body fills iterations by time_batch().
-void on_snapshots(const std::string& name, std::function<void(benchmark::State&, const Snapshot&)> body,
-                  int iterations = 1);
+void on_snapshots(const std::string& name,
+                  std::function<void(benchmark::State&, const Snapshot&)> body, int iterations = 1);
 
 /// The time of a batch of `count` attempts, as nanoseconds an attempt.
 template <class Work>

@@ -1,17 +1,19 @@
-// dsc_bench: what each walk, predicate and local operation costs, on snapshots of real runs. Takes google-benchmark's
-// options; the time of a row is that of one attempt.
+// dsc_bench: what each walk, predicate and local operation costs, on snapshots of real runs. Takes
+// google-benchmark's options; the time of a row is that of one attempt.
 #include <cstdio>
+
 #include <dsc/base/error.hpp>
 
 #include "micro.hpp"
 
 namespace dsc::bench {
 
-void on_snapshots(const std::string& name, std::function<void(benchmark::State&, const Snapshot&)> body,
-                  int iterations) {
+void on_snapshots(const std::string& name,
+                  std::function<void(benchmark::State&, const Snapshot&)> body, int iterations) {
     for (const std::string_view mesh : snapshot_names) {
-        benchmark::RegisterBenchmark((std::string(mesh) + "/" + name).c_str(),
-                                     [body, mesh](benchmark::State& state) { body(state, snapshot(mesh)); })
+        benchmark::RegisterBenchmark(
+            (std::string(mesh) + "/" + name).c_str(),
+            [body, mesh](benchmark::State& state) { body(state, snapshot(mesh)); })
             ->Iterations(iterations)
             ->UseManualTime();
     }

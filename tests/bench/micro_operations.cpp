@@ -1,5 +1,5 @@
-// Moves and local operations. What commits works on a fresh copy of the snapshot; neither the copy nor the first few
-// attempts, in which the arrays of the copy grow, are timed.
+// Moves and local operations. What commits works on a fresh copy of the snapshot; neither the copy
+// nor the first few attempts, in which the arrays of the copy grow, are timed.
 #include <dsc/base/random.hpp>
 
 #include "candidates.hpp"
@@ -19,7 +19,8 @@ constexpr float gain_only = 2.0F;          // accepts what is better than before
 
 /// attempt(operations, i) for all i < count on one fresh copy.
 template <class Attempt>
-void time_attempts(State& state, const Snapshot& snapshot, std::size_t count, const Attempt& attempt) {
+void time_attempts(State& state, const Snapshot& snapshot, std::size_t count,
+                   const Attempt& attempt) {
     const std::size_t first = std::min(warm_up, count / 4);
     if (count < least_attempts) {
         state.SkipWithError("no such simplex in this mesh");
@@ -31,29 +32,33 @@ void time_attempts(State& state, const Snapshot& snapshot, std::size_t count, co
         for (std::size_t i = 0; i < first; ++i) attempt(operations, i);
         committed = 0;
         record_batch(state, count - first, [&] {
-            for (std::size_t i = first; i < count; ++i) committed += attempt(operations, i) ? 1U : 0U;
+            for (std::size_t i = first; i < count; ++i)
+                committed += attempt(operations, i) ? 1U : 0U;
         });
         benchmark::DoNotOptimize(committed);
     }
-    state.counters["committed"] = static_cast<double>(committed) / static_cast<double>(count - first);
+    state.counters["committed"] =
+        static_cast<double>(committed) / static_cast<double>(count - first);
 }
 
-bool attempt_at(Operations& operations, Operation operation, const Place& place, float accept_above) {
+bool attempt_at(Operations& operations, Operation operation, const Place& place,
+                float accept_above) {
     return operations.apply(request_at(operations.complex(), operation, place, accept_above));
 }
 
 // The removal of several faces may take a tet that a later place names: that one is passed over.
-bool attempt_face(Operations& operations, const Snapshot& snapshot, const Place& place, float accept_above) {
+bool attempt_face(Operations& operations, const Snapshot& snapshot, const Place& place,
+                  float accept_above) {
     const mesh::Complex& now = operations.complex();
-    const bool same =
-        now.tet_alive(place.tet) && now.birth_date(place.tet) == snapshot.complex.birth_date(place.tet);
+    const bool same = now.tet_alive(place.tet) &&
+                      now.birth_date(place.tet) == snapshot.complex.birth_date(place.tet);
     return same && operations.remove_face(place.tet, place.face, accept_above);
 }
 
 /// Those of the places where the attempt, made on a copy in their order, has the wanted outcome.
 template <class Attempt, class Wanted>
-std::vector<Place> tried(const Snapshot& snapshot, const std::vector<Place>& places, const Attempt& attempt,
-                         const Wanted& wanted) {
+std::vector<Place> tried(const Snapshot& snapshot, const std::vector<Place>& places,
+                         const Attempt& attempt, const Wanted& wanted) {
     Operations operations(snapshot.complex, snapshot.length);
     std::vector<Place> out;
     for (const Place& place : places) {
@@ -69,10 +74,11 @@ void edge_removal(State& state, const Snapshot& snapshot, std::size_t size, bool
     const auto attempt = [&](Operations& o, const Place& p) {
         return attempt_at(o, Operation::edge_removal, p, accept_above);
     };
-    const auto places = tried(
-        snapshot,
-        edges(snapshot.complex, false, [&](const Place& p) { return p.ring == size && !p.on_interface; }),
-        attempt, [&](Operations&, bool committed) { return committed == commits; });
+    const auto places =
+        tried(snapshot,
+              edges(snapshot.complex, false,
+                    [&](const Place& p) { return p.ring == size && !p.on_interface; }),
+              attempt, [&](Operations&, bool committed) { return committed == commits; });
     time_attempts(state, snapshot, places.size(),
                   [&](Operations& o, std::size_t i) { return attempt(o, places[i]); });
 }
@@ -82,9 +88,10 @@ void face_removal(State& state, const Snapshot& snapshot, bool single) {
     const auto attempt = [&](Operations& o, const Place& p) {
         return attempt_face(o, snapshot, p, any_quality);
     };
-    const auto places = tried(snapshot, faces(snapshot.complex), attempt, [&](Operations& o, bool committed) {
-        return committed && (o.complex().last_added().size() == 3) == single;
-    });
+    const auto places =
+        tried(snapshot, faces(snapshot.complex), attempt, [&](Operations& o, bool committed) {
+            return committed && (o.complex().last_added().size() == 3) == single;
+        });
     time_attempts(state, snapshot, places.size(),
                   [&](Operations& o, std::size_t i) { return attempt(o, places[i]); });
 }
@@ -103,16 +110,16 @@ void interface_flip(State& state, const Snapshot& snapshot) {
     const auto attempt = [](Operations& o, const Place& p) {
         return attempt_at(o, Operation::interface_flip, p, any_quality);
     };
-    const auto places =
-        tried(snapshot, edges(snapshot.complex, true, [](const Place& p) { return p.on_interface; }), attempt,
-              [](Operations&, bool committed) { return committed; });
+    const auto places = tried(
+        snapshot, edges(snapshot.complex, true, [](const Place& p) { return p.on_interface; }),
+        attempt, [](Operations&, bool committed) { return committed; });
     time_attempts(state, snapshot, places.size(),
                   [&](Operations& o, std::size_t i) { return attempt(o, places[i]); });
 }
 
 void edge_split(State& state, const Snapshot& snapshot, bool on_interface) {
-    const auto places =
-        edges(snapshot.complex, false, [&](const Place& p) { return p.on_interface == on_interface; });
+    const auto places = edges(snapshot.complex, false,
+                              [&](const Place& p) { return p.on_interface == on_interface; });
     time_attempts(state, snapshot, places.size(), [&](Operations& o, std::size_t i) {
         return attempt_at(o, Operation::edge_split, places[i], any_quality);
     });
@@ -120,8 +127,8 @@ void edge_split(State& state, const Snapshot& snapshot, bool on_interface) {
 
 // As a repair asks for it: within the edit bounds, the result better than 0.1 or than it was.
 void edge_collapse(State& state, const Snapshot& snapshot, bool on_interface) {
-    const auto places =
-        edges(snapshot.complex, true, [&](const Place& p) { return p.on_interface == on_interface; });
+    const auto places = edges(snapshot.complex, true,
+                              [&](const Place& p) { return p.on_interface == on_interface; });
     time_attempts(state, snapshot, places.size(), [&](Operations& o, std::size_t i) {
         return attempt_at(o, Operation::edge_collapse, places[i], 0.1F);
     });
@@ -158,11 +165,13 @@ std::vector<Way> ways(const Snapshot& snapshot) {
 
 void move(State& state, const Snapshot& snapshot) {
     const auto all = ways(snapshot);
-    time_attempts(state, snapshot, all.size(),
-                  [&](Operations& o, std::size_t i) { return o.move(all[i].vertex, all[i].destination); });
+    time_attempts(state, snapshot, all.size(), [&](Operations& o, std::size_t i) {
+        return o.move(all[i].vertex, all[i].destination);
+    });
 }
 
-// The same moves without the search for the way: they were found possible, in this order, on a copy.
+// The same moves without the search for the way: they were found possible, in this order, on a
+// copy.
 void move_commit(State& state, const Snapshot& snapshot) {
     std::vector<Way> done;
     std::vector<std::vector<mesh::TetId>> stars;
@@ -183,10 +192,12 @@ void move_commit(State& state, const Snapshot& snapshot) {
 void register_operations() {
     on_snapshots("move: test and commit", move);
     on_snapshots("move: commit alone", move_commit);
-    on_snapshots("smoothing trial, laplacian",
-                 [](State& state, const Snapshot& s) { smoothing(state, s, Operation::smooth_laplacian); });
-    on_snapshots("smoothing trial, optimise",
-                 [](State& state, const Snapshot& s) { smoothing(state, s, Operation::smooth_optimise); });
+    on_snapshots("smoothing trial, laplacian", [](State& state, const Snapshot& s) {
+        smoothing(state, s, Operation::smooth_laplacian);
+    });
+    on_snapshots("smoothing trial, optimise", [](State& state, const Snapshot& s) {
+        smoothing(state, s, Operation::smooth_optimise);
+    });
     on_snapshots("flip 2-3", [](State& state, const Snapshot& s) { face_removal(state, s, true); });
     on_snapshots("face removal, several faces",
                  [](State& state, const Snapshot& s) { face_removal(state, s, false); });
@@ -195,16 +206,19 @@ void register_operations() {
         const std::string name = ring == 3   ? "flip 3-2"
                                  : ring == 4 ? "flip 4-4"
                                              : "edge removal, ring " + std::to_string(ring);
-        on_snapshots(name, [ring](State& state, const Snapshot& s) { edge_removal(state, s, ring, true); });
+        on_snapshots(
+            name, [ring](State& state, const Snapshot& s) { edge_removal(state, s, ring, true); });
     }
     for (std::size_t ring = 3; ring <= 7; ++ring) {
-        on_snapshots("edge removal refused, ring " + std::to_string(ring),
-                     [ring](State& state, const Snapshot& s) { edge_removal(state, s, ring, false); });
+        on_snapshots(
+            "edge removal refused, ring " + std::to_string(ring),
+            [ring](State& state, const Snapshot& s) { edge_removal(state, s, ring, false); });
     }
     on_snapshots("flip of an interface edge", interface_flip);
     on_snapshots("edge split, interface",
                  [](State& state, const Snapshot& s) { edge_split(state, s, true); });
-    on_snapshots("edge split, inside", [](State& state, const Snapshot& s) { edge_split(state, s, false); });
+    on_snapshots("edge split, inside",
+                 [](State& state, const Snapshot& s) { edge_split(state, s, false); });
     on_snapshots("edge collapse attempt, interface",
                  [](State& state, const Snapshot& s) { edge_collapse(state, s, true); });
     on_snapshots("edge collapse attempt, inside",

@@ -50,8 +50,9 @@ void over_band(State& state, const Snapshot& snapshot, const Value& value) {
 void nearest(State& state, const Snapshot& snapshot) {
     const auto& search = target_cloud().search();
     const auto vertices = movable_vertices(snapshot.complex);
-    time_reads(state, vertices.size(),
-               [&](std::size_t i) { return search.nearest(snapshot.complex.position(vertices[i])).index; });
+    time_reads(state, vertices.size(), [&](std::size_t i) {
+        return search.nearest(snapshot.complex.position(vertices[i])).index;
+    });
 }
 
 void view(State& state, const Snapshot& snapshot) {
@@ -77,7 +78,8 @@ void register_reads() {
         [](State& state, const Snapshot& s) { over_band(state, s, geometry::orient3d); }, passes);
     on_snapshots(
         "quality of a tet",
-        [](State& state, const Snapshot& s) { over_band(state, s, geometry::tet_quality); }, passes);
+        [](State& state, const Snapshot& s) { over_band(state, s, geometry::tet_quality); },
+        passes);
     on_snapshots("nearest cloud point", nearest, passes);
     on_snapshots("surface view, a vertex", view, passes);
 }

@@ -23,7 +23,8 @@ run::LoadedExperiment Plugins::load(const std::string& file,
         return name == "DSC_DATA" && !value ? std::optional<std::string>(".") : value;
     };
     return run::load_experiment(
-        file, overrides, [this](const auto&) -> const config::StrategyLookup& { return host_; }, options);
+        file, overrides, [this](const auto&) -> const config::StrategyLookup& { return host_; },
+        options);
 }
 
 config::StrategyConfig strategy(const std::string& type, std::span<const std::string> parameters) {
@@ -88,7 +89,9 @@ StepCost Body::step(const Displacement& displace) {
     });
     context_ = &now;
     kernel::StepReport report;
-    const auto advance = [&] { report = deformer_.step(view_.vertex_ids, displacements_, policy_); };
+    const auto advance = [&] {
+        report = deformer_.step(view_.vertex_ids, displacements_, policy_);
+    };
     const double seconds = cpu_of([&] {
         if (counting_) {
             measured(advance);
@@ -141,7 +144,9 @@ double Body::refine(hooks::RefinementPolicy& policy, hooks::VelocityField* veloc
 
 Protocol::Protocol(const Plugins& plugins, const run::LoadedExperiment& loaded)
     : experiment_(loaded.experiment),
-      cloud_(run::load_input(experiment_.input.value(), experiment_.seed, plugins.host(), *loaded.files).target),
+      cloud_(run::load_input(experiment_.input.value(), experiment_.seed, plugins.host(),
+                             *loaded.files)
+                 .target),
       strategies_(run::make_strategies(experiment_, plugins.host())),
       steps_(run::planned_steps(experiment_)) {
     body_ = std::make_unique<Body>(initial_complex(plugins, experiment_.initial_mesh, &*cloud_),

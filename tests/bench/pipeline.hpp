@@ -1,19 +1,21 @@
 #pragma once
-// The real pipeline under a stopwatch: the kernel with the strategies of the built plugins, phase by phase.
+// The real pipeline under a stopwatch: the kernel with the strategies of the built plugins, phase
+// by phase.
 
-#include <dsc/cloud/target.hpp>
-#include <dsc/hooks/improvement.hpp>
-#include <dsc/host/host.hpp>
-#include <dsc/kernel/deformer.hpp>
-#include <dsc/run/simulation.hpp>
-#include <dsc/run/experiment.hpp>
-#include <dsc/surface/surface_view.hpp>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <dsc/cloud/target.hpp>
+#include <dsc/hooks/improvement.hpp>
+#include <dsc/host/host.hpp>
+#include <dsc/kernel/deformer.hpp>
+#include <dsc/run/experiment.hpp>
+#include <dsc/run/simulation.hpp>
+#include <dsc/surface/surface_view.hpp>
 
 namespace dsc::bench {
 
@@ -22,8 +24,10 @@ class Plugins {
 public:
     Plugins();
     const host::Host& host() const { return host_; }
-    /// A file of configs/ with overrides. Where DSC_DATA is not set it stands for nothing: override the cloud then.
-    run::LoadedExperiment load(const std::string& file, const std::vector<std::string>& overrides) const;
+    /// A file of configs/ with overrides. Where DSC_DATA is not set it stands for nothing: override
+    /// the cloud then.
+    run::LoadedExperiment load(const std::string& file,
+                               const std::vector<std::string>& overrides) const;
 
 private:
     host::Host host_;
@@ -36,8 +40,8 @@ config::StrategyConfig strategy(const std::string& type, std::span<const std::st
 mesh::Complex initial_complex(const Plugins& plugins, const config::StrategyConfig& initial_mesh,
                               const cloud::TargetCloud* cloud = nullptr);
 
-/// CPU seconds by phase. A step of the Deformer is one piece of CPU time: move and improve share it as its own wall
-/// times do.
+/// CPU seconds by phase. A step of the Deformer is one piece of CPU time: move and improve share it
+/// as its own wall times do.
 struct Phases {
     double velocity = 0.0;  ///< the view of the interface and the velocity with its curvature
     double move = 0.0;
@@ -98,8 +102,8 @@ public:
     Protocol(const Plugins& plugins, const run::LoadedExperiment& loaded);
 
     using OnStep = std::function<void(std::uint64_t step, const StepCost&)>;
-    /// Runs the schedule up to and including step `last`; may be called again with a later one. Refinements count with
-    /// the step after them, the first one's with the first.
+    /// Runs the schedule up to and including step `last`; may be called again with a later one.
+    /// Refinements count with the step after them, the first one's with the first.
     void run_to(std::uint64_t last, const OnStep& on_step = {});
     std::uint64_t steps() const { return steps_; }
     StepCost step();
@@ -126,8 +130,8 @@ private:
 
 /// The path of configs/thesis/NAME.yaml.
 std::string thesis_file(const std::string& name);
-/// That file: on $DSC_DATA/NAME.obj where `data` says so, else on 5000 points of the built-in teapot. The
-/// thesis' 1,202 are evenly spread; as many random ones leave gaps in which holes open.
+/// That file: on $DSC_DATA/NAME.obj where `data` says so, else on 5000 points of the built-in
+/// teapot. The thesis' 1,202 are evenly spread; as many random ones leave gaps in which holes open.
 run::LoadedExperiment thesis(const Plugins& plugins, const std::string& name, bool data);
 
 }  // namespace dsc::bench

@@ -1,12 +1,15 @@
-// dsc_protocol: the thesis' protocol of three times fifty steps, phase by phase; then what a settled, an idle and a
-// one-vertex step cost. CPU seconds of one thread. On the built-in teapot, or with --data on $DSC_DATA/NAME.obj.
+// dsc_protocol: the thesis' protocol of three times fifty steps, phase by phase; then what a
+// settled, an idle and a one-vertex step cost. CPU seconds of one thread. On the built-in teapot,
+// or with --data on $DSC_DATA/NAME.obj.
 #include <array>
 #include <cstdio>
+#include <fstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
 #include <dsc/base/error.hpp>
 #include <dsc/mesh/validate.hpp>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <string>
 
 #include "idle.hpp"
 #include "pipeline.hpp"
@@ -31,7 +34,8 @@ struct Arguments {
 };
 
 constexpr const char* usage =
-    "dsc_protocol [--data] [--name teapot|bunny|cow] [--no-idle] [--steps N] [--csv FILE] [--json FILE]\n"
+    "dsc_protocol [--data] [--name teapot|bunny|cow] [--no-idle] [--steps N] [--csv FILE] [--json "
+    "FILE]\n"
     "  --data    on $DSC_DATA/NAME.obj instead of the built-in teapot\n"
     "  --no-idle without the settled, idle and one-vertex steps at 2,400 interface vertices\n"
     "  --steps   no more than the first N\n"
@@ -79,13 +83,15 @@ struct Rows {
 
 void write_csv(const std::string& file, const Rows& rows) {
     std::ofstream out(file);
-    out << "step,interface_vertices,tets,rounds,tried,committed,events,dropped_motion,velocity_s,move_s,"
+    out << "step,interface_vertices,tets,rounds,tried,committed,events,dropped_motion,velocity_s,"
+           "move_s,"
            "improve_s,refine_s\n";
     for (std::size_t i = 0; i < rows.steps.size(); ++i) {
         const StepCost& c = rows.steps[i];
-        out << i + 1 << ',' << c.interface_vertices << ',' << c.tets << ',' << c.rounds << ',' << c.tried
-            << ',' << c.committed << ',' << c.events << ',' << c.dropped_motion << ',' << c.seconds.velocity
-            << ',' << c.seconds.move << ',' << c.seconds.improve << ',' << c.seconds.refine << '\n';
+        out << i + 1 << ',' << c.interface_vertices << ',' << c.tets << ',' << c.rounds << ','
+            << c.tried << ',' << c.committed << ',' << c.events << ',' << c.dropped_motion << ','
+            << c.seconds.velocity << ',' << c.seconds.move << ',' << c.seconds.improve << ','
+            << c.seconds.refine << '\n';
     }
     if (!out.flush()) throw IoError("bench.csv", file + ": cannot be written");
 }
@@ -112,7 +118,8 @@ Json summary(const Rows& rows, const mesh::Complex& complex) {
               {"median", 1e3 * median(rows.seconds(0, count))},
               {"p95", 1e3 * quantile(rows.seconds(0, count), 0.95)},
               {"max", 1e3 * quantile(rows.seconds(0, count), 1.0)},
-              {"last twenty", 1e3 * median(rows.seconds(count - std::min(count, settled_steps), count))}}},
+              {"last twenty",
+               1e3 * median(rows.seconds(count - std::min(count, settled_steps), count))}}},
             {"mean_interface_vertices", vertices / static_cast<double>(count)},
             {"us_per_vertex_and_step", 1e6 * sum.sum() / vertices},
             {"tets_per_interface_vertex", tets / vertices},
@@ -123,10 +130,11 @@ Json summary(const Rows& rows, const mesh::Complex& complex) {
             {"peak_rss_mb", peak_rss_mb()}};
 }
 
-// The end of the run refined until its interface has the wanted number of vertices, then moved on until it is at rest.
+// The end of the run refined until its interface has the wanted number of vertices, then moved on
+// until it is at rest.
 Json settled(Protocol& protocol) {
-    for (unsigned i = 0; i < most_refinements && protocol.body().view().vertex_count() < settled_vertices;
-         ++i)
+    for (unsigned i = 0;
+         i < most_refinements && protocol.body().view().vertex_count() < settled_vertices; ++i)
         protocol.refine_again();
     for (std::size_t i = 0; i < settled_steps; ++i) protocol.step();
     Rows rows;

@@ -1,10 +1,10 @@
 #include "resources.hpp"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <ctime>
 #include <fstream>
+
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace dsc::bench {
 
@@ -29,7 +29,8 @@ double rss_mb() {
 
 extern "C" [[gnu::noinline]] void dsc_measured(detail::Thunk call, void* work) {
     call(work);
-    // Without something after it the call would become a jump, and callgrind would never see this function end.
+    // Without something after it the call would become a jump, and callgrind would never see this
+    // function end.
     asm volatile("" ::: "memory");
 }
 

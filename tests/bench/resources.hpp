@@ -1,5 +1,6 @@
 #pragma once
-// What a measurement reads: the CPU time of this process, its memory, and the order statistics of repeated values.
+// What a measurement reads: the CPU time of this process, its memory, and the order statistics of
+// repeated values.
 
 #include <algorithm>
 #include <cstddef>
@@ -7,7 +8,8 @@
 
 namespace dsc::bench {
 
-/// User and system time of this process in seconds. Not wall time: on a shared machine that measures the neighbours.
+/// User and system time of this process in seconds. Not wall time: on a shared machine that
+/// measures the neighbours.
 double cpu_seconds();
 /// Largest resident size that the process ever had, in MB (10^6 bytes).
 double peak_rss_mb();
@@ -38,7 +40,8 @@ using Thunk = void (*)(void*);
 }
 extern "C" void dsc_measured(detail::Thunk call, void* work);
 
-/// Runs the work inside the function dsc_measured, at whose name callgrind switches its counting on and off.
+/// Runs the work inside the function dsc_measured, at whose name callgrind switches its counting on
+/// and off.
 template <class Work>
 void measured(Work work) {
     dsc_measured([](void* object) { (*static_cast<Work*>(object))(); }, &work);

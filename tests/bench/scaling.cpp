@@ -1,20 +1,23 @@
-// dsc_scaling: how cost and memory grow with the interface. Spheres of N interface vertices, twenty identical steps
-// relative to their edges, and the slope of log cost over log N. The measured steps lie inside the function dsc_measured:
+// dsc_scaling: how cost and memory grow with the interface. Spheres of N interface vertices, twenty
+// identical steps relative to their edges, and the slope of log cost over log N. The measured steps
+// lie inside the function dsc_measured:
 //   valgrind --tool=callgrind --toggle-collect=dsc_measured dsc_scaling --n 2000
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
 #include <dsc/base/error.hpp>
 #include <dsc/mesh/validate.hpp>
 #include <dsc/run/sha256.hpp>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
-#include <string>
 
 #include "pipeline.hpp"
 #include "resources.hpp"
@@ -30,14 +33,15 @@ constexpr double stride = 0.1;  // of L, each step
 constexpr double pi = 3.14159265358979323846;
 
 constexpr const char* usage =
-    "dsc_scaling [--n LIST] [--steps N] [--max-tets N] [--threads N] [--validate] [--json FILE] [--mesh TYPE [key=value "
-    "...]]\n"
+    "dsc_scaling [--n LIST] [--steps N] [--max-tets N] [--threads N] [--validate] [--json FILE] "
+    "[--mesh TYPE [key=value ...]]\n"
     "  --n         interface vertices, by commas; default 2000,6000,20000,60000,200000\n"
     "  --max-tets  grids that would have more are left out; default 10000000\n"
-    "  --threads   that share the work of a step; step_ms is CPU time, wall_ms is what they save; default 1\n"
+    "  --threads   that share the work of a step; step_ms is CPU time, wall_ms is what they save; "
+    "default 1\n"
     "  --validate  check every invariant at the end\n"
-    "  --mesh      initial mesh strategy; {edge} in a value is the edge that gives N vertices, {cells} the "
-    "cells of\n"
+    "  --mesh      initial mesh strategy; {edge} in a value is the edge that gives N vertices, "
+    "{cells} the cells of\n"
     "              a grid. Default: grid, a sphere of radius 1.2; comes last\n";
 
 struct Arguments {
@@ -71,7 +75,8 @@ Arguments parse(int argc, char** argv) {
         if (word == "--n") {
             arguments.n.clear();
             std::istringstream list(value());
-            for (std::string part; std::getline(list, part, ',');) arguments.n.push_back(number(part));
+            for (std::string part; std::getline(list, part, ',');)
+                arguments.n.push_back(number(part));
         } else if (word == "--steps") {
             arguments.steps = static_cast<unsigned>(number(value()));
         } else if (word == "--max-tets") {
@@ -98,10 +103,13 @@ double edge_for(double n) {
 }
 
 // The stair-stepped sphere of a grid of c cells has 1.41 r^2 c^2 vertices (1,266 at c = 30, r = 1).
-int cells_for(double n) { return static_cast<int>(std::lround(std::sqrt(n / (1.407 * radius * radius)))); }
+int cells_for(double n) {
+    return static_cast<int>(std::lround(std::sqrt(n / (1.407 * radius * radius))));
+}
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    for (std::size_t at = text.find(from); at != std::string::npos;
+         at = text.find(from, at + to.size())) {
         text.replace(at, from.size(), to);
     }
 }
@@ -131,8 +139,8 @@ std::string digest(const mesh::TetMesh& mesh) {
     return run::sha256(bytes);
 }
 
-// One sphere: built, then moved on in a straight line by the same part of its edges each step. The first step, which looks
-// at the whole mesh and lets the arrays grow, is not measured.
+// One sphere: built, then moved on in a straight line by the same part of its edges each step. The
+// first step, which looks at the whole mesh and lets the arrays grow, is not measured.
 Json measure(const Arguments& arguments, double n) {
     const Plugins plugins;
     const double rss_before = rss_mb();
@@ -140,7 +148,8 @@ Json measure(const Arguments& arguments, double n) {
     const config::StrategyConfig improvement = strategy("dsc", {});
     Workers workers(arguments.threads);
     Body body(initial_complex(plugins, mesh_for(arguments, n)),
-              plugins.host().create<hooks::Improvement>(improvement, "improvement"), nullptr, &workers);
+              plugins.host().create<hooks::Improvement>(improvement, "improvement"), nullptr,
+              &workers);
     build_seconds = cpu_seconds() - build_seconds;
     const Vec3 way = stride * body.deformer().target_length() * Vec3(1.0, 0.6, 0.35).normalized();
     const auto onward = [&](const hooks::StepContext&, std::span<Vec3> out) {
@@ -157,11 +166,13 @@ Json measure(const Arguments& arguments, double n) {
             vertices += static_cast<double>(cost.interface_vertices) / arguments.steps;
             tets += static_cast<double>(cost.tets) / arguments.steps;
             rounds += static_cast<double>(cost.rounds) / arguments.steps;
-            dropped += cost.dropped_motion /
-                       (way.norm() * static_cast<double>(cost.interface_vertices) * arguments.steps);
+            dropped +=
+                cost.dropped_motion /
+                (way.norm() * static_cast<double>(cost.interface_vertices) * arguments.steps);
         }
     });
-    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double wall =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     Json row = {{"n", vertices},
                 {"tets", tets},
                 {"tets_per_vertex", tets / vertices},
@@ -182,7 +193,8 @@ Json measure(const Arguments& arguments, double n) {
 // In a process of its own, so that its peak of memory is its own.
 Json measure_apart(const Arguments& arguments, double n) {
     std::array<int, 2> ends{};
-    if (pipe(ends.data()) != 0) throw IoError("bench.pipe", "no pipe to the measuring process could be made");
+    if (pipe(ends.data()) != 0)
+        throw IoError("bench.pipe", "no pipe to the measuring process could be made");
     const pid_t child = fork();
     if (child < 0) throw IoError("bench.fork", "the measuring process could not be started");
     if (child == 0) {
@@ -193,7 +205,8 @@ Json measure_apart(const Arguments& arguments, double n) {
         } catch (const std::exception& error) {
             text = Json{{"error", error.what()}}.dump();
         }
-        const bool written = write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
+        const bool written =
+            write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
         _exit(written ? 0 : 1);
     }
     close(ends[1]);
@@ -226,15 +239,16 @@ double exponent(const std::vector<double>& x, const std::vector<double>& y) {
 
 int work(const Arguments& arguments) {
     Json out = {{"mesh", arguments.mesh}, {"steps", arguments.steps}, {"rows", Json::array()}};
-    std::printf("%9s %10s %6s %8s %9s %9s %9s %6s %8s %8s %9s\n", "N", "tets", "tets/N", "build_s", "step_ms", "wall_ms",
-                "us/N/step", "rounds", "rss_mb", "kB/N", "peak_mb");
+    std::printf("%9s %10s %6s %8s %9s %9s %9s %6s %8s %8s %9s\n", "N", "tets", "tets/N", "build_s",
+                "step_ms", "wall_ms", "us/N/step", "rounds", "rss_mb", "kB/N", "peak_mb");
     bool failed = false;
     std::vector<double> n, seconds;
     for (const double wanted : arguments.n) {
         const double cells = cells_for(wanted);
         if (arguments.mesh == "grid" && arguments.parameters.empty() &&
             5.0 * cells * cells * cells > arguments.max_tets) {
-            std::printf("%9.0f left out: a grid of %.3g tets\n", wanted, 5.0 * cells * cells * cells);
+            std::printf("%9.0f left out: a grid of %.3g tets\n", wanted,
+                        5.0 * cells * cells * cells);
             continue;
         }
         const Json row =
@@ -245,10 +259,11 @@ int work(const Arguments& arguments) {
             continue;
         }
         const auto value = [&](const char* key) { return row[key].get<double>(); };
-        std::printf("%9.0f %10.0f %6.1f %8.2f %9.2f %9.2f %9.2f %6.1f %8.1f %8.2f %9.1f%s\n", value("n"),
-                    value("tets"), value("tets_per_vertex"), value("build_s"), value("step_ms"), value("wall_ms"),
-                    value("us_per_vertex_and_step"), value("rounds"), value("rss_mb"), value("kb_per_vertex"),
-                    value("peak_rss_mb"), row.value("valid", true) ? "" : " INVALID");
+        std::printf("%9.0f %10.0f %6.1f %8.2f %9.2f %9.2f %9.2f %6.1f %8.1f %8.2f %9.1f%s\n",
+                    value("n"), value("tets"), value("tets_per_vertex"), value("build_s"),
+                    value("step_ms"), value("wall_ms"), value("us_per_vertex_and_step"),
+                    value("rounds"), value("rss_mb"), value("kb_per_vertex"), value("peak_rss_mb"),
+                    row.value("valid", true) ? "" : " INVALID");
         std::fflush(stdout);
         failed = failed || !row.value("valid", true);
         n.push_back(value("n"));

@@ -1,12 +1,13 @@
 #include "snapshots.hpp"
 
-#include <dsc/base/random.hpp>
-#include <dsc/mesh/adopt.hpp>
 #include <map>
 #include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+
+#include <dsc/base/random.hpp>
+#include <dsc/mesh/adopt.hpp>
 
 #include "pipeline.hpp"
 
@@ -45,7 +46,8 @@ std::vector<Element> shuffled(std::vector<Element> order, std::uint64_t seed) {
     return order;
 }
 
-// The same mesh with its vertices and tets numbered at random: the worst that a memory can be asked for.
+// The same mesh with its vertices and tets numbered at random: the worst that a memory can be asked
+// for.
 mesh::TetMesh renumber(const mesh::TetMesh& mesh) {
     std::vector<std::uint32_t> points(mesh.points.size()), tets(mesh.tets.size());
     std::iota(points.begin(), points.end(), 0U);

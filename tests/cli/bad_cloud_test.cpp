@@ -1,8 +1,8 @@
 // Every bad cloud ends in one clear message, the right exit code and no result.
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cstring>
+
+#include <doctest/doctest.h>
 
 #include "process.hpp"
 
@@ -20,8 +20,8 @@ struct BadCloud {
 
 std::string pcd(const std::string& points, int count) {
     return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " +
-           std::to_string(count) + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + std::to_string(count) +
-           "\nDATA ascii\n" + points;
+           std::to_string(count) + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " +
+           std::to_string(count) + "\nDATA ascii\n" + points;
 }
 
 std::string ply(const std::string& points, int count) {
@@ -29,21 +29,24 @@ std::string ply(const std::string& points, int count) {
            "\nproperty double x\nproperty double y\nproperty double z\nend_header\n" + points;
 }
 
-const std::string four_needed = "; a surface needs at least 4 points that do not lie on one plane\n";
+const std::string four_needed =
+    "; a surface needs at least 4 points that do not lie on one plane\n";
 
 const std::vector<BadCloud> bad_clouds = {
     {"truncated.obj", "v 0 0 0\nv 1 0 0\nv 0 1", 6,
-     "truncated.obj:3: the vertex has 2 numbers; a 'v' line is 'v x y z' or 'v x y z r g b'; the file may be "
-     "cut off, write it "
-     "again\n"},
+     "truncated.obj:3: the vertex has 2 numbers; a 'v' line is 'v x y z' or 'v x y z r g b'; the "
+     "file may be cut off, write it again\n"},
     {"truncated.ply", ply("0 0 0\n1 0 0\n", 5), 6,
-     "truncated.ply: the header announces 5 points, the file contains 2; the file is cut off, write it again\n"},
+     "truncated.ply: the header announces 5 points, the file contains 2; the file is cut off, "
+     "write it again\n"},
     {"truncated.pcd", pcd("0 0 0\n1 0 0\n", 5), 6,
-     "truncated.pcd: the header announces 5 points, the file contains 2; the file is cut off, write it again\n"},
+     "truncated.pcd: the header announces 5 points, the file contains 2; the file is cut off, "
+     "write it again\n"},
     {"nan.obj", "v 0 0 0\nv nan 0 0\n", 6,
      "nan.obj:2: 'nan' is not a finite number; remove the point or write its true coordinates\n"},
     {"infinite.xyz", "0 0 0\n1 inf 0\n", 6,
-     "infinite.xyz:2: 'inf' is not a finite number; remove the point or write its true coordinates\n"},
+     "infinite.xyz:2: 'inf' is not a finite number; remove the point or write its true "
+     "coordinates\n"},
     {"empty.xyz", "", 6, "empty.xyz: the file is empty; write the cloud again\n"},
     {"none.xyz", "# nothing\n", 6,
      "none.xyz: the file has no points; a text cloud has one line 'x y z' per point\n"},
@@ -61,13 +64,13 @@ const std::vector<BadCloud> bad_clouds = {
     {"scan.laz", "LASF", 6,
      "scan.laz: laz files are not supported; convert it first: pdal translate scan.laz scan.ply\n"},
     {"scan.e57", "ASTM", 6,
-     "scan.e57: e57 files are not supported; convert it first: pdal translate scan.e57 scan.ply, or save it "
-     "as PLY with "
-     "CloudCompare\n"},
+     "scan.e57: e57 files are not supported; convert it first: pdal translate scan.e57 scan.ply, "
+     "or save it as PLY with CloudCompare\n"},
 };
 
 const std::string experiment =
-    "dsc: 1\ninitial_mesh: {type: grid, cells: 12}\nvelocity: {type: point_cloud}\nimprovement: {type: dsc}\n"
+    "dsc: 1\ninitial_mesh: {type: grid, cells: 12}\nvelocity: {type: point_cloud}\nimprovement: "
+    "{type: dsc}\n"
     "schedule: [{steps: 1}]\ninput: {normalize: {}, cloud: {file: CLOUD}}\n";
 
 void run_on(const Cli& cli, const std::string& cloud) {
@@ -83,11 +86,13 @@ TEST_CASE("dsc reconstruct and dsc run refuse a bad cloud with one message") {
         CAPTURE(bad.name);
         const Cli cli;
         cli.write(bad.name, bad.content);
-        const Result reconstruct = cli.dsc({"reconstruct", bad.name, "-o", "out.obj", "-o", "out.vtu"});
+        const Result reconstruct =
+            cli.dsc({"reconstruct", bad.name, "-o", "out.obj", "-o", "out.vtu"});
         CHECK(reconstruct.code == bad.code);
         CHECK(reconstruct.out.empty());
         if (!bad.message.empty()) CHECK(reconstruct.err == "error: " + bad.message);
-        CHECK(reconstruct.err.substr(0, 7 + std::strlen(bad.name)) == "error: " + std::string(bad.name));
+        CHECK(reconstruct.err.substr(0, 7 + std::strlen(bad.name)) ==
+              "error: " + std::string(bad.name));
         CHECK(std::count(reconstruct.err.begin(), reconstruct.err.end(), '\n') == 1);
         CHECK_FALSE(cli.exists("out.obj"));
         CHECK_FALSE(cli.exists("out.vtu"));
@@ -110,7 +115,9 @@ TEST_CASE("a cloud that does not exist, or is a folder") {
     run_on(cli, "none.ply");
     const Result run = cli.dsc({"run", "experiment.yaml", "-o", "out"});
     CHECK(run.code == 6);
-    CHECK(run.err.find("experiment.yaml:6:38: error: 'input.cloud.file': DIR/none.ply does not exist\n") == 0);
+    CHECK(run.err.find(
+              "experiment.yaml:6:38: error: 'input.cloud.file': DIR/none.ply does not exist\n") ==
+          0);
     CHECK_FALSE(cli.exists("out"));
     std::filesystem::create_directory(cli.folder() / "folder.xyz");
     CHECK(cli.dsc({"reconstruct", "folder.xyz"}).code == 6);
@@ -125,8 +132,8 @@ TEST_CASE("points with NaN in PLY and PCD are dropped, counted and reported") {
         run_on(cli, name);
         const Result run = cli.dsc({"run", "experiment.yaml", "-o", "out", "--progress", "never"});
         CHECK(run.code == 0);
-        CHECK(run.err.find("warning: DIR/" + name + ": 6 points, 2 with NaN or infinity dropped\n") !=
-              std::string::npos);
+        CHECK(run.err.find("warning: DIR/" + name +
+                           ": 6 points, 2 with NaN or infinity dropped\n") != std::string::npos);
         CHECK(cli.read("out/summary.json").find("\"dropped\": 2") != std::string::npos);
     }
 }
@@ -143,7 +150,8 @@ TEST_CASE("a cloud outside the box is refused before anything moves") {
     CHECK(result.err.find("DIR/far.xyz") != std::string::npos);
     CHECK(result.err.find("normalize") != std::string::npos);
     CHECK_FALSE(dsc::test::looks_finished(cli.folder() / "out"));
-    CHECK(cli.read("out/status.json").find("\"error_code\": \"cloud.outside_box\"") != std::string::npos);
+    CHECK(cli.read("out/status.json").find("\"error_code\": \"cloud.outside_box\"") !=
+          std::string::npos);
 }
 
 TEST_CASE("bad meshes: dsc info names file and place") {
@@ -158,9 +166,9 @@ TEST_CASE("bad meshes: dsc info names file and place") {
     CHECK(info("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n") ==
           "error: index.obj:4: vertex index 4 of 3; correct the line or export the file again\n");
     CHECK(info("truncated.dsc", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 3") ==
-          "error: truncated.dsc:5: the file ends where an integer should be; the file is incomplete: copy or "
-          "export it again\n");
+          "error: truncated.dsc:5: the file ends where an integer should be; the file is "
+          "incomplete: copy or export it again\n");
     CHECK(info("nan.dsc", "v 0 0 0\nv nan 0 0\n").find("nan.dsc:2") != std::string::npos);
-    CHECK(info("index.dsc", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 9 0\n").find("index.dsc:5") !=
-          std::string::npos);
+    CHECK(info("index.dsc", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nt 0 1 2 9 0\n")
+              .find("index.dsc:5") != std::string::npos);
 }

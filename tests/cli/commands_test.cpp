@@ -1,7 +1,7 @@
 // The commands on good and on wrong calls.
-#include <doctest/doctest.h>
-
 #include <algorithm>
+
+#include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
 #include "process.hpp"
@@ -56,19 +56,25 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
     CHECK(cli.dsc({"version"}).out == version.out);
     CHECK(cli.dsc({"help", "recon"}).code == 2);
     const auto said = [&](const std::vector<std::string>& words) { return cli.dsc(words).err; };
-    CHECK(said({"recon"}) == "error: no command 'recon'; did you mean 'reconstruct'?; see dsc --help\n");
-    CHECK(said({"rnu", "a.yaml"}) == "error: no command 'rnu'; did you mean 'run'?; see dsc --help\n");
-    CHECK(said({"plugin", "lst"}) == "error: dsc plugin has no command 'lst'; did you mean 'list'?; see dsc plugin --help\n");
+    CHECK(said({"recon"}) ==
+          "error: no command 'recon'; did you mean 'reconstruct'?; see dsc --help\n");
+    CHECK(said({"rnu", "a.yaml"}) ==
+          "error: no command 'rnu'; did you mean 'run'?; see dsc --help\n");
+    CHECK(said({"plugin", "lst"}) ==
+          "error: dsc plugin has no command 'lst'; did you mean 'list'?; see dsc plugin --help\n");
     CHECK(said({"frobnicate"}).find("; the commands are run, reconstruct, ") != std::string::npos);
     CHECK(said({"reconstruct", "c.ply", "--detial", "low"}) ==
-          "error: dsc reconstruct has no option '--detial'; did you mean '--detail'?; see dsc reconstruct --help\n");
+          "error: dsc reconstruct has no option '--detial'; did you mean '--detail'?; see dsc "
+          "reconstruct --help\n");
     CHECK(said({"reconstruct", "c.ply", "-detail=low"}) ==
-          "error: dsc reconstruct has no option '-detail'; did you mean '--detail'?; see dsc reconstruct --help\n");
+          "error: dsc reconstruct has no option '-detail'; did you mean '--detail'?; see dsc "
+          "reconstruct --help\n");
     CHECK(said({"sample", "torus", "--nose", "0.1", "-o", "a.xyz"}) ==
-          "error: dsc sample has no option '--nose'; did you mean '--noise'?; see dsc sample --help\n");
+          "error: dsc sample has no option '--nose'; did you mean '--noise'?; see dsc sample "
+          "--help\n");
     CHECK(cli.dsc({"plugin", "describe", "point_clod"}).err ==
-          "error: 'point_clod' is not the name of a strategy; did you mean 'point_cloud'?; dsc plugin list shows "
-          "all strategies\n");
+          "error: 'point_clod' is not the name of a strategy; did you mean 'point_cloud'?; dsc "
+          "plugin list shows all strategies\n");
 }
 
 TEST_CASE("a configuration that is too large is a wrong experiment, read from a file as well") {
@@ -78,16 +84,18 @@ TEST_CASE("a configuration that is too large is a wrong experiment, read from a 
     cli.write("large.yaml", text);
     const Result result = cli.dsc({"run", "large.yaml", "--check"});
     CHECK(result.code == 3);
-    CHECK(result.err.find("large.yaml: error: the configuration is larger than ") != std::string::npos);
+    CHECK(result.err.find("large.yaml: error: the configuration is larger than ") !=
+          std::string::npos);
     cli.write("part.yaml", "include: large.yaml\ndsc: 1\n");
     CHECK(cli.dsc({"run", "part.yaml", "--check"}).code == 3);
 }
 
 TEST_CASE("info of a run folder, and render as its report has it") {
     const Cli cli;
-    cli.write("a.yaml",
-              "dsc: 1\ninput: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {}}\ninitial_mesh: {type: grid, cells: 10}\n"
-              "velocity: {type: point_cloud, curvature: {type: implicit_fairing}}\nimprovement: {type: dsc}\nschedule: [{steps: 2}]\n");
+    cli.write("a.yaml", "dsc: 1\ninput: {cloud: {sample: {shape: sphere, n: 500}}, normalize: "
+                        "{}}\ninitial_mesh: {type: grid, cells: 10}\n"
+                        "velocity: {type: point_cloud, curvature: {type: "
+                        "implicit_fairing}}\nimprovement: {type: dsc}\nschedule: [{steps: 2}]\n");
     REQUIRE(cli.dsc({"run", "a.yaml", "-o", "r", "-q"}).code == 0);
     const json run = json::parse(cli.dsc({"info", "r", "--json"}).out);
     CHECK(run.at("kind") == "run");
@@ -100,7 +108,8 @@ TEST_CASE("info of a run folder, and render as its report has it") {
     CHECK(json::parse(cli.dsc({"info", "r", "--json"}).out).at("state") == "killed");
     CHECK(cli.dsc({"info", "."}).code == 6);
     const Result picture = cli.dsc({"render", "r", "-o", "r.png"});
-    CHECK(picture.err == "info: z points up, as in the report of the run; --up y lets y point up\n");
+    CHECK(picture.err ==
+          "info: z points up, as in the report of the run; --up y lets y point up\n");
     REQUIRE(cli.dsc({"render", "r", "-o", "z.png", "--up", "z"}).err.empty());
     CHECK(cli.read("r.png") == cli.read("z.png"));
     CHECK(cli.dsc({"render", "r/result/surface.obj", "-o", "y.png"}).err ==
@@ -110,7 +119,8 @@ TEST_CASE("info of a run folder, and render as its report has it") {
 
 TEST_CASE("sample, info, convert, evaluate and render work together") {
     const Cli cli;
-    const Result sample = cli.dsc({"sample", "torus", "-n", "300", "-o", "torus.ply", "--mesh", "truth.obj"});
+    const Result sample =
+        cli.dsc({"sample", "torus", "-n", "300", "-o", "torus.ply", "--mesh", "truth.obj"});
     CHECK(sample.code == 0);
     CHECK(sample.out == "torus.ply\ntruth.obj\n");
     const json cloud = json::parse(cli.dsc({"info", "torus.ply", "--json"}).out);
@@ -135,8 +145,8 @@ TEST_CASE("sample, info, convert, evaluate and render work together") {
     CHECK(cli.dsc({"convert", "truth.obj", "truth.vtu"}).code == 2);
     CHECK(cli.dsc({"convert", "truth.obj", "truth.doc"}).code == 2);
 
-    const Result same = cli.dsc({"evaluate", "truth.obj", "--truth", "back.obj", "--cloud", "torus.ply",
-                                 "--samples", "2000", "--json"});
+    const Result same = cli.dsc({"evaluate", "truth.obj", "--truth", "back.obj", "--cloud",
+                                 "torus.ply", "--samples", "2000", "--json"});
     CHECK(same.code == 0);
     const json figures = json::parse(same.out);
     CHECK(figures["truth"]["chamfer_percent"].get<double>() < 1e-9);
@@ -144,24 +154,28 @@ TEST_CASE("sample, info, convert, evaluate and render work together") {
     CHECK(figures["cloud"]["cloud_to_surface"]["mean"].get<double>() < 0.01);
     CHECK(figures["formulas"]["truth"].contains("chamfer_percent"));
     CHECK(cli.dsc({"evaluate", "truth.obj"}).code == 2);
-    CHECK(cli.dsc({"evaluate", "truth.obj", "--cloud", "torus.ply"}).out.find("vertex_to_cloud.mean") !=
-          std::string::npos);
+    CHECK(cli.dsc({"evaluate", "truth.obj", "--cloud", "torus.ply"})
+              .out.find("vertex_to_cloud.mean") != std::string::npos);
 
-    CHECK(
-        cli.dsc({"render", "truth.obj", "-o", "a.png", "--view", "top", "--size", "64x48", "--edges"}).code ==
-        0);
+    CHECK(cli.dsc({"render", "truth.obj", "-o", "a.png", "--view", "top", "--size", "64x48",
+                   "--edges"})
+              .code == 0);
     CHECK(cli.read("a.png").substr(1, 3) == "PNG");
-    cli.write("tet.ply",
-              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float gap\n"
-              "property double support\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0 nan 1\n1 0 0 2 1\n"
-              "0 1 0 3 1\n0 0 1 0.5 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
-    const Result coloured = cli.dsc({"render", "tet.ply", "-o", "gap.png", "--size", "64x48", "--colour", "gap"});
+    cli.write("tet.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty "
+                         "float y\nproperty float z\nproperty float gap\n"
+                         "property double support\nelement face 4\nproperty list uchar int "
+                         "vertex_indices\nend_header\n0 0 0 nan 1\n1 0 0 2 1\n"
+                         "0 1 0 3 1\n0 0 1 0.5 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+    const Result coloured =
+        cli.dsc({"render", "tet.ply", "-o", "gap.png", "--size", "64x48", "--colour", "gap"});
     CHECK(coloured.out == "gap.png\ngap: 0.5 and less is blue, 2 and more is red\n");
     CHECK(cli.dsc({"render", "tet.ply", "-o", "a.png", "--size", "64x48"}).code == 0);
     CHECK(cli.read("gap.png") != cli.read("a.png"));
     const Result unknown = cli.dsc({"render", "tet.ply", "-o", "b.png", "--colour", "age"});
     CHECK(unknown.code == 2);
-    CHECK(unknown.err.find("tet.ply: the vertices have no property 'age' of floats; they have gap, support") != std::string::npos);
+    CHECK(unknown.err.find(
+              "tet.ply: the vertices have no property 'age' of floats; they have gap, support") !=
+          std::string::npos);
     CHECK(cli.dsc({"render", "truth.obj", "-o", "b.png", "--colour", "gap"}).code == 2);
     CHECK(cli.dsc({"render", "truth.obj", "-o", "a.jpg"}).code == 2);
     CHECK(cli.dsc({"render", "truth.obj", "-o", "a.png", "--size", "big"}).code == 2);
@@ -174,7 +188,8 @@ TEST_CASE("report: folders that are no run's are refused, nothing is written") {
     const Cli cli;
     const Result missing = cli.dsc({"report", "nowhere"});
     CHECK(missing.code == 6);
-    CHECK(missing.err == "error: nowhere: is not a folder; name the folder of a run that has ended (dsc run CONFIG -o DIR)\n");
+    CHECK(missing.err == "error: nowhere: is not a folder; name the folder of a run that has ended "
+                         "(dsc run CONFIG -o DIR)\n");
     cli.write("notes/status.json", "{}");
     CHECK(cli.dsc({"report", "notes"}).code == 6);
     CHECK(cli.dsc({"report", "notes", "nowhere"}).code == 6);
@@ -209,8 +224,8 @@ TEST_CASE("plugin list, describe in four forms, path") {
     const Cli cli;
     const Result list = cli.dsc({"plugin", "list"});
     CHECK(list.code == 0);
-    for (const char* id :
-         {"point_cloud", "angular_defect", "implicit_fairing", "average_area", "grid", "voxel_grid"}) {
+    for (const char* id : {"point_cloud", "angular_defect", "implicit_fairing", "average_area",
+                           "grid", "voxel_grid"}) {
         CHECK(list.out.find(id) != std::string::npos);
     }
     CHECK(json::parse(cli.dsc({"plugin", "list", "--json"}).out).size() >= 10);
@@ -226,9 +241,11 @@ TEST_CASE("plugin list, describe in four forms, path") {
     const Result yaml = cli.dsc({"plugin", "describe", "point_cloud", "--format", "yaml"});
     cli.write(
         "block.yaml",
-        "dsc: 1\nschedule: [{steps: 1}]\ninitial_mesh: {type: grid}\nimprovement: {type: dsc}\n" + yaml.out);
+        "dsc: 1\nschedule: [{steps: 1}]\ninitial_mesh: {type: grid}\nimprovement: {type: dsc}\n" +
+            yaml.out);
     CHECK(cli.dsc({"run", "block.yaml", "--check"}).code == 0);
-    CHECK(cli.dsc({"plugin", "describe", "point_cloud", "--format", "md"}).out.find("# velocity `point_cloud`\n") == 0);
+    CHECK(cli.dsc({"plugin", "describe", "point_cloud", "--format", "md"})
+              .out.find("# velocity `point_cloud`\n") == 0);
     CHECK(cli.dsc({"plugin", "path"}).out.find("(installed folder)") != std::string::npos);
 }
 
@@ -239,13 +256,13 @@ TEST_CASE("reconstruct: names of outputs are judged before anything is computed"
           "error: cloud.obj is the input; give another file with -o\n");
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "./x/../cloud.obj"}).code == 2);
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.doc"}).err ==
-          "error: a.doc does not have the extension of a format that dsc writes; use .obj, .ply, .off, .stl for the surface, "
-          ".vtu, "
-          ".dsc, .msh, .mesh for the volume\n");
+          "error: a.doc does not have the extension of a format that dsc writes; use .obj, .ply, "
+          ".off, .stl for the surface, .vtu, .dsc, .msh, .mesh for the volume\n");
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.obj", "-o", "a.obj"}).code == 2);
     const Result folder = cli.dsc({"reconstruct", "cloud.obj", "-o", "none/a.obj"});
     CHECK(folder.code == 6);
-    CHECK(folder.err == "error: none/a.obj: its folder none does not exist; create the folder first\n");
+    CHECK(folder.err ==
+          "error: none/a.obj: its folder none does not exist; create the folder first\n");
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "--detail", "ultra"}).code == 2);
 }
 
@@ -254,10 +271,11 @@ TEST_CASE("run: overrides, threads, json progress, a time budget") {
     cli.write(
         "a.yaml",
         "dsc: 1\nname: short\ninput: {cloud: {sample: {shape: sphere, n: 500}}, normalize: {}}\n"
-        "initial_mesh: {type: grid, cells: 12}\nvelocity: {type: point_cloud}\nimprovement: {type: dsc}\n"
+        "initial_mesh: {type: grid, cells: 12}\nvelocity: {type: point_cloud}\nimprovement: {type: "
+        "dsc}\n"
         "schedule: [{steps: 3}]\n");
-    const Result run =
-        cli.dsc({"run", "a.yaml", "schedule.0.steps=2", "--threads", "2", "--progress", "json", "-q"});
+    const Result run = cli.dsc(
+        {"run", "a.yaml", "schedule.0.steps=2", "--threads", "2", "--progress", "json", "-q"});
     CHECK(run.code == 0);
     CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 3);
     CHECK(json::parse(run.err.substr(0, run.err.find('\n')))["planned"] == 2);
@@ -272,7 +290,8 @@ TEST_CASE("run: overrides, threads, json progress, a time budget") {
     CHECK(cli.dsc({"run", folder + "/config.resolved.yaml", "-o", "again", "-q"}).code == 0);
     CHECK(cli.read("again/result/surface.obj") == cli.read(folder + "/result/surface.obj"));
 
-    const Result stopped = cli.dsc({"run", "a.yaml", "-o", "out", "--time-budget", "0.000001s", "-q"});
+    const Result stopped =
+        cli.dsc({"run", "a.yaml", "-o", "out", "--time-budget", "0.000001s", "-q"});
     CHECK(stopped.code == 75);
     CHECK(cli.read("out/status.json").find("\"state\": \"stopped\"") != std::string::npos);
 }

@@ -1,8 +1,8 @@
 // Every experiment in configs/ is right.
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <filesystem>
+
+#include <doctest/doctest.h>
 
 #include "process.hpp"
 
@@ -17,7 +17,8 @@ TEST_CASE("each experiment in configs/ passes --check and prints what reproduces
         cli.write(std::string("clouds/") + name, "v 0 0 0\n");
     cli.environment["DSC_DATA"] = (cli.folder() / "clouds").string();
     std::vector<fs::path> configs;
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(DSC_SOURCE_DIR) / "configs")) {
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(DSC_SOURCE_DIR) / "configs")) {
         const bool sweep = entry.path().parent_path().filename() == "sweeps";
         if (entry.path().extension() == ".yaml" && !sweep) configs.push_back(entry.path());
     }

@@ -1,13 +1,13 @@
 #include "process.hpp"
 
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
 #include <fcntl.h>
 #include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
 
 namespace dsc::test {
 namespace {
@@ -22,7 +22,8 @@ std::string content(const fs::path& file) {
 }
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    for (std::size_t at = text.find(from); at != std::string::npos;
+         at = text.find(from, at + to.size())) {
         text.replace(at, from.size(), to);
     }
 }
@@ -57,8 +58,10 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 }  // namespace
 
 Cli::Cli()
-    : environment{
-          {"DSC_PLUGIN_PATH", ""}, {"XDG_DATA_HOME", "/nonexistent"}, {"DSC_DATA", ""}, {"DSC_SHARE", ""}} {
+    : environment{{"DSC_PLUGIN_PATH", ""},
+                  {"XDG_DATA_HOME", "/nonexistent"},
+                  {"DSC_DATA", ""},
+                  {"DSC_SHARE", ""}} {
     std::string pattern = (fs::temp_directory_path() / "dsc-cli-XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no scratch folder");
     folder_ = fs::canonical(pattern);
@@ -91,7 +94,8 @@ Result Cli::dsc(const std::vector<std::string>& arguments) const {
     result.err = content(err);
     fs::remove(out);
     fs::remove(err);
-    for (std::string* text : {&result.out, &result.err}) replace_all(*text, folder_.string(), "DIR");
+    for (std::string* text : {&result.out, &result.err})
+        replace_all(*text, folder_.string(), "DIR");
     return result;
 }
 

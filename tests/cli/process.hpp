@@ -31,8 +31,8 @@ public:
     /// Variables of the next calls; an empty value removes one.
     std::map<std::string, std::string> environment;
 
-    /// `dsc` with these arguments, the scratch folder as the current one. The folder's path is shown as "DIR" in what
-    /// was said.
+    /// `dsc` with these arguments, the scratch folder as the current one. The folder's path is
+    /// shown as "DIR" in what was said.
     Result dsc(const std::vector<std::string>& arguments) const;
 
 private:

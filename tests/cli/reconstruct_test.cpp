@@ -1,9 +1,9 @@
 // dsc reconstruct: its options and what it says of its result.
-#include <doctest/doctest.h>
-
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 #include "process.hpp"
 
@@ -17,22 +17,27 @@ namespace {
 std::string ball(int n, double radius, double x, bool upper_half = false) {
     std::string text;
     for (int i = 0; i < n; ++i) {
-        const double z = 1.0 - 2.0 * (i + 0.5) / n, r = std::sqrt(1.0 - z * z), angle = 2.399963229728653 * i;
+        const double z = 1.0 - 2.0 * (i + 0.5) / n, r = std::sqrt(1.0 - z * z),
+                     angle = 2.399963229728653 * i;
         if (upper_half && z < 0.0) continue;
-        text += std::to_string(x + radius * r * std::cos(angle)) + " " + std::to_string(radius * r * std::sin(angle)) + " " +
-                std::to_string(radius * z) + "\n";
+        text += std::to_string(x + radius * r * std::cos(angle)) + " " +
+                std::to_string(radius * r * std::sin(angle)) + " " + std::to_string(radius * z) +
+                "\n";
     }
     return text;
 }
 
-json info(const Cli& cli, const std::string& file) { return json::parse(cli.dsc({"info", file, "--json"}).out); }
+json info(const Cli& cli, const std::string& file) {
+    return json::parse(cli.dsc({"info", file, "--json"}).out);
+}
 
 }  // namespace
 
 TEST_CASE("reconstruct: a body without a surface is named, and --strict makes it an error") {
     const Cli cli;
     cli.write("c.xyz", ball(2000, 1.0, 0.0) + ball(150, 0.08, 1.8));
-    const Result run = cli.dsc({"reconstruct", "c.xyz", "--detail", "low", "-o", "s.obj", "--keep-run", "run"});
+    const Result run =
+        cli.dsc({"reconstruct", "c.xyz", "--detail", "low", "-o", "s.obj", "--keep-run", "run"});
     CHECK(run.code == 0);
     const json figures = info(cli, "s.obj");
     const json summary = json::parse(cli.read("run/summary.json"));
@@ -41,7 +46,9 @@ TEST_CASE("reconstruct: a body without a surface is named, and --strict makes it
         CHECK(run.err.find("warning: 1 group of points") == std::string::npos);
     } else {
         CHECK(run.err.find("150 points around (1.8") != std::string::npos);
-        CHECK(cli.dsc({"reconstruct", "c.xyz", "--detail", "low", "-o", "strict.obj", "--strict", "-q"}).code == 5);
+        CHECK(cli.dsc({"reconstruct", "c.xyz", "--detail", "low", "-o", "strict.obj", "--strict",
+                       "-q"})
+                  .code == 5);
         CHECK(cli.read("strict.obj") == cli.read("s.obj"));
     }
     CHECK(run.err.find("of the points are farther from the surface") != std::string::npos);
@@ -50,11 +57,13 @@ TEST_CASE("reconstruct: a body without a surface is named, and --strict makes it
 TEST_CASE("reconstruct: half a ball is trimmed to its points, and the volume stays closed") {
     const Cli cli;
     cli.write("c.xyz", ball(4000, 1.0, 0.0, true));
-    const Result closed = cli.dsc({"reconstruct", "c.xyz", "--detail", "low", "-o", "closed.ply", "--strict"});
+    const Result closed =
+        cli.dsc({"reconstruct", "c.xyz", "--detail", "low", "-o", "closed.ply", "--strict"});
     CHECK(closed.code == 5);
     CHECK(closed.err.find("--trim") != std::string::npos);
     CHECK(info(cli, "closed.ply")["solid"] == true);
-    const Result open = cli.dsc({"reconstruct", "c.xyz", "--detail", "low", "-o", "open.ply", "-o", "v.dsc", "--trim", "--keep-run", "run"});
+    const Result open = cli.dsc({"reconstruct", "c.xyz", "--detail", "low", "-o", "open.ply", "-o",
+                                 "v.dsc", "--trim", "--keep-run", "run"});
     CHECK(open.code == 0);
     CHECK(open.err.find("open by request") != std::string::npos);
     const json sheet = info(cli, "open.ply");

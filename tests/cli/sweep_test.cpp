@@ -1,8 +1,8 @@
 // dsc sweep on real experiments: expand, run some, collect.
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <sstream>
+
+#include <doctest/doctest.h>
 
 #include "process.hpp"
 
@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* base =
-    "dsc: 1\ninitial_mesh: {type: grid, cells: 10, shape: cube, half_width: 0.8}\nvelocity: {type: average, part: 0.5}\n"
+    "dsc: 1\ninitial_mesh: {type: grid, cells: 10, shape: cube, half_width: 0.8}\nvelocity: {type: "
+    "average, part: 0.5}\n"
     "improvement: {type: dsc}\nschedule: [{steps: 2}]\noutput: {surface: [obj], volume: [dsc]}\n";
 
 std::vector<std::string> lines(const std::string& text) {
@@ -50,9 +51,11 @@ TEST_CASE("a sweep of 12 points: expand, run two of them, collect") {
     const std::string table = cli.read("out/jobs.tsv");
     const std::vector<std::string> rows = lines(table);
     REQUIRE(rows.size() == 13);
-    CHECK(rows[1].find("\t{velocity.part: 0.25, initial_mesh.cells: 10, seed: 1}") != std::string::npos);
+    CHECK(rows[1].find("\t{velocity.part: 0.25, initial_mesh.cells: 10, seed: 1}") !=
+          std::string::npos);
     for (std::size_t i = 1; i < rows.size(); ++i)
-        CHECK(cli.dsc({"run", "out/" + folder_of(rows[i]) + "/experiment.yaml", "--check"}).code == 0);
+        CHECK(cli.dsc({"run", "out/" + folder_of(rows[i]) + "/experiment.yaml", "--check"}).code ==
+              0);
 
     for (const std::size_t row : {1U, 6U}) {
         const std::string point = "out/" + folder_of(rows[row]);
@@ -64,15 +67,18 @@ TEST_CASE("a sweep of 12 points: expand, run two of them, collect") {
     const Result collect = cli.dsc({"sweep", "collect", "out", "-o", "results.csv"});
     CHECK(collect.code == 0);
     CHECK(collect.out == "results.csv\n");
-    CHECK(collect.err.find("12 points: 2 done, 0 failed, 0 unfinished, 10 not started") != std::string::npos);
+    CHECK(collect.err.find("12 points: 2 done, 0 failed, 0 unfinished, 10 not started") !=
+          std::string::npos);
     const std::vector<std::string> results = lines(cli.read("results.csv"));
     REQUIRE(results.size() == 13);
-    CHECK(results[0].find("index,folder,status,ended,error,velocity.part,initial_mesh.cells,seed,steps,") == 0);
+    CHECK(results[0].find(
+              "index,folder,status,ended,error,velocity.part,initial_mesh.cells,seed,steps,") == 0);
     CHECK(results[1].find("0," + folder_of(rows[1]) + ",done,max_steps,,0.25,10,1,2,") == 0);
     CHECK(results[6].find("5," + folder_of(rows[6]) + ",done,max_steps,,0.5,10,2,2,") == 0);
     CHECK(results[2].find("1," + folder_of(rows[2]) + ",missing,,,0.25,10,2,,") == 0);
     for (const std::string& line : results)
-        CHECK(std::count(line.begin(), line.end(), ',') == std::count(results[0].begin(), results[0].end(), ','));
+        CHECK(std::count(line.begin(), line.end(), ',') ==
+              std::count(results[0].begin(), results[0].end(), ','));
     CHECK(cli.dsc({"sweep", "collect", "out"}).out == cli.read("results.csv"));
     CHECK(cli.dsc({"sweep", "collect", "out", "-o", "none/results.csv"}).code == 6);
 }
@@ -80,14 +86,16 @@ TEST_CASE("a sweep of 12 points: expand, run two of them, collect") {
 TEST_CASE("a sweep with faults: exit 3, all of them, and nothing is written") {
     const Cli cli;
     cli.write("cube.yaml", base);
-    cli.write("a.yaml",
-              "sweep: 1\nbase: cube.yaml\naxes: [{grid: {velocity.prat: [0.25, 0.5], initial_mesh.cells: [6, -8]}}]\n");
+    cli.write("a.yaml", "sweep: 1\nbase: cube.yaml\naxes: [{grid: {velocity.prat: [0.25, 0.5], "
+                        "initial_mesh.cells: [6, -8]}}]\n");
     const Result expand = cli.dsc({"sweep", "expand", "a.yaml", "-o", "out"});
     CHECK(expand.code == 3);
     CHECK(expand.out.empty());
-    CHECK(expand.err.find("a.yaml:3:16: error: unknown key 'prat' in velocity 'average'") != std::string::npos);
+    CHECK(expand.err.find("a.yaml:3:16: error: unknown key 'prat' in velocity 'average'") !=
+          std::string::npos);
     CHECK(expand.err.find("did you mean 'part'?") != std::string::npos);
-    CHECK(expand.err.find("a.yaml:3:68: error: 'initial_mesh.cells': -8 is below") != std::string::npos);
+    CHECK(expand.err.find("a.yaml:3:68: error: 'initial_mesh.cells': -8 is below") !=
+          std::string::npos);
     CHECK(expand.err.find("2 errors; nothing was written") != std::string::npos);
     CHECK_FALSE(cli.exists("out"));
     cli.write("a.yaml", "sweep: 1\nbase: nowhere.yaml\nrepeat: 2\n");
@@ -103,11 +111,13 @@ TEST_CASE("a refinement that a point's velocity cannot serve is told at expansio
     const Cli cli;
     cli.write("cube.yaml", base);
     cli.write("a.yaml",
-              "sweep: 1\nbase: cube.yaml\nset: {schedule: [{steps: 1}, {refine: {type: centroid_speed}}]}\n"
+              "sweep: 1\nbase: cube.yaml\nset: {schedule: [{steps: 1}, {refine: {type: "
+              "centroid_speed}}]}\n"
               "axes: [{grid: {velocity: [{type: average}, {type: rotate, degrees: 10}]}}]\n");
     const Result expand = cli.dsc({"sweep", "expand", "a.yaml", "-o", "out"});
     CHECK(expand.code == 3);
-    CHECK(expand.err.find("refinement 'centroid_speed' reads the velocity between the vertices") != std::string::npos);
+    CHECK(expand.err.find("refinement 'centroid_speed' reads the velocity between the vertices") !=
+          std::string::npos);
     CHECK(expand.err.find("note: in the point {velocity: {type: average}}") != std::string::npos);
     CHECK(expand.err.find("1 error; nothing was written") != std::string::npos);
     CHECK_FALSE(cli.exists("out"));

@@ -1,16 +1,18 @@
 // The estimate of the time that a run still takes, on runs whose costs are known.
-#include <doctest/doctest.h>
+#include "../../core/app/time_estimate.hpp"
 
 #include <cmath>
 
-#include "../../core/app/time_estimate.hpp"
+#include <doctest/doctest.h>
 
 namespace {
 
 using dsc::app::TimeEstimate;
 using dsc::run::Series;
 
-Series steps(std::uint32_t count) { return {.steps = count, .every = {}, .refine = {}, .until = {}}; }
+Series steps(std::uint32_t count) {
+    return {.steps = count, .every = {}, .refine = {}, .until = {}};
+}
 Series refinement() { return {}; }
 
 }  // namespace
@@ -28,7 +30,8 @@ TEST_CASE("time estimate: nothing before the first step, nothing left after the 
 }
 
 TEST_CASE("time estimate: refinements make steps dearer by the factor that the first one shows") {
-    const std::vector<Series> schedule = {steps(30), refinement(), steps(30), refinement(), steps(30)};
+    const std::vector<Series> schedule = {steps(30), refinement(), steps(30), refinement(),
+                                          steps(30)};
     TimeEstimate estimate(schedule);
     double now = 0;
     double whole = 0;
@@ -46,7 +49,9 @@ TEST_CASE("time estimate: refined every few steps") {
     TimeEstimate estimate({{.steps = 40, .every = 10, .refine = {}, .until = {}}});
     double now = 0;
     double whole = 0;
-    const auto vertices = [](std::uint64_t step) { return step <= 10 ? 100.0 : step <= 20 ? 200.0 : step <= 30 ? 400.0 : 800.0; };
+    const auto vertices = [](std::uint64_t step) {
+        return step <= 10 ? 100.0 : step <= 20 ? 200.0 : step <= 30 ? 400.0 : 800.0;
+    };
     for (std::uint64_t step = 1; step <= 40; ++step) whole += 1e-3 * vertices(step);
     estimate.add(0, 100, 0);
     for (std::uint64_t step = 1; step <= 14; ++step) {

@@ -1,11 +1,13 @@
-// Each test of `dsc plugin check` has a witness, a plugin that is bad in exactly this way: it must fail this test and no other.
-#include <doctest/doctest.h>
-
+// Each test of `dsc plugin check` has a witness, a plugin that is bad in exactly this way: it must
+// fail this test and no other.
 #include <algorithm>
-#include <dsc/conformance/check.hpp>
-#include <dsc/plugin/fingerprint.hpp>
 #include <set>
 #include <string>
+
+#include <doctest/doctest.h>
+
+#include <dsc/conformance/check.hpp>
+#include <dsc/plugin/fingerprint.hpp>
 
 namespace {
 
@@ -126,7 +128,8 @@ TEST_CASE("a witness fails its own test and no other") {
         std::string id = w.test;
         std::replace(id.begin(), id.end(), '.', '_');
         std::set<std::string> expected = {w.test};
-        // Races show under ThreadSanitizer only; neither time nor memory is measured under a sanitizer as without.
+        // Races show under ThreadSanitizer only; neither time nor memory is measured under a
+        // sanitizer as without.
         if (std::string(w.test) == "thr.race" && !has_sanitizer("thread")) expected.clear();
         if (std::string(w.test) == "cancel" && !has_sanitizer("none")) expected.clear();
         if (std::string(w.test) == "leak" && has_sanitizer("thread")) expected.clear();
@@ -137,7 +140,8 @@ TEST_CASE("a witness fails its own test and no other") {
 TEST_CASE("a witness of the library fails its own test and no other") {
     for (const LibraryWitness& w : library_witnesses) {
         INFO("the witness of ", std::string(w.test));
-        CHECK(listed(failed(dsc::conformance::check(library(w.plugin), strict()))) == listed({w.test}));
+        CHECK(listed(failed(dsc::conformance::check(library(w.plugin), strict()))) ==
+              listed({w.test}));
     }
 }
 

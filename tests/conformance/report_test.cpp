@@ -1,9 +1,9 @@
 // The three forms of a report.
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 #include <dsc/base/error.hpp>
 #include <dsc/conformance/check.hpp>
-#include <nlohmann/json.hpp>
 
 namespace {
 
@@ -30,10 +30,8 @@ TEST_CASE("text: a line a test, and the sums") {
     CHECK(text.find("pass    lib.entry        library\n") == 0);
     CHECK(text.find("CRASH   param.fuzz       velocity 'a'                       signal 11\n") !=
           std::string::npos);
-    CHECK(
-        text.find(
-            "libdsc_a.so FAILS at level standard, seed 1: 1 pass 1 warn 1 skip 1 fail 1 crash 1 timeout\n") !=
-        std::string::npos);
+    CHECK(text.find("libdsc_a.so FAILS at level standard, seed 1: 1 pass 1 warn 1 skip 1 fail 1 "
+                    "crash 1 timeout\n") != std::string::npos);
 }
 
 TEST_CASE("JSON: read back") {
@@ -66,5 +64,6 @@ TEST_CASE("faults of the call itself") {
     }
     options.only.clear();
     options.strategies = {{dsc::plugin::Kind::velocity, "none"}};
-    CHECK_THROWS_AS(dsc::conformance::check(DSC_TEST_PLUGINS "/libdsc_good.so", options), dsc::UsageError);
+    CHECK_THROWS_AS(dsc::conformance::check(DSC_TEST_PLUGINS "/libdsc_good.so", options),
+                    dsc::UsageError);
 }

@@ -2,9 +2,9 @@
 #include <iostream>
 #include <vector>
 
+#include <dsc/generate/shape_mesh.hpp>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/generate/shape_mesh.hpp>
 #include <dsc/mesh/validate.hpp>
 #include <dsc/surface/surface_view.hpp>
 
@@ -12,7 +12,8 @@ int main() {
     using namespace dsc;
 
     // A box of tets, 3 units wide. Tets inside the ball have the label 1, all others the label 0.
-    const std::vector<generate::Shape> shapes = {{.shape = generate::ShapeKind::sphere, .radius = 0.6}};
+    const std::vector<generate::Shape> shapes = {
+        {.shape = generate::ShapeKind::sphere, .radius = 0.6}};
     const mesh::TetMesh tets = generate::make_shape_mesh({.cells = 16, .box = 1.5}, shapes, "ball");
 
     // adopt() checks the tets and makes a complex of them. The Deformer keeps the complex valid.

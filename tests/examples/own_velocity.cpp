@@ -2,10 +2,10 @@
 // topology.
 #include <iostream>
 
+#include <dsc/generate/shape_mesh.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/generate/shape_mesh.hpp>
 #include <dsc/mesh/validate.hpp>
 #include <dsc/run/repair_policy.hpp>
 
@@ -24,7 +24,7 @@ int main() {
         host.create<hooks::Improvement>({.type = "dsc", .params = {}}, "improvement");
 
     const std::vector<generate::Shape> balls = {{.centre = {-0.55, 0.0, 0.0}, .radius = 0.4},
-                                            {.centre = {0.55, 0.0, 0.0}, .radius = 0.4}};
+                                                {.centre = {0.55, 0.0, 0.0}, .radius = 0.4}};
     kernel::Deformer deformer(
         mesh::adopt(generate::make_shape_mesh({.cells = 20}, balls, "balls"), "balls"));
 

@@ -1,9 +1,9 @@
 // You learn how to change a complex edge by edge: splits by your own edits, collapses by requests.
 #include <iostream>
 
+#include <dsc/generate/shape_mesh.hpp>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/generate/shape_mesh.hpp>
 #include <dsc/mesh/validate.hpp>
 #include <dsc/surface/surface_view.hpp>
 
@@ -35,7 +35,8 @@ void print(const char* what, const mesh::Complex& complex) {
 
 int main() {
     const std::vector<generate::Shape> ball = {{.radius = 0.6}};
-    mesh::Complex complex = mesh::adopt(generate::make_shape_mesh({.cells = 16}, ball, "ball"), "ball");
+    mesh::Complex complex =
+        mesh::adopt(generate::make_shape_mesh({.cells = 16}, ball, "ball"), "ball");
     print("at the start", complex);
 
     // Split every edge of the interface, and note how to undo it: the last split comes first.

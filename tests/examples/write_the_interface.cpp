@@ -1,10 +1,10 @@
 // You learn how to extract surfaces from labelled tets, measure them and write them to files.
 #include <iostream>
 
+#include <dsc/generate/shape_mesh.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/generate/shape_mesh.hpp>
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
@@ -22,8 +22,8 @@ int main() {
     const std::vector<generate::Shape> shapes = {
         {.shape = generate::ShapeKind::box, .half_size = {0.8, 0.8, 0.8}, .label = 1},
         {.shape = generate::ShapeKind::sphere, .radius = 0.5, .label = 2}};
-    const mesh::Complex complex =
-        mesh::adopt(generate::make_shape_mesh({.cells = 24}, shapes, "box and ball"), "box and ball");
+    const mesh::Complex complex = mesh::adopt(
+        generate::make_shape_mesh({.cells = 24}, shapes, "box and ball"), "box and ball");
 
     // Plain arrays. The interface consists of all faces between tets with different labels.
     const mesh::TetMesh tets = complex.to_mesh();

@@ -20,7 +20,8 @@ constexpr std::string_view option = "--reader=";
 extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
     for (int i = 1; i < *argc; ++i) {
         const std::string_view argument = (*argv)[i];
-        if (argument.substr(0, option.size()) == option) chosen = dsc::fuzz::find_reader(argument.substr(option.size()));
+        if (argument.substr(0, option.size()) == option)
+            chosen = dsc::fuzz::find_reader(argument.substr(option.size()));
     }
     if (chosen != nullptr) return 0;
     std::cerr << "--reader=NAME is one of";
@@ -31,6 +32,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 
 /// An exception that leaves this function is a crash for libFuzzer.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    dsc::fuzz::require_orderly(*chosen, std::string_view(reinterpret_cast<const char*>(data), size));
+    dsc::fuzz::require_orderly(*chosen,
+                               std::string_view(reinterpret_cast<const char*>(data), size));
     return 0;
 }

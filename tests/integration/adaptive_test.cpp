@@ -1,15 +1,17 @@
-// Adaptive resolution, selective curvature and the filters of hidden and crowded points, through the real command: what
-// holds of the written files, and that the result is nearer to the truth than the plain protocol's.
-#include <doctest/doctest.h>
-
+// Adaptive resolution, selective curvature and the filters of hidden and crowded points, through
+// the real command: what holds of the written files, and that the result is nearer to the truth
+// than the plain protocol's.
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
+
+#include <doctest/doctest.h>
+
 #include <dsc/cloud/shapes.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
 #include <dsc/surface/distance.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <limits>
 
 #include "poses.hpp"
 #include "results.hpp"
@@ -39,8 +41,8 @@ Outcome run(const Cli& cli, const std::string& config, std::vector<std::string> 
     dsc::test::check_result(cli.folder() / "out");
     outcome.summary = dsc::test::summary_of(cli, "out");
     outcome.volume = dsc::io::read_volume(cli.folder() / "out" / "result" / "volume.dsc");
-    outcome.mean_edge =
-        outcome.summary["target_length"].get<double>() / outcome.summary["to_normalised"]["scale"].get<double>();
+    outcome.mean_edge = outcome.summary["target_length"].get<double>() /
+                        outcome.summary["to_normalised"]["scale"].get<double>();
     return outcome;
 }
 
@@ -52,7 +54,8 @@ void check_solid(const Outcome& outcome, long genus) {
 bool inside(const dsc::mesh::TetMesh& mesh, std::size_t tet, const Vec3& p) {
     const auto& v = mesh.tets[tet];
     for (std::size_t f = 0; f < 4; ++f) {
-        const Vec3 &a = mesh.points[v[(f + 1) % 4]], &b = mesh.points[v[(f + 2) % 4]], &c = mesh.points[v[(f + 3) % 4]];
+        const Vec3 &a = mesh.points[v[(f + 1) % 4]], &b = mesh.points[v[(f + 2) % 4]],
+                   &c = mesh.points[v[(f + 3) % 4]];
         const Vec3 normal = (b - a).cross(c - a);
         if (normal.dot(p - a) * normal.dot(mesh.points[v[f]] - a) < 0) return false;
     }
@@ -74,7 +77,8 @@ double clearance(const dsc::mesh::TetMesh& mesh, const Vec3& from, const Vec3& t
 }
 
 double chamfer(const Outcome& outcome, const dsc::surface::TriangleMesh& truth) {
-    return 100.0 * dsc::surface::evaluate(dsc::surface::extract_interface(outcome.volume), truth).chamfer;
+    return 100.0 *
+           dsc::surface::evaluate(dsc::surface::extract_interface(outcome.volume), truth).chamfer;
 }
 
 /// The thesis' cloud in its folder, turned; its faces are the truth.
@@ -96,7 +100,8 @@ bool without_thesis_clouds() {
     return true;
 }
 
-// The middle of the teapot's handle hole, as far as can be from all points of its cloud, and the hole's direction.
+// The middle of the teapot's handle hole, as far as can be from all points of its cloud, and the
+// hole's direction.
 const Vec3 hole(-2.24, 1.62, 0.0), through(0.0, 0.0, 1.0);
 
 }  // namespace
@@ -110,16 +115,22 @@ TEST_CASE("configs/demos/box_tunnel.yaml ends with its tunnel open from end to e
     CHECK(clearance(outcome.volume, Vec3(0, 0, -3), Vec3(0, 0, 3)) > 0.5 * outcome.mean_edge);
 }
 
-// Newell's teapot, sampled; z is up there. What lies inside its body is not sampled, but a few points below its lid are hidden.
-TEST_CASE("a sampled teapot at adaptive resolution: handle open, nearer to the truth than without, hidden points set aside") {
+// Newell's teapot, sampled; z is up there. What lies inside its body is not sampled, but a few
+// points below its lid are hidden.
+TEST_CASE("a sampled teapot at adaptive resolution: handle open, nearer to the truth than without, "
+          "hidden points set aside") {
     Cli cli;
     cli.environment["DSC_DATA"] = ".";  // the sample takes the place of its cloud
     const std::string protocol = config("thesis/teapot_adaptive.yaml");
-    const std::string sample = "input.cloud={sample: {shape: teapot, n: 3000}, filters: [{type: hidden}, {type: clusters, closer: 0.4}]}";
+    const std::string sample = "input.cloud={sample: {shape: teapot, n: 3000}, filters: [{type: "
+                               "hidden}, {type: clusters, closer: 0.4}]}";
     const Outcome adaptive =
-        run(cli, protocol, {sample, "schedule=[{steps: 60, every: 4, refine: {type: centroid_speed, absolute: 1.0e-3}}]"});
+        run(cli, protocol,
+            {sample,
+             "schedule=[{steps: 60, every: 4, refine: {type: centroid_speed, absolute: 1.0e-3}}]"});
     check_solid(adaptive, 1);
-    CHECK(clearance(adaptive.volume, Vec3(-2.24, -3, 1.62), Vec3(-2.24, 3, 1.62)) > 0.5 * adaptive.mean_edge);
+    CHECK(clearance(adaptive.volume, Vec3(-2.24, -3, 1.62), Vec3(-2.24, 3, 1.62)) >
+          0.5 * adaptive.mean_edge);
     CHECK(adaptive.summary["refinements"]["committed"] > 1000);
     CHECK(adaptive.summary["input"]["filters"][0]["type"] == "hidden");
     CHECK(adaptive.summary["input"]["filters"][0]["removed"] > 0);
@@ -136,35 +147,42 @@ TEST_CASE("the thesis' teapot, as it comes and turned" * doctest::description("n
     for (const std::uint64_t pose : {0U, 1U}) {
         CAPTURE(pose);
         Cli cli;
-        const Eigen::Matrix3d turn = pose == 0 ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : dsc::test::random_rotation(pose);
+        const Eigen::Matrix3d turn = pose == 0 ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
+                                               : dsc::test::random_rotation(pose);
         const ThesisCloud cloud(cli, "teapot", turn);
         const Outcome adaptive = run(cli, config("thesis/teapot_adaptive.yaml"), {});
         check_solid(adaptive, 1);
-        CHECK(clearance(adaptive.volume, turn * (hole - 3 * through), turn * (hole + 3 * through)) > 0.5 * adaptive.mean_edge);
+        CHECK(clearance(adaptive.volume, turn * (hole - 3 * through), turn * (hole + 3 * through)) >
+              0.5 * adaptive.mean_edge);
         const double reached = chamfer(adaptive, cloud.truth);
         MESSAGE("Chamfer ", reached, " %");
         CHECK(reached <= 0.136);
-        if (pose == 0) CHECK(reached < chamfer(run(cli, config("thesis/teapot.yaml"), {}), cloud.truth));
+        if (pose == 0)
+            CHECK(reached < chamfer(run(cli, config("thesis/teapot.yaml"), {}), cloud.truth));
     }
 }
 
-TEST_CASE("the thesis' cow stands on four legs, apart from each other" * doctest::description("needs DSC_DATA")) {
+TEST_CASE("the thesis' cow stands on four legs, apart from each other" *
+          doctest::description("needs DSC_DATA")) {
     if (without_thesis_clouds()) return;
     Cli cli;
     const ThesisCloud cloud(cli, "cow", Eigen::Matrix3d::Identity());
     const Outcome adaptive = run(cli, config("thesis/cow_adaptive.yaml"), {});
     check_solid(adaptive, 0);
-    // From behind to in front, half way up the legs, between those of the left and of the right; then across, between
-    // the fore and the hind ones.
-    CHECK(clearance(adaptive.volume, Vec3(-5, -2.8, 0), Vec3(5, -2.8, 0)) > 0.5 * adaptive.mean_edge);
-    CHECK(clearance(adaptive.volume, Vec3(-0.5, -2.8, -2), Vec3(-0.5, -2.8, 2)) > 0.5 * adaptive.mean_edge);
+    // From behind to in front, half way up the legs, between those of the left and of the right;
+    // then across, between the fore and the hind ones.
+    CHECK(clearance(adaptive.volume, Vec3(-5, -2.8, 0), Vec3(5, -2.8, 0)) >
+          0.5 * adaptive.mean_edge);
+    CHECK(clearance(adaptive.volume, Vec3(-0.5, -2.8, -2), Vec3(-0.5, -2.8, 2)) >
+          0.5 * adaptive.mean_edge);
     const double reached = chamfer(adaptive, cloud.truth);
     MESSAGE("Chamfer ", reached, " %");
     CHECK(reached <= 0.16);
     CHECK(reached < chamfer(run(cli, config("thesis/cow.yaml"), {}), cloud.truth));
 }
 
-TEST_CASE("the thesis' bunny at adaptive resolution is nearer to the truth than the plain one" * doctest::description("needs DSC_DATA")) {
+TEST_CASE("the thesis' bunny at adaptive resolution is nearer to the truth than the plain one" *
+          doctest::description("needs DSC_DATA")) {
     if (without_thesis_clouds()) return;
     Cli cli;
     const ThesisCloud cloud(cli, "bunny", Eigen::Matrix3d::Identity());

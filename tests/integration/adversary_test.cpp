@@ -1,11 +1,12 @@
-// Destinations that no motion can reach: every run ends within its budgets, with a valid complex, and says that it stalled
-// where it did.
+// Destinations that no motion can reach: every run ends within its budgets, with a valid complex,
+// and says that it stalled where it did.
+#include <functional>
+
 #include <doctest/doctest.h>
 
 #include <dsc/host/host.hpp>
-#include <dsc/run/simulation.hpp>
 #include <dsc/run/measure.hpp>
-#include <functional>
+#include <dsc/run/simulation.hpp>
 
 #include "results.hpp"
 
@@ -38,14 +39,15 @@ struct Outcome {
     run::VolumeMeasure measure;
 };
 
-Outcome drive_to(const Adversary::Destination& destination, std::uint32_t steps, bool events = true) {
+Outcome drive_to(const Adversary::Destination& destination, std::uint32_t steps,
+                 bool events = true) {
     host::Host host;
     test::load_strategies(host);
     run::Experiment experiment;
     experiment.name = "adversary";
     experiment.initial_mesh = {
-        "grid",
-        config::ConfigNode::map({{"cells", 12}, {"shape", "sphere"}, {"radius", 0.8}, {"project", true}})};
+        "grid", config::ConfigNode::map(
+                    {{"cells", 12}, {"shape", "sphere"}, {"radius", 0.8}, {"project", true}})};
     experiment.improvement = {
         "dsc", config::ConfigNode::map(
                    {{"topology", config::ConfigNode::map({{"thickness", events ? 1.0 : 0.0}})}})};
@@ -56,8 +58,9 @@ Outcome drive_to(const Adversary::Destination& destination, std::uint32_t steps,
     Outcome outcome{run::simulate(experiment, strategies, nullptr, {}), {}};
     outcome.measure = run::measure(outcome.result.mesh);
     MESSAGE(std::string(run::name(outcome.result.totals.status))
-            << " after " << outcome.result.totals.steps << " steps, " << outcome.result.totals.rounds
-            << " rounds, dropped " << outcome.result.totals.dropped_motion << ", clamped "
+            << " after " << outcome.result.totals.steps << " steps, "
+            << outcome.result.totals.rounds << " rounds, dropped "
+            << outcome.result.totals.dropped_motion << ", clamped "
             << outcome.result.totals.clamped);
     const run::RunTotals& totals = outcome.result.totals;
     CHECK(totals.rounds <= most_rounds * totals.steps);
@@ -74,7 +77,8 @@ TEST_CASE("random places in the box, new ones in every step") {
     const Outcome outcome = drive_to(
         [](const hooks::StepContext& context, std::size_t v) {
             RandomStream random = context.random(context.surface.births[v]);
-            return Vec3(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5));
+            return Vec3(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5),
+                        random.uniform(-1.5, 1.5));
         },
         5);
     CHECK(outcome.result.totals.dropped_motion > 0);
@@ -93,10 +97,12 @@ TEST_CASE("random places near by, new ones in every step") {
     CHECK(outcome.result.totals.dropped_motion > 0);
 }
 
-TEST_CASE("every vertex to the place of the one opposite: through the middle, where the sphere vanishes") {
-    const Outcome outcome = drive_to(
-        [](const hooks::StepContext& context, std::size_t v) { return Vec3(-context.surface.positions[v]); },
-        10);
+TEST_CASE("every vertex to the place of the one opposite: through the middle, where the sphere "
+          "vanishes") {
+    const Outcome outcome =
+        drive_to([](const hooks::StepContext& context,
+                    std::size_t v) { return Vec3(-context.surface.positions[v]); },
+                 10);
     CHECK(outcome.measure.interface.faces.empty());
     CHECK(outcome.result.totals.events.vanished == 1);
 }
@@ -104,7 +110,8 @@ TEST_CASE("every vertex to the place of the one opposite: through the middle, wh
 TEST_CASE("neighbours change places") {
     const Outcome outcome = drive_to(
         [](const hooks::StepContext& context, std::size_t v) {
-            // The neighbour before the vertex in its first face: some pairs want each other's places.
+            // The neighbour before the vertex in its first face: some pairs want each other's
+            // places.
             const auto& face = context.surface.faces[context.surface.faces_of(v)[0]];
             const std::size_t k = face[0] == v ? 0 : face[1] == v ? 1 : 2;
             return context.surface.positions[face[(k + 2) % 3]];
@@ -114,7 +121,8 @@ TEST_CASE("neighbours change places") {
 }
 
 TEST_CASE("all to one point outside the sphere") {
-    drive_to([](const hooks::StepContext&, std::size_t) { return Vec3(1.0, 0.2, -0.1); }, 20, false);
+    drive_to([](const hooks::StepContext&, std::size_t) { return Vec3(1.0, 0.2, -0.1); }, 20,
+             false);
 }
 
 TEST_CASE("all to the middle of the sphere: it vanishes") {
@@ -138,7 +146,8 @@ TEST_CASE("through the box' walls: clamped to a smaller box, stalled there") {
     CHECK(outcome.result.totals.status == run::Status::stalled);
     CHECK(outcome.result.totals.steps < 40);
     const double margin = 1.5 - 2 * outcome.result.totals.target_length;
-    for (const Vec3& p : outcome.result.surface.points) CHECK(p.cwiseAbs().maxCoeff() <= margin + 1e-9);
+    for (const Vec3& p : outcome.result.surface.points)
+        CHECK(p.cwiseAbs().maxCoeff() <= margin + 1e-9);
 }
 
 TEST_CASE("through one wall: pressed flat against it") {

@@ -1,12 +1,14 @@
-// Every demo by its config: the figures that issue and page name, on the files that the command writes. Where a full run
-// takes long, a shorter one: share/doc/motions.md has the figures of the full ones.
-#include <doctest/doctest.h>
-
+// Every demo by its config: the figures that issue and page name, on the files that the command
+// writes. Where a full run takes long, a shorter one: share/doc/motions.md has the figures of the
+// full ones.
 #include <algorithm>
 #include <cmath>
-#include <dsc/io/read.hpp>
 #include <set>
 #include <sstream>
+
+#include <doctest/doctest.h>
+
+#include <dsc/io/read.hpp>
 
 #include "results.hpp"
 
@@ -16,11 +18,12 @@ using nlohmann::json;
 
 namespace {
 
-/// Runs configs/demos/NAME.yaml and returns the summary of a result without intersections and inverted tets.
+/// Runs configs/demos/NAME.yaml and returns the summary of a result without intersections and
+/// inverted tets.
 json run_config(const Cli& cli, const std::string& name, const std::vector<std::string>& overrides,
                 const std::string& folder) {
-    std::vector<std::string> arguments = {"run", dsc::test::config("demos/" + name + ".yaml"), "-o", folder,
-                                          "-q"};
+    std::vector<std::string> arguments = {"run", dsc::test::config("demos/" + name + ".yaml"), "-o",
+                                          folder, "-q"};
     arguments.insert(arguments.end(), overrides.begin(), overrides.end());
     REQUIRE(cli.dsc(arguments).code == 0);
     const json summary = dsc::test::summary_of(cli, folder);
@@ -30,8 +33,8 @@ json run_config(const Cli& cli, const std::string& name, const std::vector<std::
 }
 
 /// The same where the result has a surface that must be a solid, or none.
-json run_demo(const Cli& cli, const std::string& name, const std::vector<std::string>& overrides = {},
-              const std::string& folder = "out") {
+json run_demo(const Cli& cli, const std::string& name,
+              const std::vector<std::string>& overrides = {}, const std::string& folder = "out") {
     json summary = run_config(cli, name, overrides, folder);
     if (!summary["interface_faces"].get<std::size_t>()) return summary;
     dsc::test::check_result(cli.folder() / folder);
@@ -76,15 +79,16 @@ std::vector<Vec3> free_points(const Cli& cli, const std::string& folder) {
     return points;
 }
 
-/// How many of the points of `now` within `radius` are, to a hundredth of an edge, where one of `before` was.
+/// How many of the points of `now` within `radius` are, to a hundredth of an edge, where one of
+/// `before` was.
 double part_in_place(const std::vector<Vec3>& before, const std::vector<Vec3>& now, double radius) {
     std::size_t inside = 0;
     std::size_t in_place = 0;
     for (const Vec3& p : now) {
         if (p.norm() > radius) continue;
         ++inside;
-        in_place +=
-            std::any_of(before.begin(), before.end(), [&](const Vec3& q) { return (p - q).norm() < 1e-3; });
+        in_place += std::any_of(before.begin(), before.end(),
+                                [&](const Vec3& q) { return (p - q).norm() < 1e-3; });
     }
     return static_cast<double>(in_place) / static_cast<double>(inside);
 }
@@ -108,14 +112,16 @@ TEST_CASE("rotate_sphere: once round, and it is the same sphere") {
 TEST_CASE("rotate_sphere: at half a turn the whole mesh has turned, not only the sphere") {
     const Cli cli;
     const std::vector<std::string> coarse = {"initial_mesh.cells=16"};
-    run_demo(cli, "rotate_sphere", {coarse[0], "velocity.degrees=0", "schedule=[{steps: 1}]"}, "start");
+    run_demo(cli, "rotate_sphere", {coarse[0], "velocity.degrees=0", "schedule=[{steps: 1}]"},
+             "start");
     run_demo(cli, "rotate_sphere", {coarse[0], "schedule=[{steps: 180}]"}, "half");
     const auto start = dsc::io::read_surface(cli.folder() / "start/result/surface.obj");
     const auto half = dsc::io::read_surface(cli.folder() / "half/result/surface.obj");
     const Vec3 axis = Vec3(1, 2, 3).normalized();
     std::vector<Vec3> turned;
     for (const Vec3& p : start.points) turned.push_back(2 * p.dot(axis) * axis - p);
-    // Most surface vertices are where half a turn takes those of the start, and hardly any where they were.
+    // Most surface vertices are where half a turn takes those of the start, and hardly any where
+    // they were.
     CHECK(part_in_place(turned, half.points, 2.0) > 0.8);
     CHECK(part_in_place(start.points, half.points, 2.0) < 0.1);
     // What is inside and just outside went along: nothing of it is where it was.
@@ -124,9 +130,11 @@ TEST_CASE("rotate_sphere: at half a turn the whole mesh has turned, not only the
 
 TEST_CASE("curvature_flow: sqrt(r^2 - 4 t) at three resolutions, the better the finer") {
     const Cli cli;
-    const double coarse = figure(run_demo(cli, "curvature_flow", {"initial_mesh.cells=16"}), "radius_error");
+    const double coarse =
+        figure(run_demo(cli, "curvature_flow", {"initial_mesh.cells=16"}), "radius_error");
     const double middle = figure(run_demo(cli, "curvature_flow"), "radius_error");
-    const double fine = figure(run_demo(cli, "curvature_flow", {"initial_mesh.cells=32"}), "radius_error");
+    const double fine =
+        figure(run_demo(cli, "curvature_flow", {"initial_mesh.cells=32"}), "radius_error");
     CHECK(coarse < 0.02);
     CHECK(middle < coarse);
     CHECK(fine < middle);
@@ -168,24 +176,27 @@ TEST_CASE("enright: out for a part of the period and back, without an event") {
     // A shorter period: less deformation, the same way. The full run takes a minute and a half.
     const Cli cli;
     const json summary =
-        run_demo(cli, "enright", {"initial_mesh.cells=48", "velocity.period=1.5", "schedule=[{steps: 150}]"});
+        run_demo(cli, "enright",
+                 {"initial_mesh.cells=48", "velocity.period=1.5", "schedule=[{steps: 150}]"});
     CHECK(eventless(summary));
     CHECK(figure(summary, "volume_drift") <= 0.02);
     CHECK(figure(summary, "surface_error") <= 0.5);
     // It has really gone out: in between the surface was larger than at the end.
-    CHECK(range_of(cli, "interface_vertices").second > 1.2 * summary["interface_vertices"].get<double>());
+    CHECK(range_of(cli, "interface_vertices").second >
+          1.2 * summary["interface_vertices"].get<double>());
 }
 
 TEST_CASE("zalesak: once round, and the notch is still there") {
     const Cli cli;
-    const json summary =
-        run_demo(cli, "zalesak", {"initial_mesh.cells=64", "velocity.degrees=3", "schedule=[{steps: 120}]"});
+    const json summary = run_demo(
+        cli, "zalesak", {"initial_mesh.cells=64", "velocity.degrees=3", "schedule=[{steps: 120}]"});
     CHECK(eventless(summary));
     CHECK(figure(summary, "volume_drift") <= 0.02);
     CHECK(figure(summary, "surface_error") <= 0.5);
 }
 
-TEST_CASE("from_surface: a torus from a file, its tube grown to radius 0.5, one handle all the time") {
+TEST_CASE(
+    "from_surface: a torus from a file, its tube grown to radius 0.5, one handle all the time") {
     const Cli cli;
     const json summary = run_demo(cli, "from_surface", {"initial_mesh.cells=32"});
     CHECK(summary["genus"] == 1);
@@ -204,7 +215,8 @@ TEST_CASE("from_surface: a torus from a file, its tube grown to radius 0.5, one 
         sum += away;
     }
     CHECK(sum / static_cast<double>(surface.points.size()) < 0.05 * edge);
-    CHECK(summary["volume"].get<double>() == doctest::Approx(2 * 9.8696044 * 0.75 * 0.25).epsilon(0.04));
+    CHECK(summary["volume"].get<double>() ==
+          doctest::Approx(2 * 9.8696044 * 0.75 * 0.25).epsilon(0.04));
 }
 
 TEST_CASE("three_labels: worn round but for the rims, a surface for each label") {
@@ -212,7 +224,8 @@ TEST_CASE("three_labels: worn round but for the rims, a surface for each label")
     const json summary = run_config(cli, "three_labels", {}, "out");
     dsc::test::check_phases(cli.folder() / "out", {1, 2, 3});
     CHECK(summary["junction_vertices"] == 48);
-    for (const char* label : {"1", "2", "3"}) CHECK(summary["labels"][label]["surface"]["genus"] == 0);
+    for (const char* label : {"1", "2", "3"})
+        CHECK(summary["labels"][label]["surface"]["genus"] == 0);
     CHECK(summary["volume"].get<double>() < 0.9 * summary["volume_initial"].get<double>());
 }
 

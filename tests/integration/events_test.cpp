@@ -1,13 +1,14 @@
-// The demos that change the topology, step by step: the interface is a 2-manifold after every step, and the events of the
-// step account for every change of shells and genus in a recount of the whole mesh.
+// The demos that change the topology, step by step: the interface is a 2-manifold after every step,
+// and the events of the step account for every change of shells and genus in a recount of the whole
+// mesh.
 #include <doctest/doctest.h>
 
 #include <dsc/host/host.hpp>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/validate.hpp>
-#include <dsc/run/simulation.hpp>
 #include <dsc/run/experiment.hpp>
+#include <dsc/run/simulation.hpp>
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/surface_view.hpp>
 
@@ -56,7 +57,8 @@ Outcome run_counting(const std::string& name) {
         };
         policy.topology = improvement.topology_limits();
         policy.flatness = improvement.flatness();
-        const repair::EventCounts e = deformer.step(view.vertex_ids, displacements, policy).event_counts;
+        const repair::EventCounts e =
+            deformer.step(view.vertex_ids, displacements, policy).event_counts;
 
         CAPTURE(step);
         const mesh::InterfaceCounts now = mesh::count_interface(deformer.complex());
@@ -80,7 +82,8 @@ Outcome run_counting(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("two spheres that meet: the books balance and the interface is a manifold at every step") {
+TEST_CASE(
+    "two spheres that meet: the books balance and the interface is a manifold at every step") {
     const Outcome outcome = run_counting("demos/merge_spheres.yaml");
     CHECK(outcome.steps == 32);
     CHECK(outcome.events.merge == 1);
@@ -88,7 +91,8 @@ TEST_CASE("two spheres that meet: the books balance and the interface is a manif
     CHECK(outcome.counts.genus() == 0);
 }
 
-TEST_CASE("a dumbbell that is drawn apart: the books balance and the interface is a manifold at every step") {
+TEST_CASE("a dumbbell that is drawn apart: the books balance and the interface is a manifold at "
+          "every step") {
     const Outcome outcome = run_counting("demos/split_dumbbell.yaml");
     CHECK(outcome.steps == 43);
     CHECK(outcome.events.split == 1);

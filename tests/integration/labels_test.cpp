@@ -1,15 +1,16 @@
 // Bodies of three labels and more, from .dsc files that the tests write, through the real command.
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <array>
-#include <dsc/io/read.hpp>
-#include <dsc/io/write.hpp>
-#include <dsc/generate/lattice.hpp>
-#include <dsc/surface/measure.hpp>
 #include <map>
 #include <set>
 #include <sstream>
+
+#include <doctest/doctest.h>
+
+#include <dsc/generate/lattice.hpp>
+#include <dsc/io/read.hpp>
+#include <dsc/io/write.hpp>
+#include <dsc/surface/measure.hpp>
 
 #include "results.hpp"
 
@@ -27,7 +28,8 @@ TetMesh labelled(int cells, const LabelAt& label_at) {
     dsc::generate::LatticeOptions options;
     options.cells = cells;
     options.growth = 1;
-    TetMesh mesh = dsc::generate::make_lattice(options, [](const Vec3&, double) { return false; }, "test");
+    TetMesh mesh = dsc::generate::make_lattice(
+        options, [](const Vec3&, double) { return false; }, "test");
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         Vec3 sum = Vec3::Zero();
         for (const std::uint32_t v : mesh.tets[t]) sum += mesh.points[v];
@@ -67,19 +69,22 @@ std::set<std::string> column(const Cli& cli, const std::string& name) {
 }
 
 std::string experiment(const std::string& velocity, int steps) {
-    return "dsc: 1\nname: labels\ninitial_mesh: {type: dsc_file, file: start.dsc}\nvelocity: " + velocity +
-           "\nimprovement: {type: dsc}\nschedule: [{steps: " + std::to_string(steps) + "}]\n";
+    return "dsc: 1\nname: labels\ninitial_mesh: {type: dsc_file, file: start.dsc}\nvelocity: " +
+           velocity + "\nimprovement: {type: dsc}\nschedule: [{steps: " + std::to_string(steps) +
+           "}]\n";
 }
 
 /// Runs it, checks all files, and that no vertex where three labels meet has moved or gone.
-json run(const Cli& cli, const TetMesh& start, const std::vector<Label>& labels, const std::string& velocity, int steps) {
+json run(const Cli& cli, const TetMesh& start, const std::vector<Label>& labels,
+         const std::string& velocity, int steps) {
     dsc::io::write_volume(cli.folder() / "start.dsc", start);
     cli.write("labels.yaml", experiment(velocity, steps));
     const auto result = cli.dsc({"run", "labels.yaml", "-o", "out", "-q"});
     CAPTURE(result.err);
     REQUIRE(result.code == 0);
     dsc::test::check_phases(cli.folder() / "out", labels);
-    const auto before = junctions(start), after = junctions(dsc::io::read_volume(cli.folder() / "out/result/volume.dsc"));
+    const auto before = junctions(start),
+               after = junctions(dsc::io::read_volume(cli.folder() / "out/result/volume.dsc"));
     CHECK_FALSE(before.empty());
     CHECK(std::includes(after.begin(), after.end(), before.begin(), before.end()));
     const json summary = dsc::test::summary_of(cli, "out");
@@ -91,7 +96,8 @@ json run(const Cli& cli, const TetMesh& start, const std::vector<Label>& labels,
     for (const Label label : labels) {
         const json& row = summary["labels"][std::to_string(label)];
         CHECK(row["surface"]["closed_manifold"] == true);
-        CHECK(row["surface"]["volume"].get<double>() == doctest::Approx(row["volume"].get<double>()).epsilon(1e-9));
+        CHECK(row["surface"]["volume"].get<double>() ==
+              doctest::Approx(row["volume"].get<double>()).epsilon(1e-9));
         volume += row["volume"].get<double>();
     }
     CHECK(summary["volume"].get<double>() == doctest::Approx(volume).epsilon(1e-9));
@@ -123,13 +129,17 @@ TEST_CASE("a cube of three slabs, worn round: the two rims stay, to the last bit
     CHECK(summary["volume_initial"].get<double>() == doctest::Approx(8.0));
 }
 
-TEST_CASE("a ball of two halves: the equator stays, the halves have closed surfaces that share the disc") {
+TEST_CASE("a ball of two halves: the equator stays, the halves have closed surfaces that share the "
+          "disc") {
     const Cli cli;
-    const TetMesh start = labelled(20, [](const Vec3& p) { return p.norm() > 0.9 ? 0 : p.x() < 0 ? 1 : 2; });
+    const TetMesh start = labelled(20, [](const Vec3& p) {
+        return p.norm() > 0.9 ? 0 : p.x() < 0 ? 1 : 2;
+    });
     const json summary = run(cli, start, {1, 2}, "{type: average, part: 0.3}", 15);
     CHECK(summary["labels"]["1"]["volume"].get<double>() ==
           doctest::Approx(summary["labels"]["2"]["volume"].get<double>()).epsilon(0.02));
-    CHECK(summary["nonmanifold_edges"].get<int>() > 20);  // of the interface as a whole: the equator
+    CHECK(summary["nonmanifold_edges"].get<int>() > 20);  // of the interface as a whole: the
+                                                          // equator
     const auto info = json::parse(cli.dsc({"info", "out/result/volume.dsc", "--json"}).out);
     CHECK(info["junction_vertices"] == summary["junction_vertices"]);
     CHECK(info["labels"].size() == 3);
@@ -147,7 +157,8 @@ TEST_CASE("five labels, four of them round an axis: all that three of them share
 
 TEST_CASE("one label above 0 has no surface of its own beside that of all") {
     const Cli cli;
-    const TetMesh start = labelled(12, [](const Vec3& p) { return p.cwiseAbs().maxCoeff() > 1 ? 0 : 5; });
+    const TetMesh start =
+        labelled(12, [](const Vec3& p) { return p.cwiseAbs().maxCoeff() > 1 ? 0 : 5; });
     dsc::io::write_volume(cli.folder() / "start.dsc", start);
     cli.write("labels.yaml", experiment("{type: average, part: 0.3}", 2));
     REQUIRE(cli.dsc({"run", "labels.yaml", "-o", "out", "-q"}).code == 0);
@@ -156,7 +167,8 @@ TEST_CASE("one label above 0 has no surface of its own beside that of all") {
     CHECK(dsc::test::summary_of(cli, "out")["junction_vertices"] == 0);
 }
 
-TEST_CASE("convert: a .dsc with tets of both orientations, as the original's, becomes a .vtu of positive tets") {
+TEST_CASE("convert: a .dsc with tets of both orientations, as the original's, becomes a .vtu of "
+          "positive tets") {
     const Cli cli;
     TetMesh mixed = labelled(6, [](const Vec3& p) { return p.norm() > 1 ? 0 : p.x() < 0 ? 1 : 2; });
     dsc::io::write_volume(cli.folder() / "start.dsc", mixed);
@@ -166,11 +178,13 @@ TEST_CASE("convert: a .dsc with tets of both orientations, as the original's, be
         std::array<std::string, 6> f;
         std::istringstream fields(line);
         for (std::string& field : f) fields >> field;
-        if (f[0] == "t" && n % 2 == 0) line = "t " + f[2] + " " + f[1] + " " + f[3] + " " + f[4] + " " + f[5];
+        if (f[0] == "t" && n % 2 == 0)
+            line = "t " + f[2] + " " + f[1] + " " + f[3] + " " + f[4] + " " + f[5];
         text += line + "\n";
     }
     cli.write("mixed.dsc", text);
-    CHECK(json::parse(cli.dsc({"info", "mixed.dsc", "--json"}).out)["inverted_tets"] == mixed.tets.size() / 2);
+    CHECK(json::parse(cli.dsc({"info", "mixed.dsc", "--json"}).out)["inverted_tets"] ==
+          mixed.tets.size() / 2);
     REQUIRE(cli.dsc({"convert", "mixed.dsc", "mixed.vtu"}).code == 0);
     const auto info = json::parse(cli.dsc({"info", "mixed.vtu", "--json"}).out);
     CHECK(info["inverted_tets"] == 0);
@@ -181,7 +195,9 @@ TEST_CASE("convert: a .dsc with tets of both orientations, as the original's, be
 
 TEST_CASE("a run goes on from the result of another: the same file, to the last bit") {
     const Cli cli;
-    const TetMesh start = labelled(16, [](const Vec3& p) { return p.norm() > 0.9 ? 0 : p.x() < 0 ? 1 : 2; });
+    const TetMesh start = labelled(16, [](const Vec3& p) {
+        return p.norm() > 0.9 ? 0 : p.x() < 0 ? 1 : 2;
+    });
     run(cli, start, {1, 2}, "{type: average, part: 0.3}", 5);
     const std::string first = cli.read("out/result/volume.dsc");
     cli.write("start.dsc", first);

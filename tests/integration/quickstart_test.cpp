@@ -1,12 +1,13 @@
 // The whole job through the real command, judged by the written files.
-#include <doctest/doctest.h>
-
 #include <algorithm>
+#include <sstream>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
 #include <dsc/io/read.hpp>
 #include <dsc/run/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "../cli/process.hpp"
 #include "results.hpp"
@@ -49,9 +50,12 @@ int median_rounds(const std::string& metrics, std::size_t steps) {
 
 TEST_CASE("quickstart: valid, the same bytes twice and with two threads") {
     const Cli cli;
-    REQUIRE(cli.dsc({"run", config("quickstart.yaml"), "-o", "one", "--threads", "1", "-q"}).code == 0);
-    REQUIRE(cli.dsc({"run", config("quickstart.yaml"), "-o", "two", "--threads", "2", "-q"}).code == 0);
-    REQUIRE(cli.dsc({"run", config("quickstart.yaml"), "-o", "two_again", "--threads", "2", "-q"}).code == 0);
+    REQUIRE(cli.dsc({"run", config("quickstart.yaml"), "-o", "one", "--threads", "1", "-q"}).code ==
+            0);
+    REQUIRE(cli.dsc({"run", config("quickstart.yaml"), "-o", "two", "--threads", "2", "-q"}).code ==
+            0);
+    REQUIRE(cli.dsc({"run", config("quickstart.yaml"), "-o", "two_again", "--threads", "2", "-q"})
+                .code == 0);
     for (const std::string& file : result_files) {
         CAPTURE(file);
         CHECK(cli.exists("one/" + file));
@@ -82,9 +86,9 @@ TEST_CASE("coordinates of five million with millimetres: the result is there, in
         far += line;
     }
     cli.write("far.xyz", far);
-    REQUIRE(
-        cli.dsc({"reconstruct", "far.xyz", "--detail", "low", "-o", "far.obj", "-o", "far.dsc", "-q"}).code ==
-        0);
+    REQUIRE(cli.dsc({"reconstruct", "far.xyz", "--detail", "low", "-o", "far.obj", "-o", "far.dsc",
+                     "-q"})
+                .code == 0);
     const auto surface = dsc::io::read_surface(cli.folder() / "far.obj");
     const auto volume = dsc::io::read_volume(cli.folder() / "far.dsc");
     CHECK(dsc::run::identical(surface, dsc::surface::extract_interface(volume)));
@@ -118,15 +122,17 @@ TEST_CASE("the thesis' clouds" * doctest::description("needs DSC_DATA")) {
         double mean, max, chamfer, cpu;
         int least_vertices, most_vertices;
     };
-    // The figures that the thesis' table 6.2 and the original program are measured against, normalised units and per cent.
+    // The figures that the thesis' table 6.2 and the original program are measured against,
+    // normalised units and per cent.
     for (const Expected& e : {Expected{"teapot", 0.0365, 0.116, 0.17, 30, 1200, 4000},
                               Expected{"bunny", 0.0336, 0.13, 0.10, 60, 2000, 7000},
                               Expected{"cow", 0.0255, 0.166, 0.20, 60, 1000, 4000}}) {
         CAPTURE(std::string(e.name));
         Cli cli;
         cli.environment["DSC_DATA"] = data;
-        REQUIRE(cli.dsc({"run", config(std::string("thesis/") + e.name + ".yaml"), "-o", "out", "-q"}).code ==
-                0);
+        REQUIRE(
+            cli.dsc({"run", config(std::string("thesis/") + e.name + ".yaml"), "-o", "out", "-q"})
+                .code == 0);
         check_result(cli.folder() / "out");
         const json summary = summary_of(cli, "out");
         CHECK(summary["vertex_to_cloud"]["mean"].get<double>() <= e.mean);
@@ -134,15 +140,18 @@ TEST_CASE("the thesis' clouds" * doctest::description("needs DSC_DATA")) {
         CHECK(summary["interface_vertices"].get<int>() >= e.least_vertices);
         CHECK(summary["interface_vertices"].get<int>() <= e.most_vertices);
         CHECK(summary["cpu_s"].get<double>() <= e.cpu);
-        if (std::string(e.name) == "teapot") CHECK(median_rounds(cli.read("out/metrics.csv"), 12) <= 8);
+        if (std::string(e.name) == "teapot")
+            CHECK(median_rounds(cli.read("out/metrics.csv"), 12) <= 8);
         const std::string truth = (fs::path(data) / (std::string(e.name) + ".obj")).string();
-        const json figures = json::parse(cli.dsc({"evaluate", "out", "--truth", truth, "--json"}).out);
+        const json figures =
+            json::parse(cli.dsc({"evaluate", "out", "--truth", truth, "--json"}).out);
         CHECK(figures["truth"]["chamfer_percent"].get<double>() <= e.chamfer);
     }
 }
 
 // Ch. 4 of the thesis: both came out worse than what it kept, and do so here.
-TEST_CASE("the thesis' rejected trials: other thresholds, the angular defect" * doctest::description("needs DSC_DATA")) {
+TEST_CASE("the thesis' rejected trials: other thresholds, the angular defect" *
+          doctest::description("needs DSC_DATA")) {
     const char* data = std::getenv("DSC_DATA");
     if (data == nullptr || !fs::exists(fs::path(data) / "teapot.obj")) {
         MESSAGE("SKIPPED: DSC_DATA does not name the folder with the thesis' clouds");
@@ -153,29 +162,34 @@ TEST_CASE("the thesis' rejected trials: other thresholds, the angular defect" * 
     const auto chamfer = [&](const std::string& name) {
         REQUIRE(cli.dsc({"run", config("thesis/" + name + ".yaml"), "-o", name, "-q"}).code == 0);
         check_result(cli.folder() / name);
-        const json figures = json::parse(cli.dsc({"evaluate", name, "--truth", (fs::path(data) / "teapot.obj").string(), "--json"}).out);
+        const json figures =
+            json::parse(cli.dsc({"evaluate", name, "--truth",
+                                 (fs::path(data) / "teapot.obj").string(), "--json"})
+                            .out);
         return figures["truth"]["chamfer_percent"].get<double>();
     };
-    const double kept = chamfer("teapot"), subpar = chamfer("teapot_subpar"), defect = chamfer("teapot_angular_defect");
-    MESSAGE("Chamfer ", kept, " kept, ", subpar, " other thresholds, ", defect, " angular defect, per cent");
+    const double kept = chamfer("teapot"), subpar = chamfer("teapot_subpar"),
+                 defect = chamfer("teapot_angular_defect");
+    MESSAGE("Chamfer ", kept, " kept, ", subpar, " other thresholds, ", defect,
+            " angular defect, per cent");
     CHECK(subpar > 1.05 * kept);
     CHECK(defect > 1.05 * kept);
 }
 
-TEST_CASE("dsc reconstruct without options on shared scans" * doctest::description("needs DSC_DATA")) {
+TEST_CASE("dsc reconstruct without options on shared scans" *
+          doctest::description("needs DSC_DATA")) {
     const char* data = std::getenv("DSC_DATA");
     if (data == nullptr || !fs::exists(fs::path(data) / "spot-clean.obj")) {
-        MESSAGE(
-            "SKIPPED: DSC_DATA does not name the folder with spot-clean.obj, fandisk-clean.obj and "
-            "anchor-clean.obj");
+        MESSAGE("SKIPPED: DSC_DATA does not name the folder with spot-clean.obj, fandisk-clean.obj "
+                "and anchor-clean.obj");
         return;
     }
     for (const std::string name : {"spot-clean", "fandisk-clean", "anchor-clean"}) {
         CAPTURE(name);
         const Cli cli;
-        REQUIRE(
-            cli.dsc({"reconstruct", (fs::path(data) / (name + ".obj")).string(), "--keep-run", "kept", "-q"})
-                .code == 0);
+        REQUIRE(cli.dsc({"reconstruct", (fs::path(data) / (name + ".obj")).string(), "--keep-run",
+                         "kept", "-q"})
+                    .code == 0);
         CHECK(cli.exists(name + "_surface.ply"));
         CHECK(cli.exists(name + "_volume.vtu"));
         check_result(cli.folder() / "kept");

@@ -1,11 +1,12 @@
 #include "results.hpp"
 
+#include <span>
+
 #include <doctest/doctest.h>
 
 #include <dsc/io/read.hpp>
 #include <dsc/run/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <span>
 
 #include "../unit/surface/cgal_judge.hpp"
 
@@ -62,8 +63,8 @@ nlohmann::json summary_of(const Cli& cli, const std::string& folder) {
 }
 
 void load_strategies(host::Host& host) {
-    const host::SearchEntry folder{std::filesystem::path(DSC_TEST_IMPROVEMENT).parent_path(), "--plugin",
-                                   true};
+    const host::SearchEntry folder{std::filesystem::path(DSC_TEST_IMPROVEMENT).parent_path(),
+                                   "--plugin", true};
     host.load_all(std::span(&folder, 1));
 }
 

@@ -1,22 +1,25 @@
 #pragma once
 // What the tests of whole jobs ask of a run folder.
 
-#include <dsc/host/host.hpp>
-#include <dsc/mesh/tet_mesh.hpp>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <dsc/host/host.hpp>
+#include <dsc/mesh/tet_mesh.hpp>
 
 #include "../cli/process.hpp"
 
 namespace dsc::test {
 
-/// What must hold of every result, on the files as they are: valid tets that fill the box, a surface that is their
-/// interface, a solid, and free of self-intersections as CGAL sees it.
+/// What must hold of every result, on the files as they are: valid tets that fill the box, a
+/// surface that is their interface, a solid, and free of self-intersections as CGAL sees it.
 void check_result(const std::filesystem::path& folder);
 
-/// The same where two labels above 0 or more meet: the surface of each label is a solid, the interface as a whole is not.
+/// The same where two labels above 0 or more meet: the surface of each label is a solid, the
+/// interface as a whole is not.
 void check_phases(const std::filesystem::path& folder, const std::vector<mesh::Label>& labels);
 
 nlohmann::json summary_of(const Cli& cli, const std::string& folder);

@@ -1,12 +1,14 @@
-// A run that was interrupted and goes on is the run that was not: 40 steps against 20, a checkpoint, and 20, to the last bit.
+// A run that was interrupted and goes on is the run that was not: 40 steps against 20, a
+// checkpoint, and 20, to the last bit.
+#include <map>
+#include <set>
+
 #include <doctest/doctest.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/config/yaml.hpp>
-#include <dsc/run/simulation.hpp>
 #include <dsc/run/input.hpp>
-#include <map>
-#include <set>
+#include <dsc/run/simulation.hpp>
 
 #include "results.hpp"
 
@@ -26,31 +28,37 @@ const std::map<std::string, std::string> experiments = {
     {"selective curvature, refined as it goes",
      "input: {cloud: {sample: {shape: box_tunnel, n: 2000}}, normalize: {}}\n"
      "initial_mesh: {type: lattice, cells: 20, shapes: [{shape: sphere, radius: 1.1}]}\n"
-     "velocity: {type: point_cloud, curvature_at: unsupported, beta: 3.0e-4, unsupported: {beyond: 2}, curvature: {type: angular_defect}}\n"
+     "velocity: {type: point_cloud, curvature_at: unsupported, beta: 3.0e-4, unsupported: {beyond: "
+     "2}, curvature: {type: angular_defect}}\n"
      "improvement: {type: dsc}\n"
      "schedule: [{steps: 40, every: 6, refine: {type: centroid_speed}}]\n"},
-    {"illinois",
-     "initial_mesh: {type: corner_box, divisions: 4}\nvelocity: {type: rotate, degrees: 3}\nimprovement: "
-     "{type: illinois}\n"
-     "observers: [{type: analytic}]\nschedule: [{steps: 40}]\n"},
+    {"illinois", "initial_mesh: {type: corner_box, divisions: 4}\nvelocity: {type: rotate, "
+                 "degrees: 3}\nimprovement: {type: illinois}\n"
+                 "observers: [{type: analytic}]\nschedule: [{steps: 40}]\n"},
     {"a cloud through all filters, labelled by its winding field",
-     "input: {cloud: {sample: {shape: sphere, n: 2000}, filters: [{type: duplicates}, {type: clusters}, {type: voxel_grid, size: 0.001},\n"
-     "  {type: hidden}, {type: radius_outliers, radius: 0.1}, {type: statistical_outliers, deviations: 10}, {type: outliers},\n"
+     "input: {cloud: {sample: {shape: sphere, n: 2000}, filters: [{type: duplicates}, {type: "
+     "clusters}, {type: voxel_grid, size: 0.001},\n"
+     "  {type: hidden}, {type: radius_outliers, radius: 0.1}, {type: statistical_outliers, "
+     "deviations: 10}, {type: outliers},\n"
      "  {type: orient}]}, normalize: {}}\n"
-     "initial_mesh: {type: indicator}\nvelocity: {type: point_cloud}\nimprovement: {type: dsc}\nschedule: [{steps: 40}]\n"},
+     "initial_mesh: {type: indicator}\nvelocity: {type: point_cloud}\nimprovement: {type: "
+     "dsc}\nschedule: [{steps: 40}]\n"},
     {"fitted and remeshed, through its hole fill and the last third",
-     "input: {cloud: {sample: {shape: torus, n: 1200}, filters: [{type: duplicates, sort: true}, {type: orient}]}, normalize: {}}\n"
-     "initial_mesh: {type: indicator}\nvelocity: {type: surface_fit, iterations: 40}\nimprovement: {type: dsc, topology: {thickness: 0}}\n"
+     "input: {cloud: {sample: {shape: torus, n: 1200}, filters: [{type: duplicates, sort: true}, "
+     "{type: orient}]}, normalize: {}}\n"
+     "initial_mesh: {type: indicator}\nvelocity: {type: surface_fit, iterations: 40}\nimprovement: "
+     "{type: dsc, topology: {thickness: 0}}\n"
      "schedule: [{steps: 40, every: 1, refine: {type: remesh}}]\n"},
     {"average",
      "initial_mesh: {type: grid, cells: 12}\nvelocity: {type: average}\nimprovement: {type: dsc}\n"
      "schedule: [{steps: 40}]\n"},
-    {"curvature flow",
-     "initial_mesh: {type: grid, cells: 14, shape: sphere}\nvelocity: {type: curvature_flow, time_step: "
-     "0.002}\n"
-     "improvement: {type: dsc}\nobservers: [{type: analytic, solution: sphere}]\nschedule: [{steps: 40}]\n"},
+    {"curvature flow", "initial_mesh: {type: grid, cells: 14, shape: sphere}\nvelocity: {type: "
+                       "curvature_flow, time_step: 0.002}\n"
+                       "improvement: {type: dsc}\nobservers: [{type: analytic, solution: "
+                       "sphere}]\nschedule: [{steps: 40}]\n"},
     {"normal, from a surface",
-     "initial_mesh: {type: from_surface, file: \"" DSC_SOURCE_DIR "/share/data/torus.off\", cells: 16}\n"
+     "initial_mesh: {type: from_surface, file: \"" DSC_SOURCE_DIR
+     "/share/data/torus.off\", cells: 16}\n"
      "velocity: {type: normal, speed: 0.01}\nimprovement: {type: dsc}\nschedule: [{steps: 40}]\n"},
     {"flow, several labels",
      "initial_mesh: {type: dsc_file, file: \"" DSC_SOURCE_DIR "/share/data/three_slabs.dsc\"}\n"
@@ -76,9 +84,12 @@ public:
         dsc::test::load_strategies(host_);
         const config::ConfigNode root = config::parse_yaml("dsc: 1\n" + text, "resume.yaml");
         loaded_ = run::resolve_experiment(
-            root, [this](const std::vector<std::string>&) -> const config::StrategyLookup& { return host_; });
+            root, [this](const std::vector<std::string>&) -> const config::StrategyLookup& {
+                return host_;
+            });
         if (loaded_.experiment.input)
-            input_ = run::load_input(*loaded_.experiment.input, loaded_.experiment.seed, host_, *loaded_.files);
+            input_ = run::load_input(*loaded_.experiment.input, loaded_.experiment.seed, host_,
+                                     *loaded_.files);
     }
 
     Outcome run(std::string_view resume, std::uint64_t every, unsigned threads = 1) {
@@ -95,9 +106,11 @@ public:
         options.on_step = [&](const run::StepMetrics& row, std::uint64_t) {
             outcome.rows += run::csv_row(row);
         };
-        options.on_event = [&](const kernel::Event& event) { outcome.rows += run::event_line(event, {}); };
-        const run::SimulationResult result =
-            run::simulate(loaded_.experiment, strategies, input_ ? &input_->target : nullptr, options);
+        options.on_event = [&](const kernel::Event& event) {
+            outcome.rows += run::event_line(event, {});
+        };
+        const run::SimulationResult result = run::simulate(
+            loaded_.experiment, strategies, input_ ? &input_->target : nullptr, options);
         outcome.mesh = result.mesh;
         outcome.sums = sums(result.totals);
         return outcome;
@@ -108,11 +121,13 @@ private:
         std::string text = std::string(run::name(t.status));
         for (const double value :
              {static_cast<double>(t.steps), t.dropped_motion, t.edit_distance, t.edit_volume,
-              t.relabelled_volume, t.target_length, t.volume_initial, static_cast<double>(t.refine_committed),
-              static_cast<double>(t.events.merge), static_cast<double>(t.rounds)})
+              t.relabelled_volume, t.target_length, t.volume_initial,
+              static_cast<double>(t.refine_committed), static_cast<double>(t.events.merge),
+              static_cast<double>(t.rounds)})
             text += " " + config::real_text(value);
         for (const auto& [id, figures] : t.observers) {
-            for (const auto& [name, value] : figures) text += " " + name + "=" + config::real_text(value);
+            for (const auto& [name, value] : figures)
+                text += " " + name + "=" + config::real_text(value);
         }
         return text;
     }
@@ -155,9 +170,9 @@ TEST_CASE("40 steps against 20 and 20, with every built-in strategy") {
 }
 
 TEST_CASE("a run may be interrupted at every step") {
-    const std::string text =
-        "initial_mesh: {type: grid, cells: 10}\nvelocity: {type: average}\nimprovement: {type: dsc}\n"
-        "schedule: [{steps: 3}, {refine: {type: average_area}}, {steps: 4}]\n";
+    const std::string text = "initial_mesh: {type: grid, cells: 10}\nvelocity: {type: "
+                             "average}\nimprovement: {type: dsc}\n"
+                             "schedule: [{steps: 3}, {refine: {type: average_area}}, {steps: 4}]\n";
     Runner small(text);
     const Outcome whole = small.run({}, 1);
     CHECK(whole.checkpoints.size() == 7);
@@ -175,9 +190,9 @@ TEST_CASE("a run may be interrupted at every step") {
 }
 
 TEST_CASE("a damaged state ends in an error, never in a crash") {
-    Runner small(
-        "initial_mesh: {type: grid, cells: 6}\nvelocity: {type: average}\nimprovement: {type: dsc}\n"
-        "schedule: [{steps: 2}]\n");
+    Runner small("initial_mesh: {type: grid, cells: 6}\nvelocity: {type: average}\nimprovement: "
+                 "{type: dsc}\n"
+                 "schedule: [{steps: 2}]\n");
     const std::string state = small.run({}, 1).checkpoints.front().state;
     for (std::size_t part = 1; part < 12; ++part)
         CHECK_THROWS_AS(small.run(std::string_view(state).substr(0, state.size() * part / 12), 0),

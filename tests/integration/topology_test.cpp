@@ -1,8 +1,8 @@
-// From the cube to a torus and to a box with a tunnel: the hole opens by counted events, and the books agree with a
-// recount of every step's volume.
-#include <doctest/doctest.h>
-
+// From the cube to a torus and to a box with a tunnel: the hole opens by counted events, and the
+// books agree with a recount of every step's volume.
 #include <cmath>
+
+#include <doctest/doctest.h>
 
 #include <dsc/cloud/normalize.hpp>
 #include <dsc/cloud/shapes.hpp>
@@ -33,9 +33,12 @@ Outcome deform_cube_to(const cloud::Cloud& cloud) {
     host::Host host;
     host.load(DSC_TEST_IMPROVEMENT);
     host.load(DSC_TEST_VELOCITY);
-    const auto improvement = host.create<hooks::Improvement>({"dsc", config::ConfigNode::map()}, "improvement");
+    const auto improvement =
+        host.create<hooks::Improvement>({"dsc", config::ConfigNode::map()}, "improvement");
     const auto velocity = host.create<hooks::VelocityField>(
-        {"point_cloud", config::ConfigNode::map({{"unsupported", config::ConfigNode::map({{"beyond", 2.5}})}})}, "velocity");
+        {"point_cloud",
+         config::ConfigNode::map({{"unsupported", config::ConfigNode::map({{"beyond", 2.5}})}})},
+        "velocity");
     const cloud::TargetCloud target(cloud::normalize(cloud, 0.9));
     kernel::Deformer deformer(mesh::adopt(test::cube_grid(30), "cube"));
     Outcome outcome;
@@ -46,11 +49,14 @@ Outcome deform_cube_to(const cloud::Cloud& cloud) {
         surface::build_view(deformer.complex(), view);
         if (step == 60) {
             double mean = 0.0;
-            for (const double area : view.face_areas) mean += area / static_cast<double>(view.face_count());
+            for (const double area : view.face_areas)
+                mean += area / static_cast<double>(view.face_count());
             std::vector<std::array<mesh::VertexId, 3>> large;
             for (std::size_t f = 0; f < view.face_count(); ++f) {
                 const auto& face = view.faces[f];
-                if (view.face_areas[f] >= mean) large.push_back({view.vertex_ids[face[0]], view.vertex_ids[face[1]], view.vertex_ids[face[2]]});
+                if (view.face_areas[f] >= mean)
+                    large.push_back({view.vertex_ids[face[0]], view.vertex_ids[face[1]],
+                                     view.vertex_ids[face[2]]});
             }
             deformer.refine(large, {});
             surface::build_view(deformer.complex(), view);
@@ -65,17 +71,24 @@ Outcome deform_cube_to(const cloud::Cloud& cloud) {
         velocity->prepare(context);
         velocity->evaluate({0, view.vertex_count()}, displacements);
         kernel::RepairPolicy policy;
-        policy.propose = [&](const repair::RepairRound& round, std::vector<repair::Request>& out) { improvement->propose(context, round, out); };
-        policy.select = [&](auto candidates, auto accept) { improvement->select(context, candidates, accept); };
+        policy.propose = [&](const repair::RepairRound& round, std::vector<repair::Request>& out) {
+            improvement->propose(context, round, out);
+        };
+        policy.select = [&](auto candidates, auto accept) {
+            improvement->select(context, candidates, accept);
+        };
         policy.topology = improvement->topology_limits();
         policy.flatness = improvement->flatness();
         const kernel::StepReport report = deformer.step(view.vertex_ids, displacements, policy);
         const auto& e = report.event_counts;
         const mesh::InterfaceCounts now = mesh::count_interface(deformer.complex());
-        const long shells = static_cast<long>(now.shells) - static_cast<long>(outcome.counts.shells);
+        const long shells =
+            static_cast<long>(now.shells) - static_cast<long>(outcome.counts.shells);
         const long genus = now.genus() - outcome.counts.genus();
-        if (shells != static_cast<long>(e.split + e.born) - static_cast<long>(e.merge + e.vanished)) outcome.books_balance = false;
-        if (genus != static_cast<long>(e.handle_opened) - static_cast<long>(e.handle_closed)) outcome.books_balance = false;
+        if (shells != static_cast<long>(e.split + e.born) - static_cast<long>(e.merge + e.vanished))
+            outcome.books_balance = false;
+        if (genus != static_cast<long>(e.handle_opened) - static_cast<long>(e.handle_closed))
+            outcome.books_balance = false;
         outcome.counts = now;
         outcome.events.handle_opened += e.handle_opened;
         outcome.events.handle_closed += e.handle_closed;
@@ -88,7 +101,8 @@ void check_poses(const char* shape) {
     const cloud::Cloud sampled = cloud::sample_shape(shape, 5000, 1, 0.0, 0.0);
     for (int pose = 0; pose < 4; ++pose) {
         CAPTURE(pose);
-        Eigen::Matrix3d turn = test::random_rotation(pose < 3 ? static_cast<std::uint64_t>(pose) + 1 : 1);
+        Eigen::Matrix3d turn =
+            test::random_rotation(pose < 3 ? static_cast<std::uint64_t>(pose) + 1 : 1);
         if (pose == 3) turn.row(0) *= -1.0;
         cloud::Cloud posed = sampled;
         for (Vec3& p : posed.points) p = turn * p;

@@ -1,6 +1,6 @@
 #pragma once
-// A static object that ends the process as soon as any code of its library runs: whoever includes this must
-// be refused from the outside.
+// A static object that ends the process as soon as any code of its library runs: whoever includes
+// this must be refused from the outside.
 
 #include <cstdlib>
 

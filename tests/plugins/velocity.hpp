@@ -2,6 +2,7 @@
 // A velocity that stands still, for plugins whose fault is elsewhere.
 
 #include <algorithm>
+
 #include <dsc/plugin/plugin.hpp>
 
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
-// What the witnesses of `dsc plugin check` have in common: strategies without a fault, of which each witness changes the one
-// thing that its test asks for. The id of a witness is that of its test, with an underscore for the point.
+// What the witnesses of `dsc plugin check` have in common: strategies without a fault, of which
+// each witness changes the one thing that its test asks for. The id of a witness is that of its
+// test, with an underscore for the point.
 
 #include <dsc/plugin/plugin.hpp>
 

@@ -1,10 +1,10 @@
 // The exceptions of the library.
-#include <dsc/base/error.hpp>
+#include "dsc/base/error.hpp"
 
 namespace dsc {
 
-// Out-of-line destructors place the type information of every class in this library, so that the host can catch a type that a
-// plugin throws.
+// Out-of-line destructors place the type information of every class in this library, so that the
+// host can catch a type that a plugin throws.
 Error::~Error() = default;
 UsageError::~UsageError() = default;
 ConfigError::~ConfigError() = default;
@@ -32,7 +32,8 @@ std::string place_of(std::string_view file, std::string_view line) {
 
 }  // namespace
 
-Error::Error(ExitCode exit_code, std::string code, std::string_view place, std::string_view cause, std::string_view remedy)
+Error::Error(ExitCode exit_code, std::string code, std::string_view place, std::string_view cause,
+             std::string_view remedy)
     : std::runtime_error(message_of(place, cause, remedy)),
       exit_code_(exit_code),
       code_(std::move(code)),
@@ -40,7 +41,8 @@ Error::Error(ExitCode exit_code, std::string code, std::string_view place, std::
       cause_(cause),
       remedy_(remedy) {}
 
-IoError::IoError(std::string code, std::string_view file, std::string_view line, std::string_view cause, std::string_view remedy)
+IoError::IoError(std::string code, std::string_view file, std::string_view line,
+                 std::string_view cause, std::string_view remedy)
     : Error(ExitCode::io, std::move(code), place_of(file, line), cause, remedy) {}
 
 }  // namespace dsc

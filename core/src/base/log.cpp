@@ -1,5 +1,5 @@
 // The sink of the library's messages.
-#include <dsc/base/log.hpp>
+#include "dsc/base/log.hpp"
 
 #include <mutex>
 

@@ -1,15 +1,16 @@
 // Counter-based random numbers: Philox-4x32-10 [Salmon2011].
-#include <dsc/base/random.hpp>
-
-#include <Random123/philox.h>
+#include "dsc/base/random.hpp"
 
 #include <cmath>
 #include <numbers>
 
+#include <Random123/philox.h>
+
 namespace dsc {
 namespace {
 
-std::array<std::uint32_t, 4> philox(const std::array<std::uint32_t, 4>& counter, const std::array<std::uint32_t, 2>& key) {
+std::array<std::uint32_t, 4> philox(const std::array<std::uint32_t, 4>& counter,
+                                    const std::array<std::uint32_t, 2>& key) {
     r123::Philox4x32 generator;
     const r123::Philox4x32::ctr_type c = {{counter[0], counter[1], counter[2], counter[3]}};
     const r123::Philox4x32::key_type k = {{key[0], key[1]}};
@@ -28,11 +29,12 @@ std::uint64_t stream_id(std::string_view name) {
     return hash;
 }
 
-// Seed and instance make the key. Step and element are mixed by one Philox round, so that all 256 bits have an influence and
-// one 32-bit word of the counter remains for the position in the stream.
+// Seed and instance make the key. Step and element are mixed by one Philox round, so that all 256
+// bits have an influence and one 32-bit word of the counter remains for the position in the stream.
 RandomStream::RandomStream(const RandomKey& key) {
-    const auto mixed = philox({low(key.step), high(key.step), low(key.instance), high(key.instance)},
-                              {low(key.seed), high(key.seed)});
+    const auto mixed =
+        philox({low(key.step), high(key.step), low(key.instance), high(key.instance)},
+               {low(key.seed), high(key.seed)});
     key_ = {mixed[0], mixed[1]};
     counter_ = {0, low(key.element), high(key.element), mixed[2]};
 }

@@ -1,11 +1,5 @@
 // Replaces a file so that it is complete or unchanged.
-#include <dsc/base/replace_file.hpp>
-
-#include <dsc/base/error.hpp>
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include "dsc/base/replace_file.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -15,6 +9,12 @@
 #include <string>
 #include <system_error>
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <dsc/base/error.hpp>
+
 namespace dsc {
 namespace {
 
@@ -23,24 +23,21 @@ using FileFacts = struct ::stat;
 
 std::string reason_of(int error) { return std::generic_category().message(error); }
 
-[[noreturn]] void fail_replacing(const fs::path& file, const std::string& cause, const std::string& remedy) {
+[[noreturn]] void fail_replacing(const fs::path& file, const std::string& cause,
+                                 const std::string& remedy) {
     throw IoError("io.write", file.string(), "", cause, remedy);
 }
 
 const char* replacing_remedy(int error) {
     switch (error) {
         case ENOENT:
-        case ENOTDIR:
-            return "create the folder first or name another one";
+        case ENOTDIR: return "create the folder first or name another one";
         case EACCES:
         case EPERM:
-        case EROFS:
-            return "name a folder that you may write to";
+        case EROFS: return "name a folder that you may write to";
         case ENOSPC:
-        case EDQUOT:
-            return "free some space or name another folder";
-        default:
-            return "name another file";
+        case EDQUOT: return "free some space or name another folder";
+        default: return "name another file";
     }
 }
 
@@ -49,7 +46,8 @@ const char* replacing_remedy(int error) {
 }
 
 std::string temporary_name(const fs::path& file, unsigned number) {
-    return "." + file.filename().string() + "." + std::to_string(::getpid()) + "-" + std::to_string(number) + ".tmp";
+    return "." + file.filename().string() + "." + std::to_string(::getpid()) + "-" +
+           std::to_string(number) + ".tmp";
 }
 
 /// 0, or the errno of the failure.
@@ -61,7 +59,9 @@ int write_flushed(int descriptor, std::string_view content) {
         content.remove_prefix(static_cast<std::size_t>(count));
     }
     // Some file systems do not support fsync. The file is written there as well.
-    return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOSYS || errno == ENOTSUP ? 0 : errno;
+    return ::fsync(descriptor) == 0 || errno == EINVAL || errno == ENOSYS || errno == ENOTSUP
+               ? 0
+               : errno;
 }
 
 /// Closes the descriptor and removes the file unless the file shall stay.
@@ -69,7 +69,8 @@ class TemporaryFile {
 public:
     explicit TemporaryFile(const fs::path& beside) {
         static std::atomic<unsigned> number{0};
-        // Process and counter make the name unique within this program; O_EXCL makes it unique in the folder.
+        // Process and counter make the name unique within this program; O_EXCL makes it unique in
+        // the folder.
         for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
             path_ = beside.parent_path() / temporary_name(beside, number++);
             descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -91,11 +92,12 @@ public:
 
     int write(std::string_view content) { return write_flushed(descriptor_, content); }
 
-    /// Copies mode and owner of the file that is replaced, as far as the system allows. If the owner changes, the new owner
-    /// must not get more rights.
+    /// Copies mode and owner of the file that is replaced, as far as the system allows. If the
+    /// owner changes, the new owner must not get more rights.
     void take_attributes(const FileFacts& of) {
         const bool owner_kept = ::fchown(descriptor_, of.st_uid, of.st_gid) == 0;
-        const bool group_kept = owner_kept || ::fchown(descriptor_, static_cast<::uid_t>(-1), of.st_gid) == 0;
+        const bool group_kept =
+            owner_kept || ::fchown(descriptor_, static_cast<::uid_t>(-1), of.st_gid) == 0;
         ::mode_t mode = of.st_mode & (owner_kept ? 07777U : 01777U);
         if (!group_kept) mode &= ~static_cast<::mode_t>(02000U);
         static_cast<void>(::fchmod(descriptor_, mode));
@@ -121,7 +123,8 @@ private:
 
 /// Makes the new name durable. A failure is not an error, because the file exists.
 void sync_folder(const fs::path& folder) {
-    const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const int descriptor =
+        ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return;
     ::fsync(descriptor);
     ::close(descriptor);
@@ -149,7 +152,8 @@ Place place_of(const fs::path& file) {
     FileFacts facts{};
     if (::stat(place.file.c_str(), &facts) != 0) return place;
     if (S_ISDIR(facts.st_mode)) fail_replacing(file, "is a directory", "name a file");
-    if (!S_ISREG(facts.st_mode)) fail_replacing(file, "is not a regular file", "name a file that may be replaced");
+    if (!S_ISREG(facts.st_mode))
+        fail_replacing(file, "is not a regular file", "name a file that may be replaced");
     place.facts = facts;
     return place;
 }
@@ -163,7 +167,8 @@ int write_in_place(const fs::path& file, std::string_view content) {
     const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor < 0) return errno;
     int failure = write_flushed(descriptor, content);
-    if (failure == 0 && ::ftruncate(descriptor, static_cast<::off_t>(content.size())) != 0) failure = errno;
+    if (failure == 0 && ::ftruncate(descriptor, static_cast<::off_t>(content.size())) != 0)
+        failure = errno;
     if (failure == 0 && ::fsync(descriptor) != 0 && errno == EIO) failure = EIO;
     if (::close(descriptor) != 0 && failure == 0) failure = errno;
     return failure;
@@ -182,7 +187,9 @@ void replace_file(const fs::path& file, std::string_view content) {
     const Place place = place_of(file);
     TemporaryFile temporary(place.file);
     if (const int error = temporary.failure(); error != 0) {
-        if (!place.facts || !worth_writing_in_place(error) || write_in_place(place.file, content) != 0) fail_replacing(file, error);
+        if (!place.facts || !worth_writing_in_place(error) ||
+            write_in_place(place.file, content) != 0)
+            fail_replacing(file, error);
         return;
     }
     if (const int error = temporary.write(content); error != 0) fail_replacing(file, error);
@@ -204,18 +211,22 @@ void require_replaceable(const fs::path& file) {
     const TemporaryFile temporary(place.file);
     const int error = temporary.failure();
     if (error == 0 && !place.linked()) return;
-    if (place.facts && (error == 0 || worth_writing_in_place(error)) && can_be_opened(place.file)) return;
+    if (place.facts && (error == 0 || worth_writing_in_place(error)) && can_be_opened(place.file))
+        return;
     fail_replacing(file, error == 0 ? EACCES : error);
 }
 
 bool is_replacement_leftover(const fs::path& file) {
     const auto is_number = [](std::string_view text) {
-        return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+        return !text.empty() && std::all_of(text.begin(), text.end(),
+                                            [](unsigned char c) { return std::isdigit(c) != 0; });
     };
     const std::string name = file.stem().string();
     const std::size_t dot = name.rfind('.'), dash = name.rfind('-');
-    return file.extension() == ".tmp" && name.front() == '.' && dot > 0 && dash != std::string::npos && dash > dot &&
-           is_number(std::string_view(name).substr(dot + 1, dash - dot - 1)) && is_number(std::string_view(name).substr(dash + 1));
+    return file.extension() == ".tmp" && name.front() == '.' && dot > 0 &&
+           dash != std::string::npos && dash > dot &&
+           is_number(std::string_view(name).substr(dot + 1, dash - dot - 1)) &&
+           is_number(std::string_view(name).substr(dash + 1));
 }
 
 }  // namespace dsc

@@ -1,5 +1,5 @@
 // A pool of worker threads that process fixed blocks.
-#include <dsc/base/workers.hpp>
+#include "dsc/base/workers.hpp"
 
 #include <algorithm>
 #include <condition_variable>
@@ -103,7 +103,8 @@ void Workers::for_blocks(std::size_t count, std::size_t block,
         pool_->run(count, block, body);
         return;
     }
-    for (std::size_t begin = 0; begin < count; begin += block) body(begin, std::min(count, begin + block));
+    for (std::size_t begin = 0; begin < count; begin += block)
+        body(begin, std::min(count, begin + block));
 }
 
 }  // namespace dsc

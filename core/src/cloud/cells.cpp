@@ -13,7 +13,8 @@ constexpr std::uint64_t no_key = ~std::uint64_t{0};
 std::uint64_t key_of(const Vec3& p, double per_unit) {
     // The origin of the grid lies outside the cloud, away from planes of symmetry.
     std::uint64_t key = 0;
-    for (int k = 0; k < 3; ++k) key = (key << 21U) | static_cast<std::uint64_t>((p[k] + 0.77) * per_unit);
+    for (int k = 0; k < 3; ++k)
+        key = (key << 21U) | static_cast<std::uint64_t>((p[k] + 0.77) * per_unit);
     return key;
 }
 
@@ -40,7 +41,8 @@ private:
     };
     Slot& find(std::uint64_t key) {
         std::size_t at = ((key * 0x9E3779B97F4A7C15U) >> 20U) & (slots_.size() - 1);
-        while (slots_[at].key != key && slots_[at].key != no_key) at = (at + 1) & (slots_.size() - 1);
+        while (slots_[at].key != key && slots_[at].key != no_key)
+            at = (at + 1) & (slots_.size() - 1);
         return slots_[at];
     }
     void grow() {

@@ -12,7 +12,8 @@ namespace dsc::cloud {
 /// The name of a cloud for a message; "cloud" if it has no name.
 std::string named(std::string_view name);
 
-/// Box of the points. Throws GeometryError "cloud.non_finite" for NaN, infinity and coordinates above 1e100.
+/// Box of the points. Throws GeometryError "cloud.non_finite" for NaN, infinity and coordinates
+/// above 1e100.
 Box3 require_finite(std::span<const Vec3> points, std::string_view name);
 
 }  // namespace dsc::cloud

@@ -14,15 +14,17 @@
 
 namespace dsc::cloud {
 
-/// How the columns of a line are divided: ';', ',', with `tabs` '\t', or ' ' for blanks and tabs. Commas do not divide a line
-/// with a semicolon, and blanks do not divide a line with a comma, so that decimal commas are refused and not read as two
-/// columns. Text in double quotes is ignored.
+/// How the columns of a line are divided: ';', ',', with `tabs` '\t', or ' ' for blanks and tabs.
+/// Commas do not divide a line with a semicolon, and blanks do not divide a line with a comma, so
+/// that decimal commas are refused and not read as two columns. Text in double quotes is ignored.
 char separator_of(std::string_view line, bool tabs);
 
-/// The columns of a line, without their quotes. A separator at the end of the line starts no column.
+/// The columns of a line, without their quotes. A separator at the end of the line starts no
+/// column.
 void split_columns(std::string_view line, char separator, std::vector<std::string>& columns);
 
-/// Decides which columns, counted from 0, are read: those that the caller chose, those that a header names, or the first three.
+/// Decides which columns, counted from 0, are read: those that the caller chose, those that a
+/// header names, or the first three.
 class ColumnChoice {
 public:
     /// Throws IoError "io.columns" for a column 0 and for a column that is chosen twice.
@@ -41,11 +43,11 @@ public:
 
     /// Whether the words contain all necessary names: the chosen ones, else x, y and z.
     bool knows(const std::vector<std::string>& words) const;
-    /// Uses the columns with these names if they contain what is needed. In a comment only x, y and z themselves are
-    /// recognised, in a header also the usual names for them.
+    /// Uses the columns with these names if they contain what is needed. In a comment only x, y and
+    /// z themselves are recognised, in a header also the usual names for them.
     void take_names(const std::vector<std::string>& names, bool comment);
-    /// Throws IoError "io.columns" if the header in that line lacks a chosen name or, without a choice, all usual names of a
-    /// coordinate.
+    /// Throws IoError "io.columns" if the header in that line lacks a chosen name or, without a
+    /// choice, all usual names of a coordinate.
     void require_names(const std::vector<std::string>& header, std::size_t line) const;
 
     /// Part of a message about a line that ends before column `last`.

@@ -1,5 +1,5 @@
 // Finds the data files of the project.
-#include <dsc/cloud/data_file.hpp>
+#include "dsc/cloud/data_file.hpp"
 
 #include <cstdlib>
 #include <string>
@@ -39,9 +39,9 @@ fs::path data_file(std::string_view name) {
         if (tried.find(path.string()) == std::string::npos)
             tried += (tried.empty() ? "" : ", ") + path.string();
     }
-    throw IoError(
-        "io.data_file", name, "", "this data file of the project is not at " + tried,
-        "set the environment variable DSC_SHARE to the folder that contains data/" + std::string(name));
+    throw IoError("io.data_file", name, "", "this data file of the project is not at " + tried,
+                  "set the environment variable DSC_SHARE to the folder that contains data/" +
+                      std::string(name));
 }
 
 }  // namespace dsc::cloud

@@ -1,5 +1,5 @@
 // The simple filters: duplicates, clusters, grid, statistics and radius.
-#include <dsc/cloud/filter.hpp>
+#include "dsc/cloud/filter.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
+
 #include <fmt/core.h>
 
 #include <dsc/cloud/search.hpp>
@@ -21,7 +22,8 @@ namespace dsc::cloud {
 
 namespace {
 
-/// The points moved to the origin and scaled to a diagonal of 1, for PCL's floats. All zero if all points are equal.
+/// The points moved to the origin and scaled to a diagonal of 1, for PCL's floats. All zero if all
+/// points are equal.
 std::vector<Vec3> recentred(const Cloud& cloud, const Box3& box) {
     const double diagonal = box.diagonal();
     std::vector<Vec3> points;
@@ -61,7 +63,8 @@ void mark_close(const std::vector<Vec3>& points, double distance, std::vector<bo
     }
 }
 
-/// False for points that repeat an earlier point or lie within the distance of an earlier point that stays.
+/// False for points that repeat an earlier point or lie within the distance of an earlier point
+/// that stays.
 std::vector<bool> first_of_each(const std::vector<Vec3>& points, double distance) {
     std::vector<bool> keep(points.size(), true);
     mark_exact_duplicates(points, keep);
@@ -76,8 +79,10 @@ Filtered remove_duplicates(const Cloud& cloud, const DuplicatesOptions& options)
     const Box3 box = checked_box(cloud, filter);
     require_option(options.tolerance >= 0.0 && options.tolerance <= 1.0, cloud, filter,
                    "tolerance is " + text::rounded(options.tolerance), "it must lie in [0, 1]");
-    if (!options.sort) return take(cloud, filter, first_of_each(cloud.points, options.tolerance * box.diagonal()));
-    // The points are ordered before the first of each is chosen, so the choice does not depend on the order of the input.
+    if (!options.sort)
+        return take(cloud, filter, first_of_each(cloud.points, options.tolerance * box.diagonal()));
+    // The points are ordered before the first of each is chosen, so the choice does not depend on
+    // the order of the input.
     const std::vector<std::size_t> order = lexicographic_order(cloud);
     std::vector<Vec3> points;
     points.reserve(order.size());
@@ -89,8 +94,8 @@ Filtered remove_duplicates(const Cloud& cloud, const DuplicatesOptions& options)
     return take(cloud, filter, kept);
 }
 
-// The distance that evenly spread points would have is computed from enough neighbours that a cluster is a small part of them:
-// each of k points in a disc of radius r has the area pi r^2 / k.
+// The distance that evenly spread points would have is computed from enough neighbours that a
+// cluster is a small part of them: each of k points in a disc of radius r has the area pi r^2 / k.
 Filtered remove_clusters(const Cloud& cloud, const ClustersOptions& options) {
     constexpr std::size_t around = 24;
     const std::string filter = "clusters";
@@ -105,13 +110,15 @@ Filtered remove_clusters(const Cloud& cloud, const ClustersOptions& options) {
         if (!keep[i]) continue;
         search.k_nearest(cloud.points[i], around + 1, found);
         if (found.size() <= around) break;  // too few points for a statement
-        search.neighbours_within(cloud.points[i], options.closer * even * found.back().distance, found);
+        search.neighbours_within(cloud.points[i], options.closer * even * found.back().distance,
+                                 found);
         drop_later(found, i, keep);
     }
     return take(cloud, filter, keep);
 }
 
-// Not PCL's filter of this name: that one returns averages in float, without indices, and refuses fine grids.
+// Not PCL's filter of this name: that one returns averages in float, without indices, and refuses
+// fine grids.
 Filtered voxel_grid(const Cloud& cloud, const VoxelGridOptions& options) {
     const std::string filter = "voxel_grid";
     const Box3 box = checked_box(cloud, filter);
@@ -127,7 +134,9 @@ Filtered voxel_grid(const Cloud& cloud, const VoxelGridOptions& options) {
         const Vec3 from_low = cloud.points[i] - box.low;
         for (std::size_t k = 0; k < 3; ++k)
             entries[i].cell[k] =
-                edge > 0.0 ? static_cast<std::int64_t>(std::floor(from_low[static_cast<int>(k)] / edge)) : 0;
+                edge > 0.0
+                    ? static_cast<std::int64_t>(std::floor(from_low[static_cast<int>(k)] / edge))
+                    : 0;
         entries[i].index = i;
     }
     std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
@@ -137,16 +146,19 @@ Filtered voxel_grid(const Cloud& cloud, const VoxelGridOptions& options) {
     std::vector<bool> keep(cloud.points.size(), false);
     for (std::size_t begin = 0; begin < entries.size();) {
         std::size_t end = begin;
-        Vec3 sum = Vec3::Zero();  // relative to the box, so that large coordinates keep their digits
+        Vec3 sum = Vec3::Zero();  // relative to the box, so that large coordinates keep their
+                                  // digits
         for (; end < entries.size() && entries[end].cell == entries[begin].cell; ++end)
             sum += cloud.points[entries[end].index] - box.low;
         const Vec3 centroid = sum / static_cast<double>(end - begin);
         std::size_t best = begin;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t n = begin; n < end; ++n) {
-            const double distance = (cloud.points[entries[n].index] - box.low - centroid).squaredNorm();
+            const double distance =
+                (cloud.points[entries[n].index] - box.low - centroid).squaredNorm();
             if (distance >= least * (1.0 - 1e-9))
-                continue;  // two points always have the same distance: the first is taken, so that rounding does not decide
+                continue;  // two points always have the same distance: the first is taken, so that
+                           // rounding does not decide
             least = distance;
             best = n;
         }
@@ -156,7 +168,8 @@ Filtered voxel_grid(const Cloud& cloud, const VoxelGridOptions& options) {
     return take(cloud, filter, keep);
 }
 
-Filtered remove_statistical_outliers(const Cloud& cloud, const StatisticalOutliersOptions& options) {
+Filtered remove_statistical_outliers(const Cloud& cloud,
+                                     const StatisticalOutliersOptions& options) {
     const std::string filter = "statistical_outliers";
     const Box3 box = checked_box(cloud, filter);
     require_option(options.neighbours >= 1 && options.neighbours <= 1000, cloud, filter,
@@ -166,17 +179,20 @@ Filtered remove_statistical_outliers(const Cloud& cloud, const StatisticalOutlie
     // PCL reads beyond its buffer if a cloud has no more points than requested neighbours.
     const std::size_t neighbours = std::min(options.neighbours, cloud.points.size() - 1);
     if (neighbours == 0) return take(cloud, filter, std::vector<bool>(cloud.points.size(), true));
-    return take(cloud, filter, statistical_inliers(recentred(cloud, box), neighbours, options.deviations));
+    return take(cloud, filter,
+                statistical_inliers(recentred(cloud, box), neighbours, options.deviations));
 }
 
 Filtered remove_radius_outliers(const Cloud& cloud, const RadiusOutliersOptions& options) {
     const std::string filter = "radius_outliers";
     const Box3 box = checked_box(cloud, filter);
     require_option(options.radius > 0.0 && options.radius <= 1.0, cloud, filter,
-                   "radius is " + text::rounded(options.radius), "it must be above 0 and at most 1");
+                   "radius is " + text::rounded(options.radius),
+                   "it must be above 0 and at most 1");
     require_option(options.neighbours >= 1 && options.neighbours <= 1000, cloud, filter,
                    fmt::format("neighbours is {}", options.neighbours), "it must lie in [1, 1000]");
-    return take(cloud, filter, radius_inliers(recentred(cloud, box), options.radius, options.neighbours));
+    return take(cloud, filter,
+                radius_inliers(recentred(cloud, box), options.radius, options.neighbours));
 }
 
 }  // namespace dsc::cloud

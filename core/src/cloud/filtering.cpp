@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+
 #include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
@@ -15,19 +16,23 @@ namespace dsc::cloud {
 
 Box3 checked_box(const Cloud& cloud, const std::string& filter) {
     if (cloud.points.empty())
-        throw GeometryError("cloud.empty", named(cloud.source), "filter " + filter + ": the cloud has no points", "read another file");
+        throw GeometryError("cloud.empty", named(cloud.source),
+                            "filter " + filter + ": the cloud has no points", "read another file");
     return require_finite(cloud.points, cloud.source);
 }
 
-void require_option(bool valid, const Cloud& cloud, const std::string& filter, const std::string& cause, std::string_view remedy) {
+void require_option(bool valid, const Cloud& cloud, const std::string& filter,
+                    const std::string& cause, std::string_view remedy) {
     if (!valid)
-        throw GeometryError("cloud.option", named(cloud.source), "filter " + filter + ": " + cause, remedy);
+        throw GeometryError("cloud.option", named(cloud.source), "filter " + filter + ": " + cause,
+                            remedy);
 }
 
 namespace {
 
 template <class T>
-std::vector<T> picked(const std::vector<T>& values, std::size_t points, std::span<const std::size_t> indices) {
+std::vector<T> picked(const std::vector<T>& values, std::size_t points,
+                      std::span<const std::size_t> indices) {
     std::vector<T> result;
     if (values.size() != points) return result;
     result.reserve(indices.size());
@@ -47,7 +52,8 @@ Cloud pick(const Cloud& cloud, std::span<const std::size_t> indices) {
     const std::size_t points = cloud.points.size();
     for (const std::size_t i : indices)
         if (i >= points)
-            throw std::out_of_range(fmt::format("point {} of a cloud of {}", i, text::counted(points, "point")));
+            throw std::out_of_range(
+                fmt::format("point {} of a cloud of {}", i, text::counted(points, "point")));
     Cloud result;
     result.points = picked(cloud.points, points, indices);
     result.colours = picked(cloud.colours, points, indices);
@@ -62,9 +68,10 @@ Cloud pick(const Cloud& cloud, std::span<const std::size_t> indices) {
 
 Filtered take(const Cloud& cloud, const std::string& filter, const std::vector<std::size_t>& kept) {
     if (kept.empty())
-        throw GeometryError("cloud.filtered_out", named(cloud.source),
-                            "filter " + filter + " removes all " + text::counted(cloud.points.size(), "point"),
-                            "relax its options or leave it out");
+        throw GeometryError(
+            "cloud.filtered_out", named(cloud.source),
+            "filter " + filter + " removes all " + text::counted(cloud.points.size(), "point"),
+            "relax its options or leave it out");
     Filtered result;
     result.cloud = pick(cloud, kept);
     result.report = {filter, kept.size(), cloud.points.size() - kept.size()};

@@ -17,7 +17,7 @@ namespace dsc::cloud {
 
 /// Result of the check of a header.
 struct FileCheck {
-    std::size_t points = 0;  ///< as the header says and the size of the file allows
+    std::size_t points = 0;            ///< as the header says and the size of the file allows
     std::vector<std::string> names{};  ///< of the points' properties
     std::optional<Sensor> sensor{};
     std::size_t body = 0;  ///< of a PCD: position of the byte after its header
@@ -27,23 +27,28 @@ struct FileCheck {
 
 /// `names` receives the names of the columns that have one.
 Cloud read_obj(const std::string& file, std::string_view text, std::vector<std::string>& names);
-Cloud read_table(const std::string& file, std::string_view text, const ReadOptions& options, std::vector<std::string>& names);
+Cloud read_table(const std::string& file, std::string_view text, const ReadOptions& options,
+                 std::vector<std::string>& names);
 
 /// A coordinate of a text. Throws "io.syntax", "io.non_finite" naming the line.
 double coordinate(std::string_view word, const text::Place& place);
 
 /// Throws for a word that is not a number; a decimal comma gets its own remedy.
-[[noreturn]] void not_a_number(std::string_view word, const text::Place& place, std::string_view remedy);
+[[noreturn]] void not_a_number(std::string_view word, const text::Place& place,
+                               std::string_view remedy);
 
-/// Check that a file contains everything that its header announces, before PCL reads it: PCL allocates what a header announces,
-/// and not all its readers notice a missing end.
+/// Check that a file contains everything that its header announces, before PCL reads it: PCL
+/// allocates what a header announces, and not all its readers notice a missing end.
 FileCheck check_pcd(const std::string& file, std::string_view bytes);
 FileCheck check_ply(const std::string& file, std::string_view bytes);
 
-/// Read with PCL what the checks accept. Points with NaN or infinity are left out and counted. Header and body of a PCD are
-/// read separately, because PCL's reader of complete files searches the body for further header lines.
-Cloud read_pcd(const std::string& file, std::string bytes, ReadReport& report, std::vector<std::string>& names);
-Cloud read_ply(const std::string& file, std::string bytes, ReadReport& report, std::vector<std::string>& names);
+/// Read with PCL what the checks accept. Points with NaN or infinity are left out and counted.
+/// Header and body of a PCD are read separately, because PCL's reader of complete files searches
+/// the body for further header lines.
+Cloud read_pcd(const std::string& file, std::string bytes, ReadReport& report,
+               std::vector<std::string>& names);
+Cloud read_ply(const std::string& file, std::string bytes, ReadReport& report,
+               std::vector<std::string>& names);
 
 /// Throws because the file has no points.
 [[noreturn]] void no_points(const std::string& file, std::string_view remedy);

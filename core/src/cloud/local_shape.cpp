@@ -1,12 +1,13 @@
 // Normals and noise from the neighbours of points.
-#include <dsc/base/median.hpp>
-
 #include "local_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <algorithm>
-#include <cmath>
+
+#include <dsc/base/median.hpp>
 
 namespace dsc::cloud {
 
@@ -33,7 +34,8 @@ LocalPatch patch_at(std::span<const Vec3> points, const Neighbours& neighbours, 
     LocalPatch patch{Members(static_cast<Eigen::Index>(count), 3)};
     patch.members.row(0).setZero();
     for (std::size_t n = 1; n < count; ++n)
-        patch.members.row(static_cast<Eigen::Index>(n)) = (points[around[n - 1]] - points[i]).transpose();
+        patch.members.row(static_cast<Eigen::Index>(n)) =
+            (points[around[n - 1]] - points[i]).transpose();
     const Eigen::RowVector3d mean = patch.members.colwise().mean();
     patch.members.rowwise() -= mean;
     patch.size = patch.members.cwiseAbs().maxCoeff();
@@ -56,15 +58,19 @@ double quadric_residual(const LocalPatch& patch) {
     }
     const Heights heights = local.col(0);
     const Heights residual = heights - terms * terms.colPivHouseholderQr().solve(heights);
-    return patch.size * std::sqrt(residual.squaredNorm() / static_cast<double>(static_cast<std::size_t>(local.rows()) - coefficients));
+    return patch.size *
+           std::sqrt(residual.squaredNorm() /
+                     static_cast<double>(static_cast<std::size_t>(local.rows()) - coefficients));
 }
 
 }  // namespace
 
-std::vector<Vec3> plane_normals(std::span<const Vec3> points, const Neighbours& neighbours, Workers* workers) {
+std::vector<Vec3> plane_normals(std::span<const Vec3> points, const Neighbours& neighbours,
+                                Workers* workers) {
     std::vector<Vec3> normals(points.size());
     for_blocks(workers, points.size(), shape_block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) normals[i] = axes_of(patch_at(points, neighbours, i)).col(0);
+        for (std::size_t i = begin; i < end; ++i)
+            normals[i] = axes_of(patch_at(points, neighbours, i)).col(0);
     });
     return normals;
 }
@@ -74,7 +80,8 @@ double quadric_noise(std::span<const Vec3> points, const Neighbours& neighbours,
     std::vector<double> residuals(std::min(points.size(), most_probes));
     for_blocks(workers, residuals.size(), shape_block, [&](std::size_t begin, std::size_t end) {
         for (std::size_t n = begin; n < end; ++n)
-            residuals[n] = quadric_residual(patch_at(points, neighbours, n * points.size() / residuals.size()));
+            residuals[n] = quadric_residual(
+                patch_at(points, neighbours, n * points.size() / residuals.size()));
     });
     return median_of(std::move(residuals));
 }

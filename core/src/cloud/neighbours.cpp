@@ -33,7 +33,8 @@ std::vector<std::uint32_t> spatial_order(std::span<const Vec3> points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vec3 from_low = (points[i] - box.low) * per_unit;
         std::uint64_t key = 0;
-        for (int k = 0; k < 3; ++k) key = key << 1U | spread_bits(static_cast<std::uint64_t>(from_low[k]));
+        for (int k = 0; k < 3; ++k)
+            key = key << 1U | spread_bits(static_cast<std::uint64_t>(from_low[k]));
         keys[i] = {key, static_cast<std::uint32_t>(i)};
     }
     std::sort(keys.begin(), keys.end());
@@ -56,7 +57,8 @@ Neighbours find_neighbours(std::span<const Vec3> points, std::size_t wanted, Wor
         for (std::size_t q = begin; q < end; ++q) {
             search.k_nearest(ordered[q], out.each + 1, found);
             const std::size_t i = order[q];
-            // The point itself comes first unless others coincide with it; then it may even be missing in the result.
+            // The point itself comes first unless others coincide with it; then it may even be
+            // missing in the result.
             std::size_t count = 0;
             for (const Neighbour& n : found) {
                 if (n.index == q || count == out.each) continue;
@@ -76,7 +78,8 @@ std::vector<double> median_reaches(const Neighbours& neighbours, Workers* worker
     for_blocks(workers, out.size(), search_block, [&](std::size_t begin, std::size_t end) {
         std::array<double, reach_neighbours> around{};
         for (std::size_t i = begin; i < end; ++i) {
-            for (std::size_t n = 0; n < count; ++n) around[n] = neighbours.reach[neighbours.of(i)[n]];
+            for (std::size_t n = 0; n < count; ++n)
+                around[n] = neighbours.reach[neighbours.of(i)[n]];
             const auto last = around.begin() + static_cast<std::ptrdiff_t>(count);
             const auto middle = around.begin() + static_cast<std::ptrdiff_t>(count / 2);
             std::nth_element(around.begin(), middle, last);
@@ -94,7 +97,8 @@ std::vector<double> label_widths(const Neighbours& neighbours, Workers* workers)
         for (std::size_t i = begin; i < end; ++i) {
             double sum = neighbours.reach[i];
             for (std::size_t n = 0; n < count; ++n) sum += neighbours.reach[neighbours.of(i)[n]];
-            out[i] = width_of(sum / static_cast<double>(count + 1), static_cast<double>(count) + 0.5);
+            out[i] =
+                width_of(sum / static_cast<double>(count + 1), static_cast<double>(count) + 0.5);
         }
     });
     return out;

@@ -1,5 +1,6 @@
 #pragma once
-// Finds area vectors whose winding number is 1/2 at their own positions and whose directions agree with its gradient [Lin2024].
+// Finds area vectors whose winding number is 1/2 at their own positions and whose directions agree
+// with its gradient [Lin2024].
 
 #include <cstddef>
 #include <span>
@@ -17,15 +18,17 @@ struct ConsistencySchedule {
     double first = 1.0, last = 1.0;
 };
 
-/// The side that a sensor saw, per vector: a vector never turns away from it. Zero: any side. Empty: any side for all.
+/// The side that a sensor saw, per vector: a vector never turns away from it. Zero: any side.
+/// Empty: any side for all.
 using Sides = std::span<const Vec3>;
 
-/// Improves `vectors` by steps of steepest descent on |1/2 - A mu|^2, each with the best step length. After each step every
-/// vector turns to the direction of the field's negative gradient and keeps its length. The field keeps the last smoothing and
-/// the result. Returns the root mean square of 1/2 - A mu at the beginning of the last iteration. Throws CancelledError.
-/// [setup]
-double make_consistent(WindingField& field, std::span<const double> widths, const ConsistencySchedule& schedule,
-                       std::vector<Vec3>& vectors, Workers* workers, const CancelToken* cancel, Sides sides = {});
+/// Improves `vectors` by steps of steepest descent on |1/2 - A mu|^2, each with the best step
+/// length. After each step every vector turns to the direction of the field's negative gradient and
+/// keeps its length. The field keeps the last smoothing and the result. Returns the root mean
+/// square of 1/2 - A mu at the beginning of the last iteration. Throws CancelledError. [setup]
+double make_consistent(WindingField& field, std::span<const double> widths,
+                       const ConsistencySchedule& schedule, std::vector<Vec3>& vectors,
+                       Workers* workers, const CancelToken* cancel, Sides sides = {});
 
 /// Root mean square of 1/2 - w.
 double winding_residual(std::span<const double> w);

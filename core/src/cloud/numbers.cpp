@@ -13,21 +13,20 @@ namespace dsc::cloud {
 double coordinate(std::string_view word, const text::Place& place) {
     double value = 0.0;
     switch (text::parse_number(word, value)) {
-        case text::Number::ok:
-            return value;
+        case text::Number::ok: return value;
         case text::Number::not_finite:
         case text::Number::too_large:
             text::fail("io.non_finite", place, text::in_quotes(word) + " is not a finite number",
                        "remove the point or write its true coordinates");
-        case text::Number::not_a_number:
-            break;
+        case text::Number::not_a_number: break;
     }
     not_a_number(word, place, "a point needs three numbers");
 }
 
 void not_a_number(std::string_view word, const text::Place& place, std::string_view remedy) {
     const bool comma = word.find(',') != std::string_view::npos;
-    text::fail("io.syntax", place, text::in_quotes(word) + " is not a number", comma ? decimal_comma_remedy : remedy);
+    text::fail("io.syntax", place, text::in_quotes(word) + " is not a number",
+               comma ? decimal_comma_remedy : remedy);
 }
 
 void no_points(const std::string& file, std::string_view remedy) {

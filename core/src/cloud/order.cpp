@@ -35,7 +35,9 @@ public:
     explicit Order(const Cloud& cloud) : cloud_(cloud) {}
 
     bool operator()(std::size_t i, std::size_t j) const {
-        if (const int order = by_coordinates(cloud_.points[i], cloud_.points[j], by_value); order != 0) return order < 0;
+        if (const int order = by_coordinates(cloud_.points[i], cloud_.points[j], by_value);
+            order != 0)
+            return order < 0;
         return attributes(i, j) < 0;
     }
 
@@ -47,7 +49,8 @@ private:
         if (const int order = vectors(cloud_.normals, i, j); order != 0) return order;
         if (const int order = vectors(cloud_.areas, i, j); order != 0) return order;
         if (whole(cloud_.confidence)) {
-            if (const int order = by_bits(cloud_.confidence[i], cloud_.confidence[j]); order != 0) return order;
+            if (const int order = by_bits(cloud_.confidence[i], cloud_.confidence[j]); order != 0)
+                return order;
         }
         return by_coordinates(cloud_.points[i], cloud_.points[j], by_bits);
     }

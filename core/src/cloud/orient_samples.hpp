@@ -15,9 +15,10 @@ struct StartOptions {
     bool hold_sides = false;  ///< no normal turns away from its given side
 };
 
-/// `given`: a unit vector or zero per sample. The result does not contain the noise of the given directions. Throws
-/// CancelledError. [setup]
-OrientedPoints orient_samples_from(const ScaledSamples& samples, std::span<const Vec3> points, std::span<const Vec3> given,
-                                   const StartOptions& options, Workers* workers, const CancelToken* cancel);
+/// `given`: a unit vector or zero per sample. The result does not contain the noise of the given
+/// directions. Throws CancelledError. [setup]
+OrientedPoints orient_samples_from(const ScaledSamples& samples, std::span<const Vec3> points,
+                                   std::span<const Vec3> given, const StartOptions& options,
+                                   Workers* workers, const CancelToken* cancel);
 
 }  // namespace dsc::cloud

@@ -1,10 +1,10 @@
 // Removes points far from all others, in rounds if the cloud is dirty.
-#include <dsc/cloud/filter.hpp>
-#include <dsc/text/numbers.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include <dsc/cloud/filter.hpp>
+#include <dsc/text/numbers.hpp>
 
 #include "filtering.hpp"
 #include "neighbours.hpp"
@@ -15,28 +15,35 @@ namespace dsc::cloud {
 
 namespace {
 
-constexpr double surely_apart = 2.0;   // points this many times as far apart as most points show that a cloud is dirty
+constexpr double surely_apart = 2.0;   // points this many times as far apart as most points show
+                                       // that a cloud is dirty
 constexpr double apart_enough = 1.5;   // the same once the cloud is known to be dirty
 constexpr std::size_t few_strays = 8;  // so few points do not show it
 constexpr int most_rounds = 8;
-constexpr double little = 0.0005;      // a round that removes this fraction of the points or less is the last
+constexpr double little = 0.0005;  // a round that removes this fraction of the points or less is
+                                   // the last
 
 enum Reason : unsigned char { stays, isolated, distant, strewn, off_surface, clump, reason_count };
 
-void require_factor(double value, const char* option, const Cloud& cloud, const std::string& filter) {
+void require_factor(double value, const char* option, const Cloud& cloud,
+                    const std::string& filter) {
     require_option(value > 1.0 && std::isfinite(value), cloud, filter,
                    std::string(option) + " is " + text::rounded(value), "it must be above 1");
 }
 
 std::size_t set_in(const Flags& flags) {
-    return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), static_cast<unsigned char>(1)));
+    return static_cast<std::size_t>(
+        std::count(flags.begin(), flags.end(), static_cast<unsigned char>(1)));
 }
 
 /// Finds the reason of every removed point, round by round.
 class Cleaner {
 public:
     Cleaner(std::span<const Vec3> points, const OutliersOptions& options, Workers* workers)
-        : reasons(points.size(), stays), options_(options), workers_(workers), left_(points, workers) {}
+        : reasons(points.size(), stays),
+          options_(options),
+          workers_(workers),
+          left_(points, workers) {}
 
     void clean() {
         const double median = left_.median_reach();
@@ -55,14 +62,17 @@ public:
 
 private:
     bool many(std::size_t points) const {
-        return points > few_strays && static_cast<double>(points) > options_.dirty * static_cast<double>(reasons.size());
+        return points > few_strays &&
+               static_cast<double>(points) > options_.dirty * static_cast<double>(reasons.size());
     }
 
-    /// Whether the marked points, together with the surely strewn ones, are more than a clean cloud has.
+    /// Whether the marked points, together with the surely strewn ones, are more than a clean cloud
+    /// has.
     bool is_dirty(double median) const {
         const std::vector<double>& reach = left_.neighbours().reach;
         const auto far_apart = [&](double r) { return r > surely_apart * median; };
-        if (!many(static_cast<std::size_t>(std::count_if(reach.begin(), reach.end(), far_apart)))) return false;
+        if (!many(static_cast<std::size_t>(std::count_if(reach.begin(), reach.end(), far_apart))))
+            return false;
         Flags strays = strewn_points(left_, surely_apart, workers_);
         for (std::size_t i = 0; i < strays.size(); ++i)
             if (reasons[i] != stays) strays[i] = 1;
@@ -121,7 +131,8 @@ Filtered remove_outliers(const Cloud& cloud, const OutliersOptions& options, Wor
     require_option(options.most >= 0.0 && options.most < 1.0, cloud, filter,
                    "most is " + text::rounded(options.most), "it must be at least 0 and below 1");
     require_option(options.dirty >= 0.0 && options.dirty <= 1.0, cloud, filter,
-                   "dirty is " + text::rounded(options.dirty), "it must be at least 0 and at most 1");
+                   "dirty is " + text::rounded(options.dirty),
+                   "it must be at least 0 and at most 1");
     const std::size_t count = cloud.points.size();
     std::vector<bool> keep(count, true);
     std::array<std::size_t, reason_count> counts{};

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <vector>
+
 #include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
@@ -18,8 +19,8 @@ namespace dsc::cloud {
 
 namespace {
 
-/// Removes the next line from `rest`. Only LF ends it, because binary data may follow a header; a CR before it is dropped.
-/// False at the end and for a line without LF.
+/// Removes the next line from `rest`. Only LF ends it, because binary data may follow a header; a
+/// CR before it is dropped. False at the end and for a line without LF.
 bool next_header_line(std::string_view& rest, std::string_view& line) {
     const std::size_t end = rest.find('\n');
     if (end == std::string_view::npos) return false;
@@ -63,7 +64,8 @@ public:
             const std::string_view key = text::next_word(rest);
             if (key.empty() || key.front() == '#') continue;
             std::vector<std::string_view> values;
-            for (std::string_view word = text::next_word(rest); !word.empty(); word = text::next_word(rest))
+            for (std::string_view word = text::next_word(rest); !word.empty();
+                 word = text::next_word(rest))
                 values.push_back(word);
             entry(key, values);
             if (key == "DATA") {
@@ -88,7 +90,8 @@ private:
     /// PCL resizes its buffers when it reads these lines, so their order and number matter.
     void entry(std::string_view key, const std::vector<std::string_view>& values) {
         static constexpr std::array<std::string_view, 10> order{
-            "VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
+            "VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
+            "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
         const std::string_view name = key == "COLUMNS" ? "FIELDS" : key;
         const auto place = std::find(order.begin(), order.end(), name);
         if (place == order.end()) fail(text::in_quotes(key) + " is not an entry of a PCD header");
@@ -101,15 +104,19 @@ private:
             if (values.empty()) fail("FIELDS names no field");
         } else if (name == "SIZE" || name == "TYPE" || name == "COUNT") {
             if (values.size() != header_.fields.size())
-                fail(fmt::format("{} has {}, FIELDS has {}", name, text::counted(values.size(), "value"), header_.fields.size()));
-            for (std::size_t i = 0; i < values.size(); ++i) column(header_.fields[i], name, values[i]);
+                fail(fmt::format("{} has {}, FIELDS has {}", name,
+                                 text::counted(values.size(), "value"), header_.fields.size()));
+            for (std::size_t i = 0; i < values.size(); ++i)
+                column(header_.fields[i], name, values[i]);
             seen_ += name == "COUNT" ? 0 : 1;
         } else if (name == "VIEWPOINT") {
-            if (values.size() != 7) fail("VIEWPOINT has " + text::counted(values.size(), "value") + ", it needs 7");
+            if (values.size() != 7)
+                fail("VIEWPOINT has " + text::counted(values.size(), "value") + ", it needs 7");
             viewpoint(values);
         } else if (name != "VERSION") {
             if (values.size() != 1)
-                fail(std::string(name) + " has " + text::counted(values.size(), "value") + ", it needs 1");
+                fail(std::string(name) + " has " + text::counted(values.size(), "value") +
+                     ", it needs 1");
             if (name == "WIDTH") width_ = count(values[0], most_points);
             if (name == "HEIGHT") height_ = count(values[0], most_points);
             if (name == "POINTS") header_.points = count(values[0], most_points);
@@ -120,11 +127,14 @@ private:
         }
     }
 
-    /// The first three numbers are the sensor's position; if a word is not a number, the position is missing.
+    /// The first three numbers are the sensor's position; if a word is not a number, the position
+    /// is missing.
     void viewpoint(const std::vector<std::string_view>& values) {
         Vec3 place;
         for (int k = 0; k < 3; ++k)
-            if (text::parse_number(values[static_cast<std::size_t>(k)], place[k]) != text::Number::ok) return;
+            if (text::parse_number(values[static_cast<std::size_t>(k)], place[k]) !=
+                text::Number::ok)
+                return;
         header_.sensor = Sensor{place, !place.isZero(0.0)};
     }
 
@@ -136,10 +146,11 @@ private:
                      "; supported are 1, 2, 4 and 8");
         } else if (name == "TYPE") {
             field.type = value.front();
-            if (value.size() != 1 || std::string_view("FIU").find(field.type) == std::string_view::npos ||
+            if (value.size() != 1 ||
+                std::string_view("FIU").find(field.type) == std::string_view::npos ||
                 (field.type == 'F' && field.size < 4))
-                fail("field " + text::in_quotes(field.name) + " has the unknown type " + text::in_quotes(value) + " of " +
-                     text::counted(field.size, "byte"));
+                fail("field " + text::in_quotes(field.name) + " has the unknown type " +
+                     text::in_quotes(value) + " of " + text::counted(field.size, "byte"));
         } else {
             field.count = count(value, 100000);
             if (field.count == 0) fail("field " + text::in_quotes(field.name) + " has count 0");
@@ -150,14 +161,18 @@ private:
         if (seen_ != 2) fail("FIELDS, SIZE or TYPE is missing");
         if (!has_points_ || has_width_ != has_height_) fail("WIDTH, HEIGHT or POINTS is missing");
         if (has_width_ && width_ * height_ != header_.points)
-            fail(fmt::format("WIDTH {} x HEIGHT {} is not POINTS {}", width_, height_, header_.points));
+            fail(fmt::format("WIDTH {} x HEIGHT {} is not POINTS {}", width_, height_,
+                             header_.points));
         for (const std::string_view axis : {"x", "y", "z"}) {
             const auto named = [&](const Field& field) { return field.name == axis; };
             const auto found = std::find_if(header_.fields.begin(), header_.fields.end(), named);
-            if (std::count_if(header_.fields.begin(), header_.fields.end(), named) != 1 || found->count != 1)
-                fail("a point needs the fields x, y and z exactly once; " + text::in_quotes(axis) + " does not occur exactly once");
+            if (std::count_if(header_.fields.begin(), header_.fields.end(), named) != 1 ||
+                found->count != 1)
+                fail("a point needs the fields x, y and z exactly once; " + text::in_quotes(axis) +
+                     " does not occur exactly once");
         }
-        // In a depth image the scanner's own position is the origin; elsewhere 0 0 0 is the default that programs write.
+        // In a depth image the scanner's own position is the origin; elsewhere 0 0 0 is the default
+        // that programs write.
         if (header_.sensor && has_height_ && height_ > 1) header_.sensor->stated = true;
         header_.body = rest_;
         header_.lines = line_;
@@ -187,7 +202,8 @@ void check_ascii_rows(const std::string& file, const PcdHeader& header) {
         if (line.back() == '\r') line.remove_suffix(1);
         std::size_t column = 0;
         std::size_t field = 0, left = header.fields[0].count;
-        for (std::string_view word = text::next_word(line); !word.empty(); word = text::next_word(line), ++column) {
+        for (std::string_view word = text::next_word(line); !word.empty();
+             word = text::next_word(line), ++column) {
             if (column >= columns) break;
             double value = 0.0;
             const std::string_view name = header.fields[field].name;
@@ -198,7 +214,8 @@ void check_ascii_rows(const std::string& file, const PcdHeader& header) {
         }
         if (column < columns)
             throw IoError("io.truncated", file, std::to_string(number),
-                          fmt::format("the point has {}, the header requires {}", text::counted(column, "value"), columns),
+                          fmt::format("the point has {}, the header requires {}",
+                                      text::counted(column, "value"), columns),
                           "the file may be cut off, write it again");
         ++points;
     }
@@ -208,20 +225,25 @@ void check_ascii_rows(const std::string& file, const PcdHeader& header) {
 void check_compressed(const std::string& file, const PcdHeader& header) {
     for (const Field& field : header.fields)
         if (field.name == "_")
-            header_error(file, header.lines, "a padding field '_' in compressed data cannot be read");
+            header_error(file, header.lines,
+                         "a padding field '_' in compressed data cannot be read");
     std::array<std::uint32_t, 2> sizes{};  // compressed, uncompressed
     const std::size_t wanted = header.points * header.step();
-    if (header.body.size() < sizeof sizes) truncated(file, text::counted(header.points, "point"), 0);
+    if (header.body.size() < sizeof sizes)
+        truncated(file, text::counted(header.points, "point"), 0);
     std::memcpy(sizes.data(), header.body.data(), sizeof sizes);
     if (header.body.size() - sizeof sizes < sizes[0])
         throw IoError("io.truncated", file, "",
-                      fmt::format("the compressed data have {} of {} bytes", header.body.size() - sizeof sizes, sizes[0]),
+                      fmt::format("the compressed data have {} of {} bytes",
+                                  header.body.size() - sizeof sizes, sizes[0]),
                       "the file is cut off, write it again");
     // Three bytes of LZF represent at most 264, so a small file cannot request much memory.
     if (sizes[1] != wanted || wanted / 100 > sizes[0])
-        throw IoError("io.syntax", file, "",
-                      fmt::format("the compressed data claim to have {} bytes, the header's {} need {}", sizes[1], text::counted(header.points, "point"), wanted),
-                      "the file is damaged, write it again");
+        throw IoError(
+            "io.syntax", file, "",
+            fmt::format("the compressed data claim to have {} bytes, the header's {} need {}",
+                        sizes[1], text::counted(header.points, "point"), wanted),
+            "the file is damaged, write it again");
 }
 
 }  // namespace
@@ -237,9 +259,10 @@ FileCheck check_pcd(const std::string& file, std::string_view bytes) {
     } else if (header.data == "binary_compressed") {
         check_compressed(file, header);
     } else {
-        header_error(file, header.lines,
-                     text::in_quotes(header.data) +
-                         " is not a kind of PCD data; supported are ascii, binary and binary_compressed");
+        header_error(
+            file, header.lines,
+            text::in_quotes(header.data) +
+                " is not a kind of PCD data; supported are ascii, binary and binary_compressed");
     }
     FileCheck check{header.points};
     for (const Field& field : header.fields)

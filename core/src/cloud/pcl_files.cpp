@@ -43,24 +43,15 @@ using Getter = double (*)(const std::uint8_t*);
 
 Getter getter(std::uint8_t type) {
     switch (type) {
-        case pcl::PCLPointField::FLOAT64:
-            return value_of<double>;
-        case pcl::PCLPointField::FLOAT32:
-            return value_of<float>;
-        case pcl::PCLPointField::INT8:
-            return value_of<std::int8_t>;
-        case pcl::PCLPointField::UINT8:
-            return value_of<std::uint8_t>;
-        case pcl::PCLPointField::INT16:
-            return value_of<std::int16_t>;
-        case pcl::PCLPointField::UINT16:
-            return value_of<std::uint16_t>;
-        case pcl::PCLPointField::INT32:
-            return value_of<std::int32_t>;
-        case pcl::PCLPointField::UINT32:
-            return value_of<std::uint32_t>;
-        default:
-            return nullptr;
+        case pcl::PCLPointField::FLOAT64: return value_of<double>;
+        case pcl::PCLPointField::FLOAT32: return value_of<float>;
+        case pcl::PCLPointField::INT8: return value_of<std::int8_t>;
+        case pcl::PCLPointField::UINT8: return value_of<std::uint8_t>;
+        case pcl::PCLPointField::INT16: return value_of<std::int16_t>;
+        case pcl::PCLPointField::UINT16: return value_of<std::uint16_t>;
+        case pcl::PCLPointField::INT32: return value_of<std::int32_t>;
+        case pcl::PCLPointField::UINT32: return value_of<std::uint32_t>;
+        default: return nullptr;
     }
 }
 
@@ -73,12 +64,14 @@ struct Numbers {
 
 /// The numbers of these fields; empty if one of them is not a single number.
 template <std::size_t n>
-std::optional<std::array<Numbers, n>> numbers_of(const pcl::PCLPointCloud2& blob, const std::array<std::size_t, n>& fields) {
+std::optional<std::array<Numbers, n>> numbers_of(const pcl::PCLPointCloud2& blob,
+                                                 const std::array<std::size_t, n>& fields) {
     std::array<Numbers, n> out;
     for (std::size_t k = 0; k < n; ++k) {
         const pcl::PCLPointField& field = blob.fields[fields[k]];
         out[k] = {getter(field.datatype), field.offset,
-                  field.datatype != pcl::PCLPointField::FLOAT32 && field.datatype != pcl::PCLPointField::FLOAT64};
+                  field.datatype != pcl::PCLPointField::FLOAT32 &&
+                      field.datatype != pcl::PCLPointField::FLOAT64};
         if (field.count != 1 || out[k].get == nullptr) return std::nullopt;
     }
     return out;
@@ -96,7 +89,8 @@ public:
         if (columns.intensity) intensity_ = numbers_of<1>(blob, {*columns.intensity});
         if (columns.packed) {
             const pcl::PCLPointField& field = blob.fields[*columns.packed];
-            if (field.count == 1 && (field.datatype == pcl::PCLPointField::FLOAT32 || field.datatype == pcl::PCLPointField::UINT32))
+            if (field.count == 1 && (field.datatype == pcl::PCLPointField::FLOAT32 ||
+                                     field.datatype == pcl::PCLPointField::UINT32))
                 packed_ = field.offset;
         }
     }
@@ -108,7 +102,8 @@ public:
         if (!packed_) return;
         std::uint32_t packed = 0;
         std::memcpy(&packed, point + *packed_, sizeof packed);
-        cloud.colours.push_back({static_cast<std::uint8_t>(packed >> 16U), static_cast<std::uint8_t>(packed >> 8U),
+        cloud.colours.push_back({static_cast<std::uint8_t>(packed >> 16U),
+                                 static_cast<std::uint8_t>(packed >> 8U),
                                  static_cast<std::uint8_t>(packed)});
     }
 
@@ -121,7 +116,8 @@ public:
 private:
     static Vec3 vector(const std::uint8_t* point, const std::array<Numbers, 3>& numbers) {
         Vec3 out;
-        for (std::size_t k = 0; k < 3; ++k) out[static_cast<int>(k)] = numbers[k].get(point + numbers[k].offset);
+        for (std::size_t k = 0; k < 3; ++k)
+            out[static_cast<int>(k)] = numbers[k].get(point + numbers[k].offset);
         return out;
     }
 
@@ -133,7 +129,8 @@ private:
 };
 
 [[noreturn]] void refused(const std::string& file, std::string_view format) {
-    throw IoError("io.syntax", file, "", "PCL's " + std::string(format) + " reader does not accept the file",
+    throw IoError("io.syntax", file, "",
+                  "PCL's " + std::string(format) + " reader does not accept the file",
                   "save the cloud again, for instance as PLY with x, y and z only");
 }
 
@@ -144,13 +141,15 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
     std::array<const std::uint8_t*, 3> data{};
     std::array<Getter, 3> get{};
     for (std::size_t k = 0; k < 3; ++k) {
-        const pcl::PCLPointField* const field = find_field(blob, std::string_view("xyz").substr(k, 1));
+        const pcl::PCLPointField* const field =
+            find_field(blob, std::string_view("xyz").substr(k, 1));
         if (!field) refused(file, report.format);
         get[k] = getter(field->datatype);
         if (!get[k])
-            throw IoError("io.format", file, "",
-                          "field " + text::in_quotes(field->name) + " has a type that is not supported",
-                          "save the coordinates as float or double");
+            throw IoError(
+                "io.format", file, "",
+                "field " + text::in_quotes(field->name) + " has a type that is not supported",
+                "save the coordinates as float or double");
         data[k] = blob.data.data() + field->offset;
     }
 
@@ -168,14 +167,15 @@ Cloud extract(const std::string& file, const pcl::PCLPointCloud2& blob, const Fi
     cloud.sensor = check.sensor;
     report.dropped_non_finite = check.points - cloud.points.size();
     if (cloud.points.empty())
-        throw IoError("io.non_finite", file, "",
-                      "all " + text::counted(check.points, "point") + " have NaN or infinite coordinates",
-                      "save a cloud with finite coordinates");
+        throw IoError(
+            "io.non_finite", file, "",
+            "all " + text::counted(check.points, "point") + " have NaN or infinite coordinates",
+            "save a cloud with finite coordinates");
     return cloud;
 }
 
-/// Runs a PCL reader without its output; exceptions and refusals become one IoError. `read` fills the cloud and returns PCL's
-/// result.
+/// Runs a PCL reader without its output; exceptions and refusals become one IoError. `read` fills
+/// the cloud and returns PCL's result.
 template <class Read>
 Cloud read_with(const std::string& file, const FileCheck& check, ReadReport& report, Read&& read) {
     pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
@@ -193,7 +193,8 @@ Cloud read_with(const std::string& file, const FileCheck& check, ReadReport& rep
 /// Bytes at a path that PCL can open; they stay in memory.
 class MemoryFile {
 public:
-    MemoryFile(const std::string& file, std::string_view bytes) : descriptor_(::memfd_create("dsc", MFD_CLOEXEC)) {
+    MemoryFile(const std::string& file, std::string_view bytes)
+        : descriptor_(::memfd_create("dsc", MFD_CLOEXEC)) {
         while (descriptor_ >= 0 && !bytes.empty()) {
             const ::ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
             if (written < 0 && errno == EINTR) continue;
@@ -203,7 +204,8 @@ public:
         if (descriptor_ >= 0 && bytes.empty()) return;
         const std::string cause = std::generic_category().message(errno);
         if (descriptor_ >= 0) ::close(descriptor_);
-        throw IoError("io.memory", file, "", "no memory for its content: " + cause, "free some memory");
+        throw IoError("io.memory", file, "", "no memory for its content: " + cause,
+                      "free some memory");
     }
     ~MemoryFile() { ::close(descriptor_); }
     MemoryFile(const MemoryFile&) = delete;
@@ -215,7 +217,8 @@ private:
     int descriptor_;
 };
 
-/// PCL would read the number of points from some comments: they get another keyword of the same length.
+/// PCL would read the number of points from some comments: they get another keyword of the same
+/// length.
 void hide_grid_comments(std::string& bytes, const FileCheck& check) {
     constexpr std::string_view comment = "comment ";  // as long as "obj_info"
     for (const std::size_t at : check.grid_comments) bytes.replace(at, comment.size(), comment);
@@ -223,7 +226,8 @@ void hide_grid_comments(std::string& bytes, const FileCheck& check) {
 
 }  // namespace
 
-Cloud read_pcd(const std::string& file, std::string bytes, ReadReport& report, std::vector<std::string>& names) {
+Cloud read_pcd(const std::string& file, std::string bytes, ReadReport& report,
+               std::vector<std::string>& names) {
     const FileCheck check = check_pcd(file, bytes);
     report.points = check.points;
     report.format = "PCD";
@@ -236,16 +240,19 @@ Cloud read_pcd(const std::string& file, std::string bytes, ReadReport& report, s
         unsigned place = 0;
         std::istringstream header(bytes.substr(0, check.body));
         bytes.erase(0, check.body);
-        const int result = reader.readHeader(header, blob, origin, orientation, version, encoding, place);
+        const int result =
+            reader.readHeader(header, blob, origin, orientation, version, encoding, place);
         if (result < 0) return result;
         if (encoding != 0)
-            return reader.readBodyBinary(reinterpret_cast<const unsigned char*>(bytes.data()), blob, version, encoding == 2, 0);
+            return reader.readBodyBinary(reinterpret_cast<const unsigned char*>(bytes.data()), blob,
+                                         version, encoding == 2, 0);
         std::istringstream text(std::move(bytes));
         return reader.readBodyASCII(text, blob, version);
     });
 }
 
-Cloud read_ply(const std::string& file, std::string bytes, ReadReport& report, std::vector<std::string>& names) {
+Cloud read_ply(const std::string& file, std::string bytes, ReadReport& report,
+               std::vector<std::string>& names) {
     const FileCheck check = check_ply(file, bytes);
     report.points = check.points;
     report.format = "PLY";

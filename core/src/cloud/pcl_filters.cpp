@@ -32,8 +32,8 @@ std::vector<std::size_t> ascending(const pcl::Indices& indices) {
 
 }  // namespace
 
-std::vector<std::size_t> statistical_inliers(const std::vector<Vec3>& points, std::size_t neighbours,
-                                             double deviations) {
+std::vector<std::size_t> statistical_inliers(const std::vector<Vec3>& points,
+                                             std::size_t neighbours, double deviations) {
     pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
     pcl::StatisticalOutlierRemoval<pcl::PointXYZ> filter;
     filter.setInputCloud(to_float(points));

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <vector>
+
 #include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
@@ -22,17 +23,22 @@ using decode::ply::Header;
 using decode::ply::Property;
 using decode::ply::Type;
 
-/// Refuses what a header may say but PCL's reader mistakes. Range images have fewer points than grid positions; PCL fills the
-/// rest with NaN. Only an element makes a range image; a comment with the size of a grid does not.
+/// Refuses what a header may say but PCL's reader mistakes. Range images have fewer points than
+/// grid positions; PCL fills the rest with NaN. Only an element makes a range image; a comment with
+/// the size of a grid does not.
 void check_element(const std::string& file, const Element& element) {
     if (element.name == "range_grid")
-        throw IoError("io.format", file, std::to_string(element.line), "PLY files with a range grid are not supported",
+        throw IoError("io.format", file, std::to_string(element.line),
+                      "PLY files with a range grid are not supported",
                       "save only the points, for instance with MeshLab or CloudCompare");
     if (element.count > most_points)
-        header_error(file, element.line, fmt::format("{} elements {} are too many; at most {} can be read", element.count, text::in_quotes(element.name), most_points));
+        header_error(file, element.line,
+                     fmt::format("{} elements {} are too many; at most {} can be read",
+                                 element.count, text::in_quotes(element.name), most_points));
     for (const Property& p : element.properties) {
         const auto same = [&](const Property& other) { return other.name == p.name; };
-        if (std::find_if(element.properties.begin(), element.properties.end(), same)->line != p.line)
+        if (std::find_if(element.properties.begin(), element.properties.end(), same)->line !=
+            p.line)
             header_error(file, p.line, "property " + text::in_quotes(p.name) + " occurs twice");
     }
 }
@@ -41,7 +47,8 @@ void check_elements(const std::string& file, const std::vector<Element>& element
     for (const Element& element : elements) {
         const auto same = [&](const Element& other) { return other.name == element.name; };
         if (std::find_if(elements.begin(), elements.end(), same)->line != element.line)
-            header_error(file, element.line, "element " + text::in_quotes(element.name) + " occurs twice");
+            header_error(file, element.line,
+                         "element " + text::in_quotes(element.name) + " occurs twice");
         check_element(file, element);
     }
 }
@@ -52,7 +59,8 @@ void check_vertex(const std::string& file, const Element& vertex) {
         throw IoError("io.format", file, "", cause, "save the points with only x, y and z");
     };
     std::size_t axes = 0;
-    std::vector<std::size_t> bytes;  // positions of red, green, blue; their order is checked by name
+    std::vector<std::size_t> bytes;  // positions of red, green, blue; their order is checked by
+                                     // name
     for (std::size_t i = 0; i < vertex.properties.size(); ++i) {
         const Property& p = vertex.properties[i];
         if (p.count) refuse("the points have a list, " + text::in_quotes(p.name));
@@ -68,7 +76,8 @@ void check_vertex(const std::string& file, const Element& vertex) {
                 refuse("the colours of the points are not red, green, blue in a row");
             bytes.push_back(i);
         }
-        if (p.name == "alpha" && bytes.size() != 3) refuse("the points have alpha without colours before it");
+        if (p.name == "alpha" && bytes.size() != 3)
+            refuse("the points have alpha without colours before it");
     }
     if (!bytes.empty() && bytes.size() != 3)
         refuse("the colours of the points are not red, green, blue in a row");
@@ -77,8 +86,9 @@ void check_vertex(const std::string& file, const Element& vertex) {
 
 [[noreturn]] void cut(const std::string& file, const Element& element, std::size_t held) {
     truncated(file,
-              element.name == "vertex" ? text::counted(element.count, "point")
-                                       : fmt::format("{} of {}", element.count, text::in_quotes(element.name)),
+              element.name == "vertex"
+                  ? text::counted(element.count, "point")
+                  : fmt::format("{} of {}", element.count, text::in_quotes(element.name)),
               held);
 }
 
@@ -121,16 +131,18 @@ void check_binary(const std::string& file, const Header& header, std::string_vie
     }
 }
 
-void check_line(const std::string& file, std::size_t number, const Element& element, std::string_view line) {
+void check_line(const std::string& file, std::size_t number, const Element& element,
+                std::string_view line) {
     const auto value = [&](std::string_view what) {
         const std::string_view word = text::next_word(line);
         double ignored = 0.0;
         if (word.empty())
-            throw IoError(
-                "io.truncated", file, std::to_string(number),
-                "the line ends before " + text::in_quotes(what) + " of element " + text::in_quotes(element.name),
-                "the file may be cut off, write it again");
-        if (text::parse_number(word, ignored) == text::Number::not_a_number) not_a_number(word, {file, number}, "save the cloud again");
+            throw IoError("io.truncated", file, std::to_string(number),
+                          "the line ends before " + text::in_quotes(what) + " of element " +
+                              text::in_quotes(element.name),
+                          "the file may be cut off, write it again");
+        if (text::parse_number(word, ignored) == text::Number::not_a_number)
+            not_a_number(word, {file, number}, "save the cloud again");
         return word;
     };
     for (const Property& p : element.properties) {
@@ -144,7 +156,8 @@ void check_line(const std::string& file, std::size_t number, const Element& elem
     }
     if (!text::trim(line).empty())
         header_error(file, number,
-                     "the line has more values than element " + text::in_quotes(element.name) + " has properties");
+                     "the line has more values than element " + text::in_quotes(element.name) +
+                         " has properties");
 }
 
 void check_ascii_body(const std::string& file, const Header& header, std::string_view rest) {
@@ -165,13 +178,16 @@ void check_ascii_body(const std::string& file, const Header& header, std::string
 FileCheck check_ply(const std::string& file, std::string_view bytes) {
     const Header header = decode::ply::read_header(bytes, file);
     check_elements(file, header.elements);
-    const auto vertex = std::find_if(header.elements.begin(), header.elements.end(),
-                                     [](const Element& element) { return element.name == "vertex"; });
-    if (vertex == header.elements.end() || vertex->count == 0) no_points(file, "save the cloud again");
+    const auto vertex =
+        std::find_if(header.elements.begin(), header.elements.end(),
+                     [](const Element& element) { return element.name == "vertex"; });
+    if (vertex == header.elements.end() || vertex->count == 0)
+        no_points(file, "save the cloud again");
     check_vertex(file, *vertex);
     for (const Element& element : header.elements)
         if (element.properties.empty() && element.count > 0)
-            throw IoError("io.syntax", file, "", "element " + text::in_quotes(element.name) + " has no properties",
+            throw IoError("io.syntax", file, "",
+                          "element " + text::in_quotes(element.name) + " has no properties",
                           "save the cloud again");
     const std::string_view body = bytes.substr(header.size);
     if (header.order)

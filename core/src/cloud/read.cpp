@@ -1,5 +1,5 @@
 // Reads point clouds: chooses the format and checks the columns.
-#include <dsc/cloud/read.hpp>
+#include "dsc/cloud/read.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -22,21 +22,23 @@ constexpr std::string_view readable = ".pcd .ply .obj .xyz .txt .asc .pts .csv";
     const std::string file = path.string();
     const std::string stem = path.stem().string();
     if (extension == ".las" || extension == ".laz")
-        throw IoError("io.format", file, "", extension.substr(1) + " files are not supported",
-                      "convert it first: pdal translate " + path.filename().string() + " " + stem + ".ply");
+        throw IoError(
+            "io.format", file, "", extension.substr(1) + " files are not supported",
+            "convert it first: pdal translate " + path.filename().string() + " " + stem + ".ply");
     if (extension == ".e57")
         throw IoError("io.format", file, "", "e57 files are not supported",
                       "convert it first: pdal translate " + path.filename().string() + " " + stem +
                           ".ply, or save it as PLY with CloudCompare");
     throw IoError("io.format", file, "",
-                  extension.empty() ? "the file's name has no extension"
-                                    : text::in_quotes(extension) + " is not a supported cloud format",
+                  extension.empty()
+                      ? "the file's name has no extension"
+                      : text::in_quotes(extension) + " is not a supported cloud format",
                   "accepted are " + std::string(readable));
 }
 
 bool is_table(const std::string& extension) {
-    return extension == ".xyz" || extension == ".txt" || extension == ".asc" || extension == ".pts" ||
-           extension == ".csv";
+    return extension == ".xyz" || extension == ".txt" || extension == ".asc" ||
+           extension == ".pts" || extension == ".csv";
 }
 
 void require_columns(const std::string& file, bool table, const ReadOptions& options) {
@@ -53,14 +55,17 @@ void require_columns(const std::string& file, bool table, const ReadOptions& opt
 /// The extension, in lower case.
 std::string require_cloud_file(const std::filesystem::path& path, const ReadOptions& options) {
     std::string extension = text::lower_case_extension(path);
-    if (extension != ".pcd" && extension != ".ply" && extension != ".obj" && !is_table(extension)) refuse(path, extension);
+    if (extension != ".pcd" && extension != ".ply" && extension != ".obj" && !is_table(extension))
+        refuse(path, extension);
     require_columns(path.string(), is_table(extension), options);
     return extension;
 }
 
 void require_text(const std::string& file, std::string_view bytes) {
-    if (bytes.empty()) throw IoError("io.empty", file, "", "the file is empty", "write the cloud again");
-    if (has_wide_byte_order_mark(bytes)) throw IoError("io.format", file, "", wide_text_cause, wide_text_remedy);
+    if (bytes.empty())
+        throw IoError("io.empty", file, "", "the file is empty", "write the cloud again");
+    if (has_wide_byte_order_mark(bytes))
+        throw IoError("io.format", file, "", wide_text_cause, wide_text_remedy);
 }
 
 }  // namespace
@@ -72,7 +77,8 @@ bool is_cloud_file(const std::filesystem::path& path) {
     return extension == ".obj" || extension == ".ply" || extension == ".pcd" || is_table(extension);
 }
 
-Cloud parse_cloud(const std::filesystem::path& path, std::string bytes, ReadReport* report, const ReadOptions& options) {
+Cloud parse_cloud(const std::filesystem::path& path, std::string bytes, ReadReport* report,
+                  const ReadOptions& options) {
     const std::string extension = require_cloud_file(path, options);
     const std::string file = path.string();
     require_text(file, bytes);
@@ -97,7 +103,8 @@ Cloud parse_cloud(const std::filesystem::path& path, std::string bytes, ReadRepo
     return cloud;
 }
 
-Cloud read_cloud(const std::filesystem::path& path, ReadReport* report, const ReadOptions& options) {
+Cloud read_cloud(const std::filesystem::path& path, ReadReport* report,
+                 const ReadOptions& options) {
     require_cloud_file(path, options);
     return parse_cloud(path, read_file(path), report, options);
 }

@@ -7,15 +7,17 @@
 namespace dsc::cloud {
 namespace {
 
-/// Per point: the mean of the normals from its corners; or its own normal if there are as many normals as points. A normal
-/// that all corners repeat keeps its bits.
+/// Per point: the mean of the normals from its corners; or its own normal if there are as many
+/// normals as points. A normal that all corners repeat keeps its bits.
 std::vector<Vec3> normals_of_points(const decode::Obj& obj) {
     std::vector<Vec3> normals;
     for (const Vec3& normal : obj.normals) normals.push_back(direction_of(normal));
-    if (obj.corners.empty()) return normals.size() == obj.points.size() ? normals : std::vector<Vec3>();
+    if (obj.corners.empty())
+        return normals.size() == obj.points.size() ? normals : std::vector<Vec3>();
     std::vector<Vec3> out(obj.points.size(), Vec3::Zero());
     for (const auto& [point, normal] : obj.corners)
-        if (point < out.size() && normal < normals.size() && out[point] != normals[normal]) out[point] += normals[normal];
+        if (point < out.size() && normal < normals.size() && out[point] != normals[normal])
+            out[point] += normals[normal];
     for (Vec3& normal : out) normal = direction_of(normal);
     return out;
 }

@@ -1,14 +1,16 @@
-// XYZ, CSV and similar formats: one point per line. Own reader, because PCL's reader rounds every coordinate to float.
+// XYZ, CSV and similar formats: one point per line. Own reader, because PCL's reader rounds every
+// coordinate to float.
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <optional>
+
 #include <fmt/core.h>
 
 #include <dsc/base/byte_order_mark.hpp>
 #include <dsc/base/error.hpp>
-#include <dsc/text/reading.hpp>
 #include <dsc/text/numbers.hpp>
+#include <dsc/text/reading.hpp>
 #include <dsc/text/words.hpp>
 
 #include "attributes.hpp"
@@ -42,7 +44,8 @@ public:
             }
             refuse_decimal_commas(line);
             const char separator = separator_for(line);
-            split_columns(separator == '\t' ? whole : line, separator, words_);  // a tab may end an empty column
+            split_columns(separator == '\t' ? whole : line, separator, words_);  // a tab may end an
+                                                                                 // empty column
             if (count_line(line)) continue;
             if (cloud_.points.empty() && take_names()) continue;
             point();
@@ -55,7 +58,8 @@ public:
         return std::move(cloud_);
     }
 
-    /// The names of the columns, from a header or by what they were taken for; empty if they have no names.
+    /// The names of the columns, from a header or by what they were taken for; empty if they have
+    /// no names.
     const std::vector<std::string>& names() const { return names_; }
 
 private:
@@ -66,9 +70,11 @@ private:
         std::vector<std::string> out = {"x", "y", "z"};
         for (std::size_t first = 3; first < previous_; first += 3) {
             const std::size_t triple = first / 3 - 1;
-            if (triple < guesses_.size() && !cloud_.colours.empty() && guesses_[triple].colour(cloud_.points.size()))
+            if (triple < guesses_.size() && !cloud_.colours.empty() &&
+                guesses_[triple].colour(cloud_.points.size()))
                 out.insert(out.end(), {"red", "green", "blue"});
-            else if (triple < guesses_.size() && !cloud_.normals.empty() && guesses_[triple].normal(cloud_.points.size()))
+            else if (triple < guesses_.size() && !cloud_.normals.empty() &&
+                     guesses_[triple].normal(cloud_.points.size()))
                 out.insert(out.end(), {"nx", "ny", "nz"});
             else
                 for (std::size_t column = first; column < std::min(first + 3, previous_); ++column)
@@ -96,11 +102,14 @@ private:
         return line.substr(0, 2) == "//" ? 2 : 0;
     }
 
-    /// Decimal commas between blanks, tabs or commas would be read as separators. With a semicolon or quotes a number stays in
-    /// one piece and is refused. In columns that are also divided by commas, there are twice as many columns as it seems; a
-    /// fraction that begins with 0 distinguishes them from integers.
+    /// Decimal commas between blanks, tabs or commas would be read as separators. With a semicolon
+    /// or quotes a number stays in one piece and is refused. In columns that are also divided by
+    /// commas, there are twice as many columns as it seems; a fraction that begins with 0
+    /// distinguishes them from integers.
     void refuse_decimal_commas(std::string_view line) const {
-        if (line.find(',') == std::string_view::npos || line.find_first_of(";\"") != std::string_view::npos) return;
+        if (line.find(',') == std::string_view::npos ||
+            line.find_first_of(";\"") != std::string_view::npos)
+            return;
         std::string_view rest = line, decimal;
         for (int k = 0; k < 3; ++k) {
             std::string_view word = text::next_word(rest);
@@ -143,11 +152,13 @@ private:
         if (choice_.knows(words_)) comment_ = words_;
     }
 
-    /// Before the first point: decides the names of the columns. True for a header, which is not a point. Words are names of
-    /// columns only if there are as many words as columns, because other text may also contain x y z.
+    /// Before the first point: decides the names of the columns. True for a header, which is not a
+    /// point. Words are names of columns only if there are as many words as columns, because other
+    /// text may also contain x y z.
     bool take_names() {
         const std::vector<std::string>& above = header_.empty() ? comment_ : header_;
-        if (!above.empty() && above.size() == words_.size()) choice_.take_names(above, header_.empty());
+        if (!above.empty() && above.size() == words_.size())
+            choice_.take_names(above, header_.empty());
         if (header_.empty() && is_header()) {
             header_ = words_;
             drop_units();
@@ -156,20 +167,24 @@ private:
         }
         const bool unfit = !header_.empty() && !choice_.chosen() && header_.size() != words_.size();
         if (choice_.wants_names() || unfit)
-            syntax(fmt::format("the header has {}, the line {}", text::counted(header_.size(), "column"), words_.size()),
-                   words_.size() == 2 * header_.size() ? decimal_comma_remedy : "choose columns by their numbers from 1");
+            syntax(fmt::format("the header has {}, the line {}",
+                               text::counted(header_.size(), "column"), words_.size()),
+                   words_.size() == 2 * header_.size() ? decimal_comma_remedy
+                                                       : "choose columns by their numbers from 1");
         return false;
     }
 
     /// Between blanks, the unit of a column is a separate word and not a name: X [m] Y [m] Z [m].
     void drop_units() {
         const auto is_unit = [](const std::string& word) {
-            return word.size() > 1 && ((word.front() == '[' && word.back() == ']') || (word.front() == '(' && word.back() == ')'));
+            return word.size() > 1 && ((word.front() == '[' && word.back() == ']') ||
+                                       (word.front() == '(' && word.back() == ')'));
         };
         header_.erase(std::remove_if(header_.begin(), header_.end(), is_unit), header_.end());
     }
 
-    /// If columns were chosen, the separator of the first line is used for all lines, because text columns may contain others.
+    /// If columns were chosen, the separator of the first line is used for all lines, because text
+    /// columns may contain others.
     char separator_for(std::string_view line) {
         if (!choice_.chosen()) return separator_of(line, false);
         if (!separator_) separator_ = separator_of(line, true);
@@ -178,8 +193,8 @@ private:
 
     bool count_line(std::string_view line) {
         std::size_t count = 0;
-        const bool block_full =
-            cloud_.points.empty() || (block_.any && cloud_.points.size() - block_.first == block_.count);
+        const bool block_full = cloud_.points.empty() ||
+                                (block_.any && cloud_.points.size() - block_.first == block_.count);
         if (words_.size() != 1 || !block_full || !text::parse_count(line, count)) return false;
         check_announced();
         block_ = {true, lines_.number(), count, cloud_.points.size()};
@@ -190,9 +205,11 @@ private:
     void check_announced() const {
         const std::size_t got = cloud_.points.size() - block_.first;
         if (!block_.any || got == block_.count) return;
-        throw IoError(got < block_.count ? "io.truncated" : "io.syntax", file_, std::to_string(block_.line),
-                      fmt::format("the count line announces {}, the file has {}", text::counted(block_.count, "point"), got),
-                      got < block_.count ? "the file is cut off, write it again" : "correct the count");
+        throw IoError(
+            got < block_.count ? "io.truncated" : "io.syntax", file_, std::to_string(block_.line),
+            fmt::format("the count line announces {}, the file has {}",
+                        text::counted(block_.count, "point"), got),
+            got < block_.count ? "the file is cut off, write it again" : "correct the count");
     }
 
     std::string_view word(std::size_t column) const {
@@ -203,7 +220,8 @@ private:
         if (choice_.wants_names()) return true;  // the names must exist
         double value = 0.0;
         const std::string_view first = word(choice_.coordinates()[0]);
-        return text::parse_number(first, value) == text::Number::not_a_number && !text::has_decimal_comma(first);
+        return text::parse_number(first, value) == text::Number::not_a_number &&
+               !text::has_decimal_comma(first);
     }
 
     void point() {
@@ -212,8 +230,10 @@ private:
         const std::size_t last = *std::max_element(columns.begin(), columns.end());
         if (words_.size() <= last || cut)
             syntax("the line has " + text::counted(words_.size(), "column") +
-                       (words_.size() <= last ? choice_.of_needed(last) : ", the previous one has more"),
-                   "a point needs x, y and z, separated by blanks, commas or semicolons; the file may be cut off");
+                       (words_.size() <= last ? choice_.of_needed(last)
+                                              : ", the previous one has more"),
+                   "a point needs x, y and z, separated by blanks, commas or semicolons; the file "
+                   "may be cut off");
         Vec3 point;
         for (int k = 0; k < 3; ++k) {
             const std::size_t column = columns[static_cast<std::size_t>(k)];
@@ -231,7 +251,8 @@ private:
             guess();
     }
 
-    /// For columns with names, or chosen ones; only chosen columns must contain a colour in every line.
+    /// For columns with names, or chosen ones; only chosen columns must contain a colour in every
+    /// line.
     void named_colour(const std::array<std::size_t, 3>& columns) {
         Vec3 colour;
         for (int k = 0; k < 3; ++k) {
@@ -253,18 +274,23 @@ private:
         Vec3 normal = Vec3::Zero();
         bool whole = true;
         for (int k = 0; k < 3; ++k)
-            whole = text::parse_number(word(columns[static_cast<std::size_t>(k)]), normal[k]) == text::Number::ok && whole;
+            whole = text::parse_number(word(columns[static_cast<std::size_t>(k)]), normal[k]) ==
+                        text::Number::ok &&
+                    whole;
         cloud_.normals.push_back(whole ? direction_of(normal) : Vec3(Vec3::Zero()));
     }
 
     void named_intensity(std::size_t column) {
         double value = 0.0;
-        if (text::parse_number(word(column), value) == text::Number::ok) intensities_.push_back(value);
+        if (text::parse_number(word(column), value) == text::Number::ok)
+            intensities_.push_back(value);
     }
 
     /// Without names: columns 4 to 6 of six, and 7 to 9 of nine.
     void guess() {
-        if (!header_.empty() || choice_.chosen() || choice_.named() || (words_.size() != 6 && words_.size() != 9)) return;
+        if (!header_.empty() || choice_.chosen() || choice_.named() ||
+            (words_.size() != 6 && words_.size() != 9))
+            return;
         for (std::size_t triple = 0; 3 * triple + 3 < words_.size(); ++triple) {
             Guess& guess = guesses_[triple];
             Vec3 values = Vec3::Zero();
@@ -273,7 +299,8 @@ private:
                 const std::string& text = words_[3 * triple + 3 + k];
                 std::size_t count = 0;
                 bytes = bytes && text::parse_count(text, count) && count <= 255;
-                if (text::parse_number(text, values[static_cast<int>(k)]) != text::Number::ok) values = Vec3::Constant(infinite);
+                if (text::parse_number(text, values[static_cast<int>(k)]) != text::Number::ok)
+                    values = Vec3::Constant(infinite);
             }
             guess.bytes += bytes ? 1U : 0U;
             guess.units += looks_like_unit(values) ? 1U : 0U;
@@ -283,10 +310,13 @@ private:
     }
 
     void finish_colours() {
-        if (!colours_.empty() && colours_.size() == cloud_.points.size()) cloud_.colours = colours_from(colours_, whole_);
-        if (!choice_.colours() && intensities_.size() == cloud_.points.size()) cloud_.colours = greys_from(intensities_);
+        if (!colours_.empty() && colours_.size() == cloud_.points.size())
+            cloud_.colours = colours_from(colours_, whole_);
+        if (!choice_.colours() && intensities_.size() == cloud_.points.size())
+            cloud_.colours = greys_from(intensities_);
         for (const Guess& guess : guesses_)
-            if (cloud_.colours.empty() && guess.colour(cloud_.points.size())) cloud_.colours = colours_from(guess.values, true);
+            if (cloud_.colours.empty() && guess.colour(cloud_.points.size()))
+                cloud_.colours = colours_from(guess.values, true);
     }
 
     void finish_normals() {
@@ -307,18 +337,19 @@ private:
     std::vector<std::string> words_;    ///< of the line
     std::vector<std::string> comment_;  ///< the last one that contains the names
     std::vector<std::string> header_;   ///< empty if there is no header
-    std::optional<char> separator_;   ///< of chosen columns
+    std::optional<char> separator_;     ///< of chosen columns
     std::vector<Vec3> colours_;
     std::vector<double> intensities_;
     std::array<Guess, 2> guesses_;
     std::vector<std::string> names_;
     std::size_t previous_ = 0;  ///< number of columns of the previous point
-    bool whole_ = true;  ///< no colour has a fraction
+    bool whole_ = true;         ///< no colour has a fraction
 };
 
 }  // namespace
 
-Cloud read_table(const std::string& file, std::string_view text, const ReadOptions& options, std::vector<std::string>& names) {
+Cloud read_table(const std::string& file, std::string_view text, const ReadOptions& options,
+                 std::vector<std::string>& names) {
     TableReader reader(file, text, options);
     Cloud cloud = reader.read();
     names = reader.names();

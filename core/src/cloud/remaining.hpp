@@ -1,5 +1,6 @@
 #pragma once
-// Points of which some are removed: the nearest neighbours of the remaining points among the remaining points.
+// Points of which some are removed: the nearest neighbours of the remaining points among the
+// remaining points.
 
 #include <cstddef>
 #include <span>
@@ -17,11 +18,12 @@ inline constexpr std::size_t remaining_neighbours = 16;
 
 class Remaining {
 public:
-    /// At first all points remain. Throws GeometryError as NearestSearch. The points must outlive this object. [setup]
+    /// At first all points remain. Throws GeometryError as NearestSearch. The points must outlive
+    /// this object. [setup]
     Remaining(std::span<const Vec3> points, Workers* workers);
 
-    /// Removes the points whose flag is set, and searches new neighbours for points that lost one. At least 17 points must
-    /// remain. [setup]
+    /// Removes the points whose flag is set, and searches new neighbours for points that lost one.
+    /// At least 17 points must remain. [setup]
     void remove(const std::vector<unsigned char>& gone, Workers* workers);
 
     std::span<const Vec3> points() const { return points_; }
@@ -36,7 +38,8 @@ private:
     std::span<const Vec3> points_;
     std::vector<unsigned char> present_;
     std::size_t count_ = 0;
-    std::vector<std::uint32_t> order_;  ///< along the curve of spatial_order, so that ties do not depend on the cloud's order
+    std::vector<std::uint32_t> order_;  ///< along the curve of spatial_order, so that ties do not
+                                        ///< depend on the cloud's order
     Neighbours neighbours_;
 };
 

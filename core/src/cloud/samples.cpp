@@ -20,7 +20,8 @@ constexpr std::size_t neighbours_each = 16;
 constexpr double wanted_cells = 20000.0;
 constexpr double first_cell_edge = 0.01;
 constexpr int cell_rounds = 4;
-constexpr double noisy_cells = 0.4;    // noise of the means, in widths, above which larger cells are used
+constexpr double noisy_cells = 0.4;  // noise of the means, in widths, above which larger cells are
+                                     // used
 constexpr double noise_per_cell = 3.0;  // edge of these larger cells, in noise scales
 
 /// Samples without repeated points, in lexicographic order.
@@ -28,9 +29,11 @@ void make_unique(std::span<const Vec3> points, ScaledSamples& out) {
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
     const auto less = [&](std::uint32_t i, std::uint32_t j) {
-        return geometry::lexicographically_before(points[i], points[j]) || (points[i] == points[j] && i < j);
+        return geometry::lexicographically_before(points[i], points[j]) ||
+               (points[i] == points[j] && i < j);
     };
-    if (!std::is_sorted(order.begin(), order.end(), less)) std::sort(order.begin(), order.end(), less);
+    if (!std::is_sorted(order.begin(), order.end(), less))
+        std::sort(order.begin(), order.end(), less);
     out.of_point.resize(points.size());
     for (std::size_t n = 0; n < order.size(); ++n) {
         if (n == 0 || points[order[n]] != points[order[n - 1]]) {
@@ -44,7 +47,8 @@ void make_unique(std::span<const Vec3> points, ScaledSamples& out) {
     out.centre = box.centre();
     out.diagonal = box.diagonal();
     out.positions.reserve(out.first_point.size());
-    for (const std::uint32_t i : out.first_point) out.positions.push_back((points[i] - out.centre) / out.diagonal);
+    for (const std::uint32_t i : out.first_point)
+        out.positions.push_back((points[i] - out.centre) / out.diagonal);
 }
 
 void measure(ScaledSamples& samples, Workers* workers) {
@@ -58,7 +62,9 @@ void measure(ScaledSamples& samples, Workers* workers) {
 double cell_edge(std::span<const Vec3> positions) {
     double edge = first_cell_edge;
     for (int round = 0; round < cell_rounds; ++round)
-        edge = std::max(edge * std::sqrt(static_cast<double>(count_cells(positions, edge)) / wanted_cells), least_cell_edge);
+        edge = std::max(
+            edge * std::sqrt(static_cast<double>(count_cells(positions, edge)) / wanted_cells),
+            least_cell_edge);
     return edge;
 }
 
@@ -73,7 +79,8 @@ void cluster(const ScaledSamples& unique, double edge, ScaledSamples& out) {
         out.counts[cells.of_point[u]] += unique.counts[u];
     }
     out.of_point.resize(unique.of_point.size());
-    for (std::size_t i = 0; i < out.of_point.size(); ++i) out.of_point[i] = cells.of_point[unique.of_point[i]];
+    for (std::size_t i = 0; i < out.of_point.size(); ++i)
+        out.of_point[i] = cells.of_point[unique.of_point[i]];
 }
 
 ScaledSamples clustered_samples(const ScaledSamples& unique, Workers* workers) {

@@ -1,14 +1,15 @@
-// NearestSearch with nanoflann's kd-tree. The tree is a template and works on doubles, so nothing is rounded, and a query
-// allocates nothing. The result sets here add the order by distance and index, which nanoflann's own sets do not keep.
-#include <dsc/cloud/search.hpp>
+// NearestSearch with nanoflann's kd-tree. The tree is a template and works on doubles, so nothing
+// is rounded, and a query allocates nothing. The result sets here add the order by distance and
+// index, which nanoflann's own sets do not keep.
+#include "dsc/cloud/search.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include <nanoflann.hpp>
 #include <fmt/core.h>
+#include <nanoflann.hpp>
 
 #include <dsc/base/error.hpp>
 
@@ -29,11 +30,15 @@ struct Points {
         return false;
     }
 };
-using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3, std::uint32_t>;
+using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>,
+                                                  Points, 3, std::uint32_t>;
 
-/// The tree drops points that are not nearer than this. It is slightly more than the squared distance: points at the same
-/// distance must still be compared by index, and the tree's running sums of squares may be off by a few roundings.
-double widened(double squared) { return squared * (1.0 + 1e-9) + std::numeric_limits<double>::min(); }
+/// The tree drops points that are not nearer than this. It is slightly more than the squared
+/// distance: points at the same distance must still be compared by index, and the tree's running
+/// sums of squares may be off by a few roundings.
+double widened(double squared) {
+    return squared * (1.0 + 1e-9) + std::numeric_limits<double>::min();
+}
 
 bool before(const Neighbour& a, const Neighbour& b) {
     return a.distance < b.distance || (a.distance == b.distance && a.index < b.index);
@@ -55,7 +60,8 @@ public:
     }
     double worstDist() const { return worst_; }
 
-    Neighbour best{std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<double>::infinity()};
+    Neighbour best{std::numeric_limits<std::uint32_t>::max(),
+                   std::numeric_limits<double>::infinity()};
 
 private:
     double worst_ = std::numeric_limits<double>::infinity();
@@ -118,7 +124,8 @@ void take_roots(std::vector<Neighbour>& out) {
 
 struct NearestSearch::Tree {
     explicit Tree(std::span<const Vec3> source)
-        : points{{source.begin(), source.end()}}, index(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(8)) {
+        : points{{source.begin(), source.end()}},
+          index(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(8)) {
         index.buildIndex();
     }
     template <class Result>
@@ -132,13 +139,16 @@ struct NearestSearch::Tree {
 
 NearestSearch::NearestSearch(std::span<const Vec3> points) {
     if (points.empty())
-        throw GeometryError("cloud.empty", "nearest-point search", "no points", "a search needs at least one");
+        throw GeometryError("cloud.empty", "nearest-point search", "no points",
+                            "a search needs at least one");
     if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw GeometryError("cloud.large",
-                            "nearest-point search", fmt::format("{} points; the limit is 2147483647", points.size()), "thin the cloud first");
+        throw GeometryError("cloud.large", "nearest-point search",
+                            fmt::format("{} points; the limit is 2147483647", points.size()),
+                            "thin the cloud first");
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!points[i].allFinite())
-            throw GeometryError("cloud.non_finite", "nearest-point search", fmt::format("point {} is not finite", i), "remove it first");
+            throw GeometryError("cloud.non_finite", "nearest-point search",
+                                fmt::format("point {} is not finite", i), "remove it first");
     tree_ = std::make_unique<Tree>(points);
 }
 
@@ -162,7 +172,8 @@ void NearestSearch::k_nearest(const Vec3& p, std::size_t k, std::vector<Neighbou
     take_roots(out);
 }
 
-void NearestSearch::neighbours_within(const Vec3& p, double radius, std::vector<Neighbour>& out) const {
+void NearestSearch::neighbours_within(const Vec3& p, double radius,
+                                      std::vector<Neighbour>& out) const {
     out.clear();
     if (!(radius >= 0.0)) return;
     Within result(radius, &out);

@@ -1,11 +1,13 @@
 // Samples and meshes of the built-in shapes.
+#include "dsc/cloud/shapes.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <string>
+
 #include <dsc/base/error.hpp>
-#include <dsc/cloud/shapes.hpp>
 #include <dsc/text/numbers.hpp>
 #include <dsc/text/words.hpp>
-#include <string>
 
 #include "surfaces.hpp"
 
@@ -31,8 +33,10 @@ std::unique_ptr<Shape> make_shape(std::string_view name) {
     for (const NamedShape& shape : shapes)
         if (shape.name == name) return shape.make();
     std::string accepted;
-    for (const std::string_view known : names) accepted.append(accepted.empty() ? "" : ", ").append(known);
-    throw UsageError("shape.unknown", "unknown built-in shape " + text::in_quotes(name) + "; accepted are " + accepted);
+    for (const std::string_view known : names)
+        accepted.append(accepted.empty() ? "" : ", ").append(known);
+    throw UsageError("shape.unknown", "unknown built-in shape " + text::in_quotes(name) +
+                                          "; accepted are " + accepted);
 }
 
 void require_fraction(bool valid, std::string_view what, double value, std::string_view range) {
@@ -45,7 +49,8 @@ void require_fraction(bool valid, std::string_view what, double value, std::stri
 
 std::span<const std::string_view> shape_names() { return names; }
 
-Cloud sample_shape(std::string_view name, std::size_t n, std::uint64_t seed, double noise, double outliers) {
+Cloud sample_shape(std::string_view name, std::size_t n, std::uint64_t seed, double noise,
+                   double outliers) {
     if (n == 0) throw UsageError("shape.option", "0 points requested; a cloud has at least 1");
     require_fraction(noise >= 0.0 && noise <= 1.0, "noise", noise, "[0, 1]");
     require_fraction(outliers >= 0.0 && outliers <= 1.0, "outliers", outliers, "[0, 1]");
@@ -61,7 +66,8 @@ Cloud sample_shape(std::string_view name, std::size_t n, std::uint64_t seed, dou
     cloud.source = name;
     cloud.points.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
-        // Each point has its own random stream: with or without noise, a larger sample begins with the same points.
+        // Each point has its own random stream: with or without noise, a larger sample begins with
+        // the same points.
         RandomStream random({seed, stream_id("sample_shape"), stream_id(name), i});
         Vec3& p = cloud.points[i];
         if (i < on_shape) {
@@ -69,7 +75,8 @@ Cloud sample_shape(std::string_view name, std::size_t n, std::uint64_t seed, dou
             if (sigma > 0.0)
                 for (int k = 0; k < 3; ++k) p[k] += sigma * random.normal();
         } else {
-            for (int k = 0; k < 3; ++k) p[k] = random.uniform(centre[k] - half[k], centre[k] + half[k]);
+            for (int k = 0; k < 3; ++k)
+                p[k] = random.uniform(centre[k] - half[k], centre[k] + half[k]);
         }
     }
     return cloud;

@@ -1,23 +1,25 @@
 // Flags strewn points, points off the surface, and clumps.
 #include "stray.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 
+#include <Eigen/Eigenvalues>
+
 namespace dsc::cloud {
 
 namespace {
 
-// Uniform points in a ball have a roundness of 0.3, points of a very noisy surface 0.1; at creases single points reach 0.3.
+// Uniform points in a ball have a roundness of 0.3, points of a very noisy surface 0.1; at creases
+// single points reach 0.3.
 constexpr double round_enough = 0.22;
 constexpr double clump_roundness = 0.2;
-constexpr double clump_share = 0.02;     // largest clump, as a fraction of all points
-constexpr std::size_t few_points = 8;    // a group of so few points is not part of a surface
+constexpr double clump_share = 0.02;   // largest clump, as a fraction of all points
+constexpr std::size_t few_points = 8;  // a group of so few points is not part of a surface
 
-constexpr double closer = 1.3;           // a neighbour that is this many times closer shows the surface
+constexpr double closer = 1.3;  // a neighbour that is this many times closer shows the surface
 constexpr std::size_t least_closer = 6;  // least number of such neighbours, for a plane
 constexpr double least_reach = 1.3;      // of a point off the surface: in reaches of most points,
 constexpr double reach_beside = 1.6;     // and in reaches of those neighbours
@@ -34,7 +36,8 @@ Eigen::Matrix3d spread_of(const Near& near, std::size_t count, Vec3& mean) {
     for (std::size_t n = 0; n < count; ++n) mean += near[n];
     mean /= static_cast<double>(count);
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (std::size_t n = 0; n < count; ++n) spread += (near[n] - mean) * (near[n] - mean).transpose();
+    for (std::size_t n = 0; n < count; ++n)
+        spread += (near[n] - mean) * (near[n] - mean).transpose();
     return spread;
 }
 
@@ -97,7 +100,8 @@ private:
 std::vector<std::uint32_t> apart(const Remaining& cloud, double reach) {
     std::vector<std::uint32_t> out;
     for (std::size_t i = 0; i < cloud.points().size(); ++i)
-        if (cloud.has(i) && cloud.neighbours().reach[i] > reach) out.push_back(static_cast<std::uint32_t>(i));
+        if (cloud.has(i) && cloud.neighbours().reach[i] > reach)
+            out.push_back(static_cast<std::uint32_t>(i));
     return out;
 }
 
@@ -119,7 +123,8 @@ bool lies_off_surface(const Remaining& cloud, std::size_t i) {
     Vec3 mean;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread_of(near, count, mean));
     const double off = std::abs(mean.dot(axes.eigenvectors().col(0)));
-    const double noise = std::sqrt(std::max(0.0, axes.eigenvalues()[0]) / static_cast<double>(count - 3));
+    const double noise =
+        std::sqrt(std::max(0.0, axes.eigenvalues()[0]) / static_cast<double>(count - 3));
     return off > height * reach && off > height_in_noise * noise;
 }
 
@@ -129,7 +134,9 @@ public:
     explicit Groups(const Remaining& cloud) : first_(cloud.points().size()) {
         std::iota(first_.begin(), first_.end(), 0U);
         const Neighbours& neighbours = cloud.neighbours();
-        const auto nearest = [&](std::uint32_t i) { return neighbours.of(i).first(neighbours.reached()); };
+        const auto nearest = [&](std::uint32_t i) {
+            return neighbours.of(i).first(neighbours.reached());
+        };
         for (std::uint32_t i = 0; i < first_.size(); ++i) {
             if (!cloud.has(i)) continue;
             for (const std::uint32_t j : nearest(i)) {
@@ -179,7 +186,8 @@ Flags off_surface_points(const Remaining& cloud, Workers* workers) {
     Flags out(cloud.points().size(), 0);
     const std::vector<std::uint32_t> candidates = apart(cloud, least_reach * cloud.median_reach());
     for_blocks(workers, candidates.size(), stray_block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t n = begin; n < end; ++n) out[candidates[n]] = lies_off_surface(cloud, candidates[n]);
+        for (std::size_t n = begin; n < end; ++n)
+            out[candidates[n]] = lies_off_surface(cloud, candidates[n]);
     });
     return out;
 }
@@ -193,7 +201,8 @@ Flags clumps(const Remaining& cloud, Workers* workers) {
     const double largest = clump_share * static_cast<double>(cloud.count());
     std::vector<std::uint32_t> in_small;
     for (std::uint32_t i = 0; i < count; ++i)
-        if (cloud.has(i) && static_cast<double>(members[groups.of(i)]) <= largest) in_small.push_back(i);
+        if (cloud.has(i) && static_cast<double>(members[groups.of(i)]) <= largest)
+            in_small.push_back(i);
     Roundness roundness(cloud, workers);
     roundness.find(in_small, false);
     std::vector<double> sum(count, 0.0);

@@ -1,5 +1,6 @@
 #pragma once
-// Distinguishes points strewn through space from points of a surface, in a cloud with many such points.
+// Distinguishes points strewn through space from points of a surface, in a cloud with many such
+// points.
 
 #include <vector>
 
@@ -12,14 +13,16 @@ namespace dsc::cloud {
 /// One flag per point of the cloud; never set for a removed point.
 using Flags = std::vector<unsigned char>;
 
-/// Points farther apart than `factor` times most points that fill space as in a ball, together with their neighbours and the
-/// neighbours of these, instead of lying on a surface. [setup]
+/// Points farther apart than `factor` times most points that fill space as in a ball, together with
+/// their neighbours and the neighbours of these, instead of lying on a surface. [setup]
 Flags strewn_points(const Remaining& cloud, double factor, Workers* workers);
 
-/// Points off the plane of those of their neighbours that are closer together than they are themselves. [setup]
+/// Points off the plane of those of their neighbours that are closer together than they are
+/// themselves. [setup]
 Flags off_surface_points(const Remaining& cloud, Workers* workers);
 
-/// Small groups of points that are not neighbours of other points: clumps that fill space, and groups of a few points. [setup]
+/// Small groups of points that are not neighbours of other points: clumps that fill space, and
+/// groups of a few points. [setup]
 Flags clumps(const Remaining& cloud, Workers* workers);
 
 }  // namespace dsc::cloud

@@ -40,8 +40,10 @@ public:
             for (int axis = 0; axis < 3; ++axis) add(mesh, s * Vec3::Unit(axis));
         // Octahedron: x y z are 0 1 2, their opposites 3 4 5; eight faces, oriented outwards.
         for (std::uint32_t corner = 0; corner < 8; ++corner) {
-            const std::uint32_t x = corner & 1U ? 3 : 0, y = corner & 2U ? 4 : 1, z = corner & 4U ? 5 : 2;
-            const bool mirrored = ((corner & 1U) + ((corner >> 1U) & 1U) + ((corner >> 2U) & 1U)) % 2 == 1;
+            const std::uint32_t x = corner & 1U ? 3 : 0, y = corner & 2U ? 4 : 1,
+                                z = corner & 4U ? 5 : 2;
+            const bool mirrored =
+                ((corner & 1U) + ((corner >> 1U) & 1U) + ((corner >> 2U) & 1U)) % 2 == 1;
             mesh.faces.push_back(mirrored ? Face{x, z, y} : Face{x, y, z});
         }
         for (int level = 0; level < 6; ++level) refine(mesh);
@@ -60,7 +62,8 @@ private:
         faces.reserve(4 * mesh.faces.size());
         for (const auto& [a, b, c] : std::exchange(mesh.faces, {})) {
             const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-            for (const Face& face : {Face{a, ab, ca}, Face{ab, b, bc}, Face{ca, bc, c}, Face{ab, bc, ca}})
+            for (const Face& face :
+                 {Face{a, ab, ca}, Face{ab, b, bc}, Face{ca, bc, c}, Face{ab, bc, ca}})
                 faces.push_back(face);
         }
         mesh.faces = std::move(faces);
@@ -93,7 +96,9 @@ public:
         for (std::uint32_t i = 0; i < rings; ++i)
             for (std::uint32_t j = 0; j < sides; ++j)
                 add(mesh, at(2.0 * pi * i / rings, 2.0 * pi * j / sides));
-        const auto id = [](std::uint32_t i, std::uint32_t j) { return (i % rings) * sides + j % sides; };
+        const auto id = [](std::uint32_t i, std::uint32_t j) {
+            return (i % rings) * sides + j % sides;
+        };
         for (std::uint32_t i = 0; i < rings; ++i)
             for (std::uint32_t j = 0; j < sides; ++j)
                 add_quad(mesh, id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1));
@@ -134,7 +139,8 @@ public:
         return {-half, half};
     }
     ShapeMesh mesh() const override {
-        constexpr std::uint32_t sides = 256;  // a multiple of 8, so that rays go through the corners of the box
+        constexpr std::uint32_t sides = 256;  // a multiple of 8, so that rays go through the
+                                              // corners of the box
         ShapeMesh mesh;
         for (std::uint32_t i = 0; i < sides; ++i) {
             const double angle = 2.0 * pi * i / sides;
@@ -149,7 +155,8 @@ public:
         }
         for (std::uint32_t i = 0; i < sides; ++i) {
             const std::uint32_t a = 4 * i,
-                                b = 4 * ((i + 1) % sides);  // inner low, inner high, outer low, outer high
+                                b = 4 * ((i + 1) % sides);  // inner low, inner high, outer low,
+                                                            // outer high
             add_quad(mesh, a + 2, b + 2, b + 3, a + 3);     // outer wall
             add_quad(mesh, b, a, a + 1, b + 1);             // tunnel, seen from its axis
             add_quad(mesh, a + 1, a + 3, b + 3, b + 1);     // top

@@ -1,5 +1,5 @@
 // The cloud as strategies see it; spacings are computed on demand.
-#include <dsc/cloud/target.hpp>
+#include "dsc/cloud/target.hpp"
 
 #include <mutex>
 #include <vector>
@@ -26,15 +26,18 @@ std::vector<T> one_per_point(const std::vector<T>& values, const Normalized& nor
 constexpr std::size_t wanted = 6;
 constexpr std::size_t searched = 16, searched_again = 128;  // more if many points coincide
 
-// Distance to the sixth neighbour (to the last one if there are fewer), and the number of neighbours. Coinciding points count
-// once, and points that coincide with p do not count. Equal points have equal distances, so only those are compared.
-std::pair<double, std::size_t> sixth_neighbour_distance(std::span<const Vec3> points, std::span<const Neighbour> around) {
+// Distance to the sixth neighbour (to the last one if there are fewer), and the number of
+// neighbours. Coinciding points count once, and points that coincide with p do not count. Equal
+// points have equal distances, so only those are compared.
+std::pair<double, std::size_t> sixth_neighbour_distance(std::span<const Vec3> points,
+                                                        std::span<const Neighbour> around) {
     double last = 0.0;
     std::size_t distinct = 0;
     for (std::size_t i = 0; i < around.size() && distinct < wanted; ++i) {
         if (!(around[i].distance > 0.0)) continue;
         bool again = false;
-        for (std::size_t j = i; j > 0 && around[j - 1].distance == around[i].distance && !again; --j) {
+        for (std::size_t j = i; j > 0 && around[j - 1].distance == around[i].distance && !again;
+             --j) {
             again = points[around[j - 1].index] == points[around[i].index];
         }
         if (again) continue;
@@ -54,14 +57,17 @@ TargetCloud::TargetCloud(const Normalized& normalized)
       attributes_(attributes_of(normalized)),
       measured_(std::make_shared<Measured>()) {}
 
-std::shared_ptr<const TargetCloud::Attributes> TargetCloud::attributes_of(const Normalized& normalized) {
+std::shared_ptr<const TargetCloud::Attributes> TargetCloud::attributes_of(
+    const Normalized& normalized) {
     return std::make_shared<const Attributes>(Attributes{
-        one_per_point(normalized.colours, normalized), one_per_point(normalized.normals, normalized),
-        one_per_point(normalized.areas, normalized), one_per_point(normalized.confidence, normalized), normalized.orientation});
+        one_per_point(normalized.colours, normalized),
+        one_per_point(normalized.normals, normalized), one_per_point(normalized.areas, normalized),
+        one_per_point(normalized.confidence, normalized), normalized.orientation});
 }
 
 const Statistics& TargetCloud::statistics(Workers* workers) const {
-    std::call_once(measured_->once, [this, workers] { measured_->statistics = measure_cloud(points(), workers); });
+    std::call_once(measured_->once,
+                   [this, workers] { measured_->statistics = measure_cloud(points(), workers); });
     return measured_->statistics;
 }
 

@@ -9,8 +9,8 @@
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/cloud/data_file.hpp>
-#include <dsc/text/reading.hpp>
 #include <dsc/text/numbers.hpp>
+#include <dsc/text/reading.hpp>
 #include <dsc/text/words.hpp>
 
 #include "surfaces.hpp"
@@ -67,8 +67,9 @@ std::vector<Patch> load_patches() {
 /// The patches of which a scan sees only the part outside the body: handle and spout.
 bool enters_body(std::size_t patch) { return patch >= 12 && patch < 20; }
 
-/// Body and bottom, which are rotated profiles: every cross-section is the same quarter arc, scaled by the radius at its
-/// height. The arc is a cubic Bezier curve with a tangent of 0.56, which is not exactly a circle.
+/// Body and bottom, which are rotated profiles: every cross-section is the same quarter arc, scaled
+/// by the radius at its height. The arc is a cubic Bezier curve with a tangent of 0.56, which is
+/// not exactly a circle.
 class Body {
 public:
     /// `patches`: their first columns define the profile.
@@ -108,12 +109,14 @@ private:
 
     static double radius(const Profile& profile, double z) {
         const double sign = profile[3].z() > profile[0].z() ? 1.0 : -1.0;
-        return point(profile, root([&](double t) { return sign * (point(profile, t).z() - z); })).x();
+        return point(profile, root([&](double t) { return sign * (point(profile, t).z() - z); }))
+            .x();
     }
 
     /// Radius of the unit arc in the direction (x, y) of the first quadrant.
     static double arc(double x, double y) {
-        static const Profile quarter{Vec3(1, 0, 0), Vec3(1, 0.56, 0), Vec3(0.56, 1, 0), Vec3(0, 1, 0)};
+        static const Profile quarter{Vec3(1, 0, 0), Vec3(1, 0.56, 0), Vec3(0.56, 1, 0),
+                                     Vec3(0, 1, 0)};
         const double t = root([&](double s) {
             const Vec3 p = point(quarter, s);
             return p.y() * x - p.x() * y;
@@ -124,8 +127,8 @@ private:
     Profile upper_, lower_, bottom_;
 };
 
-/// The four patches of the handle or of the spout: an open tube that leaves the body in the direction `side` of x
-/// and encloses a part of its wall.
+/// The four patches of the handle or of the spout: an open tube that leaves the body in the
+/// direction `side` of x and encloses a part of its wall.
 class Tube {
 public:
     Tube(std::span<const Patch> patches, double side) : side_(side) {
@@ -143,18 +146,23 @@ public:
             for (const Vec3& p : face) box_.extend(p);
     }
 
-    /// `p` lies on the body's wall. The ray along x that leaves the body meets the tube an odd number of times if p is inside
-    /// the tube, and an even number of times if it is outside; it never passes through the open ends of the tube.
+    /// `p` lies on the body's wall. The ray along x that leaves the body meets the tube an odd
+    /// number of times if p is inside the tube, and an even number of times if it is outside; it
+    /// never passes through the open ends of the tube.
     bool encloses(const Vec3& p) const {
         if (!box_.contains(p)) return false;
-        return std::count_if(faces_.begin(), faces_.end(), [&](const auto& face) { return meets(p, face); }) % 2 == 1;
+        return std::count_if(faces_.begin(), faces_.end(),
+                             [&](const auto& face) { return meets(p, face); }) %
+                   2 ==
+               1;
     }
 
 private:
     static constexpr std::size_t cells = 16;  // per side of a patch
 
     bool meets(const Vec3& p, const std::array<Vec3, 3>& face) const {
-        std::array<double, 3> part;  // twice the areas of p's image with the edges of the face's image
+        std::array<double, 3> part;  // twice the areas of p's image with the edges of the face's
+                                     // image
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 a = face[k] - p, b = face[(k + 1) % 3] - p;
             part[(k + 2) % 3] = a.y() * b.z() - a.z() * b.y();
@@ -162,7 +170,8 @@ private:
         if ((part[0] < 0.0) != (part[1] < 0.0) || (part[1] < 0.0) != (part[2] < 0.0)) return false;
         const double sum = part[0] + part[1] + part[2];
         if (sum == 0.0) return false;
-        const double x = (part[0] * face[0].x() + part[1] * face[1].x() + part[2] * face[2].x()) / sum;
+        const double x =
+            (part[0] * face[0].x() + part[1] * face[1].x() + part[2] * face[2].x()) / sum;
         return side_ * (x - p.x()) > 0.0;
     }
 
@@ -200,12 +209,13 @@ public:
 
     Vec3 sample(RandomStream& random) const override {
         for (;;) {
-            // Chooses a cell of the patches by its area, then a place in it. The cells are small enough to have an even area
-            // density, and the point lies on the patch itself, not on a chord.
+            // Chooses a cell of the patches by its area, then a place in it. The cells are small
+            // enough to have an even area density, and the point lies on the patch itself, not on a
+            // chord.
             const double pick = random.uniform(0.0, area_below_.back());
             const auto found = std::upper_bound(area_below_.begin(), area_below_.end(), pick);
-            const auto triangle =
-                static_cast<std::size_t>(std::min(found, area_below_.end() - 1) - area_below_.begin());
+            const auto triangle = static_cast<std::size_t>(std::min(found, area_below_.end() - 1) -
+                                                           area_below_.begin());
             const std::size_t patch = triangle / (2 * cells * cells);
             const std::size_t cell = triangle / 2 % (cells * cells);
             double u = random.uniform(), v = random.uniform();
@@ -220,7 +230,8 @@ public:
 
     ShapeMesh mesh() const override {
         ShapeMesh mesh;
-        std::map<std::array<long long, 3>, std::uint32_t> known;  // joins the patches along their borders
+        std::map<std::array<long long, 3>, std::uint32_t> known;  // joins the patches along their
+                                                                  // borders
         const auto vertex = [&](const Vec3& p) {
             std::array<long long, 3> key;
             for (std::size_t k = 0; k < 3; ++k) key[k] = std::llround(p[static_cast<int>(k)] * 1e9);
@@ -231,15 +242,18 @@ public:
         };
         for (std::size_t n = 0; n < patches_.size(); ++n) {
             const auto corner = [&](std::size_t i, std::size_t j) {
-                return at(patches_[n], static_cast<double>(i) / cells, static_cast<double>(j) / cells);
+                return at(patches_[n], static_cast<double>(i) / cells,
+                          static_cast<double>(j) / cells);
             };
             const auto face = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
                 if (hidden(n, (a + b + c) / 3.0)) return;
                 const std::array<std::uint32_t, 3> ids{vertex(a), vertex(b), vertex(c)};
-                if (ids[0] != ids[1] && ids[1] != ids[2] && ids[2] != ids[0]) mesh.faces.push_back(ids);
+                if (ids[0] != ids[1] && ids[1] != ids[2] && ids[2] != ids[0])
+                    mesh.faces.push_back(ids);
             };
             for (std::size_t j = 0; j < cells; ++j)
-                for (std::size_t i = 0; i < cells; ++i) {  // u cross v points outwards in these patches
+                for (std::size_t i = 0; i < cells; ++i) {  // u cross v points outwards in these
+                                                           // patches
                     const Vec3 a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
                                d = corner(i, j + 1);
                     face(a, b, c);

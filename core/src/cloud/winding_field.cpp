@@ -1,5 +1,6 @@
-// The winding field: sums over clusters [Barill2018] of order 0, for groups of neighbouring targets.
-#include <dsc/cloud/winding_field.hpp>
+// The winding field: sums over clusters [Barill2018] of order 0, for groups of neighbouring
+// targets.
+#include "dsc/cloud/winding_field.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+
 #include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
@@ -23,8 +25,8 @@ constexpr std::size_t source_leaf = 16;
 constexpr std::size_t target_leaf = 48;
 constexpr std::size_t leaves_per_block = 16;
 
-// Least smoothing length, in units of the box: it keeps the sums finite where a target coincides with a source, and is below
-// the resolution of the coordinates.
+// Least smoothing length, in units of the box: it keeps the sums finite where a target coincides
+// with a source, and is below the resolution of the coordinates.
 constexpr float least_half_square = 1e-15F;
 
 /// The conversion of positions to floats.
@@ -44,11 +46,13 @@ struct Frame {
 
 void require_points(std::span<const Vec3> points) {
     if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw GeometryError("cloud.large", "winding field", fmt::format("{} points; the limit is 2147483647", points.size()), "thin the cloud first");
+        throw GeometryError("cloud.large", "winding field",
+                            fmt::format("{} points; the limit is 2147483647", points.size()),
+                            "thin the cloud first");
     for (std::size_t i = 0; i < points.size(); ++i)
         if (!points[i].allFinite())
-            throw GeometryError("cloud.non_finite",
-                                "winding field", fmt::format("point {} is not finite", i), "remove it first");
+            throw GeometryError("cloud.non_finite", "winding field",
+                                fmt::format("point {} is not finite", i), "remove it first");
 }
 
 std::vector<std::array<float, 3>> placed(const Frame& frame, std::span<const Vec3> points) {
@@ -59,14 +63,16 @@ std::vector<std::array<float, 3>> placed(const Frame& frame, std::span<const Vec
 
 Frame frame_of(std::span<const Vec3> positions) {
     if (positions.empty())
-        throw GeometryError("cloud.empty", "winding field", "no positions", "at least one is needed");
+        throw GeometryError("cloud.empty", "winding field", "no positions",
+                            "at least one is needed");
     require_points(positions);
     const Box3 box = bounding_box(positions);
     const double diagonal = box.diagonal();
     return {box.centre(), diagonal > 0.0 ? 1.0 / diagonal : 1.0};
 }
 
-ClusterTree tree_of(const Frame& frame, std::span<const Vec3> positions, std::span<const double> weights) {
+ClusterTree tree_of(const Frame& frame, std::span<const Vec3> positions,
+                    std::span<const double> weights) {
     // Weights are divided by the largest weight, so that they fit into floats.
     double largest = 0.0;
     for (const double weight : weights) largest = std::max(largest, weight);
@@ -83,8 +89,8 @@ struct Interactions {
     std::vector<std::array<std::uint32_t, 2>> ranges;
 };
 
-void collect(const ClusterTree& tree, const ClusterNode& targets, float opening, std::vector<std::uint32_t>& stack,
-             Interactions& found) {
+void collect(const ClusterTree& tree, const ClusterNode& targets, float opening,
+             std::vector<std::uint32_t>& stack, Interactions& found) {
     found.clusters.clear();
     found.ranges.clear();
     stack.assign(1, 0U);
@@ -114,7 +120,8 @@ struct Strengths {
     std::array<std::vector<float>, 3> points;
     std::vector<std::array<float, 3>> clusters;
 
-    explicit Strengths(const ClusterTree& tree) : clusters(tree.nodes().size(), std::array<float, 3>{}) {
+    explicit Strengths(const ClusterTree& tree)
+        : clusters(tree.nodes().size(), std::array<float, 3>{}) {
         for (std::vector<float>& component : points) component.assign(tree.order().size(), 0.0F);
     }
     void add_up(const ClusterTree& tree) {
@@ -145,7 +152,8 @@ struct WindingField::State {
           scalars(tree) {}
 
     /// Collects the sources of a group.
-    void gather(const Interactions& found, const Strengths& strengths, WindingSources& sources) const {
+    void gather(const Interactions& found, const Strengths& strengths,
+                WindingSources& sources) const {
         std::size_t count = found.clusters.size();
         for (const auto& range : found.ranges) count += range[1] - range[0];
         sources.resize(count);
@@ -163,10 +171,12 @@ struct WindingField::State {
             ++at;
         }
         const std::array<const float*, winding_quantities> from{
-            tree.coordinates(0).data(),  tree.coordinates(1).data(),  tree.coordinates(2).data(), half_squares.data(),
-            strengths.points[0].data(), strengths.points[1].data(), strengths.points[2].data()};
+            tree.coordinates(0).data(), tree.coordinates(1).data(), tree.coordinates(2).data(),
+            half_squares.data(),        strengths.points[0].data(), strengths.points[1].data(),
+            strengths.points[2].data()};
         for (const auto& range : found.ranges) {
-            for (std::size_t q = 0; q < from.size(); ++q) std::copy(from[q] + range[0], from[q] + range[1], to[q] + at);
+            for (std::size_t q = 0; q < from.size(); ++q)
+                std::copy(from[q] + range[0], from[q] + range[1], to[q] + at);
             at += range[1] - range[0];
         }
     }
@@ -174,11 +184,12 @@ struct WindingField::State {
     void require_lists(Workers* workers) {
         if (!lists.empty()) return;
         std::vector<Interactions> built(tree.leaves().size());
-        for_blocks(workers, built.size(), leaves_per_block, [&](std::size_t begin, std::size_t end) {
-            std::vector<std::uint32_t> stack;
-            for (std::size_t n = begin; n < end; ++n)
-                collect(tree, tree.nodes()[tree.leaves()[n]], opening, stack, built[n]);
-        });
+        for_blocks(workers, built.size(), leaves_per_block,
+                   [&](std::size_t begin, std::size_t end) {
+                       std::vector<std::uint32_t> stack;
+                       for (std::size_t n = begin; n < end; ++n)
+                           collect(tree, tree.nodes()[tree.leaves()[n]], opening, stack, built[n]);
+                   });
         lists = std::move(built);
     }
 
@@ -186,47 +197,53 @@ struct WindingField::State {
     template <class Write>
     void at_positions(const Strengths& strengths, Workers* workers, const Write& write) {
         require_lists(workers);
-        for_blocks(workers, lists.size(), leaves_per_block, [&](std::size_t begin, std::size_t end) {
-            WindingSources sources;
-            for (std::size_t n = begin; n < end; ++n) {
-                gather(lists[n], strengths, sources);
-                const ClusterNode& leaf = tree.nodes()[tree.leaves()[n]];
-                for (std::size_t i = leaf.begin; i < leaf.end; ++i)
-                    write(tree.order()[i], sources,
-                          WindingTarget{tree.coordinates(0)[i], tree.coordinates(1)[i], tree.coordinates(2)[i],
-                                        half_squares[i]});
-            }
-        });
+        for_blocks(workers, lists.size(), leaves_per_block,
+                   [&](std::size_t begin, std::size_t end) {
+                       WindingSources sources;
+                       for (std::size_t n = begin; n < end; ++n) {
+                           gather(lists[n], strengths, sources);
+                           const ClusterNode& leaf = tree.nodes()[tree.leaves()[n]];
+                           for (std::size_t i = leaf.begin; i < leaf.end; ++i)
+                               write(tree.order()[i], sources,
+                                     WindingTarget{tree.coordinates(0)[i], tree.coordinates(1)[i],
+                                                   tree.coordinates(2)[i], half_squares[i]});
+                       }
+                   });
     }
 
     /// Calls write(index of the point, sources, target) for points elsewhere.
     template <class Write>
-    void at_points(std::span<const Vec3> points, std::span<const double> smoothing, Workers* workers,
-                   const Write& write) const {
+    void at_points(std::span<const Vec3> points, std::span<const double> smoothing,
+                   Workers* workers, const Write& write) const {
         if (points.empty()) return;
         require_points(points);
         const ClusterTree targets(placed(frame, points), {}, target_leaf);
-        for_blocks(workers, targets.leaves().size(), leaves_per_block, [&](std::size_t begin, std::size_t end) {
-            std::vector<std::uint32_t> stack;
-            Interactions found;
-            WindingSources sources;
-            for (std::size_t n = begin; n < end; ++n) {
-                const ClusterNode& leaf = targets.nodes()[targets.leaves()[n]];
-                collect(tree, leaf, opening, stack, found);
-                gather(found, vectors, sources);
-                for (std::size_t i = leaf.begin; i < leaf.end; ++i) {
-                    const std::uint32_t index = targets.order()[i];
-                    write(index, sources,
-                          WindingTarget{targets.coordinates(0)[i], targets.coordinates(1)[i], targets.coordinates(2)[i],
-                                        smoothing.empty() ? 0.0F : frame.half_square(smoothing[index])});
+        for_blocks(
+            workers, targets.leaves().size(), leaves_per_block,
+            [&](std::size_t begin, std::size_t end) {
+                std::vector<std::uint32_t> stack;
+                Interactions found;
+                WindingSources sources;
+                for (std::size_t n = begin; n < end; ++n) {
+                    const ClusterNode& leaf = targets.nodes()[targets.leaves()[n]];
+                    collect(tree, leaf, opening, stack, found);
+                    gather(found, vectors, sources);
+                    for (std::size_t i = leaf.begin; i < leaf.end; ++i) {
+                        const std::uint32_t index = targets.order()[i];
+                        write(index, sources,
+                              WindingTarget{
+                                  targets.coordinates(0)[i], targets.coordinates(1)[i],
+                                  targets.coordinates(2)[i],
+                                  smoothing.empty() ? 0.0F : frame.half_square(smoothing[index])});
+                    }
                 }
-            }
-        });
+            });
     }
 
     static double number(float sum) { return static_cast<double>(sum) / (4.0 * std::numbers::pi); }
     static Vec3 vector(const std::array<float, 3>& sum, double factor) {
-        return Vec3(static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])) *
+        return Vec3(static_cast<double>(sum[0]), static_cast<double>(sum[1]),
+                    static_cast<double>(sum[2])) *
                (factor / (4.0 * std::numbers::pi));
     }
 
@@ -240,7 +257,8 @@ struct WindingField::State {
     std::vector<Interactions> lists;  ///< per leaf; empty until needed
 };
 
-WindingField::WindingField(std::span<const Vec3> positions, std::span<const double> weights, double opening)
+WindingField::WindingField(std::span<const Vec3> positions, std::span<const double> weights,
+                           double opening)
     : state_(std::make_unique<State>(positions, weights, opening)) {}
 WindingField::~WindingField() = default;
 WindingField::WindingField(WindingField&&) noexcept = default;
@@ -257,11 +275,13 @@ void WindingField::set_smoothing(std::span<const double> lengths) {
         const ClusterNode& node = tree.nodes()[n];
         double sum = 0.0;
         if (node.leaf())
-            for (std::size_t i = node.begin; i < node.end; ++i) sum += static_cast<double>(state_->half_squares[i]);
+            for (std::size_t i = node.begin; i < node.end; ++i)
+                sum += static_cast<double>(state_->half_squares[i]);
         else
             sum = sums[n + 1] + sums[node.second];
         sums[n] = sum;
-        state_->cluster_half_squares[n] = static_cast<float>(sum / static_cast<double>(node.size()));
+        state_->cluster_half_squares[n] =
+            static_cast<float>(sum / static_cast<double>(node.size()));
     }
 }
 
@@ -277,18 +297,20 @@ void WindingField::set_vectors(std::span<const Vec3> vectors) {
 }
 
 void WindingField::winding(std::span<double> w, Workers* workers) {
-    state_->at_positions(state_->vectors, workers,
-                         [&](std::uint32_t index, const WindingSources& sources, const WindingTarget& target) {
-                             w[index] = State::number(sum_winding(sources, target));
-                         });
+    state_->at_positions(
+        state_->vectors, workers,
+        [&](std::uint32_t index, const WindingSources& sources, const WindingTarget& target) {
+            w[index] = State::number(sum_winding(sources, target));
+        });
 }
 
 void WindingField::gradient(std::span<Vec3> g, Workers* workers) {
     const double factor = state_->frame.scale;
-    state_->at_positions(state_->vectors, workers,
-                         [&](std::uint32_t index, const WindingSources& sources, const WindingTarget& target) {
-                             g[index] = State::vector(sum_gradient(sources, target), factor);
-                         });
+    state_->at_positions(
+        state_->vectors, workers,
+        [&](std::uint32_t index, const WindingSources& sources, const WindingTarget& target) {
+            g[index] = State::vector(sum_gradient(sources, target), factor);
+        });
 }
 
 void WindingField::adjoint(std::span<const double> r, std::span<Vec3> g, Workers* workers) {
@@ -297,27 +319,31 @@ void WindingField::adjoint(std::span<const double> r, std::span<Vec3> g, Workers
         state_->scalars.points[0][i] = static_cast<float>(r[tree.order()[i]]);
     state_->scalars.add_up(tree);
     const double factor = state_->frame.scale * state_->frame.scale;
-    state_->at_positions(state_->scalars, workers,
-                         [&](std::uint32_t index, const WindingSources& sources, const WindingTarget& target) {
-                             g[index] = State::vector(sum_adjoint(sources, target), factor);
-                         });
+    state_->at_positions(
+        state_->scalars, workers,
+        [&](std::uint32_t index, const WindingSources& sources, const WindingTarget& target) {
+            g[index] = State::vector(sum_adjoint(sources, target), factor);
+        });
 }
 
-void WindingField::evaluate(std::span<const Vec3> points, std::span<const double> smoothing, std::span<double> w,
-                            Workers* workers) const {
-    state_->at_points(points, smoothing, workers,
-                      [&](std::uint32_t index, const WindingSources& sources, const WindingTarget& target) {
-                          w[index] = State::number(sum_winding(sources, target));
-                      });
+void WindingField::evaluate(std::span<const Vec3> points, std::span<const double> smoothing,
+                            std::span<double> w, Workers* workers) const {
+    state_->at_points(
+        points, smoothing, workers,
+        [&](std::uint32_t index, const WindingSources& sources, const WindingTarget& target) {
+            w[index] = State::number(sum_winding(sources, target));
+        });
 }
 
-void WindingField::evaluate_gradient(std::span<const Vec3> points, std::span<const double> smoothing,
-                                     std::span<Vec3> g, Workers* workers) const {
+void WindingField::evaluate_gradient(std::span<const Vec3> points,
+                                     std::span<const double> smoothing, std::span<Vec3> g,
+                                     Workers* workers) const {
     const double factor = state_->frame.scale;
-    state_->at_points(points, smoothing, workers,
-                      [&](std::uint32_t index, const WindingSources& sources, const WindingTarget& target) {
-                          g[index] = State::vector(sum_gradient(sources, target), factor);
-                      });
+    state_->at_points(
+        points, smoothing, workers,
+        [&](std::uint32_t index, const WindingSources& sources, const WindingTarget& target) {
+            g[index] = State::vector(sum_gradient(sources, target), factor);
+        });
 }
 
 WindingField winding_field(std::span<const SurfaceSample> samples, double smoothing) {

@@ -1,5 +1,5 @@
-// The inner loops of the winding field. Compiled with -fno-math-errno, so that eight square roots are computed at once; nothing
-// else depends on this flag.
+// The inner loops of the winding field. Compiled with -fno-math-errno, so that eight square roots
+// are computed at once; nothing else depends on this flag.
 #include "winding_kernels.hpp"
 
 #include <cmath>
@@ -15,7 +15,8 @@ namespace dsc::cloud {
 
 namespace {
 
-// A vector type of g++ and clang. The functions that pass it are always inlined, so its calling convention has no effect.
+// A vector type of g++ and clang. The functions that pass it are always inlined, so its calling
+// convention has no effect.
 using Lanes = float __attribute__((vector_size(winding_lanes * sizeof(float))));
 
 DSC_INLINE Lanes load(const float* from) {
@@ -45,7 +46,8 @@ DSC_INLINE Terms terms(const WindingSources& sources, const WindingTarget& targe
     t.dx = load(sources[0] + k) - target.x;
     t.dy = load(sources[1] + k) - target.y;
     t.dz = load(sources[2] + k) - target.z;
-    const Lanes square = t.dx * t.dx + t.dy * t.dy + t.dz * t.dz + (load(sources[3] + k) + target.half_square);
+    const Lanes square =
+        t.dx * t.dx + t.dy * t.dy + t.dz * t.dz + (load(sources[3] + k) + target.half_square);
     t.inverse_square = 1.0F / square;
     t.inverse_cube = t.inverse_square * square_root(t.inverse_square);
     return t;
@@ -55,12 +57,15 @@ DSC_INLINE float winding_loop(const WindingSources& sources, const WindingTarget
     Lanes sum{};
     for (std::size_t k = 0; k < sources.count(); k += winding_lanes) {
         const Terms t = terms(sources, target, k);
-        sum += (load(sources[4] + k) * t.dx + load(sources[5] + k) * t.dy + load(sources[6] + k) * t.dz) * t.inverse_cube;
+        sum += (load(sources[4] + k) * t.dx + load(sources[5] + k) * t.dy +
+                load(sources[6] + k) * t.dz) *
+               t.inverse_cube;
     }
     return add_up(sum);
 }
 
-DSC_INLINE std::array<float, 3> adjoint_loop(const WindingSources& sources, const WindingTarget& target) {
+DSC_INLINE std::array<float, 3> adjoint_loop(const WindingSources& sources,
+                                             const WindingTarget& target) {
     Lanes x{}, y{}, z{};
     for (std::size_t k = 0; k < sources.count(); k += winding_lanes) {
         const Terms t = terms(sources, target, k);
@@ -72,7 +77,8 @@ DSC_INLINE std::array<float, 3> adjoint_loop(const WindingSources& sources, cons
     return {add_up(x), add_up(y), add_up(z)};
 }
 
-DSC_INLINE std::array<float, 3> gradient_loop(const WindingSources& sources, const WindingTarget& target) {
+DSC_INLINE std::array<float, 3> gradient_loop(const WindingSources& sources,
+                                              const WindingTarget& target) {
     Lanes x{}, y{}, z{};
     for (std::size_t k = 0; k < sources.count(); k += winding_lanes) {
         const Terms t = terms(sources, target, k);
@@ -87,9 +93,15 @@ DSC_INLINE std::array<float, 3> gradient_loop(const WindingSources& sources, con
 
 #ifdef DSC_HAS_WIDE_LOOPS
 // Not target_clones, because their resolver runs before the sanitizers are ready.
-DSC_WIDE float wide_winding(const WindingSources& s, const WindingTarget& t) { return winding_loop(s, t); }
-DSC_WIDE std::array<float, 3> wide_adjoint(const WindingSources& s, const WindingTarget& t) { return adjoint_loop(s, t); }
-DSC_WIDE std::array<float, 3> wide_gradient(const WindingSources& s, const WindingTarget& t) { return gradient_loop(s, t); }
+DSC_WIDE float wide_winding(const WindingSources& s, const WindingTarget& t) {
+    return winding_loop(s, t);
+}
+DSC_WIDE std::array<float, 3> wide_adjoint(const WindingSources& s, const WindingTarget& t) {
+    return adjoint_loop(s, t);
+}
+DSC_WIDE std::array<float, 3> wide_gradient(const WindingSources& s, const WindingTarget& t) {
+    return gradient_loop(s, t);
+}
 
 bool wide() {
     static const bool answer = __builtin_cpu_supports("avx2") != 0;
@@ -102,7 +114,8 @@ bool wide() {
 void WindingSources::resize(std::size_t count) {
     count_ = (count + winding_lanes - 1) / winding_lanes * winding_lanes;
     if (count_ > stride_) {
-        // Not a power of two, because columns that begin at the same cache position would displace each other.
+        // Not a power of two, because columns that begin at the same cache position would displace
+        // each other.
         stride_ = 2 * count_ + 3 * winding_lanes;
         values_.assign(winding_quantities * stride_, 0.0F);
     }

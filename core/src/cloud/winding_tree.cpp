@@ -23,7 +23,8 @@ ClusterTree::ClusterTree(std::vector<std::array<float, 3>> points, std::span<con
     measure(weights);
 }
 
-void ClusterTree::divide(std::vector<Entry>& entries, std::size_t begin, std::size_t end, std::size_t leaf_size) {
+void ClusterTree::divide(std::vector<Entry>& entries, std::size_t begin, std::size_t end,
+                         std::size_t leaf_size) {
     const auto first = entries.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = entries.begin() + static_cast<std::ptrdiff_t>(end);
     const auto self = static_cast<std::uint32_t>(nodes_.size());
@@ -46,7 +47,8 @@ void ClusterTree::divide(std::vector<Entry>& entries, std::size_t begin, std::si
     const std::size_t middle = begin + (end - begin) / 2;
     std::nth_element(first, entries.begin() + static_cast<std::ptrdiff_t>(middle), last,
                      [axis](const Entry& a, const Entry& b) {
-                         return a.point[axis] < b.point[axis] || (a.point[axis] == b.point[axis] && a.index < b.index);
+                         return a.point[axis] < b.point[axis] ||
+                                (a.point[axis] == b.point[axis] && a.index < b.index);
                      });
     divide(entries, begin, middle, leaf_size);
     nodes_[self].second = static_cast<std::uint32_t>(nodes_.size());
@@ -54,16 +56,18 @@ void ClusterTree::divide(std::vector<Entry>& entries, std::size_t begin, std::si
 }
 
 void ClusterTree::measure(std::span<const float> weights) {
-    // Leaves from their points, other nodes from their children, which come later in the list; therefore from the last to the
-    // first.
+    // Leaves from their points, other nodes from their children, which come later in the list;
+    // therefore from the last to the first.
     std::vector<std::array<double, 4>> sums(nodes_.size(), std::array<double, 4>{});
     for (std::size_t n = nodes_.size(); n-- > 0;) {
         ClusterNode& node = nodes_[n];
         std::array<double, 4>& sum = sums[n];
         if (node.leaf()) {
             for (std::size_t i = node.begin; i < node.end; ++i) {
-                const double weight = weights.empty() ? 1.0 : static_cast<double>(weights[order_[i]]);
-                for (std::size_t k = 0; k < 3; ++k) sum[k] += weight * static_cast<double>(coordinates_[k][i]);
+                const double weight =
+                    weights.empty() ? 1.0 : static_cast<double>(weights[order_[i]]);
+                for (std::size_t k = 0; k < 3; ++k)
+                    sum[k] += weight * static_cast<double>(coordinates_[k][i]);
                 sum[3] += weight;
             }
         } else {

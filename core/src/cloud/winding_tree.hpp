@@ -12,7 +12,7 @@ namespace dsc::cloud {
 /// Points begin..end-1 of the tree's order. A node's first child follows it.
 struct ClusterNode {
     std::uint32_t begin = 0, end = 0;
-    std::uint32_t second = 0;     ///< its second child; 0 for a leaf
+    std::uint32_t second = 0;       ///< its second child; 0 for a leaf
     std::array<float, 3> centre{};  ///< weighted mean of its points
     float radius = 0.0F;            ///< largest distance of a point from the centre
 
@@ -20,11 +20,14 @@ struct ClusterNode {
     std::uint32_t size() const { return end - begin; }
 };
 
-/// Nodes are halved at the median along the longest axis of their box, ties by index, down to `leaf_size` points.
+/// Nodes are halved at the median along the longest axis of their box, ties by index, down to
+/// `leaf_size` points.
 class ClusterTree {
 public:
-    /// `weights`: one per point, all positive, or empty for equal ones. At least one point, all finite. [setup]
-    ClusterTree(std::vector<std::array<float, 3>> points, std::span<const float> weights, std::size_t leaf_size);
+    /// `weights`: one per point, all positive, or empty for equal ones. At least one point, all
+    /// finite. [setup]
+    ClusterTree(std::vector<std::array<float, 3>> points, std::span<const float> weights,
+                std::size_t leaf_size);
 
     const std::vector<ClusterNode>& nodes() const { return nodes_; }
     /// Indices of `nodes()` without children, in the order of their points.
@@ -39,7 +42,8 @@ private:
         std::array<float, 3> point;
         std::uint32_t index;
     };
-    void divide(std::vector<Entry>& entries, std::size_t begin, std::size_t end, std::size_t leaf_size);
+    void divide(std::vector<Entry>& entries, std::size_t begin, std::size_t end,
+                std::size_t leaf_size);
     void measure(std::span<const float> weights);
 
     std::vector<ClusterNode> nodes_;
@@ -48,8 +52,10 @@ private:
     std::array<std::vector<float>, 3> coordinates_;
 };
 
-/// Whether a cluster, as seen from all points of a group of targets, is small enough to be used as one source.
-inline bool far_enough(const ClusterNode& cluster, const ClusterNode& targets, float distance, float opening) {
+/// Whether a cluster, as seen from all points of a group of targets, is small enough to be used as
+/// one source.
+inline bool far_enough(const ClusterNode& cluster, const ClusterNode& targets, float distance,
+                       float opening) {
     return cluster.size() > 3 && cluster.radius < opening * (distance - targets.radius);
 }
 

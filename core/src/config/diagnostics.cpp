@@ -1,13 +1,15 @@
 // Collects the faults of a configuration and formats them as text.
+#include "dsc/config/diagnostics.hpp"
+
 #include <algorithm>
-#include <dsc/base/error.hpp>
-#include <dsc/config/diagnostics.hpp>
-#include <dsc/text/utf8.hpp>
-#include <dsc/text/words.hpp>
 #include <numeric>
 #include <tuple>
+
 #include <fmt/core.h>
 
+#include <dsc/base/error.hpp>
+#include <dsc/text/utf8.hpp>
+#include <dsc/text/words.hpp>
 
 namespace dsc::config {
 namespace {
@@ -48,7 +50,8 @@ std::string gutter(const std::string& number) {
 
 std::string caret_lines(const SourcePosition& position, const std::string& hint) {
     const std::string_view line = position.source->line(position.line);
-    const std::size_t column = position.column > 0 ? static_cast<std::size_t>(position.column) - 1 : 0;
+    const std::size_t column =
+        position.column > 0 ? static_cast<std::size_t>(position.column) - 1 : 0;
     const Excerpt part = excerpt(line, column);
     const std::size_t width = text::character_count(part.text);
     const std::size_t room = width > part.column ? width - part.column : 1;
@@ -60,7 +63,8 @@ std::string caret_lines(const SourcePosition& position, const std::string& hint)
     return out + "\n";
 }
 
-/// Order: files by their first fault, then by line and column; faults of the command line keep their order.
+/// Order: files by their first fault, then by line and column; faults of the command line keep
+/// their order.
 std::vector<std::size_t> sorted(const std::vector<Diagnostic>& all, Severity severity) {
     std::vector<const SourceText*> sources;
     const auto rank = [&](const Diagnostic& d) {
@@ -100,15 +104,15 @@ std::string format(const Diagnostic& diagnostic) {
     return out;
 }
 
-void Diagnostics::error(std::string code, SourcePosition position, std::string message, std::string hint,
-                        std::vector<std::string> notes) {
+void Diagnostics::error(std::string code, SourcePosition position, std::string message,
+                        std::string hint, std::vector<std::string> notes) {
     ++errors_;
     all_.push_back({Severity::error, std::move(code), std::move(position), std::move(message),
                     std::move(hint), std::move(notes)});
 }
 
-void Diagnostics::warning(std::string code, SourcePosition position, std::string message, std::string hint,
-                          std::vector<std::string> notes) {
+void Diagnostics::warning(std::string code, SourcePosition position, std::string message,
+                          std::string hint, std::vector<std::string> notes) {
     all_.push_back({Severity::warning, std::move(code), std::move(position), std::move(message),
                     std::move(hint), std::move(notes)});
 }
@@ -118,7 +122,8 @@ std::string Diagnostics::text(Severity severity) const {
     const std::vector<std::size_t> order = sorted(all_, severity);
     std::string out;
     for (std::size_t i = 0; i < order.size() && i < most_shown; ++i) out += format(all_[order[i]]);
-    if (order.size() > most_shown) out += fmt::format("... and {} more\n", order.size() - most_shown);
+    if (order.size() > most_shown)
+        out += fmt::format("... and {} more\n", order.size() - most_shown);
     return out;
 }
 
@@ -126,17 +131,20 @@ void Diagnostics::throw_if_errors() const {
     if (errors_ == 0) return;
     std::string code = "config.invalid";
     if (errors_ == 1) {
-        const auto only = std::find_if(all_.begin(), all_.end(),
-                                       [](const Diagnostic& d) { return d.severity == Severity::error; });
+        const auto only = std::find_if(all_.begin(), all_.end(), [](const Diagnostic& d) {
+            return d.severity == Severity::error;
+        });
         code = only->code;
     }
-    throw ConfigError(code, text(Severity::error) + text::counted(errors_, "error") + "; nothing was run");
+    throw ConfigError(
+        code, text(Severity::error) + text::counted(errors_, "error") + "; nothing was run");
 }
 
 void fail(std::string code, SourcePosition position, std::string message, std::string hint,
           std::vector<std::string> notes) {
     Diagnostics diagnostics;
-    diagnostics.error(code, std::move(position), std::move(message), std::move(hint), std::move(notes));
+    diagnostics.error(code, std::move(position), std::move(message), std::move(hint),
+                      std::move(notes));
     diagnostics.throw_if_errors();
     throw ConfigError(code, message);  // not reached: one error was just added
 }

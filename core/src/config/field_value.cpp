@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <vector>
+
+#include <fmt/core.h>
+
 #include <dsc/config/spelling.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/text/words.hpp>
-#include <filesystem>
-#include <vector>
-#include <fmt/core.h>
 
 #include "config/scalar.hpp"
 #include "config/variables.hpp"
@@ -29,8 +31,9 @@ public:
 
     ConfigNode integer(const ConfigNode& node, const std::string& path) {
         constexpr double exact_to = 9007199254740992.0;  // 2^53
-        const bool exact = node.is_integer() || (node.is_real() && std::abs(node.as_real()) <= exact_to &&
-                                                 std::trunc(node.as_real()) == node.as_real());
+        const bool exact =
+            node.is_integer() || (node.is_real() && std::abs(node.as_real()) <= exact_to &&
+                                  std::trunc(node.as_real()) == node.as_real());
         if (!exact) {
             return wrong_type(node, path, "an integer", text_hint(node, number_hint));
         }
@@ -55,7 +58,9 @@ public:
 
     ConfigNode string(const ConfigNode& node, const std::string& path) {
         if (node.is_integer() && field_.has_tag("or_integers")) {
-            return ConfigNode(std::to_string(node.as_integer())).placed(node.position()).with_path(path);
+            return ConfigNode(std::to_string(node.as_integer()))
+                .placed(node.position())
+                .with_path(path);
         }
         if (!node.is_string()) {
             const bool scalar = !node.is_list() && !node.is_map() && !node.is_null();
@@ -66,14 +71,15 @@ public:
         return node;
     }
 
-    /// The name is relative to the folder of the file that contains it; for the command line and for code, to the working
-    /// folder.
+    /// The name is relative to the folder of the file that contains it; for the command line and
+    /// for code, to the working folder.
     ConfigNode file(const ConfigNode& node, const std::string& path) {
         namespace fs = std::filesystem;
         if (!node.is_string()) return wrong_type(node, path, "the name of a file", "");
         if (node.as_string().empty()) {
             if (field_.default_value != node) {
-                diagnostics_.error("config.file", place(node), "'" + path + "' is an empty name of a file");
+                diagnostics_.error("config.file", place(node),
+                                   "'" + path + "' is an empty name of a file");
             }
             return node;
         }
@@ -81,15 +87,18 @@ public:
         check_extension(given, node, path);
         const SourcePosition& position = node.position();
         const bool in_file = position.known() && !position.from_command_line();
-        const fs::path folder = in_file ? fs::path(position.source->name).parent_path() : fs::path();
+        const fs::path folder =
+            in_file ? fs::path(position.source->name).parent_path() : fs::path();
         const std::string resolved = fs::absolute(folder / given).lexically_normal().string();
         return ConfigNode(resolved).placed(position, node.quoted()).with_path(path);
     }
 
     template <class Item>
-    ConfigNode list(const ConfigNode& node, const std::string& path, const std::string& wanted, Item item) {
+    ConfigNode list(const ConfigNode& node, const std::string& path, const std::string& wanted,
+                    Item item) {
         if (!node.is_list())
-            return wrong_type(node, path, wanted, node.is_map() ? "" : "write it in brackets: [...]");
+            return wrong_type(node, path, wanted,
+                              node.is_map() ? "" : "write it in brackets: [...]");
         check_size(node, path);
         std::vector<ConfigNode> items;
         for (std::size_t i = 0; i < node.size(); ++i) {
@@ -106,12 +115,13 @@ private:
     /// Remedy for text where a number or a boolean is expected.
     static std::string text_hint(const ConfigNode& node, std::string (*hint)(std::string_view)) {
         if (!node.is_string()) return {};
-        return holds_variable(node.position()) ? "a variable gives text; write the value itself, or override it with KEY=VALUE"
-                                               : hint(node.as_string());
+        return holds_variable(node.position())
+                   ? "a variable gives text; write the value itself, or override it with KEY=VALUE"
+                   : hint(node.as_string());
     }
 
-    ConfigNode wrong_type(const ConfigNode& node, const std::string& path, const std::string& wanted,
-                          const std::string& hint) {
+    ConfigNode wrong_type(const ConfigNode& node, const std::string& path,
+                          const std::string& wanted, const std::string& hint) {
         diagnostics_.error("config.wrong_type", place(node),
                            "'" + path + "' must be " + wanted + ", not " + value_text(node),
                            hint.empty() ? "accepted: " + field_.summary() : hint);
@@ -120,11 +130,13 @@ private:
 
     void range_error(const std::string& value, const ConfigNode& node, const std::string& path,
                      const std::string& fault) {
-        diagnostics_.error("config.out_of_range", place(node), "'" + path + "': " + value + " " + fault,
+        diagnostics_.error("config.out_of_range", place(node),
+                           "'" + path + "': " + value + " " + fault,
                            "accepted: " + field_.summary());
     }
 
-    bool within(double value, const std::string& text, const ConfigNode& node, const std::string& path) {
+    bool within(double value, const std::string& text, const ConfigNode& node,
+                const std::string& path) {
         const auto bound_text = [&](double bound) { return config::bound_text(field_, bound); };
         const std::optional<Bound>& low = field_.minimum;
         const std::optional<Bound>& high = field_.maximum;
@@ -145,14 +157,17 @@ private:
 
     void check_choice(const ConfigNode& node, const std::string& path) {
         const std::string& value = node.as_string();
-        if (std::find(field_.choices.begin(), field_.choices.end(), value) != field_.choices.end()) return;
+        if (std::find(field_.choices.begin(), field_.choices.end(), value) != field_.choices.end())
+            return;
         const auto near = closest(value, field_.choices);
-        diagnostics_.error("config.bad_choice", place(node),
-                           "'" + path + "': " + text::in_quotes(value) + " is not one of " + join(field_.choices),
-                           near ? "did you mean '" + *near + "'?" : "");
+        diagnostics_.error(
+            "config.bad_choice", place(node),
+            "'" + path + "': " + text::in_quotes(value) + " is not one of " + join(field_.choices),
+            near ? "did you mean '" + *near + "'?" : "");
     }
 
-    void check_extension(const std::filesystem::path& file, const ConfigNode& node, const std::string& path) {
+    void check_extension(const std::filesystem::path& file, const ConfigNode& node,
+                         const std::string& path) {
         if (field_.extensions.empty()) return;
         std::string extension = file.extension().string();
         for (char& c : extension) {
@@ -198,17 +213,16 @@ bool is_plain_field(FieldType type) {
         case FieldType::object:
         case FieldType::object_list:
         case FieldType::strategy:
-        case FieldType::strategy_list:
-            return false;
-        default:
-            return true;
+        case FieldType::strategy_list: return false;
+        default: return true;
     }
 }
 
 std::string number_text(const ConfigNode& node) {
     if (node.is_integer()) return std::to_string(node.as_integer());
     std::string text = real_text(node.as_real());
-    if (text.size() > 2 && text.compare(text.size() - 2, 2, ".0") == 0) text.resize(text.size() - 2);
+    if (text.size() > 2 && text.compare(text.size() - 2, 2, ".0") == 0)
+        text.resize(text.size() - 2);
     return text;
 }
 
@@ -219,18 +233,12 @@ std::string bound_text(const Field& field, double bound) {
 
 std::string value_text(const ConfigNode& node) {
     switch (node.type()) {
-        case NodeType::null:
-            return "an empty value";
-        case NodeType::boolean:
-            return node.as_boolean() ? "true" : "false";
-        case NodeType::integer:
-            return std::to_string(node.as_integer());
-        case NodeType::real:
-            return real_text(node.as_real());
-        case NodeType::string:
-            return "the string " + text::in_quotes(node.as_string());
-        default:
-            return std::string(type_name(node.type()));
+        case NodeType::null: return "an empty value";
+        case NodeType::boolean: return node.as_boolean() ? "true" : "false";
+        case NodeType::integer: return std::to_string(node.as_integer());
+        case NodeType::real: return real_text(node.as_real());
+        case NodeType::string: return "the string " + text::in_quotes(node.as_string());
+        default: return std::string(type_name(node.type()));
     }
 }
 
@@ -240,27 +248,22 @@ ConfigNode resolve_value(const Field& field, const ConfigNode& node, const std::
     const auto integer = [&](const ConfigNode& item, const std::string& at) {
         return judge.integer(item, at);
     };
-    const auto real = [&](const ConfigNode& item, const std::string& at) { return judge.real(item, at); };
-    const auto string = [&](const ConfigNode& item, const std::string& at) { return judge.string(item, at); };
+    const auto real = [&](const ConfigNode& item, const std::string& at) {
+        return judge.real(item, at);
+    };
+    const auto string = [&](const ConfigNode& item, const std::string& at) {
+        return judge.string(item, at);
+    };
     switch (field.type) {
-        case FieldType::boolean:
-            return judge.boolean(node, path);
-        case FieldType::integer:
-            return judge.integer(node, path);
-        case FieldType::real:
-            return judge.real(node, path);
-        case FieldType::file:
-            return judge.file(node, path);
-        case FieldType::vec3:
-            return judge.list(node, path, "a list of three numbers", real);
-        case FieldType::integer_list:
-            return judge.list(node, path, "a list of integers", integer);
-        case FieldType::real_list:
-            return judge.list(node, path, "a list of numbers", real);
-        case FieldType::string_list:
-            return judge.list(node, path, "a list of strings", string);
-        default:
-            return judge.string(node, path);
+        case FieldType::boolean: return judge.boolean(node, path);
+        case FieldType::integer: return judge.integer(node, path);
+        case FieldType::real: return judge.real(node, path);
+        case FieldType::file: return judge.file(node, path);
+        case FieldType::vec3: return judge.list(node, path, "a list of three numbers", real);
+        case FieldType::integer_list: return judge.list(node, path, "a list of integers", integer);
+        case FieldType::real_list: return judge.list(node, path, "a list of numbers", real);
+        case FieldType::string_list: return judge.list(node, path, "a list of strings", string);
+        default: return judge.string(node, path);
     }
 }
 

@@ -1,18 +1,19 @@
 #pragma once
 // The value of one field that is not a map: scalars and lists of scalars.
 
+#include <string>
+
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/config/node.hpp>
 #include <dsc/config/schema.hpp>
-#include <string>
 
 namespace dsc::config {
 
 /// True for the types that resolve_value() supports.
 bool is_plain_field(FieldType type);
 
-/// Checks a given value and converts it to the field's type. Messages call it `path`; `fallback` is the place of a value
-/// without its own place.
+/// Checks a given value and converts it to the field's type. Messages call it `path`; `fallback` is
+/// the place of a value without its own place.
 ConfigNode resolve_value(const Field& field, const ConfigNode& node, const std::string& path,
                          const SourcePosition& fallback, Diagnostics& diagnostics);
 

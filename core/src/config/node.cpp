@@ -1,13 +1,16 @@
 // The immutable tree of configuration values.
+#include "dsc/config/node.hpp"
+
 #include <cmath>
-#include <dsc/base/error.hpp>
-#include <dsc/config/diagnostics.hpp>
-#include <dsc/config/node.hpp>
-#include <dsc/text/words.hpp>
 #include <unordered_set>
 #include <utility>
 #include <variant>
+
 #include <fmt/core.h>
+
+#include <dsc/base/error.hpp>
+#include <dsc/config/diagnostics.hpp>
+#include <dsc/text/words.hpp>
 
 #include "config/node_factory.hpp"
 
@@ -22,7 +25,8 @@ struct ConfigNode::PathPart {
 struct ConfigNode::Data {
     using Items = std::vector<ConfigNode>;
     using Entries = std::vector<ConfigEntry>;
-    using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, Items, Entries>;
+    using Value =
+        std::variant<std::monostate, bool, std::int64_t, double, std::string, Items, Entries>;
 
     Value value;
     SourcePosition position;
@@ -32,20 +36,13 @@ struct ConfigNode::Data {
 
 std::string_view type_name(NodeType type) {
     switch (type) {
-        case NodeType::null:
-            return "null";
-        case NodeType::boolean:
-            return "a boolean";
-        case NodeType::integer:
-            return "an integer";
-        case NodeType::real:
-            return "a real number";
-        case NodeType::string:
-            return "a string";
-        case NodeType::list:
-            return "a list";
-        case NodeType::map:
-            return "a map";
+        case NodeType::null: return "null";
+        case NodeType::boolean: return "a boolean";
+        case NodeType::integer: return "an integer";
+        case NodeType::real: return "a real number";
+        case NodeType::string: return "a string";
+        case NodeType::list: return "a list";
+        case NodeType::map: return "a map";
     }
     return "null";
 }
@@ -61,8 +58,10 @@ ConfigNode::ConfigNode() {
     data_ = null;
 }
 ConfigNode::ConfigNode(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
-ConfigNode::ConfigNode(bool value) : data_(std::make_shared<const Data>(Data{value, {}, {}, false})) {}
-ConfigNode::ConfigNode(double value) : data_(std::make_shared<const Data>(Data{value, {}, {}, false})) {}
+ConfigNode::ConfigNode(bool value)
+    : data_(std::make_shared<const Data>(Data{value, {}, {}, false})) {}
+ConfigNode::ConfigNode(double value)
+    : data_(std::make_shared<const Data>(Data{value, {}, {}, false})) {}
 ConfigNode::ConfigNode(const char* value) : ConfigNode(std::string(value)) {}
 ConfigNode::ConfigNode(std::string_view value) : ConfigNode(std::string(value)) {}
 ConfigNode::ConfigNode(std::string value)
@@ -73,7 +72,8 @@ ConfigNode ConfigNode::integer_node(std::int64_t value) {
 }
 
 void ConfigNode::integer_too_large() {
-    throw ConfigError("config.range", "an integer above 9223372036854775807 does not fit a configuration");
+    throw ConfigError("config.range",
+                      "an integer above 9223372036854775807 does not fit a configuration");
 }
 
 ConfigNode ConfigNode::list() { return list({}); }
@@ -87,7 +87,8 @@ ConfigNode ConfigNode::map(std::vector<ConfigEntry> entries) {
     std::unordered_set<std::string_view> seen;
     for (const ConfigEntry& entry : entries) {
         if (!seen.insert(entry.key).second) {
-            fail("config.duplicate_key", entry.position, "duplicate key " + text::in_quotes(entry.key));
+            fail("config.duplicate_key", entry.position,
+                 "duplicate key " + text::in_quotes(entry.key));
         }
     }
     return NodeFactory::map(std::move(entries), {}).rebased(nullptr);
@@ -131,7 +132,8 @@ std::int64_t ConfigNode::as_integer() const {
 
 double ConfigNode::as_real() const {
     if (const auto* value = std::get_if<double>(&data_->value)) return *value;
-    if (const auto* value = std::get_if<std::int64_t>(&data_->value)) return static_cast<double>(*value);
+    if (const auto* value = std::get_if<std::int64_t>(&data_->value))
+        return static_cast<double>(*value);
     wrong_type("a number");
 }
 
@@ -179,7 +181,8 @@ const ConfigNode& ConfigNode::at(std::size_t index) const {
     const std::vector<ConfigNode>& list = items();
     if (index < list.size()) return list[index];
     fail("config.missing", position(),
-         fmt::format("{} is missing: the list has {} items", text::in_quotes(join_path(path(), std::to_string(index))), list.size()));
+         fmt::format("{} is missing: the list has {} items",
+                     text::in_quotes(join_path(path(), std::to_string(index))), list.size()));
 }
 
 std::string ConfigNode::path() const {
@@ -198,7 +201,8 @@ ConfigNode ConfigNode::placed(SourcePosition position, bool quoted) const {
         std::make_shared<const Data>(Data{data_->value, std::move(position), data_->path, quoted}));
 }
 
-ConfigNode ConfigNode::rebased(const std::shared_ptr<const PathPart>& parent, const std::string& key) const {
+ConfigNode ConfigNode::rebased(const std::shared_ptr<const PathPart>& parent,
+                               const std::string& key) const {
     const PathPart* old = data_->path.get();
     const bool in_place = old && old->parent == parent && old->key == key;
     return in_place ? *this : rebased(std::make_shared<const PathPart>(PathPart{parent, key}));
@@ -226,7 +230,8 @@ ConfigNode ConfigNode::with(const std::string& key, ConfigNode value) const {
     return with(key, std::move(value), old ? old->position : SourcePosition{});
 }
 
-ConfigNode ConfigNode::with(const std::string& key, ConfigNode value, SourcePosition key_position) const {
+ConfigNode ConfigNode::with(const std::string& key, ConfigNode value,
+                            SourcePosition key_position) const {
     if (!is_map() && !is_null()) wrong_type("a map");
     auto data = std::make_shared<Data>(*data_);
     if (is_null()) data->value = Data::Entries{};
@@ -271,16 +276,11 @@ bool operator==(const ConfigNode& a, const ConfigNode& b) {
     }
     if (a.is_list()) return a.items() == b.items();
     switch (a.type()) {
-        case NodeType::boolean:
-            return a.as_boolean() == b.as_boolean();
-        case NodeType::integer:
-            return a.as_integer() == b.as_integer();
-        case NodeType::real:
-            return a.as_real() == b.as_real();
-        case NodeType::string:
-            return a.as_string() == b.as_string();
-        default:
-            return true;
+        case NodeType::boolean: return a.as_boolean() == b.as_boolean();
+        case NodeType::integer: return a.as_integer() == b.as_integer();
+        case NodeType::real: return a.as_real() == b.as_real();
+        case NodeType::string: return a.as_string() == b.as_string();
+        default: return true;
     }
 }
 

@@ -1,9 +1,10 @@
 #pragma once
 // Builds trees for the YAML reader: first without paths; one pass over the finished tree adds them.
 
-#include <dsc/config/node.hpp>
 #include <string>
 #include <vector>
+
+#include <dsc/config/node.hpp>
 
 namespace dsc::config {
 

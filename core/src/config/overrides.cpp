@@ -1,14 +1,17 @@
 // Applies the overrides of the command line and the values of a sweep to a tree.
+#include "dsc/config/overrides.hpp"
+
 #include <algorithm>
 #include <charconv>
-#include <dsc/base/error.hpp>
-#include <dsc/config/diagnostics.hpp>
-#include <dsc/config/overrides.hpp>
-#include <dsc/text/utf8.hpp>
-#include <dsc/text/words.hpp>
 #include <string_view>
 #include <vector>
+
 #include <fmt/core.h>
+
+#include <dsc/base/error.hpp>
+#include <dsc/config/diagnostics.hpp>
+#include <dsc/text/utf8.hpp>
+#include <dsc/text/words.hpp>
 
 #include "config/scalar.hpp"
 
@@ -38,14 +41,16 @@ std::vector<std::string> split(std::string_view path) {
 class Placement {
 public:
     /// `what` is the beginning of every message, `key` is the place of the path.
-    Placement(std::string what, SourcePosition key) : what_(std::move(what)), key_(std::move(key)) {}
+    Placement(std::string what, SourcePosition key)
+        : what_(std::move(what)), key_(std::move(key)) {}
 
     [[noreturn]] void refuse(const std::string& message, const std::string& hint) const {
         fail(code, key_, what_ + message, hint);
     }
 
-    ConfigNode set(const ConfigNode& node, const std::vector<std::string>& parts, const ConfigNode& value,
-                   std::size_t depth = 0, const std::string& path = "") const {
+    ConfigNode set(const ConfigNode& node, const std::vector<std::string>& parts,
+                   const ConfigNode& value, std::size_t depth = 0,
+                   const std::string& path = "") const {
         if (depth == parts.size()) return value;
         const std::string& part = parts[depth];
         const std::string inner = join_path(path, part);
@@ -54,23 +59,28 @@ public:
             return node.with_item(index, set(node.items()[index], parts, value, depth + 1, inner));
         }
         if (!node.is_map() && !node.is_null()) {
-            refuse(
-                "'" + path + "' is " + std::string(type_name(node.type())) + "; it has no key '" + part + "'",
-                "");
+            refuse("'" + path + "' is " + std::string(type_name(node.type())) +
+                       "; it has no key '" + part + "'",
+                   "");
         }
         const ConfigNode* old = node.find(part);
-        return node.with(part, set(old ? *old : ConfigNode().placed(key_), parts, value, depth + 1, inner), key_);
+        return node.with(
+            part, set(old ? *old : ConfigNode().placed(key_), parts, value, depth + 1, inner),
+            key_);
     }
 
 private:
-    std::size_t item_index(const ConfigNode& list, const std::string& part, const std::string& path) const {
+    std::size_t item_index(const ConfigNode& list, const std::string& part,
+                           const std::string& path) const {
         std::size_t index = 0;
         const char* end = part.data() + part.size();
         const auto parsed = std::from_chars(part.data(), end, index);
         if (parsed.ec != std::errc() || parsed.ptr != end || index >= list.size()) {
-            refuse(fmt::format("'{}' is a list of {}; it has no item '{}'", path, list.size(), part),
-                   list.size() == 0 ? "write " + path + "=[...]"
-                                    : "items are numbered from 0 to " + std::to_string(list.size() - 1));
+            refuse(
+                fmt::format("'{}' is a list of {}; it has no item '{}'", path, list.size(), part),
+                list.size() == 0
+                    ? "write " + path + "=[...]"
+                    : "items are numbered from 0 to " + std::to_string(list.size() - 1));
         }
         return index;
     }
@@ -89,21 +99,25 @@ public:
 
     ConfigNode apply(const ConfigNode& root) {
         const std::string& text = source_->text;
-        const Placement placement("malformed override: ",
-                                  {source_, 1, 1, static_cast<int>(text::character_count(source_->text))});
+        const Placement placement(
+            "malformed override: ",
+            {source_, 1, 1, static_cast<int>(text::character_count(source_->text))});
         const std::size_t equals = text.find('=');
-        if (equals == std::string::npos) placement.refuse("no '=' in it", "write path.to.key=value");
+        if (equals == std::string::npos)
+            placement.refuse("no '=' in it", "write path.to.key=value");
         if (text[0] == '+' || text[0] == '~') {
             placement.refuse(std::string("it starts with '") + text[0] + "'",
                              "write path.to.key=value; every key of the schema is allowed");
         }
         const std::vector<std::string> parts = split(std::string_view(text).substr(0, equals));
         if (parts.empty()) {
-            placement.refuse(text::in_quotes(text.substr(0, equals)) + " is not a dotted path", "write path.to.key=value");
+            placement.refuse(text::in_quotes(text.substr(0, equals)) + " is not a dotted path",
+                             "write path.to.key=value");
         }
         if (parts.size() > options_.max_depth) placement.refuse("its path is too long", "");
         if (text::first_non_text(text)) placement.refuse("it contains bytes that are not text", "");
-        if (text.find_first_of("\r\n") != std::string::npos) placement.refuse("it has more than one line", "");
+        if (text.find_first_of("\r\n") != std::string::npos)
+            placement.refuse("it has more than one line", "");
         const ConfigNode value = parse_value(source_, equals + 1, options_);
         const bool lost = value.is_null() && !is_null_text(text.substr(equals + 1));
         if (lost) placement.refuse("its value is a comment", "put a value with '#' in quotes");
@@ -133,8 +147,7 @@ ConfigNode apply_overrides(const ConfigNode& root, std::span<const std::string> 
         }
     }
     if (count > 0) {
-        throw ConfigError(
-            code, faults + text::counted(count, "error") + "; nothing was run");
+        throw ConfigError(code, faults + text::counted(count, "error") + "; nothing was run");
     }
     return tree;
 }
@@ -143,7 +156,9 @@ ConfigNode with_value(const ConfigNode& root, const std::string& path, const Con
                       const SourcePosition& key) {
     const Placement placement("", key);
     const std::vector<std::string> parts = split(path);
-    if (parts.empty()) placement.refuse(text::in_quotes(path) + " is not a dotted path", "write path.to.key: value");
+    if (parts.empty())
+        placement.refuse(text::in_quotes(path) + " is not a dotted path",
+                         "write path.to.key: value");
     if (parts.size() > YamlOptions{}.max_depth) placement.refuse("its path is too long", "");
     return placement.set(root, parts, value);
 }

@@ -1,6 +1,7 @@
 // The parts of ParamSchema that do not depend on the struct.
+#include "dsc/config/params.hpp"
+
 #include <dsc/base/error.hpp>
-#include <dsc/config/params.hpp>
 #include <dsc/config/spelling.hpp>
 
 namespace dsc::config {
@@ -23,7 +24,8 @@ StrategyConfig strategy_from(const ConfigNode& node) {
 void require_sound(const Schema& schema) {
     const std::vector<std::string> problems = schema.problems();
     if (!problems.empty()) {
-        throw PluginError("plugin.schema", "faulty declaration of parameters: " + join(problems, "; "));
+        throw PluginError("plugin.schema",
+                          "faulty declaration of parameters: " + join(problems, "; "));
     }
 }
 

@@ -3,10 +3,10 @@
 
 #include <charconv>
 #include <cmath>
-#include <dsc/config/yaml.hpp>
-#include <dsc/text/words.hpp>
 #include <system_error>
 
+#include <dsc/config/yaml.hpp>
+#include <dsc/text/words.hpp>
 
 namespace dsc::config {
 namespace {
@@ -56,14 +56,16 @@ PlainScalar read_plain(std::string_view text) {
     if (is_null_text(text)) return {ConfigNode(), {}};
     if (text == "true") return {ConfigNode(true), {}};
     if (text == "false") return {ConfigNode(false), {}};
-    if (is_infinity_or_nan(text)) return {ConfigNode(), text::in_quotes(text) + " is not a finite number"};
+    if (is_infinity_or_nan(text))
+        return {ConfigNode(), text::in_quotes(text) + " is not a finite number"};
     const Number form = number_form(text);
     if (form == Number::none) return {ConfigNode(text), {}};
     const char* const begin = text.data();
     const char* const end = begin + text.size();
     if (form == Number::integer) {
         std::int64_t integer = 0;
-        if (std::from_chars(begin, end, integer).ec == std::errc()) return {ConfigNode(integer), {}};
+        if (std::from_chars(begin, end, integer).ec == std::errc())
+            return {ConfigNode(integer), {}};
     }
     double real = 0;
     if (std::from_chars(begin, end, real).ec != std::errc()) {
@@ -84,7 +86,8 @@ std::string number_hint(std::string_view text) {
     while (digits.size() > 1 && digits[0] == '0' && text::is_digit(digits[1])) digits.erase(0, 1);
     if (!digits.empty() && digits[0] == '.') digits.insert(0, "0");
     if (const std::size_t dot = digits.find('.');
-        dot != std::string::npos && (dot + 1 == digits.size() || !text::is_digit(digits[dot + 1]))) {
+        dot != std::string::npos &&
+        (dot + 1 == digits.size() || !text::is_digit(digits[dot + 1]))) {
         digits.insert(dot + 1, "0");
     }
     repaired = sign + digits;

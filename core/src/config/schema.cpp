@@ -1,13 +1,16 @@
 // The fields of a map: their texts, and the check of a declaration.
+#include "dsc/config/schema.hpp"
+
 #include <algorithm>
+#include <limits>
+#include <set>
+
+#include <fmt/core.h>
+
 #include <dsc/config/field_text.hpp>
-#include <dsc/config/schema.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/text/words.hpp>
-#include <limits>
-#include <set>
-#include <fmt/core.h>
 
 #include "config/field_value.hpp"
 
@@ -21,10 +24,8 @@ bool is_list_type(FieldType type) {
         case FieldType::real_list:
         case FieldType::string_list:
         case FieldType::object_list:
-        case FieldType::strategy_list:
-            return true;
-        default:
-            return false;
+        case FieldType::strategy_list: return true;
+        default: return false;
     }
 }
 
@@ -34,15 +35,17 @@ bool is_numeric_type(FieldType type) {
         case FieldType::real:
         case FieldType::vec3:
         case FieldType::integer_list:
-        case FieldType::real_list:
-            return true;
-        default:
-            return false;
+        case FieldType::real_list: return true;
+        default: return false;
     }
 }
 
-bool has_object(FieldType type) { return type == FieldType::object || type == FieldType::object_list; }
-bool has_kind(FieldType type) { return type == FieldType::strategy || type == FieldType::strategy_list; }
+bool has_object(FieldType type) {
+    return type == FieldType::object || type == FieldType::object_list;
+}
+bool has_kind(FieldType type) {
+    return type == FieldType::strategy || type == FieldType::strategy_list;
+}
 
 std::string short_text(const ConfigNode& node) {
     if (node.is_string()) return node.as_string().empty() ? "''" : node.as_string();
@@ -74,8 +77,10 @@ std::string size_text(const Field& field) {
     const std::size_t least = field.min_size.value_or(0);
     const std::size_t most = field.max_size.value_or(std::numeric_limits<std::size_t>::max());
     if (least == most) return text::counted(least, "item");
-    if (most == std::numeric_limits<std::size_t>::max()) return least == 0 ? "" : "at least " + text::counted(least, "item");
-    return least == 0 ? "at most " + text::counted(most, "item") : fmt::format("{} to {}", least, text::counted(most, "item"));
+    if (most == std::numeric_limits<std::size_t>::max())
+        return least == 0 ? "" : "at least " + text::counted(least, "item");
+    return least == 0 ? "at most " + text::counted(most, "item")
+                      : fmt::format("{} to {}", least, text::counted(most, "item"));
 }
 
 /// ", 1 to 4 items, (0, 1]": the bounds of size and value.
@@ -89,32 +94,39 @@ std::string limits_text(const Field& field) {
 /// The faults of one field, without its place.
 std::vector<std::string> field_problems(const Field& field) {
     std::vector<std::string> faults;
-    if (!text::is_identifier(field.name)) faults.emplace_back("has a name that is not an identifier");
+    if (!text::is_identifier(field.name))
+        faults.emplace_back("has a name that is not an identifier");
     if (field.doc.empty()) faults.emplace_back("has no doc");
     const bool bounded = field.minimum || field.maximum;
-    if (bounded && !is_numeric_type(field.type)) faults.emplace_back("has a range but is not a number");
+    if (bounded && !is_numeric_type(field.type))
+        faults.emplace_back("has a range but is not a number");
     if (field.minimum && field.maximum && field.minimum->value > field.maximum->value) {
         faults.emplace_back("has an empty range");
     }
     if ((field.min_size || field.max_size) && !is_list_type(field.type)) {
         faults.emplace_back("has a size but is not a list");
     }
-    if (field.type == FieldType::choice && field.choices.empty()) faults.emplace_back("has no choices");
-    if (!field.choices.empty() && field.type != FieldType::choice && field.type != FieldType::string_list) {
+    if (field.type == FieldType::choice && field.choices.empty())
+        faults.emplace_back("has no choices");
+    if (!field.choices.empty() && field.type != FieldType::choice &&
+        field.type != FieldType::string_list) {
         faults.emplace_back("has choices but is not a choice");
     }
     if (!field.extensions.empty() && field.type != FieldType::file) {
         faults.emplace_back("has extensions but is not a file");
     }
     if (has_object(field.type) && !field.object) faults.emplace_back("has no schema");
-    if (has_kind(field.type) && field.kind.empty()) faults.emplace_back("names no kind of strategy");
+    if (has_kind(field.type) && field.kind.empty())
+        faults.emplace_back("names no kind of strategy");
     if (field.required && field.optional) faults.emplace_back("is both required and optional");
     const ConfigNode& value = field.default_value;
-    if (field.required || (field.optional && value.is_null()) || !is_plain_field(field.type)) return faults;
+    if (field.required || (field.optional && value.is_null()) || !is_plain_field(field.type))
+        return faults;
     if (faults.empty()) {
         Diagnostics diagnostics;
         resolve_value(field, value, field.name, {}, diagnostics);
-        for (const Diagnostic& d : diagnostics.all()) faults.push_back("has a bad default: " + d.message);
+        for (const Diagnostic& d : diagnostics.all())
+            faults.push_back("has a bad default: " + d.message);
     }
     return faults;
 }
@@ -123,34 +135,20 @@ std::vector<std::string> field_problems(const Field& field) {
 
 std::string_view type_name(FieldType type) {
     switch (type) {
-        case FieldType::boolean:
-            return "boolean";
-        case FieldType::integer:
-            return "integer";
-        case FieldType::real:
-            return "real";
-        case FieldType::string:
-            return "string";
-        case FieldType::choice:
-            return "choice";
-        case FieldType::file:
-            return "file";
-        case FieldType::vec3:
-            return "vector of 3 reals";
-        case FieldType::integer_list:
-            return "list of integers";
-        case FieldType::real_list:
-            return "list of reals";
-        case FieldType::string_list:
-            return "list of strings";
-        case FieldType::object:
-            return "map";
-        case FieldType::object_list:
-            return "list of maps";
-        case FieldType::strategy:
-            return "strategy";
-        case FieldType::strategy_list:
-            return "list of strategies";
+        case FieldType::boolean: return "boolean";
+        case FieldType::integer: return "integer";
+        case FieldType::real: return "real";
+        case FieldType::string: return "string";
+        case FieldType::choice: return "choice";
+        case FieldType::file: return "file";
+        case FieldType::vec3: return "vector of 3 reals";
+        case FieldType::integer_list: return "list of integers";
+        case FieldType::real_list: return "list of reals";
+        case FieldType::string_list: return "list of strings";
+        case FieldType::object: return "map";
+        case FieldType::object_list: return "list of maps";
+        case FieldType::strategy: return "strategy";
+        case FieldType::strategy_list: return "list of strategies";
     }
     return "string";
 }
@@ -228,8 +226,10 @@ std::vector<std::string> Schema::problems(bool of_strategy) const {
     }
     for (const Deprecation& d : deprecations_) {
         if (!find(d.new_name))
-            out.push_back("'" + d.old_name + "' is an old name of '" + d.new_name + "', which is not a parameter");
-        if (find(d.old_name)) out.push_back("'" + d.old_name + "' is both a parameter and an old name");
+            out.push_back("'" + d.old_name + "' is an old name of '" + d.new_name +
+                          "', which is not a parameter");
+        if (find(d.old_name))
+            out.push_back("'" + d.old_name + "' is both a parameter and an old name");
     }
     for (const CrossCheck& c : checks_) {
         if (c.message.empty()) out.emplace_back("a cross check has no message");

@@ -1,10 +1,10 @@
 // Texts and places of configuration values.
+#include "dsc/config/source.hpp"
+
 #include <fmt/core.h>
 
-#include <dsc/config/source.hpp>
 #include <dsc/text/utf8.hpp>
 #include <dsc/text/words.hpp>
-
 
 namespace dsc::config {
 

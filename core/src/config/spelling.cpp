@@ -1,6 +1,7 @@
 // Finds the accepted word nearest to a mistyped one.
+#include "dsc/config/spelling.hpp"
+
 #include <algorithm>
-#include <dsc/config/spelling.hpp>
 
 namespace dsc::config {
 
@@ -22,7 +23,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return previous[b.size()];
 }
 
-std::optional<std::string> closest(std::string_view word, const std::vector<std::string>& candidates) {
+std::optional<std::string> closest(std::string_view word,
+                                   const std::vector<std::string>& candidates) {
     // A very long word is not a misspelling, and the table would grow with it.
     constexpr std::size_t longest = 200;
     if (word.size() > longest) return std::nullopt;

@@ -1,14 +1,16 @@
 // Validates a tree against schemas: finds all faults and writes out all defaults.
 #include <algorithm>
+#include <exception>
+#include <set>
+#include <utility>
+
+#include <fmt/core.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/schema.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/text/utf8.hpp>
 #include <dsc/text/words.hpp>
-#include <exception>
-#include <set>
-#include <utility>
-#include <fmt/core.h>
 
 #include "config/field_value.hpp"
 
@@ -37,7 +39,8 @@ public:
     void learn_kind(const std::string& kind) {
         if (!known_kinds_.insert(kind).second) return;
         for (const std::string& id : lookup_.ids(kind)) {
-            if (const Schema* schema = lookup_.find_schema(kind, id)) learn(*schema, kind + " '" + id + "'");
+            if (const Schema* schema = lookup_.find_schema(kind, id))
+                learn(*schema, kind + " '" + id + "'");
         }
     }
 
@@ -47,7 +50,8 @@ public:
         std::string path;
         std::string owner;                 ///< "velocity 'point_cloud'"
         SourcePosition fallback;           ///< place of a map that has none
-        const ConfigNode* type = nullptr;  ///< the strategy's id, which is not a field of the schema
+        const ConfigNode* type = nullptr;  ///< the strategy's id, which is not a field of the
+                                           ///< schema
     };
 
     ConfigNode resolve_map(const ConfigNode& node, const Map& map) {
@@ -74,8 +78,8 @@ public:
         return resolved;
     }
 
-    ConfigNode resolve_strategy(const ConfigNode& node, const std::string& kind, const std::string& path,
-                                const SourcePosition& fallback) {
+    ConfigNode resolve_strategy(const ConfigNode& node, const std::string& kind,
+                                const std::string& path, const SourcePosition& fallback) {
         const SourcePosition& position = node.position().known() ? node.position() : fallback;
         const std::string name = path.empty() ? "the " + kind : "'" + path + "'";
         if (!node.is_map()) {
@@ -83,28 +87,30 @@ public:
             diagnostics_.error(
                 "config.wrong_type", position,
                 name + " must be a " + kind + " strategy {type: ID, ...}, not " + value_text(node),
-                bare ? "write {type: " + text::printable(node.as_string()) + "}" : "", {known_ids(kind)});
+                bare ? "write {type: " + text::printable(node.as_string()) + "}" : "",
+                {known_ids(kind)});
             return node;
         }
         const ConfigNode* type = node.find("type");
         if (!type || !type->is_string()) {
             const bool missing = !type || type->is_null();
-            diagnostics_.error(missing ? "config.missing" : "config.wrong_type",
-                               type ? type->position() : position,
-                               missing ? name + " does not say which " + kind + " to use: 'type' is missing"
-                                       : "'" + join_path(path, "type") + "' must be the name of a " + kind +
-                                             " strategy, not " + value_text(*type),
-                               "", {known_ids(kind)});
+            diagnostics_.error(
+                missing ? "config.missing" : "config.wrong_type",
+                type ? type->position() : position,
+                missing ? name + " does not say which " + kind + " to use: 'type' is missing"
+                        : "'" + join_path(path, "type") + "' must be the name of a " + kind +
+                              " strategy, not " + value_text(*type),
+                "", {known_ids(kind)});
             return node;
         }
         const std::string& id = type->as_string();
         const Schema* schema = lookup_.find_schema(kind, id);
         if (!schema) {
             const auto near = closest(id, lookup_.ids(kind));
-            diagnostics_.error("config.unknown_strategy",
-                               type->position().known() ? type->position() : position,
-                               "unknown " + kind + " " + text::in_quotes(id),
-                               near ? "did you mean '" + *near + "'?" : kind_hint(id), {known_ids(kind)});
+            diagnostics_.error(
+                "config.unknown_strategy", type->position().known() ? type->position() : position,
+                "unknown " + kind + " " + text::in_quotes(id),
+                near ? "did you mean '" + *near + "'?" : kind_hint(id), {known_ids(kind)});
             return node;
         }
         if (schema->find("type")) {
@@ -116,7 +122,9 @@ public:
     }
 
 private:
-    static std::string subject(const Map& map) { return map.path.empty() ? map.owner : "'" + map.path + "'"; }
+    static std::string subject(const Map& map) {
+        return map.path.empty() ? map.owner : "'" + map.path + "'";
+    }
 
     std::string known_ids(const std::string& kind) const {
         const std::vector<std::string> ids = lookup_.ids(kind);
@@ -127,7 +135,8 @@ private:
     /// The kind to which an id belongs if it was used for another kind.
     std::string kind_hint(const std::string& id) const {
         for (const std::string& kind : known_kinds_) {
-            if (lookup_.find_schema(kind, id)) return text::in_quotes(id) + " is of the kind " + kind;
+            if (lookup_.find_schema(kind, id))
+                return text::in_quotes(id) + " is of the kind " + kind;
         }
         return {};
     }
@@ -135,9 +144,9 @@ private:
     /// The map with old names replaced by new ones.
     ConfigNode renamed(const ConfigNode& node, const Map& map) {
         const auto& old_names = map.schema.deprecations();
-        const bool affected = std::any_of(old_names.begin(), old_names.end(), [&](const Deprecation& d) {
-            return node.find(d.old_name) != nullptr;
-        });
+        const bool affected =
+            std::any_of(old_names.begin(), old_names.end(),
+                        [&](const Deprecation& d) { return node.find(d.old_name) != nullptr; });
         if (!affected) return node;
         ConfigNode out = node;
         for (const Deprecation& d : old_names) {
@@ -145,15 +154,16 @@ private:
             if (!entry) continue;
             out = out.without(d.old_name);
             if (out.find(d.new_name)) {
-                diagnostics_.error(
-                    "config.duplicate_key", entry->position,
-                    "'" + d.old_name + "' is the old name of '" + d.new_name + "', and both are given",
-                    "remove '" + d.old_name + "'");
+                diagnostics_.error("config.duplicate_key", entry->position,
+                                   "'" + d.old_name + "' is the old name of '" + d.new_name +
+                                       "', and both are given",
+                                   "remove '" + d.old_name + "'");
                 continue;
             }
             diagnostics_.warning(
                 "config.deprecated", entry->position,
-                "'" + d.old_name + "' in " + map.owner + " is now called '" + d.new_name + "'", "rename it");
+                "'" + d.old_name + "' in " + map.owner + " is now called '" + d.new_name + "'",
+                "rename it");
             out = out.with(d.new_name, entry->value, entry->position);
         }
         return out;
@@ -177,8 +187,10 @@ private:
         } else {
             hint = belongs_to(entry.key);
         }
-        std::string accepted = names.empty() ? "no keys are accepted here" : "accepted keys: " + join(names);
-        diagnostics_.error("config.unknown_key", entry.position.known() ? entry.position : map.fallback,
+        std::string accepted =
+            names.empty() ? "no keys are accepted here" : "accepted keys: " + join(names);
+        diagnostics_.error("config.unknown_key",
+                           entry.position.known() ? entry.position : map.fallback,
                            "unknown key " + text::in_quotes(entry.key) + " in " + map.owner, hint,
                            {std::move(accepted)});
     }
@@ -197,8 +209,9 @@ private:
         const std::string path = join_path(map.path, field.name);
         if (!entry) {
             if (field.required) {
-                diagnostics_.error("config.missing", owner_place, "'" + path + "' is missing in " + map.owner,
-                                   field.summary(), {field.doc});
+                diagnostics_.error("config.missing", owner_place,
+                                   "'" + path + "' is missing in " + map.owner, field.summary(),
+                                   {field.doc});
                 return {};
             }
             return resolve_default(field, path, owner_place);
@@ -215,8 +228,10 @@ private:
         return resolve_given(field, value, path, place);
     }
 
-    ConfigNode resolve_default(const Field& field, const std::string& path, const SourcePosition& place) {
-        if (field.type == FieldType::object && !field.optional) return resolve_given(field, {}, path, place);
+    ConfigNode resolve_default(const Field& field, const std::string& path,
+                               const SourcePosition& place) {
+        if (field.type == FieldType::object && !field.optional)
+            return resolve_given(field, {}, path, place);
         if (field.default_value.is_null()) return {};
         return resolve_given(field, field.default_value, path, place);
     }
@@ -226,30 +241,32 @@ private:
         switch (field.type) {
             case FieldType::object:
                 return resolve_map(value, {*field.object, path, "'" + path + "'", place});
-            case FieldType::strategy:
-                return resolve_strategy(value, field.kind, path, place);
+            case FieldType::strategy: return resolve_strategy(value, field.kind, path, place);
             case FieldType::object_list:
-            case FieldType::strategy_list:
-                return resolve_list(field, value, path, place);
-            default:
-                return resolve_value(field, value, path, place, diagnostics_);
+            case FieldType::strategy_list: return resolve_list(field, value, path, place);
+            default: return resolve_value(field, value, path, place, diagnostics_);
         }
     }
 
     ConfigNode resolve_list(const Field& field, const ConfigNode& value, const std::string& path,
                             const SourcePosition& place) {
         if (!value.is_list()) {
-            diagnostics_.error(
-                "config.wrong_type", place, "'" + path + "' must be a list, not " + value_text(value),
-                value.is_map() ? "write [{...}], or '- ' before each item" : "accepted: " + field.summary());
+            diagnostics_.error("config.wrong_type", place,
+                               "'" + path + "' must be a list, not " + value_text(value),
+                               value.is_map() ? "write [{...}], or '- ' before each item"
+                                              : "accepted: " + field.summary());
             return value;
         }
         const std::size_t least = field.min_size.value_or(0);
         const std::size_t most = field.max_size.value_or(value.size());
         if (value.size() < least || value.size() > most) {
-            diagnostics_.error("config.list_size", place,
-                               fmt::format("'{}' must have {}, not {}", path, value.size() < least ? "at least " + text::counted(least, "item") : "at most " + text::counted(most, "item"), value.size()),
-                               "accepted: " + field.summary());
+            diagnostics_.error(
+                "config.list_size", place,
+                fmt::format("'{}' must have {}, not {}", path,
+                            value.size() < least ? "at least " + text::counted(least, "item")
+                                                 : "at most " + text::counted(most, "item"),
+                            value.size()),
+                "accepted: " + field.summary());
         }
         std::vector<ConfigNode> items;
         for (std::size_t i = 0; i < value.size(); ++i) {
@@ -268,16 +285,19 @@ private:
             try {
                 holds = check.holds(resolved);
             } catch (const std::exception& error) {
-                throw StrategyError("strategy.check",
-                                    map.owner + " failed while its parameters were checked: " + error.what());
+                throw StrategyError(
+                    "strategy.check",
+                    map.owner + " failed while its parameters were checked: " + error.what());
             }
             if (holds) continue;
             const ConfigNode* culprit = first_named(check.message, resolved);
-            diagnostics_.error("config.check", culprit ? culprit->position() : place, map.owner + ": " + check.message);
+            diagnostics_.error("config.check", culprit ? culprit->position() : place,
+                               map.owner + ": " + check.message);
         }
     }
 
-    /// Of the given values, the one whose key a message names first; nullptr if the message names none.
+    /// Of the given values, the one whose key a message names first; nullptr if the message names
+    /// none.
     static const ConfigNode* first_named(const std::string& message, const ConfigNode& map) {
         const ConfigNode* first = nullptr;
         std::size_t first_at = std::string::npos;
@@ -307,8 +327,8 @@ ConfigNode validate(const ConfigNode& node, const Schema& schema, const Strategy
     return validator.resolve_map(node, {schema, node.path(), owner, node.position()});
 }
 
-ConfigNode validate_strategy(const ConfigNode& node, const std::string& kind, const StrategyLookup& lookup,
-                             Diagnostics& diagnostics) {
+ConfigNode validate_strategy(const ConfigNode& node, const std::string& kind,
+                             const StrategyLookup& lookup, Diagnostics& diagnostics) {
     Validator validator(lookup, diagnostics);
     validator.learn_kind(kind);
     return validator.resolve_strategy(node, kind, node.path(), node.position());

@@ -1,11 +1,12 @@
 #pragma once
 // Environment variables in the strings of a configuration.
 
+#include <string>
+#include <string_view>
+
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/config/source.hpp>
 #include <dsc/config/yaml.hpp>
-#include <string>
-#include <string_view>
 
 namespace dsc::config {
 

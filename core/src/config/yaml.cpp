@@ -1,18 +1,21 @@
 // Reads a configuration with its includes.
+#include "dsc/config/yaml.hpp"
+
 #include <algorithm>
 #include <cstdlib>
-#include <dsc/base/byte_order_mark.hpp>
-#include <dsc/base/error.hpp>
-#include <dsc/config/diagnostics.hpp>
-#include <dsc/config/spelling.hpp>
-#include <dsc/config/yaml.hpp>
-#include <dsc/text/utf8.hpp>
-#include <dsc/text/words.hpp>
 #include <fstream>
 #include <iterator>
 #include <unordered_map>
 #include <vector>
+
 #include <fmt/core.h>
+
+#include <dsc/base/byte_order_mark.hpp>
+#include <dsc/base/error.hpp>
+#include <dsc/config/diagnostics.hpp>
+#include <dsc/config/spelling.hpp>
+#include <dsc/text/utf8.hpp>
+#include <dsc/text/words.hpp>
 
 #include "config/node_factory.hpp"
 #include "config/scalar.hpp"
@@ -26,7 +29,8 @@ namespace fs = std::filesystem;
 /// Reads a file and its includes; contains their common data.
 class Loader {
 public:
-    explicit Loader(const YamlOptions& options) : options_(options), nodes_left_(options.max_nodes) {}
+    explicit Loader(const YamlOptions& options)
+        : options_(options), nodes_left_(options.max_nodes) {}
 
     ConfigNode load(std::shared_ptr<const SourceText> source, const fs::path& file) {
         const ConfigNode tree = read(std::move(source), file);
@@ -37,7 +41,8 @@ public:
 private:
     ConfigNode read(std::shared_ptr<const SourceText> source, const fs::path& file) {
         open_files_.push_back(file);
-        ConfigNode own = read_yaml({std::move(source), 0, &options_, &nodes_left_, &diagnostics_, false});
+        ConfigNode own =
+            read_yaml({std::move(source), 0, &options_, &nodes_left_, &diagnostics_, false});
         const ConfigEntry* include = own.find_entry("include");
         if (include) {
             ConfigNode merged = ConfigNode::map();
@@ -51,9 +56,9 @@ private:
 
     std::vector<ConfigNode> targets(const ConfigEntry& include) {
         if (include.value.is_string()) return {include.value};
-        const bool is_list =
-            include.value.is_list() && std::all_of(include.value.items().begin(), include.value.items().end(),
-                                                   [](const ConfigNode& item) { return item.is_string(); });
+        const bool is_list = include.value.is_list() &&
+                             std::all_of(include.value.items().begin(), include.value.items().end(),
+                                         [](const ConfigNode& item) { return item.is_string(); });
         if (is_list) return include.value.items();
         diagnostics_.error("config.include", include.value.position(),
                            "'include' must be the name of a file or a list of such names");
@@ -79,7 +84,8 @@ private:
         }
         if (open_files_.size() > options_.max_include_depth) {
             fail("config.include", target.position(),
-                 fmt::format("files include one another more than {} deep", options_.max_include_depth));
+                 fmt::format("files include one another more than {} deep",
+                             options_.max_include_depth));
         }
         if (++files_ > options_.max_files) {
             fail("config.include", target.position(),
@@ -100,19 +106,23 @@ private:
         if (node.is_map()) return node;
         if (!node.is_null()) {
             diagnostics_.error("config.include", target.position(),
-                               text::in_quotes(file.string()) + " contains " + std::string(type_name(node.type())) +
+                               text::in_quotes(file.string()) + " contains " +
+                                   std::string(type_name(node.type())) +
                                    ", not a map of keys and values");
         }
         return ConfigNode::map();
     }
 
 public:
-    [[noreturn]] static void fail_too_large(const SourcePosition& position, const YamlOptions& options) {
-        fail("config.too_large", position, fmt::format("the configuration is larger than {} bytes", options.max_bytes));
+    [[noreturn]] static void fail_too_large(const SourcePosition& position,
+                                            const YamlOptions& options) {
+        fail("config.too_large", position,
+             fmt::format("the configuration is larger than {} bytes", options.max_bytes));
     }
 
     /// nullptr and the cause if the file cannot be read. Throws ConfigError "config.too_large".
-    static std::shared_ptr<const SourceText> read_text(const fs::path& file, const YamlOptions& options,
+    static std::shared_ptr<const SourceText> read_text(const fs::path& file,
+                                                       const YamlOptions& options,
                                                        std::string& cause) {
         std::error_code error;
         const fs::file_status status = fs::status(file, error);
@@ -125,7 +135,8 @@ public:
             return nullptr;
         }
         std::ifstream stream(file, std::ios::binary);
-        // One byte more than the limit shows that a file is too large, also if the size is unknown (a pipe).
+        // One byte more than the limit shows that a file is too large, also if the size is unknown
+        // (a pipe).
         std::string text(options.max_bytes + 1, '\0');
         if (stream) stream.read(text.data(), static_cast<std::streamsize>(text.size()));
         if (!stream.is_open() || stream.bad()) {
@@ -133,11 +144,13 @@ public:
             return nullptr;
         }
         text.resize(static_cast<std::size_t>(stream.gcount()));
-        if (text.size() > options.max_bytes) fail_too_large({make_source("", file.string()), 0, 0, 0}, options);
+        if (text.size() > options.max_bytes)
+            fail_too_large({make_source("", file.string()), 0, 0, 0}, options);
         return make_source(text, file.string());
     }
 
-    static std::shared_ptr<const SourceText> make_source(std::string_view text, const std::string& name) {
+    static std::shared_ptr<const SourceText> make_source(std::string_view text,
+                                                         const std::string& name) {
         return std::make_shared<const SourceText>(
             SourceText{SourceText::Kind::file, name, std::string(without_byte_order_mark(text))});
     }
@@ -194,7 +207,8 @@ ConfigNode merge(const ConfigNode& earlier, const ConfigNode& later) {
     if (!earlier.is_map() || !later.is_map() || names_other_strategy(earlier, later)) return later;
     std::vector<ConfigEntry> entries = earlier.entries();
     std::unordered_map<std::string_view, std::size_t> index;
-    for (std::size_t i = 0; i < earlier.entries().size(); ++i) index.emplace(earlier.entries()[i].key, i);
+    for (std::size_t i = 0; i < earlier.entries().size(); ++i)
+        index.emplace(earlier.entries()[i].key, i);
     for (const ConfigEntry& entry : later.entries()) {
         const auto old = index.find(entry.key);
         if (old == index.end()) {

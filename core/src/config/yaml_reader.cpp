@@ -1,25 +1,25 @@
 // Turns the events of the YAML library into a tree with places.
 #include "config/yaml_reader.hpp"
 
-#include <yaml-cpp/eventhandler.h>
-#include <yaml-cpp/exceptions.h>
-#include <yaml-cpp/mark.h>
-#include <yaml-cpp/parser.h>
-
 #include <algorithm>
 #include <sstream>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
 #include <fmt/core.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <dsc/text/utf8.hpp>
+#include <dsc/text/words.hpp>
 
 #include "config/node_factory.hpp"
 #include "config/scalar.hpp"
 #include "config/variables.hpp"
-
-#include <dsc/text/utf8.hpp>
-#include <dsc/text/words.hpp>
 
 namespace dsc::config {
 namespace {
@@ -38,7 +38,8 @@ public:
     /// Byte of the text that a mark points to.
     std::size_t offset(const YAML::Mark& mark) const {
         const std::string& text = source_->text;
-        if (mark.line < 0 || static_cast<std::size_t>(mark.line) >= starts_.size()) return text.size();
+        if (mark.line < 0 || static_cast<std::size_t>(mark.line) >= starts_.size())
+            return text.size();
         const auto line = static_cast<std::size_t>(mark.line);
         const std::size_t start = line == 0 ? begin_ : starts_[line];
         return std::min(start + static_cast<std::size_t>(std::max(mark.column, 0)), text.size());
@@ -71,7 +72,8 @@ public:
         const std::size_t close = closing_quote(begin);
         if (close >= text.size()) {
             // The library accepts this if the file ends with a newline.
-            fail("config.yaml", at(begin, 1), "malformed YAML: the quote that starts here is not closed");
+            fail("config.yaml", at(begin, 1),
+                 "malformed YAML: the quote that starts here is not closed");
         }
         const std::size_t end = std::min(close + 1, line_end);
         return at(begin, text::character_count(text.substr(begin, end - begin)));
@@ -90,7 +92,8 @@ private:
         const bool goes_on = last_.line_start == line_start && last_.offset <= offset;
         const std::size_t from = goes_on ? last_.offset : line_start;
         const int before = goes_on ? last_.column : 1;
-        const std::string_view between = std::string_view(source_->text).substr(from, offset - from);
+        const std::string_view between =
+            std::string_view(source_->text).substr(from, offset - from);
         last_ = {line_start, offset, before + static_cast<int>(text::character_count(between))};
         return last_.column;
     }
@@ -128,7 +131,9 @@ private:
 class TreeBuilder : public YAML::EventHandler {
 public:
     explicit TreeBuilder(const ReadJob& job)
-        : job_(job), places_(job.source, job.begin), root_(ConfigNode().placed({job.source, 0, 0, 0})) {}
+        : job_(job),
+          places_(job.source, job.begin),
+          root_(ConfigNode().placed({job.source, 0, 0, 0})) {}
 
     ConfigNode take() { return std::move(root_); }
     const Places& places() const { return places_; }
@@ -139,21 +144,25 @@ public:
     std::string syntax_hint(const SourcePosition& position) const {
         const std::string_view line = job_.source->line(position.line);
         const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());
-        if (line.substr(0, first).find('\t') != std::string_view::npos) return "indent with blanks, not tabs";
+        if (line.substr(0, first).find('\t') != std::string_view::npos)
+            return "indent with blanks, not tabs";
         const std::size_t variable = line.find("${");
         const bool has_variable = variable != std::string_view::npos;
-        if (has_variable && line.substr(0, variable).find_first_of("\"'") == std::string_view::npos) {
+        if (has_variable &&
+            line.substr(0, variable).find_first_of("\"'") == std::string_view::npos) {
             return "put text with ${...} in quotes";
         }
         const std::size_t colon = line.find(": ");
-        if (colon != std::string_view::npos && line.find(": ", colon + 1) != std::string_view::npos &&
+        if (colon != std::string_view::npos &&
+            line.find(": ", colon + 1) != std::string_view::npos &&
             line.find_first_of("\"'{[") == std::string_view::npos) {
             return "put text that contains ': ' in quotes";
         }
         if (frames_.empty() || !is_flow(frames_.back())) {
             // After a value on the same line as its key, nothing can be nested.
             const std::string_view before = job_.source->line(position.line - 1);
-            const bool has_value = before.find(": ") != std::string_view::npos && before.back() != ':';
+            const bool has_value =
+                before.find(": ") != std::string_view::npos && before.back() != ':';
             if (has_value && first < line.size() && first > before.find_first_not_of(' '))
                 return "is this line indented too far?";
         }
@@ -161,7 +170,8 @@ public:
             if (!is_flow(*frame)) continue;
             const char bracket = places_.character(frame->position);
             const std::string line_text = " in line " + std::to_string(frame->position.line);
-            return std::string("is the '") + bracket + "'" + (job_.flow_only ? "" : line_text) + " closed?";
+            return std::string("is the '") + bracket + "'" + (job_.flow_only ? "" : line_text) +
+                   " closed?";
         }
         return {};
     }
@@ -182,11 +192,13 @@ public:
         // An empty value is marked at the next token; the place of its key is better.
         const bool in_map = !frames_.empty() && frames_.back().is_map;
         count(mark);
-        finish(ConfigNode().placed(in_map ? frames_.back().key_position : places_.at(mark)), anchor, 1);
+        finish(ConfigNode().placed(in_map ? frames_.back().key_position : places_.at(mark)), anchor,
+               1);
     }
 
     void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-        if (expects_key()) fail("config.yaml", places_.at(mark), "malformed YAML: an alias cannot be a key");
+        if (expects_key())
+            fail("config.yaml", places_.at(mark), "malformed YAML: an alias cannot be a key");
         const auto found = anchors_.find(anchor);
         if (found == anchors_.end()) {
             fail("config.yaml", places_.at(mark), "malformed YAML: an alias inside its own anchor");
@@ -226,8 +238,8 @@ public:
     void OnMapEnd() override {
         Frame frame = std::move(frames_.back());
         frames_.pop_back();
-        finish(NodeFactory::map(std::move(frame.entries), frame.position), frame.anchor, frame.nodes,
-               frame.depth);
+        finish(NodeFactory::map(std::move(frame.entries), frame.position), frame.anchor,
+               frame.nodes, frame.depth);
     }
 
 private:
@@ -257,7 +269,9 @@ private:
         return bracket == '[' || bracket == '{';
     }
 
-    bool expects_key() const { return !frames_.empty() && frames_.back().is_map && !frames_.back().has_key; }
+    bool expects_key() const {
+        return !frames_.empty() && frames_.back().is_map && !frames_.back().has_key;
+    }
 
     void refuse_tag(const std::string& tag, const SourcePosition& position) {
         if (tag.empty() || tag == "?" || tag == "!") return;
@@ -272,14 +286,16 @@ private:
         frame.key_position = position;
         frame.drop_value = true;
         if (key == "<<" && !quoted) {
-            job_.diagnostics->error("config.merge_key", position, "the merge key '<<' is not supported",
+            job_.diagnostics->error("config.merge_key", position,
+                                    "the merge key '<<' is not supported",
                                     "use 'include: FILE' at the top of the file");
             return;
         }
         const auto [first, fresh] = frame.seen.emplace(key, position);
         if (!fresh) {
             job_.diagnostics->error("config.duplicate_key", position,
-                                    fmt::format("duplicate key {}, first given in line {}", text::in_quotes(key), first->second.line),
+                                    fmt::format("duplicate key {}, first given in line {}",
+                                                text::in_quotes(key), first->second.line),
                                     "remove one of the two");
             return;
         }
@@ -297,8 +313,8 @@ private:
             node = std::move(plain.value);
         }
         if (node.is_string()) {
-            node = ConfigNode(
-                expand_variables(node.as_string(), position, job_.options->environment, *job_.diagnostics));
+            node = ConfigNode(expand_variables(node.as_string(), position,
+                                               job_.options->environment, *job_.diagnostics));
         }
         return node.placed(position, quoted);
     }
@@ -307,9 +323,11 @@ private:
               YAML::EmitterStyle::value style, bool is_map) {
         const SourcePosition position = places_.at(mark);
         refuse_tag(tag, position);
-        // These two are only recorded: if the text has a syntax fault later, that message is better.
+        // These two are only recorded: if the text has a syntax fault later, that message is
+        // better.
         if (expects_key()) {
-            job_.diagnostics->error("config.yaml", position, "malformed YAML: a list or map cannot be a key",
+            job_.diagnostics->error("config.yaml", position,
+                                    "malformed YAML: a list or map cannot be a key",
                                     "put text with braces or brackets in quotes");
         } else if (job_.flow_only && frames_.empty() && style == YAML::EmitterStyle::Block) {
             job_.diagnostics->error("config.yaml", position,
@@ -363,13 +381,15 @@ private:
             return;
         }
         frame.has_key = false;
-        if (!frame.drop_value) frame.entries.emplace_back(frame.key, std::move(node), frame.key_position);
+        if (!frame.drop_value)
+            frame.entries.emplace_back(frame.key, std::move(node), frame.key_position);
     }
 
     const ReadJob& job_;
     Places places_;
     std::vector<Frame> frames_;
-    std::unordered_map<YAML::anchor_t, Anchored> anchors_;  // used for look-ups only; never iterated
+    std::unordered_map<YAML::anchor_t, Anchored> anchors_;  // used for look-ups only; never
+                                                            // iterated
     ConfigNode root_;
     bool only_document_read_ = false;
 };
@@ -382,7 +402,8 @@ void refuse_non_text(const ReadJob& job, const Places& places) {
     constexpr const char* digits = "0123456789abcdef";
     const auto byte = static_cast<unsigned char>(text[offset]);
     fail("config.yaml", places.at(offset, 1),
-         std::string("malformed YAML: the byte 0x") + digits[byte >> 4U] + digits[byte & 15U] + " is not text",
+         std::string("malformed YAML: the byte 0x") + digits[byte >> 4U] + digits[byte & 15U] +
+             " is not text",
          "a configuration must be a text file in UTF-8");
 }
 

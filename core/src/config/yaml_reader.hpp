@@ -2,10 +2,11 @@
 // Reads one YAML text into a tree without paths. Only yaml_reader.cpp uses the YAML library.
 
 #include <cstddef>
+#include <memory>
+
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/config/node.hpp>
 #include <dsc/config/yaml.hpp>
-#include <memory>
 
 namespace dsc::config {
 
@@ -19,7 +20,8 @@ struct ReadJob {
     bool flow_only = false;              ///< refuses block lists and block maps
 };
 
-/// Throws ConfigError if the text is not YAML or exceeds a limit. The result needs NodeFactory::rooted.
+/// Throws ConfigError if the text is not YAML or exceeds a limit. The result needs
+/// NodeFactory::rooted.
 ConfigNode read_yaml(const ReadJob& job);
 
 }  // namespace dsc::config

@@ -2,12 +2,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <string>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/text/utf8.hpp>
 #include <dsc/text/words.hpp>
-#include <string>
 
 #include "config/scalar.hpp"
 
@@ -18,7 +19,8 @@ bool is_letter(char c) { return text::is_letter(c) || c == '_'; }
 
 /// Words that some YAML readers do not read as a string.
 bool is_special_word(std::string_view text) {
-    static constexpr std::array words = {"true", "false", "null", "yes", "no", "on", "off", "y", "n"};
+    static constexpr std::array words = {"true", "false", "null", "yes", "no",
+                                         "on",   "off",   "y",    "n"};
     const std::string lower = text::lower_case(text);
     for (const char* word : words) {
         if (lower == word) return true;
@@ -27,7 +29,8 @@ bool is_special_word(std::string_view text) {
 }
 
 bool is_plain_string(std::string_view text) {
-    if (text.empty() || (!is_letter(text[0]) && text[0] != '/') || is_special_word(text)) return false;
+    if (text.empty() || (!is_letter(text[0]) && text[0] != '/') || is_special_word(text))
+        return false;
     for (const char c : text) {
         const bool harmless =
             is_letter(c) || text::is_digit(c) || c == '.' || c == '/' || c == '-' || c == '+';
@@ -59,7 +62,8 @@ std::string double_quoted(std::string_view text) {
 }
 
 std::string key_text(const std::string& key) {
-    if (!text::is_utf8(key)) throw ConfigError("config.text", "a key of the configuration is not UTF-8 text");
+    if (!text::is_utf8(key))
+        throw ConfigError("config.text", "a key of the configuration is not UTF-8 text");
     return is_plain_string(key) ? key : double_quoted(key);
 }
 
@@ -80,16 +84,11 @@ std::string string_text(const ConfigNode& node) {
 
 std::string scalar_text(const ConfigNode& node) {
     switch (node.type()) {
-        case NodeType::boolean:
-            return node.as_boolean() ? "true" : "false";
-        case NodeType::integer:
-            return std::to_string(node.as_integer());
-        case NodeType::real:
-            return real_text(node.as_real());
-        case NodeType::string:
-            return string_text(node);
-        default:
-            return "null";
+        case NodeType::boolean: return node.as_boolean() ? "true" : "false";
+        case NodeType::integer: return std::to_string(node.as_integer());
+        case NodeType::real: return real_text(node.as_real());
+        case NodeType::string: return string_text(node);
+        default: return "null";
     }
 }
 
@@ -116,7 +115,8 @@ std::string inline_text(const ConfigNode& node) {
     return out + "]";
 }
 
-/// Appends the node with `indent` blanks; `lead` says whether the first line is already indented ("- " before it).
+/// Appends the node with `indent` blanks; `lead` says whether the first line is already indented
+/// ("- " before it).
 void write(const ConfigNode& node, std::size_t indent, bool lead, std::string& out) {
     if (is_inline(node)) {
         out += std::string(lead ? 0 : indent, ' ') + inline_text(node) + "\n";
@@ -155,8 +155,9 @@ std::string real_text(double value) {
     const double size = std::abs(value);
     const bool fixed = size == 0 || (size >= 1e-5 && size < 1e15);
     std::array<char, 64> buffer{};
-    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                      fixed ? std::chars_format::fixed : std::chars_format::scientific);
+    const auto result =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                      fixed ? std::chars_format::fixed : std::chars_format::scientific);
     std::string text(buffer.data(), result.ptr);
     if (fixed && text.find('.') == std::string::npos) text += ".0";
     return text;
@@ -166,7 +167,8 @@ std::string flow_text(const ConfigNode& node) {
     if (is_scalar(node)) return scalar_text(node);
     std::string out;
     if (node.is_list()) {
-        for (const ConfigNode& item : node.items()) out += (out.empty() ? "" : ", ") + flow_text(item);
+        for (const ConfigNode& item : node.items())
+            out += (out.empty() ? "" : ", ") + flow_text(item);
         return "[" + out + "]";
     }
     for (const ConfigEntry& entry : node.entries()) {
@@ -177,7 +179,8 @@ std::string flow_text(const ConfigNode& node) {
 
 std::string to_yaml(const ConfigNode& node) {
     if (node.find("include")) {
-        throw ConfigError("config.include", "a configuration with the key 'include' cannot be read back");
+        throw ConfigError("config.include",
+                          "a configuration with the key 'include' cannot be read back");
     }
     std::string out;
     write(node, 0, false, out);

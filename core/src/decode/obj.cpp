@@ -1,11 +1,12 @@
 // Reads Wavefront OBJ. Own reader, because those of the libraries round every coordinate to float.
-#include <dsc/decode/obj.hpp>
+#include "dsc/decode/obj.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
+
 #include <fmt/core.h>
 
 #include <dsc/base/log.hpp>
@@ -16,23 +17,26 @@ namespace dsc::decode {
 namespace {
 
 constexpr std::array<std::string_view, 42> skipped = {
-    "vt",        "vn",   "vp",     "g",     "o",      "s",      "usemtl",   "mtllib",   "l",
-    "p",         "mg",   "cstype", "deg",   "bmat",   "step",   "curv",     "surf",     "curv2",
-    "parm",      "trim", "hole",   "scrv",  "sp",     "end",    "con",      "bevel",    "lod",
-    "call",      "csh",  "ctech",  "stech", "maplib", "usemap", "c_interp", "d_interp", "shadow_obj",
-    "trace_obj", "bsp",  "bzp",    "cdc",   "cdp",    "res"};
+    "vt",         "vn",        "vp",    "g",      "o",      "s",        "usemtl",
+    "mtllib",     "l",         "p",     "mg",     "cstype", "deg",      "bmat",
+    "step",       "curv",      "surf",  "curv2",  "parm",   "trim",     "hole",
+    "scrv",       "sp",        "end",   "con",    "bevel",  "lod",      "call",
+    "csh",        "ctech",     "stech", "maplib", "usemap", "c_interp", "d_interp",
+    "shadow_obj", "trace_obj", "bsp",   "bzp",    "cdc",    "cdp",      "res"};
 
 struct LateCorner {
     std::size_t line;
     std::int64_t index;
 };
 
-/// The number of a point or of a normal, counted from 0; negative numbers count backwards from the last of `count`.
+/// The number of a point or of a normal, counted from 0; negative numbers count backwards from the
+/// last of `count`.
 std::optional<std::size_t> index_of(std::string_view word, std::size_t count) {
     const bool backwards = !word.empty() && word.front() == '-';
     if (backwards) word.remove_prefix(1);
     std::size_t index = 0;
-    if (!text::parse_count(word, index) || index == 0 || (backwards && index > count)) return std::nullopt;
+    if (!text::parse_count(word, index) || index == 0 || (backwards && index > count))
+        return std::nullopt;
     return backwards ? count - index : index - 1;
 }
 
@@ -62,7 +66,8 @@ private:
         if (keyword == "f" || keyword == "fo")
             face(fields);
         else if (std::find(skipped.begin(), skipped.end(), keyword) == skipped.end())
-            text::fail("io.syntax", lines_.place(), "unknown keyword " + text::in_quotes(keyword), text::export_again);
+            text::fail("io.syntax", lines_.place(), "unknown keyword " + text::in_quotes(keyword),
+                       text::export_again);
         else
             note_geometry(keyword);
     }
@@ -72,13 +77,18 @@ private:
         if (keyword == "f" && !obj_.normals.empty()) normal_corners(fields);
     }
 
-    /// Lines, points, curves and free-form surfaces are geometry that a triangle mesh cannot represent. One warning per
-    /// keyword.
+    /// Lines, points, curves and free-form surfaces are geometry that a triangle mesh cannot
+    /// represent. One warning per keyword.
     void note_geometry(std::string_view keyword) {
         constexpr std::array<std::string_view, 5> geometry = {"l", "p", "curv", "curv2", "surf"};
         const auto found = std::find(geometry.begin(), geometry.end(), keyword);
-        if (found == geometry.end() || std::exchange(noted_[static_cast<std::size_t>(found - geometry.begin())], true)) return;
-        log(LogLevel::warning, fmt::format("{}:{}: lines {} are not read; only the vertices and faces of an OBJ file are read", lines_.place().file, lines_.number(), text::in_quotes(keyword)));
+        if (found == geometry.end() ||
+            std::exchange(noted_[static_cast<std::size_t>(found - geometry.begin())], true))
+            return;
+        log(LogLevel::warning,
+            fmt::format(
+                "{}:{}: lines {} are not read; only the vertices and faces of an OBJ file are read",
+                lines_.place().file, lines_.number(), text::in_quotes(keyword)));
     }
 
     /// A line with too few numbers: truncated at the end of the file, malformed elsewhere.
@@ -110,35 +120,47 @@ private:
         if (options_.faces) {
             if (count < 3) short_line(fmt::format("vertex with {} of 3 coordinates", count));
             if (obj_.points.size() == std::numeric_limits<std::uint32_t>::max())
-                text::fail("io.count", lines_.place(), "more than 4294967295 vertices", "split the file");
+                text::fail("io.count", lines_.place(), "more than 4294967295 vertices",
+                           "split the file");
             return;
         }
         const bool cut = lines_.cut() && count < previous_;
         if (count >= 3 && count != 5 && !cut) return;
-        text::fail("io.syntax", lines_.place(),
-                   "the vertex has " + text::counted(count, "number") + (cut && count >= 3 ? ", the previous one has more" : ""),
-                   "a 'v' line is 'v x y z' or 'v x y z r g b'; the file may be cut off, write it again");
+        text::fail(
+            "io.syntax", lines_.place(),
+            "the vertex has " + text::counted(count, "number") +
+                (cut && count >= 3 ? ", the previous one has more" : ""),
+            "a 'v' line is 'v x y z' or 'v x y z r g b'; the file may be cut off, write it again");
     }
 
     void face(text::Fields& fields) {
         polygon_.clear();
-        for (std::string_view field = fields.next(); !field.empty(); field = fields.next()) polygon_.push_back(corner(field));
-        if (polygon_.size() < 3) short_line("face with " + text::counted(polygon_.size(), "corner") + ", at least 3 are needed");
+        for (std::string_view field = fields.next(); !field.empty(); field = fields.next())
+            polygon_.push_back(corner(field));
+        if (polygon_.size() < 3)
+            short_line("face with " + text::counted(polygon_.size(), "corner") +
+                       ", at least 3 are needed");
         append_fan(obj_.faces, polygon_);
     }
 
-    /// "7", "7/1", "7//3", "7/1/3"; indices count from 1; negative ones count backwards from the last vertex.
+    /// "7", "7/1", "7//3", "7/1/3"; indices count from 1; negative ones count backwards from the
+    /// last vertex.
     std::uint32_t corner(std::string_view field) {
         const std::size_t slash = field.find('/');
-        if (slash != std::string_view::npos && field.find_first_not_of("0123456789/-+", slash) != std::string_view::npos)
-            text::fail("io.syntax", lines_.place(), text::in_quotes(field) + " is not a corner", text::export_again);
+        if (slash != std::string_view::npos &&
+            field.find_first_not_of("0123456789/-+", slash) != std::string_view::npos)
+            text::fail("io.syntax", lines_.place(), text::in_quotes(field) + " is not a corner",
+                       text::export_again);
         const std::int64_t index = text::read_integer(field.substr(0, slash), lines_.place());
         const auto count = static_cast<std::int64_t>(obj_.points.size());
-        if (index == 0) text::fail("io.index", lines_.place(), "vertex index 0", "OBJ counts from 1; export the file again");
+        if (index == 0)
+            text::fail("io.index", lines_.place(), "vertex index 0",
+                       "OBJ counts from 1; export the file again");
         if (index < -count)
-            text::fail("io.index", lines_.place(),
-                       fmt::format("vertex index {} reaches back beyond the first of {}", index, count),
-                       text::export_again);
+            text::fail(
+                "io.index", lines_.place(),
+                fmt::format("vertex index {} reaches back beyond the first of {}", index, count),
+                text::export_again);
         if (index > count) later_.push_back({lines_.number(), index});
         return static_cast<std::uint32_t>(index > 0 ? index - 1 : count + index);
     }
@@ -160,13 +182,14 @@ private:
             if (word.empty())
                 text::fail("io.syntax", lines_.place(), "the normal has fewer than 3 numbers",
                            "a 'vn' line is 'vn x y z'; the file may be cut off, write it again");
-            if (text::parse_number(word, normal[k]) == text::Number::not_a_number) options_.coordinate(word, lines_.place());
+            if (text::parse_number(word, normal[k]) == text::Number::not_a_number)
+                options_.coordinate(word, lines_.place());
         }
         obj_.normals.push_back(normal);
     }
 
-    /// The corners of a face that name a point and a normal: "7//3", "7/1/3". Anything else is ignored, because a cloud does not
-    /// need faces.
+    /// The corners of a face that name a point and a normal: "7//3", "7/1/3". Anything else is
+    /// ignored, because a cloud does not need faces.
     void normal_corners(text::Fields& fields) {
         for (std::string_view word = fields.next(); !word.empty(); word = fields.next()) {
             const std::size_t first = word.find('/');
@@ -193,7 +216,8 @@ Obj decode_obj(std::string_view content, std::string_view file, const ObjOptions
     return ObjReader(content, file, options).read();
 }
 
-std::vector<std::array<std::uint8_t, 3>> colour_bytes(const std::vector<Vec3>& colours, double largest) {
+std::vector<std::array<std::uint8_t, 3>> colour_bytes(const std::vector<Vec3>& colours,
+                                                      double largest) {
     const double scale = 255.0 / largest;
     std::vector<std::array<std::uint8_t, 3>> bytes(colours.size());
     for (std::size_t i = 0; i < colours.size(); ++i) {

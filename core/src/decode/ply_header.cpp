@@ -1,5 +1,5 @@
 // Reads the header of a PLY file.
-#include <dsc/decode/ply_header.hpp>
+#include "dsc/decode/ply_header.hpp"
 
 #include <array>
 #include <utility>
@@ -26,11 +26,13 @@ constexpr std::array<TypeName, 8> type_names = {{{"char", "int8", Type::int8},
 
 class HeaderReader {
 public:
-    HeaderReader(std::string_view content, std::string_view file) : content_(content), place_{file, 0} {}
+    HeaderReader(std::string_view content, std::string_view file)
+        : content_(content), place_{file, 0} {}
 
     Header read() {
         if (next_line() != "ply")
-            text::fail("io.syntax", place_, "the first line is not 'ply'", "check that the file is a PLY file");
+            text::fail("io.syntax", place_, "the first line is not 'ply'",
+                       "check that the file is a PLY file");
         bool format = false;
         while (true) {
             const std::string_view line = next_line();
@@ -57,13 +59,16 @@ public:
     }
 
 private:
-    [[noreturn]] void syntax(const std::string& cause) const { text::fail("io.syntax", place_, cause, text::export_again); }
+    [[noreturn]] void syntax(const std::string& cause) const {
+        text::fail("io.syntax", place_, cause, text::export_again);
+    }
 
     /// Only a line feed ends a line, because binary data may follow the header.
     std::string_view next_line() {
         const std::size_t end = content_.find('\n', at_);
         if (end == std::string_view::npos)
-            text::fail("io.truncated", place_, "the PLY header has no line 'end_header'", text::copy_again);
+            text::fail("io.truncated", place_, "the PLY header has no line 'end_header'",
+                       text::copy_again);
         std::string_view line = content_.substr(at_, end - at_);
         at_ = end + 1;
         ++place_.line;
@@ -78,16 +83,18 @@ private:
         else if (name == "binary_big_endian")
             header_.order = std::endian::big;
         else if (name != "ascii")
-            syntax(text::in_quotes(name) +
-                   " is not a PLY format; supported are ascii, binary_little_endian and binary_big_endian");
-        if (version != "1.0") syntax("PLY version " + text::in_quotes(version) + "; only 1.0 is supported");
+            syntax(text::in_quotes(name) + " is not a PLY format; supported are ascii, "
+                                           "binary_little_endian and binary_big_endian");
+        if (version != "1.0")
+            syntax("PLY version " + text::in_quotes(version) + "; only 1.0 is supported");
     }
 
     void read_element(text::Fields& fields) {
         const std::string_view name = fields.next(), count = fields.next();
         std::int64_t value = 0;
         if (count.empty()) syntax("an element needs a name and a count");
-        if (!text::parse_integer(count, value) || value < 0) syntax(text::in_quotes(count) + " is not a count");
+        if (!text::parse_integer(count, value) || value < 0)
+            syntax(text::in_quotes(count) + " is not a count");
         header_.elements.push_back({name, static_cast<std::uint64_t>(value), place_.line});
     }
 
@@ -117,7 +124,8 @@ private:
     void note_grid(std::string_view word, text::Fields& fields) {
         const std::string_view what = fields.next();
         if (what == "num_cols" || what == "num_rows")
-            header_.grid_comments.push_back(static_cast<std::size_t>(word.data() - content_.data()));
+            header_.grid_comments.push_back(
+                static_cast<std::size_t>(word.data() - content_.data()));
     }
 
     std::string_view content_;
@@ -128,6 +136,8 @@ private:
 
 }  // namespace
 
-Header read_header(std::string_view content, std::string_view file) { return HeaderReader(content, file).read(); }
+Header read_header(std::string_view content, std::string_view file) {
+    return HeaderReader(content, file).read();
+}
 
 }  // namespace dsc::decode::ply

@@ -7,7 +7,8 @@ namespace dsc::generate::lattice {
 namespace {
 
 // Cells of a brick whose index along an axis is 0.
-constexpr std::array<std::uint64_t, 3> first_cells = {0x1111111111111111U, 0x000f000f000f000fU, 0xffffU};
+constexpr std::array<std::uint64_t, 3> first_cells = {0x1111111111111111U, 0x000f000f000f000fU,
+                                                      0xffffU};
 
 }  // namespace
 

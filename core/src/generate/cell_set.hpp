@@ -11,8 +11,8 @@ namespace dsc::generate::lattice {
 /// Indices x, y, z of a cell; -1 and `side` are outside the box.
 using Cell = std::array<int, 3>;
 
-/// Bricks of 4 x 4 x 4 cells, one word each, in a hash table with open addressing. Sets are grown and coarsened brick by brick.
-/// Sides are below 2^21.
+/// Bricks of 4 x 4 x 4 cells, one word each, in a hash table with open addressing. Sets are grown
+/// and coarsened brick by brick. Sides are below 2^21.
 class CellSet {
 public:
     /// An empty set in an array of side^3 cells.
@@ -26,15 +26,16 @@ public:
             cell[2] >= side) {
             return false;
         }
-        return (slots_[slot_of(key_of({cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}))].cells & bit_of(cell)) !=
-               0;
+        return (slots_[slot_of(key_of({cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}))].cells &
+                bit_of(cell)) != 0;
     }
     void add(const Cell& cell) { add({cell[0] >> 2, cell[1] >> 2, cell[2] >> 2}, bit_of(cell)); }
     std::size_t count() const;
 
     /// The set with all cells that share an edge with one of its cells; repeated `layers` times.
     CellSet grown(unsigned layers) const;
-    /// The cells of twice the size that contain at least one cell of the set; the side must be even.
+    /// The cells of twice the size that contain at least one cell of the set; the side must be
+    /// even.
     CellSet parents() const;
 
 private:
@@ -44,7 +45,8 @@ private:
     static constexpr std::uint64_t unused = ~std::uint64_t{0};
 
     static std::uint64_t bit_of(const Cell& c) {
-        return std::uint64_t{1} << static_cast<unsigned>((c[0] & 3) | (c[1] & 3) << 2 | (c[2] & 3) << 4);
+        return std::uint64_t{1} << static_cast<unsigned>((c[0] & 3) | (c[1] & 3) << 2 |
+                                                         (c[2] & 3) << 4);
     }
     static std::uint64_t key_of(const Cell& brick) {
         return static_cast<std::uint64_t>(brick[0]) | static_cast<std::uint64_t>(brick[1]) << 21U |

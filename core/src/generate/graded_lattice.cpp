@@ -1,9 +1,11 @@
 // A balanced octree with a wanted cell size per place, which can be divided further.
+#include "dsc/generate/graded_lattice.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <dsc/base/error.hpp>
-#include <dsc/generate/graded_lattice.hpp>
 #include <string>
+
+#include <dsc/base/error.hpp>
 
 #include "generate/lattice_frame.hpp"
 #include "generate/lattice_octree.hpp"
@@ -27,10 +29,11 @@ struct Place {
 LatticeOptions checked(LatticeOptions options, std::string_view name) {
     const double cells = options.wanted_cells();
     if (!(cells >= least_lattice_cells && cells <= most_graded_cells)) {
-        throw ConfigError("lattice.size", name, "the box contains " + std::to_string(cells) + " of the smallest cells in a row",
-                          "change the cells or the box so that there are " +
-                              std::to_string(least_lattice_cells) + " to " +
-                              std::to_string(most_graded_cells) + " of them");
+        throw ConfigError(
+            "lattice.size", name,
+            "the box contains " + std::to_string(cells) + " of the smallest cells in a row",
+            "change the cells or the box so that there are " + std::to_string(least_lattice_cells) +
+                " to " + std::to_string(most_graded_cells) + " of them");
     }
     options.growth = 2.0;
     return options;
@@ -40,10 +43,13 @@ LatticeOptions checked(LatticeOptions options, std::string_view name) {
 
 struct GradedLattice::Parts {
     Parts(const LatticeOptions& options, std::string_view caller)
-        : name(caller), frame(lattice::frame_of(options)), octree(frame, lattice::top_level(options)) {}
+        : name(caller),
+          frame(lattice::frame_of(options)),
+          octree(frame, lattice::top_level(options)) {}
 
     // The same box, only with cells of the top level.
-    explicit Parts(const Parts& other, unsigned top) : name(other.name), frame(other.frame), octree(frame, top) {}
+    explicit Parts(const Parts& other, unsigned top)
+        : name(other.name), frame(other.frame), octree(frame, top) {}
 
     // The smallest cell that contains the place or is nearest to it.
     Cell cell_at(const Vec3& place) const {
@@ -51,7 +57,8 @@ struct GradedLattice::Parts {
         for (int i = 0; i < 3; ++i) {
             const double x = (place[i] - frame.centre[i]) / frame.cell() + 0.5 * frame.side;
             // Also accepts a place that is NaN.
-            out[static_cast<std::size_t>(i)] = !(x > 0) ? 0 : static_cast<int>(std::min(x, frame.side - 1.0));
+            out[static_cast<std::size_t>(i)] =
+                !(x > 0) ? 0 : static_cast<int>(std::min(x, frame.side - 1.0));
         }
         return out;
     }
@@ -62,7 +69,8 @@ struct GradedLattice::Parts {
     // Writes both lists of leaves from the octree. Earlier leaves keep their vertices.
     void list_leaves() {
         if (octree.leaves() > lattice::most_leaves) {
-            throw lattice::too_large(name, octree.leaves(), "request larger cells, or small cells at fewer places");
+            throw lattice::too_large(name, octree.leaves(),
+                                     "request larger cells, or small cells at fewer places");
         }
         std::vector<Leaf> old;
         std::vector<Place> old_places;
@@ -77,7 +85,8 @@ struct GradedLattice::Parts {
                 if (was_leaf) ++next;
                 for (int n = 0; n < 8; ++n) {
                     self(self, level - 1,
-                         {2 * cell[0] + (n & 1), 2 * cell[1] + (n >> 1 & 1), 2 * cell[2] + (n >> 2)});
+                         {2 * cell[0] + (n & 1), 2 * cell[1] + (n >> 1 & 1),
+                          2 * cell[2] + (n >> 2)});
                 }
                 return;
             }
@@ -170,7 +179,8 @@ std::size_t GradedLattice::split_where(const std::function<bool(const Leaf&)>& c
     return split(leaves);
 }
 
-GradedLattice GradedLattice::coarsened(std::span<const double> values, std::vector<std::uint32_t>& origins) const {
+GradedLattice GradedLattice::coarsened(std::span<const double> values,
+                                       std::vector<std::uint32_t>& origins) const {
     auto coarse = std::make_unique<Parts>(*parts_, parts_->octree.top());
     for (std::size_t i = 0; i < parts_->leaves.size(); ++i) {
         const auto& [level, cell] = parts_->places[i];
@@ -184,7 +194,8 @@ GradedLattice GradedLattice::coarsened(std::span<const double> values, std::vect
     return GradedLattice(std::move(coarse));
 }
 
-std::vector<std::array<std::uint32_t, 4>> GradedLattice::tets(Workers* workers, const CancelToken* cancel) const {
+std::vector<std::array<std::uint32_t, 4>> GradedLattice::tets(Workers* workers,
+                                                              const CancelToken* cancel) const {
     return lattice::tile(parts_->octree, LatticePattern::bcc, parts_->table, workers, cancel);
 }
 
@@ -208,9 +219,9 @@ std::uint32_t GradedLattice::vertex_near(const Vec3& place) const {
     Cell best{};
     double least = 0;
     for (int n = 0; n < 9; ++n) {
-        const Cell x =
-            n == 8 ? Cell{low[0] + edge / 2, low[1] + edge / 2, low[2] + edge / 2}
-                   : Cell{low[0] + (n & 1) * edge, low[1] + (n >> 1 & 1) * edge, low[2] + (n >> 2) * edge};
+        const Cell x = n == 8 ? Cell{low[0] + edge / 2, low[1] + edge / 2, low[2] + edge / 2}
+                              : Cell{low[0] + (n & 1) * edge, low[1] + (n >> 1 & 1) * edge,
+                                     low[2] + (n >> 2) * edge};
         const double distance = (p.frame.point(x) - place).squaredNorm();
         if (n == 0 || distance < least) {
             least = distance;

@@ -1,5 +1,6 @@
-// Isosurface stuffing: finds the mixed edges, snaps, cuts, collapses and smooths [LabelleShewchuk2007].
-#include <dsc/generate/isosurface.hpp>
+// Isosurface stuffing: finds the mixed edges, snaps, cuts, collapses and smooths
+// [LabelleShewchuk2007].
+#include "dsc/generate/isosurface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,30 +17,36 @@ namespace dsc::generate {
 namespace stuffing {
 namespace {
 
-void check_input(const LatticeView& lattice, std::span<const double> values, const StuffOptions& options, std::string_view name) {
+void check_input(const LatticeView& lattice, std::span<const double> values,
+                 const StuffOptions& options, std::string_view name) {
     if (!(options.cut_low > 0 && options.cut_low <= options.cut_high && options.cut_high < 1)) {
-        throw ConfigError("stuff.options", name, "the cut range is not inside the edges", "use 0 < cut_low <= cut_high < 1");
+        throw ConfigError("stuff.options", name, "the cut range is not inside the edges",
+                          "use 0 < cut_low <= cut_high < 1");
     }
     if (values.size() != lattice.points.size()) {
         throw GeometryError("stuff.values", name,
-                            std::to_string(values.size()) + " values for " + std::to_string(lattice.points.size()) + " points",
+                            std::to_string(values.size()) + " values for " +
+                                std::to_string(lattice.points.size()) + " points",
                             "give one value per point");
     }
     const Box3 box = bounding_box(lattice.points);
     for (std::size_t v = 0; v < values.size(); ++v) {
         if (!std::isfinite(values[v]) || values[v] == 0) {
-            throw GeometryError("stuff.values", name, "the value of vertex " + std::to_string(v) + " is 0 or not finite",
+            throw GeometryError("stuff.values", name,
+                                "the value of vertex " + std::to_string(v) + " is 0 or not finite",
                                 "every vertex must be on one side");
         }
         if (values[v] > 0 && lies_on(box, lattice.points[v])) {
-            throw GeometryError("stuff.box", name, "vertex " + std::to_string(v) + " on the box is inside",
+            throw GeometryError("stuff.box", name,
+                                "vertex " + std::to_string(v) + " on the box is inside",
                                 "use a larger box, so that the interface is closed");
         }
     }
 }
 
-std::vector<MixedEdge> mixed_edges(const LatticeView& lattice, std::span<const double> values, const Signs& signs,
-                                   const StuffOptions& options, EdgeTable& table) {
+std::vector<MixedEdge> mixed_edges(const LatticeView& lattice, std::span<const double> values,
+                                   const Signs& signs, const StuffOptions& options,
+                                   EdgeTable& table) {
     std::vector<MixedEdge> edges;
     for (const Corners& tet : lattice.tets) {
         const int sum = signs[tet[0]] + signs[tet[1]] + signs[tet[2]] + signs[tet[3]];
@@ -61,9 +68,11 @@ std::vector<MixedEdge> mixed_edges(const LatticeView& lattice, std::span<const d
 }  // namespace
 }  // namespace stuffing
 
-mesh::TetMesh stuff_interface(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 4>> tets,
-                        std::span<const double> values, const StuffOptions& options, StuffReport* report, Workers* workers,
-                        const CancelToken* cancel, std::string_view name) {
+mesh::TetMesh stuff_interface(std::span<const Vec3> points,
+                              std::span<const std::array<std::uint32_t, 4>> tets,
+                              std::span<const double> values, const StuffOptions& options,
+                              StuffReport* report, Workers* workers, const CancelToken* cancel,
+                              std::string_view name) {
     using namespace stuffing;
     const LatticeView lattice{points, tets};
     StuffReport local;

@@ -1,7 +1,8 @@
 // Finds islands and cavities of labelled vertices and removes those that must not stay.
+#include "dsc/generate/label_components.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <dsc/generate/label_components.hpp>
 #include <limits>
 
 #include <dsc/base/union_find.hpp>
@@ -26,8 +27,8 @@ struct Regions {
     std::vector<std::uint32_t> of;  // region of each vertex
 };
 
-Regions regions_of(std::span<const Vec3> points, std::span<const Corners> tets, std::span<const double> values,
-                   std::span<const double> volumes) {
+Regions regions_of(std::span<const Vec3> points, std::span<const Corners> tets,
+                   std::span<const double> values, std::span<const double> volumes) {
     UnionFind sets(points.size());
     std::vector<std::uint8_t> in(points.size());
     for (std::size_t v = 0; v < points.size(); ++v) in[v] = values[v] > 0 ? 1 : 0;
@@ -61,21 +62,25 @@ Regions regions_of(std::span<const Vec3> points, std::span<const Corners> tets, 
         region.on_box = region.on_box || (points[v].array() == box.low.array()).any() ||
                         (points[v].array() == box.high.array()).any();
     }
-    for (Region& region : out.list) region.component.place /= static_cast<double>(region.component.vertices);
+    for (Region& region : out.list)
+        region.component.place /= static_cast<double>(region.component.vertices);
     return out;
 }
 
-void change(const Regions& regions, const std::vector<std::uint8_t>& chosen, std::span<double> values) {
+void change(const Regions& regions, const std::vector<std::uint8_t>& chosen,
+            std::span<double> values) {
     for (std::size_t v = 0; v < values.size(); ++v) {
         if (chosen[regions.of[v]] != 0) values[v] = values[v] > 0 ? -changed_value : changed_value;
     }
 }
 
-// Finds the region that the shell between two regions encloses. In a box, regions that touch form a tree with the outermost
-// region as its root, so the enclosed region is the one farther from the root.
+// Finds the region that the shell between two regions encloses. In a box, regions that touch form a
+// tree with the outermost region as its root, so the enclosed region is the one farther from the
+// root.
 class Shells {
 public:
-    Shells(const Regions& regions, std::span<const Corners> tets) : depth_(regions.list.size(), unreached) {
+    Shells(const Regions& regions, std::span<const Corners> tets)
+        : depth_(regions.list.size(), unreached) {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> touching;
         for (const Corners& tet : tets) {
             for (std::size_t i = 1; i < 4; ++i) {
@@ -99,7 +104,9 @@ public:
             }
         }
     }
-    std::uint32_t enclosed(std::uint32_t a, std::uint32_t b) const { return depth_[a] > depth_[b] ? a : b; }
+    std::uint32_t enclosed(std::uint32_t a, std::uint32_t b) const {
+        return depth_[a] > depth_[b] ? a : b;
+    }
 
 private:
     static constexpr std::uint32_t unreached = std::numeric_limits<std::uint32_t>::max() - 1;
@@ -109,7 +116,8 @@ private:
 // The tets around chosen vertices.
 class Rounds {
 public:
-    Rounds(std::size_t vertices, std::span<const Corners> tets, std::span<const std::uint32_t> chosen)
+    Rounds(std::size_t vertices, std::span<const Corners> tets,
+           std::span<const std::uint32_t> chosen)
         : begin_(vertices + 1, 0) {
         std::vector<std::uint8_t> wanted(vertices, 0);
         for (const std::uint32_t v : chosen) wanted[v] = 1;
@@ -134,7 +142,8 @@ private:
 };
 
 // Points of the cloud nearest to the shell round each region.
-std::vector<std::size_t> points_at_shells(std::span<const Vec3> points, std::span<const Corners> tets,
+std::vector<std::size_t> points_at_shells(std::span<const Vec3> points,
+                                          std::span<const Corners> tets,
                                           std::span<const double> values, const Regions& regions,
                                           const PlacedPoints& cloud) {
     const Shells shells(regions, tets);
@@ -168,7 +177,8 @@ std::vector<std::uint8_t> islands_of(const Regions& regions, double least_volume
     std::size_t largest = regions.list.size();
     for (std::size_t r = 0; r < regions.list.size(); ++r) {
         const LabelComponent& c = regions.list[r].component;
-        if (c.inside && (largest == regions.list.size() || c.volume > regions.list[largest].component.volume))
+        if (c.inside &&
+            (largest == regions.list.size() || c.volume > regions.list[largest].component.volume))
             largest = r;
     }
     std::vector<std::uint8_t> out(regions.list.size(), 0);
@@ -185,10 +195,11 @@ bool any(const std::vector<std::uint8_t>& chosen) {
 
 }  // namespace
 
-std::vector<LabelComponent> settle_components(std::span<const Vec3> points, std::span<const Corners> tets,
-                                              std::span<double> values, std::span<const double> volumes,
-                                              const PlacedPoints& cloud, const ComponentOptions& options) {
-    const double least_volume = options.least_volume * options.width * options.width * options.width;
+std::vector<LabelComponent> settle_components(
+    std::span<const Vec3> points, std::span<const Corners> tets, std::span<double> values,
+    std::span<const double> volumes, const PlacedPoints& cloud, const ComponentOptions& options) {
+    const double least_volume =
+        options.least_volume * options.width * options.width * options.width;
     const Regions found = regions_of(points, tets, values, volumes);
     Regions regions = found;
     if (options.remove_islands) {

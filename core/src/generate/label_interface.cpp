@@ -5,7 +5,8 @@
 
 namespace dsc::generate {
 
-void InterfaceCounter::add(const std::array<std::uint32_t, 4>& tet, const std::array<bool, 4>& inside) {
+void InterfaceCounter::add(const std::array<std::uint32_t, 4>& tet,
+                           const std::array<bool, 4>& inside) {
     std::size_t cut = 0;
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = i + 1; j < 4; ++j) {
@@ -54,7 +55,8 @@ void InterfaceCounter::add_edge(std::uint32_t a, std::uint32_t b) {
 bool InterfaceCounter::on_one_side(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const Vec3 &p = points_[a], &q = points_[b], &r = points_[c];
     for (int i = 0; i < 3; ++i) {
-        if (p[i] == q[i] && q[i] == r[i] && (p[i] == box_.low[i] || p[i] == box_.high[i])) return true;
+        if (p[i] == q[i] && q[i] == r[i] && (p[i] == box_.low[i] || p[i] == box_.high[i]))
+            return true;
     }
     return false;
 }

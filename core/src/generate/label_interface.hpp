@@ -1,17 +1,19 @@
 #pragma once
-// Counts of the surface between two labels of vertices; it has one polygon per tet with both labels.
+// Counts of the surface between two labels of vertices; it has one polygon per tet with both
+// labels.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <dsc/geometry/vec.hpp>
 #include <span>
 #include <vector>
 
+#include <dsc/geometry/vec.hpp>
+
 namespace dsc::generate {
 
-/// Counts the cut edges, cut faces and cut tets, which are the vertices, edges and faces of the interface. All tets
-/// with both labels must be added.
+/// Counts the cut edges, cut faces and cut tets, which are the vertices, edges and faces of the
+/// interface. All tets with both labels must be added.
 class InterfaceCounter {
 public:
     InterfaceCounter(std::span<const Vec3> points, const Box3& box)
@@ -29,7 +31,8 @@ private:
 
     std::span<const Vec3> points_;
     Box3 box_;
-    std::vector<std::uint64_t> slots_;  // cut edges by their ends; 0 is unused, because the ends of an edge differ
+    std::vector<std::uint64_t> slots_;  // cut edges by their ends; 0 is unused, because the ends of
+                                        // an edge differ
     std::size_t edges_ = 0, tets_ = 0, faces_of_tets_ = 0, box_faces_ = 0;
 };
 

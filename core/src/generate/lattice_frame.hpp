@@ -1,9 +1,10 @@
 #pragma once
 // The box of a lattice and the number of its cells, from the options.
 
+#include <string_view>
+
 #include <dsc/base/error.hpp>
 #include <dsc/generate/lattice.hpp>
-#include <string_view>
 
 #include "generate/lattice_octree.hpp"
 

@@ -7,7 +7,8 @@ namespace {
 // Of a cell, in edges; slightly larger, so that a surface through a corner counts.
 constexpr double half_diagonal = 0.8660254037844387 * (1 + 1e-9);
 
-// The finest cells within a distance of places where tets may have different labels; the search goes from the top level down.
+// The finest cells within a distance of places where tets may have different labels; the search
+// goes from the top level down.
 class Near {
 public:
     Near(const Frame& frame, const SameWithin& same, double distance)
@@ -22,7 +23,8 @@ public:
         if (same_(centre, radius)) return;
         if (level == 0) return cells_.add(cell);
         for (int n = 0; n < 8; ++n)
-            search(level - 1, {2 * cell[0] + (n & 1), 2 * cell[1] + (n >> 1 & 1), 2 * cell[2] + (n >> 2)});
+            search(level - 1,
+                   {2 * cell[0] + (n & 1), 2 * cell[1] + (n >> 1 & 1), 2 * cell[2] + (n >> 2)});
     }
     const CellSet& cells() const { return cells_; }
 
@@ -35,7 +37,8 @@ private:
 
 }  // namespace
 
-Octree::Octree(const Frame& frame, unsigned top, const SameWithin& same, unsigned layers, unsigned coarse_layers) {
+Octree::Octree(const Frame& frame, unsigned top, const SameWithin& same, unsigned layers,
+               unsigned coarse_layers) {
     divided_.emplace_back(frame.side);
     if (top == 0) return;
     // The surface itself crosses one layer.
@@ -48,7 +51,8 @@ Octree::Octree(const Frame& frame, unsigned top, const SameWithin& same, unsigne
         }
     }
     divided_.push_back(near.cells().parents());
-    while (divided_.size() <= top) divided_.push_back(divided_.back().grown(coarse_layers).parents());
+    while (divided_.size() <= top)
+        divided_.push_back(divided_.back().grown(coarse_layers).parents());
 }
 
 Octree::Octree(const Frame& frame, unsigned top) {

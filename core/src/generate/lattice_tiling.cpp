@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <dsc/base/error.hpp>
 #include <limits>
+
+#include <dsc/base/error.hpp>
 
 #include "generate/vertex_table.hpp"
 
@@ -22,8 +23,8 @@ Cell moved(Cell x, std::size_t axis, int by) {
 template <class Table>
 class Tiling {
 public:
-    Tiling(const Octree& octree, LatticePattern finest, Table& table, std::vector<std::array<std::uint32_t, 4>>& tets,
-           const CancelToken* cancel)
+    Tiling(const Octree& octree, LatticePattern finest, Table& table,
+           std::vector<std::array<std::uint32_t, 4>>& tets, const CancelToken* cancel)
         : octree_(octree), finest_(finest), table_(table), tets_(tets), cancel_(cancel) {}
 
     // The cells of the top level from `begin` to `end`, x running fastest.
@@ -31,8 +32,10 @@ public:
         const unsigned top = octree_.top();
         const std::size_t roots = octree_.side(top);
         for (std::size_t n = begin; n < end; ++n) {
-            if (cancel_ != nullptr && cancel_->cancelled()) throw CancelledError("the initial mesh was not finished");
-            visit(top, {static_cast<int>(n % roots), static_cast<int>(n / roots % roots), static_cast<int>(n / roots / roots)});
+            if (cancel_ != nullptr && cancel_->cancelled())
+                throw CancelledError("the initial mesh was not finished");
+            visit(top, {static_cast<int>(n % roots), static_cast<int>(n / roots % roots),
+                        static_cast<int>(n / roots / roots)});
         }
     }
 
@@ -40,7 +43,8 @@ private:
     void visit(unsigned level, const Cell& cell) {
         if (octree_.divided(level, cell)) {
             for (int n = 0; n < 8; ++n) {
-                visit(level - 1, {2 * cell[0] + (n & 1), 2 * cell[1] + (n >> 1 & 1), 2 * cell[2] + (n >> 2)});
+                visit(level - 1,
+                      {2 * cell[0] + (n & 1), 2 * cell[1] + (n >> 1 & 1), 2 * cell[2] + (n >> 2)});
             }
         } else if (level == 0 && finest_ == LatticePattern::parity) {
             tile_by_parity(cell);
@@ -51,8 +55,9 @@ private:
         }
     }
 
-    // One tet between the four corners with an even sum of coordinates, and one at each of the other corners. The diagonals
-    // then run from the corners of a larger cell to the centre of its face, where the tets on the other side have them, too.
+    // One tet between the four corners with an even sum of coordinates, and one at each of the
+    // other corners. The diagonals then run from the corners of a larger cell to the centre of its
+    // face, where the tets on the other side have them, too.
     void tile_by_parity(const Cell& cell) {
         std::array<Cell, 4> even{}, odd{};
         std::size_t evens = 0, odds = 0;
@@ -67,7 +72,8 @@ private:
         }
         add(even[0], even[1], even[2], even[3]);
         for (const Cell& x : odd) {
-            // The three even corners that are neighbours of x: all except the one on the opposite side of the cell.
+            // The three even corners that are neighbours of x: all except the one on the opposite
+            // side of the cell.
             std::array<Cell, 3> near{};
             std::size_t nears = 0;
             for (const Cell& y : even) {
@@ -77,7 +83,8 @@ private:
         }
     }
 
-    // A point and its number, which is requested at its first use, so that numbers follow the order of the tets.
+    // A point and its number, which is requested at its first use, so that numbers follow the order
+    // of the tets.
     struct Corner {
         Cell x;
         std::uint32_t number = no_number;
@@ -89,7 +96,8 @@ private:
 
     void tile_face(unsigned level, const Cell& cell, std::size_t axis, int side) {
         const Cell across = moved(cell, axis, side);
-        const bool boundary = across[axis] < 0 || across[axis] >= static_cast<int>(octree_.side(level));
+        const bool boundary =
+            across[axis] < 0 || across[axis] >= static_cast<int>(octree_.side(level));
         const bool finer = octree_.divided(level, across);
         const bool equal = !boundary && !finer && octree_.leaf(level, across);
         if (equal && side < 0) return;  // the neighbour makes these tets
@@ -107,8 +115,8 @@ private:
         // Corners of the face, u running fastest.
         std::array<Corner, 4> corners{};
         for (std::size_t n = 0; n < 4; ++n) {
-            corners[n].x =
-                moved(moved(middle, u, (n & 1U) != 0 ? half : -half), v, (n & 2U) != 0 ? half : -half);
+            corners[n].x = moved(moved(middle, u, (n & 1U) != 0 ? half : -half), v,
+                                 (n & 2U) != 0 ? half : -half);
         }
         for (const bool along_u : {true, false}) {
             for (const int way : {-1, 1}) {
@@ -129,17 +137,20 @@ private:
     }
 
     // Whether a smaller cell has a corner in the middle of the edge between two faces of the cell.
-    bool halved(unsigned level, const Cell& cell, bool finer, std::size_t axis, int side, std::size_t out,
-                int way) const {
+    bool halved(unsigned level, const Cell& cell, bool finer, std::size_t axis, int side,
+                std::size_t out, int way) const {
         if (level == 0) return false;
         return finer || octree_.divided(level, moved(cell, out, way)) ||
                octree_.divided(level, moved(moved(cell, axis, side), out, way));
     }
 
-    // Cuts along the diagonal between the two corners with an even sum: a corner, and the centre of the larger face.
-    void halve_pyramid(unsigned level, const Cell& centre, const Cell& middle, std::size_t u, std::size_t v,
-                       int half) {
-        const auto corner = [&](int du, int dv) { return moved(moved(middle, u, du * half), v, dv * half); };
+    // Cuts along the diagonal between the two corners with an even sum: a corner, and the centre of
+    // the larger face.
+    void halve_pyramid(unsigned level, const Cell& centre, const Cell& middle, std::size_t u,
+                       std::size_t v, int half) {
+        const auto corner = [&](int du, int dv) {
+            return moved(moved(middle, u, du * half), v, dv * half);
+        };
         const Cell low = corner(-1, -1);
         const int shift = static_cast<int>(level) + 1;
         if (((low[0] >> shift) + (low[1] >> shift) + (low[2] >> shift)) % 2 == 0) {
@@ -153,7 +164,9 @@ private:
 
     void add(const Cell& a, const Cell& b, Cell c, Cell d) {
         using Wide = std::int64_t;
-        const auto minus = [&](const Cell& x, std::size_t i) { return static_cast<Wide>(x[i] - a[i]); };
+        const auto minus = [&](const Cell& x, std::size_t i) {
+            return static_cast<Wide>(x[i] - a[i]);
+        };
         Wide sign = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
@@ -178,8 +191,8 @@ private:
 
 }  // namespace
 
-std::vector<Corners> tile(const Octree& octree, LatticePattern finest, const VertexTable& table, Workers* workers,
-                          const CancelToken* cancel) {
+std::vector<Corners> tile(const Octree& octree, LatticePattern finest, const VertexTable& table,
+                          Workers* workers, const CancelToken* cancel) {
     const std::size_t roots = octree.side(octree.top());
     std::vector<std::vector<Corners>> parts(roots * roots * roots);
     for_blocks(workers, parts.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -190,12 +203,14 @@ std::vector<Corners> tile(const Octree& octree, LatticePattern finest, const Ver
     for (std::size_t i = 0; i < parts.size(); ++i) starts[i + 1] = starts[i] + parts[i].size();
     std::vector<Corners> tets(starts.back());
     for_blocks(workers, parts.size(), 1, [&](std::size_t begin, std::size_t) {
-        std::copy(parts[begin].begin(), parts[begin].end(), tets.begin() + static_cast<std::ptrdiff_t>(starts[begin]));
+        std::copy(parts[begin].begin(), parts[begin].end(),
+                  tets.begin() + static_cast<std::ptrdiff_t>(starts[begin]));
     });
     return tets;
 }
 
-mesh::TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest, const CancelToken* cancel) {
+mesh::TetMesh tile(const Octree& octree, const Frame& frame, LatticePattern finest,
+                   const CancelToken* cancel) {
     mesh::TetMesh out;
     VertexTable table;
     const std::size_t roots = octree.side(octree.top());

@@ -1,11 +1,13 @@
 // Moves a stair-stepped interface onto a smooth surface: pushing, approaching, sliding, relaxing.
+#include "dsc/generate/project.hpp"
+
 #include <algorithm>
+#include <iterator>
+
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/local_star.hpp>
-#include <dsc/generate/project.hpp>
 #include <dsc/mesh/star_quality.hpp>
-#include <iterator>
 
 namespace dsc::generate {
 namespace {
@@ -15,16 +17,22 @@ constexpr double arrived = 1e-12;
 /// A move that gains less quality than this is not made.
 constexpr double least_gain = 1e-3;
 constexpr int halvings = 5;
-/// Distance, in mean edges, by which a vertex tries to move away from the opposite face of a bad tet.
+/// Distance, in mean edges, by which a vertex tries to move away from the opposite face of a bad
+/// tet.
 constexpr double escape_step = 0.2;
-/// A push adds no vertex to the interface that is farther from the surface than this, in mean edges.
+/// A push adds no vertex to the interface that is farther from the surface than this, in mean
+/// edges.
 constexpr double farthest_pushed = 0.9;
 
 class Projection {
 public:
     Projection(mesh::Complex& complex, const std::function<Vec3(const Vec3&)>& nearest,
                const ProjectOptions& options)
-        : complex_(complex), nearest_(nearest), options_(options), local_(complex), floor_(options.quality) {
+        : complex_(complex),
+          nearest_(nearest),
+          options_(options),
+          local_(complex),
+          floor_(options.quality) {
         fixed_.resize(complex.vertex_slots(), false);
         for (const mesh::VertexId v : options.fixed) fixed_[v] = true;
     }
@@ -49,7 +57,8 @@ public:
     }
 
 private:
-    /// The interface vertices that may move and the free ones within two edges of them, both in birth order.
+    /// The interface vertices that may move and the free ones within two edges of them, both in
+    /// birth order.
     void collect() {
         interface_.clear();
         for (const mesh::VertexId v : complex_.interface_vertices()) {
@@ -63,13 +72,15 @@ private:
         sort_by_birth(free_);
     }
 
-    std::vector<mesh::VertexId> free_neighbours(const std::vector<mesh::VertexId>& of, std::vector<bool>& seen) {
+    std::vector<mesh::VertexId> free_neighbours(const std::vector<mesh::VertexId>& of,
+                                                std::vector<bool>& seen) {
         std::vector<mesh::VertexId> found;
         for (const mesh::VertexId v : of) {
             complex_.star(v, star_);
             for (const mesh::TetId t : star_) {
                 for (const mesh::VertexId w : complex_.tet(t).v) {
-                    if (seen[w] || fixed_[w] || complex_.on_box(w) || complex_.on_interface(w)) continue;
+                    if (seen[w] || fixed_[w] || complex_.on_box(w) || complex_.on_interface(w))
+                        continue;
                     seen[w] = true;
                     found.push_back(w);
                     free_.push_back(w);
@@ -80,8 +91,9 @@ private:
     }
 
     void sort_by_birth(std::vector<mesh::VertexId>& vertices) const {
-        std::sort(vertices.begin(), vertices.end(),
-                  [this](mesh::VertexId a, mesh::VertexId b) { return complex_.birth(a) < complex_.birth(b); });
+        std::sort(vertices.begin(), vertices.end(), [this](mesh::VertexId a, mesh::VertexId b) {
+            return complex_.birth(a) < complex_.birth(b);
+        });
     }
 
     /// Mean edge of the stars of the interface vertices.
@@ -92,7 +104,8 @@ private:
             complex_.star(v, star_);
             for (const mesh::TetId t : star_) {
                 for (const auto& [i, j] : mesh::edge_vertices) {
-                    sum += (complex_.position(complex_.tet(t).v[i]) - complex_.position(complex_.tet(t).v[j]))
+                    sum += (complex_.position(complex_.tet(t).v[i]) -
+                            complex_.position(complex_.tet(t).v[j]))
                                .norm();
                     ++count;
                 }
@@ -106,14 +119,18 @@ private:
         return (nearest_(p) - p).norm() <= arrived * scale_;
     }
     std::size_t off_surface() const {
-        return static_cast<std::size_t>(std::count_if(interface_.begin(), interface_.end(),
-                                                      [this](mesh::VertexId v) { return !on_surface(v); }));
+        return static_cast<std::size_t>(
+            std::count_if(interface_.begin(), interface_.end(),
+                          [this](mesh::VertexId v) { return !on_surface(v); }));
     }
 
     /// Least quality of the star of v (stored in star_), with v at `position`.
-    double quality_at(mesh::VertexId v, const Vec3& position) const { return mesh::star_quality(complex_, star_, v, position); }
+    double quality_at(mesh::VertexId v, const Vec3& position) const {
+        return mesh::star_quality(complex_, star_, v, position);
+    }
 
-    /// Moves interface vertices towards the surface as far as no tet becomes worse than the floor or than before.
+    /// Moves interface vertices towards the surface as far as no tet becomes worse than the floor
+    /// or than before.
     bool approach() {
         bool any = false;
         for (const mesh::VertexId v : interface_) {
@@ -134,7 +151,8 @@ private:
         return any;
     }
 
-    /// Moves v to `to`, or part of the distance, if that raises the least quality of its star (stored in star_).
+    /// Moves v to `to`, or part of the distance, if that raises the least quality of its star
+    /// (stored in star_).
     bool improve(mesh::VertexId v, const Vec3& to, bool along_surface) {
         const Vec3 from = complex_.position(v);
         const double before = quality_at(v, from);
@@ -149,13 +167,15 @@ private:
         return false;
     }
 
-    /// Moves vertices on the surface towards the mean of their interface neighbours, along the surface.
+    /// Moves vertices on the surface towards the mean of their interface neighbours, along the
+    /// surface.
     bool slide() {
         bool any = false;
         for (const mesh::VertexId v : interface_) {
             if (!on_surface(v)) continue;
             complex_.star(v, star_);
-            any = improve(v, mean_of_neighbours(v, true), true) || (stuck_ && escape(v, true)) || any;
+            any =
+                improve(v, mean_of_neighbours(v, true), true) || (stuck_ && escape(v, true)) || any;
         }
         return any;
     }
@@ -170,8 +190,8 @@ private:
         return any;
     }
 
-    /// Moves v away from a bad tet. Surface vertices are moved only if nothing else has helped, because this makes uneven
-    /// triangles.
+    /// Moves v away from a bad tet. Surface vertices are moved only if nothing else has helped,
+    /// because this makes uneven triangles.
     bool escape(mesh::VertexId v, bool along_surface) {
         const double bad = along_surface ? options_.quality : 2 * options_.quality;
         if (quality_at(v, complex_.position(v)) >= bad) return false;
@@ -180,14 +200,15 @@ private:
 
     /// A place farther away from the opposite face of the worst tet at v.
     Vec3 away_from_worst(mesh::VertexId v) const {
-        const mesh::TetId worst = *std::min_element(star_.begin(), star_.end(), [this](mesh::TetId a, mesh::TetId b) {
-            return complex_.quality(a) < complex_.quality(b);
-        });
+        const mesh::TetId worst =
+            *std::min_element(star_.begin(), star_.end(), [this](mesh::TetId a, mesh::TetId b) {
+                return complex_.quality(a) < complex_.quality(b);
+            });
         const mesh::Tet& tet = complex_.tet(worst);
         const auto& face = mesh::face_vertices[mesh::index_of(tet, v)];
-        const Vec3 normal =
-            geometry::triangle_normal(complex_.position(tet.v[face[0]]), complex_.position(tet.v[face[1]]),
-                                      complex_.position(tet.v[face[2]]));
+        const Vec3 normal = geometry::triangle_normal(complex_.position(tet.v[face[0]]),
+                                                      complex_.position(tet.v[face[1]]),
+                                                      complex_.position(tet.v[face[2]]));
         return complex_.position(v) - escape_step * scale_ * normal;
     }
 
@@ -209,14 +230,17 @@ private:
         return count == 0 ? complex_.position(v) : Vec3(sum / static_cast<double>(count));
     }
 
-    /// A tet with four interface vertices has no vertex that could move away: with all of them on the surface it is nearly
-    /// flat. Pushes one of its vertices off the interface, to either side, if that leaves fewer such tets.
+    /// A tet with four interface vertices has no vertex that could move away: with all of them on
+    /// the surface it is nearly flat. Pushes one of its vertices off the interface, to either side,
+    /// if that leaves fewer such tets.
     bool push_vertices() {
         bool any = false;
         for (const mesh::VertexId v : interface_) {
             if (!complex_.on_interface(v)) continue;
             complex_.star(v, star_);
-            if (std::none_of(star_.begin(), star_.end(), [this](mesh::TetId t) { return trapped(t); })) continue;
+            if (std::none_of(star_.begin(), star_.end(),
+                             [this](mesh::TetId t) { return trapped(t); }))
+                continue;
             any = push(v) || any;
         }
         return any;
@@ -255,7 +279,8 @@ private:
         for (const mesh::TetId t : region) {
             for (const mesh::VertexId v : complex_.tet(t).v) {
                 if (complex_.on_box(v) || complex_.phases(v) > 2) return false;
-                if (std::find(touched.begin(), touched.end(), v) == touched.end()) touched.push_back(v);
+                if (std::find(touched.begin(), touched.end(), v) == touched.end())
+                    touched.push_back(v);
             }
         }
         if (!stays_regular(touched, region, to)) return false;
@@ -263,7 +288,8 @@ private:
         complex_.relabel(region, to);
         const bool near = std::all_of(touched.begin(), touched.end(), [this](mesh::VertexId v) {
             return !complex_.on_interface(v) ||
-                   (nearest_(complex_.position(v)) - complex_.position(v)).norm() < farthest_pushed * scale_;
+                   (nearest_(complex_.position(v)) - complex_.position(v)).norm() <
+                       farthest_pushed * scale_;
         });
         if (near && trapped_round(touched) < before) {
             report_.relabelled += region.size();
@@ -285,7 +311,8 @@ private:
             std::count_if(tets.begin(), tets.end(), [this](mesh::TetId t) { return trapped(t); }));
     }
 
-    bool stays_regular(std::span<const mesh::VertexId> touched, std::span<const mesh::TetId> region, mesh::Label label) {
+    bool stays_regular(std::span<const mesh::VertexId> touched, std::span<const mesh::TetId> region,
+                       mesh::Label label) {
         int euler = 0;
         for (const mesh::VertexId v : touched) {
             local_.build(v);
@@ -314,15 +341,17 @@ private:
 
 }  // namespace
 
-ProjectReport project_interface(mesh::Complex& complex, const std::function<Vec3(const Vec3&)>& nearest,
+ProjectReport project_interface(mesh::Complex& complex,
+                                const std::function<Vec3(const Vec3&)>& nearest,
                                 const ProjectOptions& options) {
     return Projection(complex, nearest, options).run();
 }
 
 mesh::TetMesh make_projected(const std::function<mesh::TetMesh(std::span<const Shape>)>& make,
-                       std::span<const Shape> shapes, double cell, std::string_view name) {
-    // A tet belongs to a shape if no vertex lies farther outside than this fraction of a cell. So no tet outside has four
-    // vertices on the interface, and on average the interface moves inwards as much as outwards.
+                             std::span<const Shape> shapes, double cell, std::string_view name) {
+    // A tet belongs to a shape if no vertex lies farther outside than this fraction of a cell. So
+    // no tet outside has four vertices on the interface, and on average the interface moves inwards
+    // as much as outwards.
     constexpr double reach = 0.4;
     std::vector<Shape> reached;
     for (const Shape& shape : shapes) {

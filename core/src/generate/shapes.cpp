@@ -1,27 +1,29 @@
 // Distances and nearest points of simple solids, and the labels that they give.
+#include "dsc/generate/shapes.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <dsc/generate/shapes.hpp>
 #include <limits>
 
 namespace dsc::generate {
 namespace {
 
-mesh::Label label_inside(const Shape& shape) { return shape.action == ShapeAction::add ? shape.label : 0; }
+mesh::Label label_inside(const Shape& shape) {
+    return shape.action == ShapeAction::add ? shape.label : 0;
+}
 
 }  // namespace
 
 double excess(const Shape& shape, const Vec3& point) {
     const Vec3 p = point - shape.centre;
     switch (shape.shape) {
-        case ShapeKind::sphere:
-            return p.norm() - shape.radius;
-        case ShapeKind::box:
-            return (p.cwiseAbs() - shape.half_size).maxCoeff();
+        case ShapeKind::sphere: return p.norm() - shape.radius;
+        case ShapeKind::box: return (p.cwiseAbs() - shape.half_size).maxCoeff();
         case ShapeKind::cylinder: {
             const Vec3 axis = shape.axis.normalized();
             const double along = p.dot(axis);
-            return std::max((p - along * axis).norm() - shape.radius, std::abs(along) - shape.half_length);
+            return std::max((p - along * axis).norm() - shape.radius,
+                            std::abs(along) - shape.half_length);
         }
     }
     return std::numeric_limits<double>::infinity();
@@ -46,7 +48,8 @@ Vec3 nearest_on_cylinder(const Shape& shape, const Vec3& p) {
     const double radius = across.norm();
     const Vec3 outwards = radius > 0 ? Vec3(across / radius) : axis.unitOrthogonal();
     // In the half-plane through the axis the cylinder is a box.
-    const Vec3 flat = nearest_on_box(Vec3(shape.radius, shape.half_length, 1e300), Vec3(radius, along, 0));
+    const Vec3 flat =
+        nearest_on_box(Vec3(shape.radius, shape.half_length, 1e300), Vec3(radius, along, 0));
     return flat.x() * outwards + flat.y() * axis;
 }
 
@@ -73,12 +76,11 @@ Vec3 nearest_on_border(const Shape& shape, const Vec3& point) {
     switch (shape.shape) {
         case ShapeKind::sphere: {
             const double length = p.norm();
-            return shape.centre + (length > 0 ? Vec3(p * (shape.radius / length)) : Vec3(shape.radius, 0, 0));
+            return shape.centre +
+                   (length > 0 ? Vec3(p * (shape.radius / length)) : Vec3(shape.radius, 0, 0));
         }
-        case ShapeKind::box:
-            return shape.centre + nearest_on_box(shape.half_size, p);
-        case ShapeKind::cylinder:
-            return shape.centre + nearest_on_cylinder(shape, p);
+        case ShapeKind::box: return shape.centre + nearest_on_box(shape.half_size, p);
+        case ShapeKind::cylinder: return shape.centre + nearest_on_cylinder(shape, p);
     }
     return point;
 }
@@ -99,8 +101,8 @@ Vec3 nearest_on_surface(std::span<const Shape> shapes, const Vec3& point) {
         std::size_t i = first;
         Vec3 p = nearest_on_border(shapes[i], point);
         for (int visit = 0; visit < visits && !shows(shapes, i, p, rounding); ++visit) {
-            // This point is hidden: continue with the nearest border that hides it, or inside which it lies without a
-            // difference of labels.
+            // This point is hidden: continue with the nearest border that hides it, or inside which
+            // it lies without a difference of labels.
             std::size_t other = i;
             double least = std::numeric_limits<double>::infinity();
             for (std::size_t k = 0; k < shapes.size(); ++k) {
@@ -127,7 +129,8 @@ bool holds(const Shape& shape, const std::array<Vec3, 4>& corners) {
     if (shape.rule == ShapeRule::barycentre) {
         return excess(shape, 0.25 * (corners[0] + corners[1] + corners[2] + corners[3])) < 0;
     }
-    return std::all_of(corners.begin(), corners.end(), [&](const Vec3& p) { return excess(shape, p) <= 0; });
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Vec3& p) { return excess(shape, p) <= 0; });
 }
 
 mesh::Label label_of(std::span<const Shape> shapes, const std::array<Vec3, 4>& corners) {

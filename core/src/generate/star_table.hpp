@@ -26,7 +26,8 @@ inline constexpr std::uint32_t no_vertex = 0xffffffffU;
 /// Tets of each marked vertex, in ascending order; other vertices have no tets in the table.
 class StarTable {
 public:
-    StarTable(std::span<const Corners> tets, std::span<const char> marks) : start_(marks.size() + 2, 0) {
+    StarTable(std::span<const Corners> tets, std::span<const char> marks)
+        : start_(marks.size() + 2, 0) {
         for (const Corners& tet : tets) {
             for (const std::uint32_t v : tet) start_[v + 2] += marks[v] != 0 ? 1 : 0;
         }
@@ -44,7 +45,8 @@ public:
     }
 
 private:
-    std::vector<std::uint32_t> start_;  // the tets of vertex v start here, after the table is filled
+    std::vector<std::uint32_t> start_;  // the tets of vertex v start here, after the table is
+                                        // filled
     std::vector<std::uint32_t> tets_;
 };
 

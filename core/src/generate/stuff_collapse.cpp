@@ -11,14 +11,17 @@
 namespace dsc::generate::stuffing {
 namespace {
 
-// A free vertex near the interface is removed if its shortest edge is below this fraction of the interface's edges there and
-// all changed tets keep a minimum quality. Its edges may grow from layer to layer.
+// A free vertex near the interface is removed if its shortest edge is below this fraction of the
+// interface's edges there and all changed tets keep a minimum quality. Its edges may grow from
+// layer to layer.
 constexpr double dense = 0.9;
 constexpr double growth = 1.3;
 constexpr double thin_quality = 0.25;
-// Layers of free vertices that are thinned between the passes over the interface, so that they do not block it, and at the end.
+// Layers of free vertices that are thinned between the passes over the interface, so that they do
+// not block it, and at the end.
 constexpr unsigned layers_between = 1, layers_at_end = 3;
-// The first passes collapse only edges of the interface that leave tets of at least this quality; later passes accept less.
+// The first passes collapse only edges of the interface that leave tets of at least this quality;
+// later passes accept less.
 constexpr double first_quality = 0.3;
 constexpr double relaxation = 0.6;
 
@@ -27,14 +30,15 @@ bool has(const std::array<std::uint32_t, N>& cell, std::uint32_t v) {
     return std::find(cell.begin(), cell.end(), v) != cell.end();
 }
 
-// The cells (tets or faces) of each vertex, kept up to date while vertices are merged. A removed cell has no_vertex as its
-// first entry.
+// The cells (tets or faces) of each vertex, kept up to date while vertices are merged. A removed
+// cell has no_vertex as its first entry.
 template <std::size_t N>
 class Incidence {
 public:
     using Cell = std::array<std::uint32_t, N>;
 
-    Incidence(std::size_t points, std::vector<Cell>& cells) : cells_(cells), begin_(points + 2, 0), count_(points, 0) {
+    Incidence(std::size_t points, std::vector<Cell>& cells)
+        : cells_(cells), begin_(points + 2, 0), count_(points, 0) {
         for (const Cell& cell : cells) {
             for (const std::uint32_t v : cell) ++begin_[v + 2];
         }
@@ -88,16 +92,24 @@ struct Edge {
     std::uint32_t a, b;
 };
 
-// Every collapse merges two vertices into one at a place where all remaining tets of the two are positive. Then the tets still
-// fill the box exactly once: the map from the old mesh to the new one that contracts the edge keeps the border of the box, so
-// it covers each place once, and tets that shared an edge or a face which they did not share before would overlap. On the
-// interface the link condition of a surface [Dey1999] is also required. So the interface remains a surface of the same
-// topology, and all its vertices are regular. It still separates the labels, because no tet changes its label.
+// Every collapse merges two vertices into one at a place where all remaining tets of the two are
+// positive. Then the tets still fill the box exactly once: the map from the old mesh to the new one
+// that contracts the edge keeps the border of the box, so it covers each place once, and tets that
+// shared an edge or a face which they did not share before would overlap. On the interface the link
+// condition of a surface [Dey1999] is also required. So the interface remains a surface of the same
+// topology, and all its vertices are regular. It still separates the labels, because no tet changes
+// its label.
 class Collapser {
 public:
-    Collapser(Stuffed& stuffed, const StuffOptions& options, StuffReport& report, const CancelToken* cancel)
-        : s_(stuffed), options_(options), report_(report), cancel_(cancel), box_(bounding_box(stuffed.mesh.points)),
-          tets_(stuffed.mesh.points.size(), stuffed.mesh.tets), faces_(stuffed.mesh.points.size(), stuffed.faces),
+    Collapser(Stuffed& stuffed, const StuffOptions& options, StuffReport& report,
+              const CancelToken* cancel)
+        : s_(stuffed),
+          options_(options),
+          report_(report),
+          cancel_(cancel),
+          box_(bounding_box(stuffed.mesh.points)),
+          tets_(stuffed.mesh.points.size(), stuffed.mesh.tets),
+          faces_(stuffed.mesh.points.size(), stuffed.faces),
           touched_(stuffed.mesh.points.size(), 0) {
         for (std::uint32_t v = 0; v < touched_.size(); ++v) vertices_ += faces_.empty(v) ? 0 : 1;
     }
@@ -105,7 +117,8 @@ public:
     void run() {
         double quality = std::max(first_quality, options_.collapse_quality);
         while (vertices_ > options_.most_interface_vertices) {
-            // Long edges are tried only if no short edge can be collapsed: the next pass may limit the list differently.
+            // Long edges are tried only if no short edge can be collapsed: the next pass may limit
+            // the list differently.
             const std::vector<Edge> edges = sorted_edges();
             std::size_t done = pass(edges, edges.size() / 2, quality);
             if (done == 0) done = pass(edges, edges.size(), quality);
@@ -130,12 +143,13 @@ private:
             }
         }
         const auto key = [](const Edge& e) { return std::make_tuple(e.length, e.a, e.b); };
-        std::sort(edges.begin(), edges.end(), [&](const Edge& x, const Edge& y) { return key(x) < key(y); });
+        std::sort(edges.begin(), edges.end(),
+                  [&](const Edge& x, const Edge& y) { return key(x) < key(y); });
         return edges;
     }
 
-    // Tries the first `count` edges, except those of merged vertices, whose lengths have changed. Returns the number of
-    // collapses.
+    // Tries the first `count` edges, except those of merged vertices, whose lengths have changed.
+    // Returns the number of collapses.
     std::size_t pass(const std::vector<Edge>& edges, std::size_t count, double quality) {
         std::fill(touched_.begin(), touched_.end(), 0);
         std::size_t done = 0;
@@ -147,7 +161,8 @@ private:
             std::size_t best = 3;
             double best_quality = quality;
             for (std::size_t k = 0; k < 3; ++k) {
-                const double least = std::min(least_quality(a, b, places[k], best_quality), least_quality(b, a, places[k], best_quality));
+                const double least = std::min(least_quality(a, b, places[k], best_quality),
+                                              least_quality(b, a, places[k], best_quality));
                 if (least > best_quality) {
                     best_quality = least;
                     best = k;
@@ -165,7 +180,8 @@ private:
         return done;
     }
 
-    // Least quality of the tets of v without `other` if v were at `place`; ends early below the bound.
+    // Least quality of the tets of v without `other` if v were at `place`; ends early below the
+    // bound.
     double least_quality(std::uint32_t v, std::uint32_t other, const Vec3& place, double bound) {
         double least = 2.0;
         tets_.each(v, [&](std::uint32_t, const Corners& tet) {
@@ -177,8 +193,8 @@ private:
         return least;
     }
 
-    // Whether a and b have exactly the two vertices opposite the edge as common neighbours on the interface, and at least three
-    // neighbours are left.
+    // Whether a and b have exactly the two vertices opposite the edge as common neighbours on the
+    // interface, and at least three neighbours are left.
     bool link_condition(std::uint32_t a, std::uint32_t b) {
         neighbours(a, near_a_);
         neighbours(b, near_b_);
@@ -203,17 +219,20 @@ private:
         out.erase(std::unique(out.begin(), out.end()), out.end());
     }
 
-    // Merges free vertices near the interface into neighbours if they are denser than the interface.
+    // Merges free vertices near the interface into neighbours if they are denser than the
+    // interface.
     void thin_free_vertices(unsigned layers) {
         const std::vector<double> wanted = wanted_lengths(layers);
         for (std::uint32_t v = 0; v < wanted.size(); ++v) {
-            if (wanted[v] == 0.0 || !faces_.empty(v) || tets_.empty(v) || lies_on(box_, at(v))) continue;
+            if (wanted[v] == 0.0 || !faces_.empty(v) || tets_.empty(v) || lies_on(box_, at(v)))
+                continue;
             if (v % 1024 == 0) check_cancelled();
             merge_free_vertex(v, wanted[v]);
         }
     }
 
-    // Least length of the edges of vertices on the interface and in some layers around it; 0 for other vertices.
+    // Least length of the edges of vertices on the interface and in some layers around it; 0 for
+    // other vertices.
     std::vector<double> wanted_lengths(unsigned layers) const {
         std::vector<double> wanted(s_.mesh.points.size(), 0.0);
         for (const Face& f : s_.faces) {
@@ -254,7 +273,8 @@ private:
         bool flat = false;
         tets_.each(v, [&](std::uint32_t, const Corners& tet) {
             if (has(tet, nearest) || faces_.empty(nearest)) return;
-            flat = flat || std::count_if(tet.begin(), tet.end(), [&](std::uint32_t w) { return !faces_.empty(w); }) == 3;
+            flat = flat || std::count_if(tet.begin(), tet.end(),
+                                         [&](std::uint32_t w) { return !faces_.empty(w); }) == 3;
         });
         if (flat || least_quality(v, nearest, at(nearest), thin_quality) <= thin_quality) return;
         tets_.merge(nearest, v);
@@ -262,7 +282,8 @@ private:
     }
 
     void check_cancelled() const {
-        if (cancel_ != nullptr && cancel_->cancelled()) throw CancelledError("the initial mesh was not finished");
+        if (cancel_ != nullptr && cancel_->cancelled())
+            throw CancelledError("the initial mesh was not finished");
     }
 
     Stuffed& s_;
@@ -297,7 +318,9 @@ void compact(Stuffed& s) {
         mesh.points[points++] = mesh.points[v];
     }
     mesh.points.resize(points);
-    s.faces.erase(std::remove_if(s.faces.begin(), s.faces.end(), [](const Face& f) { return f[0] == no_vertex; }), s.faces.end());
+    s.faces.erase(std::remove_if(s.faces.begin(), s.faces.end(),
+                                 [](const Face& f) { return f[0] == no_vertex; }),
+                  s.faces.end());
     for (Corners& tet : mesh.tets) {
         for (std::uint32_t& v : tet) v = index[v];
     }
@@ -308,7 +331,8 @@ void compact(Stuffed& s) {
 
 }  // namespace
 
-void collapse_interface(Stuffed& stuffed, const StuffOptions& options, StuffReport& report, const CancelToken* cancel) {
+void collapse_interface(Stuffed& stuffed, const StuffOptions& options, StuffReport& report,
+                        const CancelToken* cancel) {
     Collapser(stuffed, options, report, cancel).run();
     compact(stuffed);
 }

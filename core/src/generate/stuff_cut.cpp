@@ -8,7 +8,8 @@ namespace {
 
 class Cut {
 public:
-    Cut(const LatticeView& lattice, std::span<const MixedEdge> edges, const EdgeTable& table, const Signs& signs)
+    Cut(const LatticeView& lattice, std::span<const MixedEdge> edges, const EdgeTable& table,
+        const Signs& signs)
         : lattice_(lattice), table_(table), signs_(signs), vertex_of_(edges.size(), no_vertex) {
         auto& points = out_.mesh.points;
         points.reserve(lattice.points.size() + edges.size());
@@ -17,7 +18,8 @@ public:
             const MixedEdge& edge = edges[e];
             if (signs[edge.plus] == 0 || signs[edge.minus] == 0) continue;
             vertex_of_[e] = static_cast<std::uint32_t>(points.size());
-            points.push_back((1.0 - edge.t) * lattice.points[edge.plus] + edge.t * lattice.points[edge.minus]);
+            points.push_back((1.0 - edge.t) * lattice.points[edge.plus] +
+                             edge.t * lattice.points[edge.minus]);
         }
         const std::size_t tets = lattice.tets.size() + 8 * (points.size() - lattice.points.size());
         out_.mesh.tets.reserve(tets);
@@ -44,11 +46,13 @@ private:
 
     void split(const Corners& tet) {
         Side plus, minus, zero;
-        for (const std::uint32_t v : tet) (signs_[v] > 0 ? plus : signs_[v] < 0 ? minus : zero).add(v);
+        for (const std::uint32_t v : tet)
+            (signs_[v] > 0 ? plus : signs_[v] < 0 ? minus : zero).add(v);
         if (plus.count == 0 || minus.count == 0) {
             out_.mesh.tets.push_back(tet);
             out_.mesh.labels.push_back(plus.count > 0 ? 1 : 0);
-            if (zero.count == 3) flat_.push_back({{zero.v[0], zero.v[1], zero.v[2]}, plus.count > 0});
+            if (zero.count == 3)
+                flat_.push_back({{zero.v[0], zero.v[1], zero.v[2]}, plus.count > 0});
             return;
         }
         if (zero.count == 2) {
@@ -65,8 +69,8 @@ private:
         }
     }
 
-    // One corner on one side, two on the other, one snapped: a tet, and a pyramid with a quad as base and the snapped vertex as
-    // apex.
+    // One corner on one side, two on the other, one snapped: a tet, and a pyramid with a quad as
+    // base and the snapped vertex as apex.
     void split_pyramid(const Side& plus, const Side& minus, std::uint32_t top) {
         const bool one_plus = plus.count == 1;
         const std::uint32_t c = (one_plus ? plus : minus).v[0];
@@ -86,8 +90,9 @@ private:
         add({c, d, ad, bd}, 0);
         const auto& p = out_.mesh.points;
         const bool from_ac = (p[ac] - p[bd]).squaredNorm() <= (p[ad] - p[bc]).squaredNorm();
-        const std::array<Face, 2> halves = from_ac ? std::array<Face, 2>{{{ac, bd, bc}, {ac, ad, bd}}}
-                                                   : std::array<Face, 2>{{{ad, bc, ac}, {ad, bd, bc}}};
+        const std::array<Face, 2> halves = from_ac
+                                               ? std::array<Face, 2>{{{ac, bd, bc}, {ac, ad, bd}}}
+                                               : std::array<Face, 2>{{{ad, bc, ac}, {ad, bd, bc}}};
         for (const Face& f : halves) {
             add({a, f[0], f[1], f[2]}, 1);
             add({c, f[0], f[1], f[2]}, 0);
@@ -132,7 +137,8 @@ private:
             return x.face != y.face ? x.face < y.face : x.inside < y.inside;
         });
         for (std::size_t i = 1; i < flat_.size(); ++i) {
-            if (flat_[i].face == flat_[i - 1].face && flat_[i].inside != flat_[i - 1].inside) out_.faces.push_back(flat_[i].face);
+            if (flat_[i].face == flat_[i - 1].face && flat_[i].inside != flat_[i - 1].inside)
+                out_.faces.push_back(flat_[i].face);
         }
     }
 
@@ -146,7 +152,8 @@ private:
 
 }  // namespace
 
-Stuffed cut_tets(const LatticeView& lattice, std::span<const MixedEdge> edges, const EdgeTable& table, const Signs& signs) {
+Stuffed cut_tets(const LatticeView& lattice, std::span<const MixedEdge> edges,
+                 const EdgeTable& table, const Signs& signs) {
     return Cut(lattice, edges, table, signs).run();
 }
 

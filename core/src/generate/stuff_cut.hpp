@@ -19,9 +19,11 @@ struct Stuffed {
     std::vector<Face> faces;
 };
 
-/// Cuts the mixed edges at their cut points and splits the mixed tets so that they fit together. Quads on faces of the lattice
-/// get the diagonal from the end of lower index; quads in the interface get the shorter one. Edges with a snapped end are not
-/// cut. No tet has four snapped vertices.
-Stuffed cut_tets(const LatticeView& lattice, std::span<const MixedEdge> edges, const EdgeTable& table, const Signs& signs);
+/// Cuts the mixed edges at their cut points and splits the mixed tets so that they fit together.
+/// Quads on faces of the lattice get the diagonal from the end of lower index; quads in the
+/// interface get the shorter one. Edges with a snapped end are not cut. No tet has four snapped
+/// vertices.
+Stuffed cut_tets(const LatticeView& lattice, std::span<const MixedEdge> edges,
+                 const EdgeTable& table, const Signs& signs);
 
 }  // namespace dsc::generate::stuffing

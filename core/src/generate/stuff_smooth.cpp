@@ -30,7 +30,9 @@ public:
         for (unsigned i = 0; i <= halvings; ++i, share *= 0.5) {
             mesh_.points[v] = start + share * (target - start);
             const auto star = stars_.of(v);
-            const auto good = [&](std::uint32_t t) { return good_after_move(v, start, mesh_.tets[t]); };
+            const auto good = [&](std::uint32_t t) {
+                return good_after_move(v, start, mesh_.tets[t]);
+            };
             if (std::all_of(star.begin(), star.end(), good)) return i == 0;
         }
         mesh_.points[v] = start;
@@ -112,15 +114,16 @@ void improve(mesh::TetMesh& mesh, std::uint32_t v, std::span<const std::uint32_t
 
 }  // namespace
 
-void move_to_targets(Stuffed& stuffed, std::span<const Snapped> snapped, const StuffOptions& options, StuffReport& report) {
+void move_to_targets(Stuffed& stuffed, std::span<const Snapped> snapped,
+                     const StuffOptions& options, StuffReport& report) {
     std::vector<char> marks(stuffed.mesh.points.size(), 0);
     for (const Snapped& s : snapped) marks[s.vertex] = 1;
     Mover mover(stuffed, marks, options.least_quality);
     move_all(mover, snapped, report);
 }
 
-void smooth_interface(Stuffed& stuffed, std::span<const Snapped> snapped, const StuffOptions& options, StuffReport& report,
-                      const CancelToken* cancel) {
+void smooth_interface(Stuffed& stuffed, std::span<const Snapped> snapped,
+                      const StuffOptions& options, StuffReport& report, const CancelToken* cancel) {
     const std::size_t points = stuffed.mesh.points.size();
     std::vector<char> on_interface(points, 0);
     std::vector<std::uint32_t> degree(points, 0);
@@ -134,7 +137,8 @@ void smooth_interface(Stuffed& stuffed, std::span<const Snapped> snapped, const 
     move_all(mover, snapped, report);
     std::vector<Vec3> sums(points);
     for (unsigned sweep = 0; sweep < options.smoothing_sweeps; ++sweep) {
-        if (cancel != nullptr && cancel->cancelled()) throw CancelledError("the initial mesh was not finished");
+        if (cancel != nullptr && cancel->cancelled())
+            throw CancelledError("the initial mesh was not finished");
         std::fill(sums.begin(), sums.end(), Vec3::Zero());
         // Each neighbour is in two faces.
         const auto& p = stuffed.mesh.points;

@@ -9,26 +9,32 @@
 namespace dsc::generate::stuffing {
 namespace {
 
-// The link of a vertex p, a sphere of triangles whose corners have the signs of the lattice, cut as the interface cuts it.
+// The link of a vertex p, a sphere of triangles whose corners have the signs of the lattice, cut as
+// the interface cuts it.
 //
-// Snapping p, of sign s, moves the cut points of all its mixed edges into p. It keeps the topology if and only if the open
-// parts of both signs in the cut link are connected. Proof: every mixed tet of p's star meets the interface in a piece. Seen
-// from p, this piece covers exactly the part of sign -s of the tet's opposite triangle. So the pieces make a surface patch P.
-// Central projection from p maps P one to one onto M, the closed part of sign -s in the link, and leaves points of P on the
-// link fixed. The snap replaces P by the cone from p over the border of M. If both open parts are connected through edges, the
-// border of M is one simple closed curve (a part that touched itself in a snapped vertex would separate the other part). So P
-// and the cone are discs with the same border in the ball that is p's star, and the rest of the interface lies outside the open
-// star. The interface before and after is then the same up to a motion within this ball, and p is a regular vertex, because its
-// link is cut into two discs. If one part is not connected or is empty, p is not regular.
+// Snapping p, of sign s, moves the cut points of all its mixed edges into p. It keeps the topology
+// if and only if the open parts of both signs in the cut link are connected. Proof: every mixed tet
+// of p's star meets the interface in a piece. Seen from p, this piece covers exactly the part of
+// sign -s of the tet's opposite triangle. So the pieces make a surface patch P. Central projection
+// from p maps P one to one onto M, the closed part of sign -s in the link, and leaves points of P
+// on the link fixed. The snap replaces P by the cone from p over the border of M. If both open
+// parts are connected through edges, the border of M is one simple closed curve (a part that
+// touched itself in a snapped vertex would separate the other part). So P and the cone are discs
+// with the same border in the ball that is p's star, and the rest of the interface lies outside the
+// open star. The interface before and after is then the same up to a motion within this ball, and p
+// is a regular vertex, because its link is cut into two discs. If one part is not connected or is
+// empty, p is not regular.
 //
-// Two more kinds of snaps are refused although they would not harm the topology. A tet of four snapped vertices would have no
-// sign, and all of it would become part of the interface. And a patch P that touches the link in a snapped vertex inside M
-// would be moved off this vertex: it would not be on the interface any more, and its side could contradict its value.
+// Two more kinds of snaps are refused although they would not harm the topology. A tet of four
+// snapped vertices would have no sign, and all of it would become part of the interface. And a
+// patch P that touches the link in a snapped vertex inside M would be moved off this vertex: it
+// would not be on the interface any more, and its side could contradict its value.
 class CutLink {
 public:
     explicit CutLink(std::size_t points) : stamps_(points, 0), places_(points, 0) {}
 
-    bool allows_snap(std::uint32_t p, std::span<const std::uint32_t> star, std::span<const Corners> tets, const Signs& signs) {
+    bool allows_snap(std::uint32_t p, std::span<const std::uint32_t> star,
+                     std::span<const Corners> tets, const Signs& signs) {
         clear();
         for (const std::uint32_t t : star) {
             const Corners& tet = tets[t];
@@ -51,14 +57,18 @@ public:
                 nodes_[place].beside |= bit(sign[j]) | bit(sign[k]);
                 if (sign[j] == 0) {
                     // Across an edge of snapped vertices, two equal signs are joined.
-                    across_.push_back({std::min(corner[i], corner[j]), std::max(corner[i], corner[j]), place_of(corner[k], sign[k])});
+                    across_.push_back({std::min(corner[i], corner[j]),
+                                       std::max(corner[i], corner[j]),
+                                       place_of(corner[k], sign[k])});
                 }
             }
         }
         for (std::size_t i = 0; i < across_.size(); ++i) {
             for (std::size_t j = i + 1; j < across_.size(); ++j) {
                 const Across &x = across_[i], &y = across_[j];
-                if (x.low == y.low && x.high == y.high && nodes_[x.place].sign == nodes_[y.place].sign) join(x.place, y.place);
+                if (x.low == y.low && x.high == y.high &&
+                    nodes_[x.place].sign == nodes_[y.place].sign)
+                    join(x.place, y.place);
             }
         }
         std::size_t plus = 0, minus = 0;
@@ -115,7 +125,8 @@ private:
 // The mixed edges of each vertex.
 class EdgesOfVertices {
 public:
-    EdgesOfVertices(std::size_t points, std::span<const MixedEdge> edges) : start_(points + 2, 0), edges_(2 * edges.size()) {
+    EdgesOfVertices(std::size_t points, std::span<const MixedEdge> edges)
+        : start_(points + 2, 0), edges_(2 * edges.size()) {
         for (const MixedEdge& edge : edges) {
             ++start_[edge.plus + 2];
             ++start_[edge.minus + 2];
@@ -126,7 +137,9 @@ public:
             edges_[start_[edges[e].minus + 1]++] = e;
         }
     }
-    std::span<const std::uint32_t> of(std::size_t v) const { return std::span(edges_).subspan(start_[v], start_[v + 1] - start_[v]); }
+    std::span<const std::uint32_t> of(std::size_t v) const {
+        return std::span(edges_).subspan(start_[v], start_[v + 1] - start_[v]);
+    }
 
 private:
     std::vector<std::uint32_t> start_, edges_;
@@ -140,7 +153,8 @@ struct Candidate {
 std::vector<char> marks_of_box(const LatticeView& lattice) {
     const Box3 box = bounding_box(lattice.points);
     std::vector<char> marks(lattice.points.size(), 0);
-    for (std::size_t v = 0; v < marks.size(); ++v) marks[v] = lies_on(box, lattice.points[v]) ? 1 : 0;
+    for (std::size_t v = 0; v < marks.size(); ++v)
+        marks[v] = lies_on(box, lattice.points[v]) ? 1 : 0;
     return marks;
 }
 
@@ -152,7 +166,8 @@ EdgeTable::EdgeTable(std::size_t expected) {
     slots_.assign(size, Slot{unused, 0});
 }
 
-std::uint32_t EdgeTable::number(std::uint32_t plus, std::uint32_t minus, std::vector<MixedEdge>& edges) {
+std::uint32_t EdgeTable::number(std::uint32_t plus, std::uint32_t minus,
+                                std::vector<MixedEdge>& edges) {
     const std::uint64_t key = key_of(plus, minus);
     Slot* slot = &slots_[slot_of(key)];
     if (slot->key == key) return slot->number;
@@ -174,8 +189,8 @@ void EdgeTable::grow() {
     }
 }
 
-std::vector<Snapped> snap_vertices(const LatticeView& lattice, std::span<const MixedEdge> edges, Signs& signs, StuffReport& report,
-                                   const CancelToken* cancel) {
+std::vector<Snapped> snap_vertices(const LatticeView& lattice, std::span<const MixedEdge> edges,
+                                   Signs& signs, StuffReport& report, const CancelToken* cancel) {
     const std::size_t points = lattice.points.size();
     const EdgesOfVertices of(points, edges);
     const std::vector<char> on_box = marks_of_box(lattice);
@@ -198,7 +213,8 @@ std::vector<Snapped> snap_vertices(const LatticeView& lattice, std::span<const M
     CutLink link(points);
     std::vector<Snapped> snapped;
     for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i % 1024 == 0 && cancel != nullptr && cancel->cancelled()) throw CancelledError("the initial mesh was not finished");
+        if (i % 1024 == 0 && cancel != nullptr && cancel->cancelled())
+            throw CancelledError("the initial mesh was not finished");
         const std::uint32_t v = order[i].vertex;
         // Replacing one cut point by one lattice vertex would gain nothing.
         if (open[v] < 2) continue;

@@ -1,12 +1,14 @@
 // Homotopic growth of labels over weak values, and counts of the topology.
+#include "dsc/generate/topology_filter.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <dsc/generate/topology_filter.hpp>
 #include <limits>
 #include <queue>
 
-#include "generate/label_interface.hpp"
 #include <dsc/base/union_find.hpp>
+
+#include "generate/label_interface.hpp"
 
 namespace dsc::generate {
 namespace {
@@ -14,10 +16,12 @@ namespace {
 using Corners = std::array<std::uint32_t, 4>;
 constexpr std::uint32_t no_slot = std::numeric_limits<std::uint32_t>::max();
 
-// Separates certain values, whose components are found once, from weak values with the tets around them.
+// Separates certain values, whose components are found once, from weak values with the tets around
+// them.
 class Filter {
 public:
-    Filter(std::span<const Vec3> points, std::span<const Corners> tets, std::span<double> values, double tau)
+    Filter(std::span<const Vec3> points, std::span<const Corners> tets, std::span<double> values,
+           double tau)
         : points_(points),
           tets_(tets),
           values_(values),
@@ -49,12 +53,13 @@ public:
         return counts_of(sets, interface);
     }
 
-    // Grows the inside (sign 1) or the outside (sign -1) over the weak values. Vertices that are not reached change sides,
-    // unless the witness confirms their cluster.
+    // Grows the inside (sign 1) or the outside (sign -1) over the weak values. Vertices that are
+    // not reached change sides, unless the witness confirms their cluster.
     void grow(double sign, const LoopWitness& witness, TopologyFilterReport& report) {
         UnionFind sets = certain_;
         std::vector<std::uint8_t> in(points_.size(), 0);
-        std::vector<std::uint32_t> certain(points_.size(), 0);  // number of vertices of the part with this root
+        std::vector<std::uint32_t> certain(points_.size(), 0);  // number of vertices of the part
+                                                                // with this root
         for (std::size_t v = 0; v < points_.size(); ++v) {
             if (slot_[v] != no_slot || inside(v) != (sign > 0)) continue;
             in[v] = 1;
@@ -95,7 +100,8 @@ public:
                 report.confirmed.push_back(std::move(cluster));
                 continue;
             }
-            for (const std::uint32_t v : cluster.vertices) values_[v] = -sign * std::min(1e-3, 0.5 * tau_);
+            for (const std::uint32_t v : cluster.vertices)
+                values_[v] = -sign * std::min(1e-3, 0.5 * tau_);
             report.refused += cluster.vertices.size();
             report.clusters.push_back(std::move(cluster));
         }
@@ -121,13 +127,16 @@ private:
         }
     }
 
-    // Joins certain vertices of a label; lists the tets with weak vertices, and the other tets with both labels.
+    // Joins certain vertices of a label; lists the tets with weak vertices, and the other tets with
+    // both labels.
     void sort_tets() {
         std::vector<std::uint8_t> kind(points_.size());  // 0 outside, 1 inside, 2 weak
-        for (std::size_t v = 0; v < kind.size(); ++v) kind[v] = slot_[v] != no_slot ? 2 : inside(v) ? 1 : 0;
+        for (std::size_t v = 0; v < kind.size(); ++v)
+            kind[v] = slot_[v] != no_slot ? 2 : inside(v) ? 1 : 0;
         for (std::size_t t = 0; t < tets_.size(); ++t) {
             const Corners& tet = tets_[t];
-            const std::array<std::uint8_t, 4> k = {kind[tet[0]], kind[tet[1]], kind[tet[2]], kind[tet[3]]};
+            const std::array<std::uint8_t, 4> k = {kind[tet[0]], kind[tet[1]], kind[tet[2]],
+                                                   kind[tet[3]]};
             if (k[0] == k[1] && k[0] == k[2] && k[0] == k[3] && k[0] != 2) {
                 certain_.join(tet[0], tet[1]);
                 certain_.join(tet[0], tet[2]);
@@ -168,7 +177,8 @@ private:
         return std::span(round_).subspan(begin_[slot], begin_[slot + 1] - begin_[slot]);
     }
 
-    // Lists the parts that the vertex connects to the largest part around it. Returns the total size.
+    // Lists the parts that the vertex connects to the largest part around it. Returns the total
+    // size.
     std::uint32_t attach(const Step& step, double sign, const std::vector<std::uint32_t>& certain,
                          TopologyFilterReport& report) const {
         std::uint32_t together = 0, largest = 0;
@@ -188,8 +198,8 @@ private:
         return together;
     }
 
-    // Finds the vertices of the link, the number of components of its grown part, and the roots of these components in the
-    // whole grown part.
+    // Finds the vertices of the link, the number of components of its grown part, and the roots of
+    // these components in the whole grown part.
     void look_round(std::uint32_t v, const std::vector<std::uint8_t>& in, UnionFind& sets) {
         ++visit_;
         link_.clear();
@@ -228,7 +238,8 @@ private:
             if (in[link_[i]] == 0 || local_[i] != i) continue;
             ++link_components_;
             const std::uint32_t root = sets.find(link_[i]);
-            if (std::find(roots_.begin(), roots_.end(), root) == roots_.end()) roots_.push_back(root);
+            if (std::find(roots_.begin(), roots_.end(), root) == roots_.end())
+                roots_.push_back(root);
         }
     }
 
@@ -268,7 +279,8 @@ private:
         for (std::uint32_t i = 0; i < refused.size(); ++i) {
             for (const std::uint32_t t : tets_round(refused[i].vertex)) {
                 for (const std::uint32_t u : tets_[t]) {
-                    if (slot_[u] != no_slot && index[slot_[u]] != no_slot) sets.join(i, index[slot_[u]]);
+                    if (slot_[u] != no_slot && index[slot_[u]] != no_slot)
+                        sets.join(i, index[slot_[u]]);
                 }
             }
         }
@@ -318,7 +330,8 @@ TopologyCounts count_topology(std::span<const Vec3> points, std::span<const Corn
 }
 
 TopologyFilterReport filter_topology(std::span<const Vec3> points, std::span<const Corners> tets,
-                                     std::span<double> values, double tau, const LoopWitness& witness) {
+                                     std::span<double> values, double tau,
+                                     const LoopWitness& witness) {
     TopologyFilterReport report;
     Filter filter(points, tets, values, tau);
     report.before = filter.count();
@@ -334,7 +347,8 @@ std::optional<Attachment> weakest_attachment(const TopologyFilterReport& report,
                                              std::size_t least_vertices) {
     std::optional<Attachment> out;
     for (const Attachment& a : report.attachments) {
-        if (a.inside == inside && a.vertices >= least_vertices && (!out || a.level < out->level)) out = a;
+        if (a.inside == inside && a.vertices >= least_vertices && (!out || a.level < out->level))
+            out = a;
     }
     return out;
 }

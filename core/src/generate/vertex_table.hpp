@@ -9,8 +9,8 @@
 
 namespace dsc::generate::lattice {
 
-/// Open addressing; grows by doubling. Recently used points are found in a small table that stays in the processor's cache.
-/// Coordinates are in [0, 2^21).
+/// Open addressing; grows by doubling. Recently used points are found in a small table that stays
+/// in the processor's cache. Coordinates are in [0, 2^21).
 class VertexTable {
 public:
     VertexTable() : slots_(1024, Slot{unused, 0}), recent_(1U << recent_bits, Slot{unused, 0}) {}
@@ -78,7 +78,8 @@ public:
     /// Number of a point of the table.
     std::uint32_t number(const Cell& x) {
         const std::uint64_t key = VertexTable::key_of(x);
-        VertexTable::Slot& seen = recent_[static_cast<std::size_t>(VertexTable::spread(key) >> (64U - recent_bits))];
+        VertexTable::Slot& seen =
+            recent_[static_cast<std::size_t>(VertexTable::spread(key) >> (64U - recent_bits))];
         if (seen.key != key) seen = table_.slots_[table_.slot_of(key)];
         return seen.number;
     }

@@ -1,10 +1,10 @@
 // Exact predicates: a floating filter, then integer arithmetic [Shewchuk1997].
-#include <dsc/geometry/predicates.hpp>
-
-#include <boost/multiprecision/cpp_int.hpp>
+#include "dsc/geometry/predicates.hpp"
 
 #include <array>
 #include <cmath>
+
+#include <boost/multiprecision/cpp_int.hpp>
 
 namespace dsc::geometry {
 namespace {
@@ -13,8 +13,9 @@ using Integer = boost::multiprecision::cpp_int;
 
 thread_local std::uint64_t fallbacks = 0;
 
-// A double is mantissa * 2^exponent. With the smallest exponent of all coordinates as the common unit, each coordinate becomes
-// an integer, and the determinant has the sign of the integer determinant.
+// A double is mantissa * 2^exponent. With the smallest exponent of all coordinates as the common
+// unit, each coordinate becomes an integer, and the determinant has the sign of the integer
+// determinant.
 template <std::size_t N>
 std::array<Integer, N> to_integers(const std::array<double, N>& values) {
     std::array<int, N> exponents{};
@@ -38,17 +39,19 @@ int sign(const Integer& x) { return x.sign(); }
 
 int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     ++fallbacks;
-    const auto v = to_integers<12>({a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z(), d.x(), d.y(), d.z()});
+    const auto v = to_integers<12>(
+        {a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z(), d.x(), d.y(), d.z()});
     const Integer bx = v[3] - v[0], by = v[4] - v[1], bz = v[5] - v[2];
     const Integer cx = v[6] - v[0], cy = v[7] - v[1], cz = v[8] - v[2];
     const Integer dx = v[9] - v[0], dy = v[10] - v[1], dz = v[11] - v[2];
-    return sign(Integer(bx * (cy * dz - cz * dy) - by * (cx * dz - cz * dx) + bz * (cx * dy - cy * dx)));
+    return sign(
+        Integer(bx * (cy * dz - cz * dy) - by * (cx * dz - cz * dx) + bz * (cx * dy - cy * dx)));
 }
 
 }  // namespace
 
-// Static filter similar to Shewchuk's stage A [Shewchuk1997]: the permanent times (7 + 56 eps) eps bounds the error of the
-// determinant evaluated from rounded differences.
+// Static filter similar to Shewchuk's stage A [Shewchuk1997]: the permanent times (7 + 56 eps) eps
+// bounds the error of the determinant evaluated from rounded differences.
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const double bx = b.x() - a.x(), by = b.y() - a.y(), bz = b.z() - a.z();
     const double cx = c.x() - a.x(), cy = c.y() - a.y(), cz = c.z() - a.z();

@@ -1,5 +1,5 @@
 // Sizes, closest points and distances of triangles and segments.
-#include <dsc/geometry/quality.hpp>
+#include "dsc/geometry/quality.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +20,14 @@ Vec3 closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, cons
     const double d3 = ab.dot(bp), d4 = ac.dot(bp);
     if (d3 >= 0.0 && d4 <= d3) return b;
     const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return d1 - d3 > 0.0 ? Vec3(a + (d1 / (d1 - d3)) * ab) : a;
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0)
+        return d1 - d3 > 0.0 ? Vec3(a + (d1 / (d1 - d3)) * ab) : a;
     const Vec3 cp = p - c;
     const double d5 = ab.dot(cp), d6 = ac.dot(cp);
     if (d6 >= 0.0 && d5 <= d6) return c;
     const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return d2 - d6 > 0.0 ? Vec3(a + (d2 / (d2 - d6)) * ac) : a;
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0)
+        return d2 - d6 > 0.0 ? Vec3(a + (d2 / (d2 - d6)) * ac) : a;
     const double va = d3 * d6 - d5 * d4;
     const double along = d4 - d3, back = d5 - d6;
     if (va <= 0.0 && along >= 0.0 && back >= 0.0) {

@@ -1,4 +1,8 @@
-// The virtual tables of the hooks are all in this file, so that a type made by a plugin is the type that the host knows.
+// The virtual tables of the hooks are all in this file, so that a type made by a plugin is the type
+// that the host knows.
+#include <algorithm>
+#include <iterator>
+
 #include <dsc/base/error.hpp>
 #include <dsc/hooks/attributes.hpp>
 #include <dsc/hooks/cloud_filter.hpp>
@@ -11,14 +15,12 @@
 #include <dsc/hooks/velocity_field.hpp>
 #include <dsc/text/words.hpp>
 
-#include <algorithm>
-#include <iterator>
-
 namespace dsc::hooks {
 
 bool may_name_attribute(std::string_view name) {
     return text::is_snake_case(name) &&
-           std::find(std::begin(reserved_attributes), std::end(reserved_attributes), name) == std::end(reserved_attributes);
+           std::find(std::begin(reserved_attributes), std::end(reserved_attributes), name) ==
+               std::end(reserved_attributes);
 }
 
 Strategy::~Strategy() = default;
@@ -29,8 +31,8 @@ VelocityField::~VelocityField() = default;
 void VelocityField::advance(const StepContext&) {}
 void VelocityField::publish(Attributes&) const {}
 void VelocityField::sample(std::span<const Vec3>, std::span<const Vec3>, std::span<Vec3>) const {
-    throw StrategyError("strategy.no_sampling", "this velocity field has no value at points other than the vertices "
-                                                "(can_sample() is false)");
+    throw StrategyError("strategy.no_sampling", "this velocity field has no value at points other "
+                                                "than the vertices (can_sample() is false)");
 }
 
 CurvatureEstimator::~CurvatureEstimator() = default;
@@ -39,7 +41,8 @@ InitialMesh::~InitialMesh() = default;
 MeshFiles::~MeshFiles() = default;
 
 Improvement::~Improvement() = default;
-void Improvement::select(const StepContext&, std::span<const repair::TopologyCandidate>, std::span<std::uint8_t> accept) {
+void Improvement::select(const StepContext&, std::span<const repair::TopologyCandidate>,
+                         std::span<std::uint8_t> accept) {
     std::fill(accept.begin(), accept.end(), std::uint8_t{1});
 }
 

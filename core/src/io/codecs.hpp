@@ -14,16 +14,19 @@ namespace dsc::io {
 surface::TriangleMesh decode_obj(std::string_view content, std::string_view file);
 surface::TriangleMesh decode_off(std::string_view content, std::string_view file);
 /// `further`: the data of the vertices other than position, normal and colour; may be null.
-surface::TriangleMesh decode_ply(std::string_view content, std::string_view file, std::vector<DataArray>* further);
+surface::TriangleMesh decode_ply(std::string_view content, std::string_view file,
+                                 std::vector<DataArray>* further);
 surface::TriangleMesh decode_stl(std::string_view content, std::string_view file);
 mesh::TetMesh decode_dsc(std::string_view content, std::string_view file);
 /// `points`: the point arrays of doubles; may be null.
-mesh::TetMesh decode_vtu(const std::string& content, std::string_view file, std::vector<DataArray>* points);
+mesh::TetMesh decode_vtu(const std::string& content, std::string_view file,
+                         std::vector<DataArray>* points);
 
 /// `normals`: one per point, or none.
 std::string encode_obj(const surface::TriangleMesh& mesh, const std::vector<Vec3>& normals);
 std::string encode_off(const surface::TriangleMesh& mesh);
-std::string encode_ply(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points, const std::vector<Vec3>& normals);
+std::string encode_ply(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points,
+                       const std::vector<Vec3>& normals);
 std::string encode_stl(const surface::TriangleMesh& mesh);
 std::string encode_dsc(const mesh::TetMesh& mesh);
 std::string encode_medit(const mesh::TetMesh& mesh);

@@ -1,5 +1,7 @@
-// The .dsc text format of the original method: "v x y z" and "t i j k l label" in any order, indices from 0.
+// The .dsc text format of the original method: "v x y z" and "t i j k l label" in any order,
+// indices from 0.
 #include <limits>
+
 #include <fmt/core.h>
 
 #include <dsc/text/numbers.hpp>
@@ -19,8 +21,9 @@ struct LargestIndex {
 std::uint32_t read_index(text::Tokens& tokens) {
     const std::int64_t index = tokens.integer();
     if (index < 0 || index >= std::numeric_limits<std::uint32_t>::max()) {
-        text::fail("io.index", tokens.place(), fmt::format("vertex index {} is out of range", index),
-             "indices count from 0; export the file again");
+        text::fail("io.index", tokens.place(),
+                   fmt::format("vertex index {} is out of range", index),
+                   "indices count from 0; export the file again");
     }
     return static_cast<std::uint32_t>(index);
 }
@@ -29,7 +32,7 @@ mesh::Label read_label(text::Tokens& tokens) {
     const std::int64_t label = tokens.integer();
     if (label < 0 || label > std::numeric_limits<mesh::Label>::max()) {
         text::fail("io.syntax", tokens.place(), fmt::format("label {} is out of range", label),
-             "labels are 0 (outside) or larger");
+                   "labels are 0 (outside) or larger");
     }
     return static_cast<mesh::Label>(label);
 }
@@ -39,7 +42,8 @@ mesh::Label read_label(text::Tokens& tokens) {
 mesh::TetMesh decode_dsc(std::string_view content, std::string_view file) {
     mesh::TetMesh mesh;
     text::Tokens tokens(content, file);
-    // The largest index decides whether all are in range, because vertices may follow the tets that use them.
+    // The largest index decides whether all are in range, because vertices may follow the tets that
+    // use them.
     LargestIndex largest;
     for (std::string_view tag = tokens.next(); !tag.empty(); tag = tokens.next()) {
         if (tag == "v") {
@@ -54,13 +58,14 @@ mesh::TetMesh decode_dsc(std::string_view content, std::string_view file) {
             mesh.tets.push_back(tet);
             mesh.labels.push_back(read_label(tokens));
         } else {
-            text::fail("io.syntax", tokens.place(), text::in_quotes(tag) + " is neither 'v' nor 't'", text::export_again);
+            text::fail("io.syntax", tokens.place(),
+                       text::in_quotes(tag) + " is neither 'v' nor 't'", text::export_again);
         }
     }
     if (!mesh.tets.empty() && largest.index >= mesh.points.size()) {
         text::fail("io.index", {file, largest.line},
-             fmt::format("vertex index {} of {}", largest.index, mesh.points.size()),
-             "indices count from 0; export the file again");
+                   fmt::format("vertex index {} of {}", largest.index, mesh.points.size()),
+                   "indices count from 0; export the file again");
     }
     return mesh;
 }

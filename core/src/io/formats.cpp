@@ -1,10 +1,10 @@
 // The table of file formats.
-#include <dsc/io/formats.hpp>
-
-#include <dsc/text/words.hpp>
+#include "dsc/io/formats.hpp"
 
 #include <algorithm>
 #include <array>
+
+#include <dsc/text/words.hpp>
 
 namespace dsc::io {
 namespace {
@@ -37,8 +37,8 @@ std::span<const Format> formats() { return table; }
 
 const Format* find_format(const std::filesystem::path& file) {
     const std::string extension = text::lower_case_extension(file);
-    const auto found =
-        std::find_if(table.begin(), table.end(), [&](const Format& f) { return f.extension == extension; });
+    const auto found = std::find_if(table.begin(), table.end(),
+                                    [&](const Format& f) { return f.extension == extension; });
     return found == table.end() ? nullptr : &*found;
 }
 

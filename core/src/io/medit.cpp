@@ -1,4 +1,5 @@
-// MEDIT .mesh, as mmg and other programs read it: labels are the references of the tets. Indices count from 1.
+// MEDIT .mesh, as mmg and other programs read it: labels are the references of the tets. Indices
+// count from 1.
 #include <dsc/text/numbers.hpp>
 
 #include "io/codecs.hpp"

@@ -1,11 +1,13 @@
-// Gmsh MSH 4.1 as text. Each label is a separate volume and the physical group "label_N", both with the tag N + 1, because tags
-// count from 1. The number of an element is that of its tet plus 1, so a reader can restore the order of the tets.
-#include <dsc/base/error.hpp>
-#include <dsc/text/numbers.hpp>
-
+// Gmsh MSH 4.1 as text. Each label is a separate volume and the physical group "label_N", both with
+// the tag N + 1, because tags count from 1. The number of an element is that of its tet plus 1, so
+// a reader can restore the order of the tets.
 #include <limits>
 #include <map>
+
 #include <fmt/core.h>
+
+#include <dsc/base/error.hpp>
+#include <dsc/text/numbers.hpp>
 
 #include "io/codecs.hpp"
 
@@ -18,7 +20,9 @@ std::map<mesh::Label, std::vector<std::size_t>> by_label(const mesh::TetMesh& me
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) groups[mesh.labels[t]].push_back(t);
     for (const auto& [label, tets] : groups) {
         if (label >= 0 && label < std::numeric_limits<mesh::Label>::max()) continue;
-        throw GeometryError("volume.label", "volume", fmt::format("tet {} has the label {}", tets.front(), label), ".msh can store labels from 0 to 2147483646, write a .vtu or .dsc");
+        throw GeometryError("volume.label", "volume",
+                            fmt::format("tet {} has the label {}", tets.front(), label),
+                            ".msh can store labels from 0 to 2147483646, write a .vtu or .dsc");
     }
     return groups;
 }
@@ -34,7 +38,8 @@ void append_point(std::string& out, const Vec3& p, char end) {
 
 /// "1 COUNT 1 COUNT" or "BLOCKS COUNT 1 COUNT": blocks, elements, their least and greatest number.
 void append_counts(std::string& out, std::size_t blocks, std::size_t count) {
-    out += std::to_string(blocks) + ' ' + std::to_string(count) + " 1 " + std::to_string(count) + '\n';
+    out +=
+        std::to_string(blocks) + ' ' + std::to_string(count) + " 1 " + std::to_string(count) + '\n';
 }
 
 Box3 box_of(const mesh::TetMesh& mesh, const std::vector<std::size_t>& tets) {
@@ -64,10 +69,11 @@ std::string encode_msh(const mesh::TetMesh& mesh) {
         out += "1 " + tag_of(label) + " 0\n";
     }
     out += "$EndEntities\n$Nodes\n";
-    // All nodes in one block, in the order of the points. The block belongs to the first volume, because every node must belong
-    // to one.
+    // All nodes in one block, in the order of the points. The block belongs to the first volume,
+    // because every node must belong to one.
     append_counts(out, 1, mesh.points.size());
-    out += "3 " + (groups.empty() ? "1" : tag_of(groups.begin()->first)) + " 0 " + std::to_string(mesh.points.size()) + '\n';
+    out += "3 " + (groups.empty() ? "1" : tag_of(groups.begin()->first)) + " 0 " +
+           std::to_string(mesh.points.size()) + '\n';
     for (std::size_t i = 1; i <= mesh.points.size(); ++i) {
         text::append_number(out, std::uint64_t{i});
         out += '\n';

@@ -1,13 +1,15 @@
-// Geomview OFF: a header, the counts, one line per vertex, one line per polygon; colours and normals are skipped.
+// Geomview OFF: a header, the counts, one line per vertex, one line per polygon; colours and
+// normals are skipped.
 #include <algorithm>
 #include <array>
 #include <limits>
+
 #include <fmt/core.h>
 
+#include <dsc/decode/obj.hpp>
 #include <dsc/text/numbers.hpp>
 #include <dsc/text/reading.hpp>
 #include <dsc/text/words.hpp>
-#include <dsc/decode/obj.hpp>
 
 #include "io/codecs.hpp"
 
@@ -27,8 +29,9 @@ public:
         for (std::size_t i = 0; i < faces_; ++i) face(i, mesh);
         std::string_view line;
         if (content_line(line)) {
-            text::fail("io.count", lines_.place(), "data after the last of " + text::counted(faces_, "face"),
-                 "the counts of the header are wrong: export the file again");
+            text::fail("io.count", lines_.place(),
+                       "data after the last of " + text::counted(faces_, "face"),
+                       "the counts of the header are wrong: export the file again");
         }
         return mesh;
     }
@@ -57,7 +60,8 @@ private:
     }
 
     [[noreturn]] void ends_before(std::string_view what) const {
-        text::fail("io.truncated", lines_.place(), fmt::format("the file ends where {} should be", what), text::copy_again);
+        text::fail("io.truncated", lines_.place(),
+                   fmt::format("the file ends where {} should be", what), text::copy_again);
     }
 
     void header() {
@@ -65,12 +69,14 @@ private:
         text::Fields fields = require_line("the word OFF");
         const std::string_view word = fields.next();
         if (std::find(known.begin(), known.end(), word) == known.end()) {
-            text::fail("io.syntax", lines_.place(), "the file starts with " + text::in_quotes(word) + ", not with OFF",
-                 "check that the file is an OFF file");
+            text::fail("io.syntax", lines_.place(),
+                       "the file starts with " + text::in_quotes(word) + ", not with OFF",
+                       "check that the file is an OFF file");
         }
         std::string_view field = fields.next();
         if (field == "BINARY") {
-            text::fail("io.format", lines_.place(), "binary OFF is not read", "export the file as text");
+            text::fail("io.format", lines_.place(), "binary OFF is not read",
+                       "export the file as text");
         }
         if (field.empty()) {
             fields = require_line("the counts of vertices and faces");
@@ -80,17 +86,19 @@ private:
         faces_ = count(fields.next(), "faces");
     }
 
-    /// Every vertex and every face takes at least six bytes, so a false count cannot make the program reserve too much memory.
+    /// Every vertex and every face takes at least six bytes, so a false count cannot make the
+    /// program reserve too much memory.
     std::size_t count(std::string_view field, const char* what) {
         if (field.empty()) {
-            text::fail("io.syntax", lines_.place(), std::string("the number of ") + what + " is missing",
-                 text::export_again);
+            text::fail("io.syntax", lines_.place(),
+                       std::string("the number of ") + what + " is missing", text::export_again);
         }
         const std::int64_t value = text::read_integer(field, lines_.place());
         if (value < 0 || static_cast<std::uint64_t>(value) > size_ / 6 + 1) {
             text::fail("io.count", lines_.place(),
-                 fmt::format("{} {} cannot be in a file of {}", value, what, text::counted(size_, "byte")),
-                 text::copy_again);
+                       fmt::format("{} {} cannot be in a file of {}", value, what,
+                                   text::counted(size_, "byte")),
+                       text::copy_again);
         }
         return static_cast<std::size_t>(value);
     }
@@ -111,7 +119,8 @@ private:
         const std::int64_t corners = text::read_integer(fields.next(), lines_.place());
         if (corners < 3) {
             text::fail("io.syntax", lines_.place(),
-                 fmt::format("face with {} corners, at least 3 are needed", corners), text::export_again);
+                       fmt::format("face with {} corners, at least 3 are needed", corners),
+                       text::export_again);
         }
         polygon_.clear();
         for (std::int64_t k = 0; k < corners; ++k) {
@@ -122,8 +131,8 @@ private:
             const std::int64_t index = text::read_integer(field, lines_.place());
             if (index < 0 || index >= static_cast<std::int64_t>(vertices_)) {
                 text::fail("io.index", lines_.place(),
-                     fmt::format("vertex index {} of {}", index, vertices_),
-                     "OFF counts from 0; export the file again");
+                           fmt::format("vertex index {} of {}", index, vertices_),
+                           "OFF counts from 0; export the file again");
             }
             polygon_.push_back(static_cast<std::uint32_t>(index));
         }
@@ -132,7 +141,7 @@ private:
 
     [[noreturn]] void short_line(const std::string& cause) const {
         text::fail(lines_.cut() ? "io.truncated" : "io.syntax", lines_.place(), cause,
-             lines_.cut() ? text::copy_again : text::export_again);
+                   lines_.cut() ? text::copy_again : text::export_again);
     }
 
     std::size_t size_;

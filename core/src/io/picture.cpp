@@ -1,19 +1,20 @@
 // Shaded pictures: rays, colours, ambient occlusion.
-#include <dsc/io/picture.hpp>
+#include "dsc/io/picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/surface/measure.hpp>
-
-#include <algorithm>
-#include <limits>
-#include <cmath>
-#include <functional>
-#include <iterator>
-#include <numbers>
-#include <string>
-#include <utility>
-#include <fmt/core.h>
 
 #include "io/ray_scene.hpp"
 #include "io/shading_normals.hpp"
@@ -29,33 +30,20 @@ constexpr std::array<std::pair<std::string_view, View>, 7> view_names = {{{"fron
                                                                           {"bottom", View::bottom},
                                                                           {"iso", View::iso}}};
 constexpr int largest_size = 16384;
-constexpr float margin = 0.05F;          // of the frame, on each side
-constexpr unsigned occlusion_rays = 8;   // per pixel; 4 x 4 pixels share theirs
+constexpr float margin = 0.05F;         // of the frame, on each side
+constexpr unsigned occlusion_rays = 8;  // per pixel; 4 x 4 pixels share theirs
 
 /// Rows: right, up, towards the viewer, in the mesh's coordinates.
 Eigen::Matrix3d view_axes(View view, UpAxis up) {
     Vec3 towards(0, 0, 1), above(0, 1, 0);
     switch (view) {
-        case View::front:
-            break;
-        case View::back:
-            towards = {0, 0, -1};
-            break;
-        case View::left:
-            towards = {-1, 0, 0};
-            break;
-        case View::right:
-            towards = {1, 0, 0};
-            break;
-        case View::top:
-            towards = {0, 1, 0}, above = {0, 0, -1};
-            break;
-        case View::bottom:
-            towards = {0, -1, 0}, above = {0, 0, 1};
-            break;
-        case View::iso:
-            towards = Vec3(0.62, 0.48, 1.0).normalized();
-            break;
+        case View::front: break;
+        case View::back: towards = {0, 0, -1}; break;
+        case View::left: towards = {-1, 0, 0}; break;
+        case View::right: towards = {1, 0, 0}; break;
+        case View::top: towards = {0, 1, 0}, above = {0, 0, -1}; break;
+        case View::bottom: towards = {0, -1, 0}, above = {0, 0, 1}; break;
+        case View::iso: towards = Vec3(0.62, 0.48, 1.0).normalized(); break;
     }
     const Vec3 right = above.cross(towards).normalized();
     Eigen::Matrix3d axes;
@@ -69,7 +57,8 @@ Eigen::Matrix3d view_axes(View view, UpAxis up) {
     return axes * turn;
 }
 
-/// The points in pixels: x to the right and y upwards from the middle of the frame, z towards the viewer, z <= 0.
+/// The points in pixels: x to the right and y upwards from the middle of the frame, z towards the
+/// viewer, z <= 0.
 std::vector<Vec3f> project(const surface::TriangleMesh& mesh, const RenderOptions& options) {
     const Eigen::Matrix3d axes = view_axes(options.view, options.up);
     // Everything is centred in doubles before the conversion to float.
@@ -78,13 +67,15 @@ std::vector<Vec3f> project(const surface::TriangleMesh& mesh, const RenderOption
     for (const auto& face : mesh.faces) {
         for (const std::uint32_t v : face) box.extend(axes * (mesh.points[v] - middle));
     }
-    const double width = options.width * (1.0 - 2.0 * margin), height = options.height * (1.0 - 2.0 * margin);
+    const double width = options.width * (1.0 - 2.0 * margin),
+                 height = options.height * (1.0 - 2.0 * margin);
     const Vec3 size = box.size().cwiseMax(1e-9 * box.diagonal());
     const double scale = box.diagonal() > 0.0 ? std::min(width / size.x(), height / size.y()) : 1.0;
     const Vec3 origin(box.centre().x(), box.centre().y(), box.high.z());
     std::vector<Vec3f> out;
     out.reserve(mesh.points.size());
-    for (const Vec3& p : mesh.points) out.push_back((scale * (axes * (p - middle) - origin)).cast<float>());
+    for (const Vec3& p : mesh.points)
+        out.push_back((scale * (axes * (p - middle) - origin)).cast<float>());
     return out;
 }
 
@@ -104,16 +95,22 @@ Colour background(float height) {
     return low + height * (high - low);
 }
 
-/// The colour scale of the report's viewer, from good to bad. People who cannot distinguish red and green can also read it.
+/// The colour scale of the report's viewer, from good to bad. People who cannot distinguish red and
+/// green can also read it.
 Colour ramp(float part) {
-    constexpr std::array<std::array<float, 3>, 5> stops = {
-        {{0.13F, 0.35F, 0.55F}, {0.16F, 0.60F, 0.62F}, {0.55F, 0.75F, 0.38F}, {0.96F, 0.76F, 0.20F}, {0.85F, 0.28F, 0.16F}}};
+    constexpr std::array<std::array<float, 3>, 5> stops = {{{0.13F, 0.35F, 0.55F},
+                                                            {0.16F, 0.60F, 0.62F},
+                                                            {0.55F, 0.75F, 0.38F},
+                                                            {0.96F, 0.76F, 0.20F},
+                                                            {0.85F, 0.28F, 0.16F}}};
     const float at = std::clamp(part, 0.0F, 1.0F) * 4.0F;
     const auto low = static_cast<std::size_t>(std::min(at, 3.0F));
     Colour out;
     for (std::size_t k = 0; k < 3; ++k) {
-        const float srgb = stops[low][k] + (at - static_cast<float>(low)) * (stops[low + 1][k] - stops[low][k]);
-        out[static_cast<int>(k)] = srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
+        const float srgb =
+            stops[low][k] + (at - static_cast<float>(low)) * (stops[low + 1][k] - stops[low][k]);
+        out[static_cast<int>(k)] =
+            srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
     }
     return out;
 }
@@ -124,7 +121,8 @@ std::vector<float> ramp_parts(std::span<const double> values) {
     std::vector<float> parts;
     parts.reserve(values.size());
     for (const double value : values) {
-        parts.push_back(std::isfinite(value) ? static_cast<float>(colour_part(value, bounds)) : std::numeric_limits<float>::quiet_NaN());
+        parts.push_back(std::isfinite(value) ? static_cast<float>(colour_part(value, bounds))
+                                             : std::numeric_limits<float>::quiet_NaN());
     }
     return parts;
 }
@@ -185,26 +183,30 @@ public:
         }
     }
 
-    /// First pass: occlusion at the middle of every pixel; each pixel uses other directions than its neighbours.
+    /// First pass: occlusion at the middle of every pixel; each pixel uses other directions than
+    /// its neighbours.
     void measure_row(int y) {
         if (centres_.empty()) return;
         for (int x = 0; x < options_.width; ++x) {
             Surfel& centre = centres_[index(x, y)];
-            centre = look(frame_x(static_cast<float>(x) + 0.5F), frame_y(static_cast<float>(y) + 0.5F));
+            centre =
+                look(frame_x(static_cast<float>(x) + 0.5F), frame_y(static_cast<float>(y) + 0.5F));
             if (centre.hit) centre.open = openness(centre, tile_of(x, y));
         }
     }
 
     /// Second pass.
     void paint_row(int y, Image& image) const {
-        // A rotated grid of 2 x 2 samples: near-vertical and near-horizontal lines get four steps instead of two.
+        // A rotated grid of 2 x 2 samples: near-vertical and near-horizontal lines get four steps
+        // instead of two.
         constexpr std::array<std::array<float, 2>, 4> offsets = {
             {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};
         auto out = image.pixels.begin() + 3 * static_cast<std::ptrdiff_t>(y) * image.width;
         for (int x = 0; x < image.width; ++x) {
             Colour sum = Colour::Zero();
             for (const auto& offset : offsets) {
-                // Clamped before the mean, so that an edge against the light background stays smooth.
+                // Clamped before the mean, so that an edge against the light background stays
+                // smooth.
                 sum += sample(x, y, offset[0], offset[1]).min(1.0F);
             }
             for (int k = 0; k < 3; ++k) *out++ = to_srgb(0.25F * sum[k]);
@@ -219,9 +221,11 @@ private:
                static_cast<std::size_t>(x);
     }
 
-    /// 4 x 4 neighbouring pixels have 16 different numbers, distributed so that neighbours differ much.
+    /// 4 x 4 neighbouring pixels have 16 different numbers, distributed so that neighbours differ
+    /// much.
     static unsigned tile_of(int x, int y) {
-        constexpr std::array<unsigned, 16> order = {0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
+        constexpr std::array<unsigned, 16> order = {0, 8,  2, 10, 12, 4, 14, 6,
+                                                    3, 11, 1, 9,  15, 7, 13, 5};
         return order[static_cast<unsigned>(y % 4) * 4 + static_cast<unsigned>(x % 4)];
     }
 
@@ -235,9 +239,10 @@ private:
         out.face = hit.face;
         out.point = Vec3f(x, y, 1.0F - hit.distance);
         out.flat = (points_[b] - points_[a]).cross(points_[c] - points_[a]).normalized();
-        out.normal =
-            ((1.0F - hit.u - hit.v) * corner[0] + hit.u * corner[1] + hit.v * corner[2]).normalized();
-        if (!parts_.empty()) out.part = (1.0F - hit.u - hit.v) * parts_[a] + hit.u * parts_[b] + hit.v * parts_[c];
+        out.normal = ((1.0F - hit.u - hit.v) * corner[0] + hit.u * corner[1] + hit.v * corner[2])
+                         .normalized();
+        if (!parts_.empty())
+            out.part = (1.0F - hit.u - hit.v) * parts_[a] + hit.u * parts_[b] + hit.v * parts_[c];
         out.front = out.flat.z() >= 0.0F;
         if (!out.front) {
             out.flat = -out.flat;
@@ -247,7 +252,8 @@ private:
     }
 
     Colour sample(int px, int py, float dx, float dy) const {
-        const float x = frame_x(static_cast<float>(px) + dx), y = frame_y(static_cast<float>(py) + dy);
+        const float x = frame_x(static_cast<float>(px) + dx),
+                    y = frame_y(static_cast<float>(py) + dy);
         Surfel seen = look(x, y);
         if (!seen.hit) return background(0.5F + y / static_cast<float>(options_.height));
         if (!centres_.empty()) seen.open = gathered(seen, px, py);
@@ -255,10 +261,12 @@ private:
         const Colour colour = shade(seen.normal, seen.front ? outside : back_colour, seen.open);
         if (!options_.edges) return colour;
         const auto& [a, b, c] = faces_[seen.face];
-        return colour + line_strength(x, y, points_[a], points_[b], points_[c]) * (line_colour - colour);
+        return colour +
+               line_strength(x, y, points_[a], points_[b], points_[c]) * (line_colour - colour);
     }
 
-    /// Mean occlusion of the 16 pixels around that lie on the same piece of surface; together they use all directions.
+    /// Mean occlusion of the 16 pixels around that lie on the same piece of surface; together they
+    /// use all directions.
     float gathered(const Surfel& seen, int px, int py) const {
         float sum = 0.0F, weights = 0.0F;
         for (int y = std::max(0, py - 2); y < std::min(options_.height, py + 2); ++y) {
@@ -279,18 +287,22 @@ private:
     /// Fraction of the hemisphere that is free nearby, cosine-weighted.
     float openness(const Surfel& at, unsigned tile) const {
         const Vec3f& normal = at.normal;
-        const Vec3f side =
-            (std::abs(normal.x()) < 0.8F ? Vec3f(1, 0, 0) : Vec3f(0, 1, 0)).cross(normal).normalized();
+        const Vec3f side = (std::abs(normal.x()) < 0.8F ? Vec3f(1, 0, 0) : Vec3f(0, 1, 0))
+                               .cross(normal)
+                               .normalized();
         const Vec3f other = normal.cross(side);
         const Vec3f from = at.point + 2e-5F * diagonal_ * at.flat;
         const float reach = 0.3F * diagonal_;
         unsigned cast = 0, free = 0;
         for (unsigned i = 0; i < occlusion_rays; ++i) {
-            const unsigned number = i * 16 + tile;  // of 16 times as many directions, distributed over the tile
-            const float share = (static_cast<float>(number) + 0.5F) / static_cast<float>(16 * occlusion_rays);
+            const unsigned number = i * 16 + tile;  // of 16 times as many directions, distributed
+                                                    // over the tile
+            const float share =
+                (static_cast<float>(number) + 0.5F) / static_cast<float>(16 * occlusion_rays);
             const float angle = 2.0F * std::numbers::pi_v<float> * radical_inverse(number);
             const float radius = std::sqrt(share);
-            const Vec3f direction = radius * std::cos(angle) * side + radius * std::sin(angle) * other +
+            const Vec3f direction = radius * std::cos(angle) * side +
+                                    radius * std::sin(angle) * other +
                                     std::sqrt(1.0F - share) * normal;
             // Rays below the flat face are artefacts of the smooth normal.
             if (direction.dot(at.flat) <= 0.01F) continue;
@@ -312,8 +324,9 @@ private:
             const Eigen::Vector2f edge = q[(k + 1) % 3] - q[k];
             const float length = edge.norm();
             longest = std::max(longest, length);
-            const float t =
-                length > 0.0F ? std::clamp((p - q[k]).dot(edge) / (length * length), 0.0F, 1.0F) : 0.0F;
+            const float t = length > 0.0F
+                                ? std::clamp((p - q[k]).dot(edge) / (length * length), 0.0F, 1.0F)
+                                : 0.0F;
             nearest = std::min(nearest, (p - q[k] - t * edge).norm());
         }
         if (nearest > half_width || longest <= 0.0F) return 0.0F;
@@ -341,10 +354,12 @@ std::optional<View> view_from_name(std::string_view name) {
 
 ColourBounds colour_bounds(std::span<const double> values) {
     std::vector<double> finite;
-    std::copy_if(values.begin(), values.end(), std::back_inserter(finite), [](double v) { return std::isfinite(v); });
+    std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
+                 [](double v) { return std::isfinite(v); });
     if (finite.empty()) return {};
     const auto quantile = [&](double part) {
-        const auto at = finite.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(finite.size() - 1));
+        const auto at = finite.begin() +
+                        static_cast<std::ptrdiff_t>(part * static_cast<double>(finite.size() - 1));
         std::nth_element(finite.begin(), at, finite.end());
         return *at;
     };
@@ -354,20 +369,27 @@ ColourBounds colour_bounds(std::span<const double> values) {
 double colour_part(double value, const ColourBounds& bounds) {
     if (!(bounds.high > bounds.low)) return 0.0;
     // The difference of two huge bounds may be infinite; the difference of their halves is not.
-    return std::clamp((0.5 * value - 0.5 * bounds.low) / (0.5 * bounds.high - 0.5 * bounds.low), 0.0, 1.0);
+    return std::clamp((0.5 * value - 0.5 * bounds.low) / (0.5 * bounds.high - 0.5 * bounds.low),
+                      0.0, 1.0);
 }
 
 Image render(const surface::TriangleMesh& mesh, const RenderOptions& options) {
     for (const int size : {options.width, options.height}) {
         if (size >= 1 && size <= largest_size) continue;
-        throw UsageError("picture.size", fmt::format("picture: size {}x{}; each side may be 1 to {} pixels", options.width, options.height, largest_size));
+        throw UsageError("picture.size",
+                         fmt::format("picture: size {}x{}; each side may be 1 to {} pixels",
+                                     options.width, options.height, largest_size));
     }
     surface::require_sound(mesh);
     if (mesh.faces.empty()) {
-        throw GeometryError("surface.empty", "picture", "the mesh has no faces", "at least one is needed");
+        throw GeometryError("surface.empty", "picture", "the mesh has no faces",
+                            "at least one is needed");
     }
     if (!options.values.empty() && options.values.size() != mesh.points.size()) {
-        throw GeometryError("surface.size", "picture", fmt::format("{} values for {} points", options.values.size(), mesh.points.size()), "give one for each or none");
+        throw GeometryError(
+            "surface.size", "picture",
+            fmt::format("{} values for {} points", options.values.size(), mesh.points.size()),
+            "give one for each or none");
     }
     Painter painter(mesh, options);
     Image image{options.width, options.height, {}};
@@ -376,9 +398,10 @@ Image render(const surface::TriangleMesh& mesh, const RenderOptions& options) {
     Workers alone;
     const auto for_rows = [&](const std::function<void(int)>& paint) {
         (options.workers != nullptr ? *options.workers : alone)
-            .for_blocks(static_cast<std::size_t>(options.height), 8, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t y = begin; y < end; ++y) paint(static_cast<int>(y));
-            });
+            .for_blocks(static_cast<std::size_t>(options.height), 8,
+                        [&](std::size_t begin, std::size_t end) {
+                            for (std::size_t y = begin; y < end; ++y) paint(static_cast<int>(y));
+                        });
     };
     for_rows([&](int y) { painter.measure_row(y); });
     for_rows([&](int y) { painter.paint_row(y, image); });

@@ -1,4 +1,5 @@
-// PLY surfaces: text, little and big endian. Elements and properties that are not needed are skipped.
+// PLY surfaces: text, little and big endian. Elements and properties that are not needed are
+// skipped.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -6,13 +7,14 @@
 #include <limits>
 #include <optional>
 #include <utility>
+
 #include <fmt/core.h>
 
 #include <dsc/base/log.hpp>
+#include <dsc/decode/obj.hpp>
+#include <dsc/decode/ply_header.hpp>
 #include <dsc/text/reading.hpp>
 #include <dsc/text/words.hpp>
-#include <dsc/decode/ply_header.hpp>
-#include <dsc/decode/obj.hpp>
 
 #include "io/bytes.hpp"
 #include "io/codecs.hpp"
@@ -41,16 +43,16 @@ public:
     static std::size_t least_size(Type) { return 2; }
     bool ended() { return tokens_.next().empty(); }
 
-    /// Called for each element. A line is an element: if values remain on it or must be taken from the next line, the header
-    /// does not fit. Only a list may continue on further lines.
+    /// Called for each element. A line is an element: if values remain on it or must be taken from
+    /// the next line, the header does not fit. Only a list may continue on further lines.
     void begin_element() { first_of_element_ = 0; }
     void end_element(std::string_view element) {
         if (first_of_element_ == 0 || !tokens_.more_on_line()) return;
         const bool short_line = tokens_.place().line != first_of_element_;
         text::fail("io.syntax", {tokens_.place().file, first_of_element_},
-             std::string("the line has ") + (short_line ? "fewer" : "more") + " values than element " + text::in_quotes(element) +
-                 " has properties",
-             text::export_again);
+                   std::string("the line has ") + (short_line ? "fewer" : "more") +
+                       " values than element " + text::in_quotes(element) + " has properties",
+                   text::export_again);
     }
 
 private:
@@ -67,7 +69,8 @@ private:
 /// Values of a binary body. Bounds are checked at every step.
 class BinaryBody {
 public:
-    BinaryBody(std::string_view content, std::string_view file, std::size_t start, std::endian order)
+    BinaryBody(std::string_view content, std::string_view file, std::size_t start,
+               std::endian order)
         : content_(content), file_(file), at_(start), order_(order) {}
 
     double any(Type type) {
@@ -79,27 +82,20 @@ public:
         const double value = any(type);
         if (!std::isfinite(value)) {
             text::fail("io.not_finite", place(),
-                 fmt::format("the coordinate before byte {} is NaN or infinite", at_),
-                 "remove the point and its faces or export the file again");
+                       fmt::format("the coordinate before byte {} is NaN or infinite", at_),
+                       "remove the point and its faces or export the file again");
         }
         return value;
     }
     std::int64_t integer(Type type) {
         switch (type) {
-            case Type::int8:
-                return take<std::int8_t>();
-            case Type::uint8:
-                return take<std::uint8_t>();
-            case Type::int16:
-                return take<std::int16_t>();
-            case Type::uint16:
-                return take<std::uint16_t>();
-            case Type::int32:
-                return take<std::int32_t>();
-            case Type::uint32:
-                return take<std::uint32_t>();
-            default:
-                text::fail("io.syntax", place(), "indices are fractions", text::export_again);
+            case Type::int8: return take<std::int8_t>();
+            case Type::uint8: return take<std::uint8_t>();
+            case Type::int16: return take<std::int16_t>();
+            case Type::uint16: return take<std::uint16_t>();
+            case Type::int32: return take<std::int32_t>();
+            case Type::uint32: return take<std::uint32_t>();
+            default: text::fail("io.syntax", place(), "indices are fractions", text::export_again);
         }
     }
     void skip(Type type) { skip_list(type, 1); }
@@ -127,8 +123,9 @@ private:
     void require(std::uint64_t count, std::size_t size) {
         if (count <= (content_.size() - at_) / size) return;
         text::fail("io.truncated", place(),
-             fmt::format("the file ends at byte {} where {} bytes should follow byte {}", content_.size(), count * size, at_),
-             text::copy_again);
+                   fmt::format("the file ends at byte {} where {} bytes should follow byte {}",
+                               content_.size(), count * size, at_),
+                   text::copy_again);
     }
 
     std::string_view content_;
@@ -140,8 +137,13 @@ private:
 template <class Body>
 class PlyReader {
 public:
-    PlyReader(const Header& header, Body body, std::size_t size, text::Place end_of_header, std::vector<DataArray>* further)
-        : header_(header), body_(std::move(body)), size_(size), header_place_(end_of_header), further_(further) {}
+    PlyReader(const Header& header, Body body, std::size_t size, text::Place end_of_header,
+              std::vector<DataArray>* further)
+        : header_(header),
+          body_(std::move(body)),
+          size_(size),
+          header_place_(end_of_header),
+          further_(further) {}
 
     surface::TriangleMesh read() {
         check_header();
@@ -157,12 +159,15 @@ public:
         }
         if (!body_.ended()) {
             text::fail("io.count", body_.place(), "data after the last element",
-                 "the counts of the header are wrong: export the file again");
+                       "the counts of the header are wrong: export the file again");
         }
         if (further_ != nullptr) {
             // A header may list the vertices in two parts, with different properties in each.
-            const auto partial = [&](const DataArray& a) { return a.values.size() != mesh_.points.size(); };
-            further_->erase(std::remove_if(further_->begin(), further_->end(), partial), further_->end());
+            const auto partial = [&](const DataArray& a) {
+                return a.values.size() != mesh_.points.size();
+            };
+            further_->erase(std::remove_if(further_->begin(), further_->end(), partial),
+                            further_->end());
         }
         return std::move(mesh_);
     }
@@ -176,22 +181,29 @@ private:
             for (const Property& p : element.properties)
                 least += Body::least_size(p.count ? *p.count : p.type);
             if (element.count > 0 && least == 0) {
-                text::fail("io.syntax", header_place_, "element " + text::in_quotes(element.name) + " has no properties",
-                     text::export_again);
+                text::fail("io.syntax", header_place_,
+                           "element " + text::in_quotes(element.name) + " has no properties",
+                           text::export_again);
             }
             if (least > 0 && element.count > size_ / least + 1) {
-                text::fail("io.truncated", header_place_,
-                     fmt::format("the header announces {} elements {}, more than a file of {} can contain", element.count, text::in_quotes(element.name), text::counted(size_, "byte")),
-                     text::copy_again);
+                text::fail(
+                    "io.truncated", header_place_,
+                    fmt::format(
+                        "the header announces {} elements {}, more than a file of {} can contain",
+                        element.count, text::in_quotes(element.name), text::counted(size_, "byte")),
+                    text::copy_again);
             }
             if (element.name == "vertex") {
                 vertex = true;
                 points_ = element.count;
             }
         }
-        if (!vertex) text::fail("io.syntax", header_place_, "the header has no element 'vertex'", text::export_again);
+        if (!vertex)
+            text::fail("io.syntax", header_place_, "the header has no element 'vertex'",
+                       text::export_again);
         if (points_ > std::numeric_limits<std::uint32_t>::max()) {
-            text::fail("io.count", header_place_, "more than 4294967295 vertices", "split the file");
+            text::fail("io.count", header_place_, "more than 4294967295 vertices",
+                       "split the file");
         }
     }
 
@@ -201,12 +213,17 @@ private:
         else
             body_.skip(p.type);
     }
-    /// Skips an element. Logs a warning if it looks like a part of the surface: a list of integers, or an edge.
+    /// Skips an element. Logs a warning if it looks like a part of the surface: a list of integers,
+    /// or an edge.
     void skip_element(const Element& element) {
-        const bool lists = std::any_of(element.properties.begin(), element.properties.end(),
-                                       [](const Property& p) { return p.count && is_integer(p.type); });
+        const bool lists =
+            std::any_of(element.properties.begin(), element.properties.end(),
+                        [](const Property& p) { return p.count && is_integer(p.type); });
         if (element.count > 0 && (lists || element.name == "edge")) {
-            log(LogLevel::warning, fmt::format("{}: element {} ({}) is not read; only the elements 'vertex', 'face' and 'tristrips' of a PLY file are read", header_place_.file, text::in_quotes(element.name), element.count));
+            log(LogLevel::warning,
+                fmt::format("{}: element {} ({}) is not read; only the elements 'vertex', 'face' "
+                            "and 'tristrips' of a PLY file are read",
+                            header_place_.file, text::in_quotes(element.name), element.count));
         }
         for (std::uint64_t i = 0; i < element.count; ++i) {
             body_.begin_element();
@@ -218,19 +235,22 @@ private:
     std::uint64_t list_size(const Property& p) {
         const std::int64_t count = body_.integer(*p.count);
         if (count < 0)
-            text::fail("io.count", body_.place(), fmt::format("a list of {} values", count), text::export_again);
+            text::fail("io.count", body_.place(), fmt::format("a list of {} values", count),
+                       text::export_again);
         return static_cast<std::uint64_t>(count);
     }
 
     void read_vertices(const Element& element) {
-        std::vector<int> axes;  // 0 to 2: coordinate; 3 to 5: colour; from 6: further number; -1: other
+        std::vector<int> axes;  // 0 to 2: coordinate; 3 to 5: colour; from 6: further number; -1:
+                                // other
         std::array<int, 3> seen{};
         const bool coloured = has_colours(element);
         for (const Property& p : element.properties) {
             const int axis = p.name == "x" ? 0 : p.name == "y" ? 1 : p.name == "z" ? 2 : -1;
             if (axis >= 0 && p.count)
-                text::fail("io.syntax", header_place_, "coordinate " + text::in_quotes(p.name) + " is a list",
-                     text::export_again);
+                text::fail("io.syntax", header_place_,
+                           "coordinate " + text::in_quotes(p.name) + " is a list",
+                           text::export_again);
             if (axis >= 0) ++seen[static_cast<std::size_t>(axis)];
             axes.push_back(coloured && axis < 0 ? channel(p) : axis);
             if (further_ != nullptr && is_further(p)) {
@@ -240,8 +260,9 @@ private:
             }
         }
         if (seen != std::array<int, 3>{1, 1, 1}) {
-            text::fail("io.syntax", header_place_, "element 'vertex' needs each of the properties x, y, z once",
-                 text::export_again);
+            text::fail("io.syntax", header_place_,
+                       "element 'vertex' needs each of the properties x, y, z once",
+                       text::export_again);
         }
         mesh_.points.reserve(element.count);
         for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -252,9 +273,11 @@ private:
                 if (axes[k] < 0)
                     skip_property(element.properties[k]);
                 else if (axes[k] > 5)
-                    (*further_)[static_cast<std::size_t>(axes[k] - 6)].values.push_back(body_.any(element.properties[k].type));
+                    (*further_)[static_cast<std::size_t>(axes[k] - 6)].values.push_back(
+                        body_.any(element.properties[k].type));
                 else if (axes[k] > 2)
-                    colour[static_cast<std::size_t>(axes[k] - 3)] = read_byte(element.properties[k].type);
+                    colour[static_cast<std::size_t>(axes[k] - 3)] =
+                        read_byte(element.properties[k].type);
                 else
                     p[axes[k]] = body_.real(element.properties[k].type);
             }
@@ -264,10 +287,13 @@ private:
         }
     }
 
-    /// Whether the property is a single float or double and does not belong to the position, the normal or the colour.
+    /// Whether the property is a single float or double and does not belong to the position, the
+    /// normal or the colour.
     static bool is_further(const Property& p) {
-        constexpr std::array<std::string_view, 10> known = {"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue", "alpha"};
-        return !p.count && !is_integer(p.type) && std::find(known.begin(), known.end(), p.name) == known.end();
+        constexpr std::array<std::string_view, 10> known = {"x",  "y",   "z",     "nx",   "ny",
+                                                            "nz", "red", "green", "blue", "alpha"};
+        return !p.count && !is_integer(p.type) &&
+               std::find(known.begin(), known.end(), p.name) == known.end();
     }
 
     /// 3, 4 or 5 for red, green or blue as bytes, else -1: colours of another type are not read.
@@ -288,8 +314,9 @@ private:
     std::uint8_t read_byte(Type type) {
         const std::int64_t value = body_.integer(type);
         if (value < 0 || value > 255) {
-            text::fail("io.syntax", body_.place(), fmt::format("colour {} is not a byte (0 to 255)", value),
-                 text::export_again);
+            text::fail("io.syntax", body_.place(),
+                       fmt::format("colour {} is not a byte (0 to 255)", value),
+                       text::export_again);
         }
         return static_cast<std::uint8_t>(value);
     }
@@ -305,10 +332,14 @@ private:
             if (!is_corners(p)) continue;
             ++lists;
             if (!is_integer(p.type))
-                text::fail("io.syntax", header_place_, "vertex indices are fractions", text::export_again);
+                text::fail("io.syntax", header_place_, "vertex indices are fractions",
+                           text::export_again);
         }
         if (lists != 1) {
-            text::fail("io.syntax", header_place_, "element " + text::in_quotes(element.name) + " needs one list vertex_indices", text::export_again);
+            text::fail(
+                "io.syntax", header_place_,
+                "element " + text::in_quotes(element.name) + " needs one list vertex_indices",
+                text::export_again);
         }
     }
 
@@ -327,8 +358,9 @@ private:
         }
     }
 
-    /// Strips of triangles; -1 ends a strip. Each corner after the second makes a triangle with the two corners before it, with
-    /// alternating orientation. A repeated corner changes the orientation and makes no triangle.
+    /// Strips of triangles; -1 ends a strip. Each corner after the second makes a triangle with the
+    /// two corners before it, with alternating orientation. A repeated corner changes the
+    /// orientation and makes no triangle.
     void read_strips(const Element& element) {
         require_corners(element);
         for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -352,8 +384,9 @@ private:
                 continue;
             }
             if (index < 0 || static_cast<std::uint64_t>(index) >= points_) {
-                text::fail("io.index", body_.place(), fmt::format("strip: vertex index {} of {}", index, points_),
-                     "PLY counts from 0; export the file again");
+                text::fail("io.index", body_.place(),
+                           fmt::format("strip: vertex index {} of {}", index, points_),
+                           "PLY counts from 0; export the file again");
             }
             polygon_.push_back(static_cast<std::uint32_t>(index));
             const std::size_t count = polygon_.size();
@@ -370,16 +403,17 @@ private:
         const std::uint64_t count = list_size(p);
         if (count < 3) {
             text::fail("io.syntax", body_.place(),
-                 fmt::format("face {} with {}, at least 3 are needed", face, text::counted(count, "corner")),
-                 text::export_again);
+                       fmt::format("face {} with {}, at least 3 are needed", face,
+                                   text::counted(count, "corner")),
+                       text::export_again);
         }
         polygon_.clear();
         for (std::uint64_t k = 0; k < count; ++k) {
             const std::int64_t index = body_.integer(p.type);
             if (index < 0 || static_cast<std::uint64_t>(index) >= points_) {
                 text::fail("io.index", body_.place(),
-                     fmt::format("face {}: vertex index {} of {}", face, index, points_),
-                     "PLY counts from 0; export the file again");
+                           fmt::format("face {}: vertex index {} of {}", face, index, points_),
+                           "PLY counts from 0; export the file again");
             }
             polygon_.push_back(static_cast<std::uint32_t>(index));
         }
@@ -398,7 +432,8 @@ private:
 
 }  // namespace
 
-surface::TriangleMesh decode_ply(std::string_view content, std::string_view file, std::vector<DataArray>* further) {
+surface::TriangleMesh decode_ply(std::string_view content, std::string_view file,
+                                 std::vector<DataArray>* further) {
     const Header header = read_header(content, file);
     const text::Place place{file, header.lines};
     if (header.order) {
@@ -409,12 +444,21 @@ surface::TriangleMesh decode_ply(std::string_view content, std::string_view file
     return PlyReader(header, body, content.size(), place, further).read();
 }
 
-std::string encode_ply(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points, const std::vector<Vec3>& normals) {
+std::string encode_ply(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points,
+                       const std::vector<Vec3>& normals) {
     std::string further;
     for (const DataArray& a : points) further += "property double " + a.name + "\n";
-    std::string out =
-        fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n{}{}{}element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.points.size(), normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n", mesh.colours.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n", further, mesh.faces.size());
-    out.reserve(out.size() + (39 + 8 * points.size()) * mesh.points.size() + 13 * mesh.faces.size());
+    std::string out = fmt::format(
+        "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty double x\nproperty "
+        "double y\nproperty double z\n{}{}{}element face {}\nproperty list uchar int "
+        "vertex_indices\nend_header\n",
+        mesh.points.size(),
+        normals.empty() ? "" : "property float nx\nproperty float ny\nproperty float nz\n",
+        mesh.colours.empty() ? ""
+                             : "property uchar red\nproperty uchar green\nproperty uchar blue\n",
+        further, mesh.faces.size());
+    out.reserve(out.size() + (39 + 8 * points.size()) * mesh.points.size() +
+                13 * mesh.faces.size());
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         for (int k = 0; k < 3; ++k) append_bytes(out, mesh.points[i][k]);
         if (!normals.empty()) {

@@ -1,12 +1,11 @@
 // Writes a PNG.
-#include <dsc/io/picture.hpp>
-
-#include <dsc/base/error.hpp>
-#include <dsc/io/atomic_file.hpp>
+#include <string>
 
 #include <png.h>
 
-#include <string>
+#include <dsc/base/error.hpp>
+#include <dsc/io/atomic_file.hpp>
+#include <dsc/io/picture.hpp>
 
 namespace dsc::io {
 
@@ -18,7 +17,8 @@ void write_png(const std::filesystem::path& file, const Image& image) {
     header.format = PNG_FORMAT_RGB;
     std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(header), '\0');
     png_alloc_size_t size = bytes.size();
-    if (png_image_write_to_memory(&header, bytes.data(), &size, 0, image.pixels.data(), 0, nullptr) == 0) {
+    if (png_image_write_to_memory(&header, bytes.data(), &size, 0, image.pixels.data(), 0,
+                                  nullptr) == 0) {
         throw IoError("io.write", file.string(), "", std::string("PNG: ") + header.message,
                       "use another size");
     }

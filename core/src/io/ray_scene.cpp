@@ -1,14 +1,14 @@
 // Ray casting with Embree.
 #include "io/ray_scene.hpp"
 
-#include <dsc/base/error.hpp>
-
-#include <embree3/rtcore.h>
-
 #include <cstring>
 #include <limits>
 #include <string>
+
+#include <embree3/rtcore.h>
 #include <fmt/core.h>
+
+#include <dsc/base/error.hpp>
 
 namespace dsc::io {
 
@@ -24,8 +24,10 @@ struct RayScene::Data {
 namespace {
 
 [[noreturn]] void fail_device(RTCDevice device) {
-    throw Error(ExitCode::internal, "picture.device",
-                fmt::format("picture: Embree reports error {}; close other programs if memory is short", static_cast<int>(rtcGetDeviceError(device))));
+    throw Error(
+        ExitCode::internal, "picture.device",
+        fmt::format("picture: Embree reports error {}; close other programs if memory is short",
+                    static_cast<int>(rtcGetDeviceError(device))));
 }
 
 void fill_ray(RTCRay& ray, const Vec3f& origin, const Vec3f& direction, float distance) {
@@ -45,8 +47,10 @@ void fill_ray(RTCRay& ray, const Vec3f& origin, const Vec3f& direction, float di
 
 }  // namespace
 
-// One thread, and the instruction set that every x86-64 processor has: the same tree and the same hits on every machine.
-RayScene::RayScene(const std::vector<Vec3f>& points, const std::vector<std::array<std::uint32_t, 3>>& faces)
+// One thread, and the instruction set that every x86-64 processor has: the same tree and the same
+// hits on every machine.
+RayScene::RayScene(const std::vector<Vec3f>& points,
+                   const std::vector<std::array<std::uint32_t, 3>>& faces)
     : data_(std::make_unique<Data>()) {
     data_->device = rtcNewDevice("threads=1,isa=sse2");
     if (data_->device == nullptr) fail_device(nullptr);

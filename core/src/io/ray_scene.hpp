@@ -22,7 +22,8 @@ struct RayHit {
 class RayScene {
 public:
     /// Copies the triangles. Throws Error "picture.device" if Embree does not start. [setup]
-    RayScene(const std::vector<Vec3f>& points, const std::vector<std::array<std::uint32_t, 3>>& faces);
+    RayScene(const std::vector<Vec3f>& points,
+             const std::vector<std::array<std::uint32_t, 3>>& faces);
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;

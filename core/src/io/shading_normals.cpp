@@ -7,8 +7,8 @@ namespace dsc::io {
 
 using Eigen::Vector3f;
 
-std::vector<std::array<Vector3f, 3>> shading_normals(const std::vector<Vector3f>& points,
-                                                     const std::vector<std::array<std::uint32_t, 3>>& faces) {
+std::vector<std::array<Vector3f, 3>> shading_normals(
+    const std::vector<Vector3f>& points, const std::vector<std::array<std::uint32_t, 3>>& faces) {
     constexpr float crease_cosine = 0.766F;
     // Faces of point v: around[first[v] .. first[v + 1]).
     std::vector<std::uint32_t> first(points.size() + 1, 0);

@@ -1,17 +1,18 @@
 // STL, text and binary: separate float triangles; the reader joins equal corners.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include <fmt/core.h>
+
 #include <dsc/base/byte_order_mark.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/measure.hpp>
 #include <dsc/text/numbers.hpp>
 #include <dsc/text/reading.hpp>
 #include <dsc/text/words.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <charconv>
-#include <optional>
-#include <fmt/core.h>
 
 #include "io/bytes.hpp"
 #include "io/codecs.hpp"
@@ -75,9 +76,11 @@ surface::TriangleMesh decode_binary(std::string_view content, std::string_view f
                     load_number<float>(content.data() + at, std::endian::little);
             }
             if (!p.allFinite()) {
-                text::fail("io.not_finite", {file, 0},
-                     fmt::format("facet {} at byte {} has a coordinate that is NaN or infinite", f, facet),
-                     "remove the facet or export the file again");
+                text::fail(
+                    "io.not_finite", {file, 0},
+                    fmt::format("facet {} at byte {} has a coordinate that is NaN or infinite", f,
+                                facet),
+                    "remove the facet or export the file again");
             }
             corners.push_back(p);
         }
@@ -111,10 +114,13 @@ public:
             else if (is_word(word, "solid") && !open_)
                 open_ = true;
             else
-                text::fail("io.syntax", lines_.place(), text::in_quotes(word) + " where 'facet' or 'endsolid' should be",
-                     text::export_again);
+                text::fail("io.syntax", lines_.place(),
+                           text::in_quotes(word) + " where 'facet' or 'endsolid' should be",
+                           text::export_again);
         }
-        if (open_) text::fail("io.truncated", lines_.place(), "the file ends without 'endsolid'", text::copy_again);
+        if (open_)
+            text::fail("io.truncated", lines_.place(), "the file ends without 'endsolid'",
+                       text::copy_again);
         return join(corners_);
     }
 
@@ -129,14 +135,16 @@ private:
     text::Fields expect(std::string_view word) {
         std::string_view line;
         if (!content_line(line)) {
-            text::fail("io.truncated", lines_.place(), "the file ends where '" + std::string(word) + "' should be",
-                 text::copy_again);
+            text::fail("io.truncated", lines_.place(),
+                       "the file ends where '" + std::string(word) + "' should be",
+                       text::copy_again);
         }
         text::Fields fields(line);
         const std::string_view found = fields.next();
         if (!is_word(found, word)) {
             text::fail("io.syntax", lines_.place(),
-                 text::in_quotes(found) + " where '" + std::string(word) + "' should be", text::export_again);
+                       text::in_quotes(found) + " where '" + std::string(word) + "' should be",
+                       text::export_again);
         }
         return fields;
     }
@@ -150,8 +158,8 @@ private:
                 const std::string_view field = fields.next();
                 if (field.empty()) {
                     text::fail(lines_.cut() ? "io.truncated" : "io.syntax", lines_.place(),
-                         fmt::format("vertex with {} of 3 coordinates", k),
-                         lines_.cut() ? text::copy_again : text::export_again);
+                               fmt::format("vertex with {} of 3 coordinates", k),
+                               lines_.cut() ? text::copy_again : text::export_again);
                 }
                 p[k] = text::read_coordinate(field, lines_.place());
             }
@@ -166,8 +174,8 @@ private:
     std::vector<Vec3> corners_;
 };
 
-/// Whether a file whose size does not fit a binary STL is text. A truncated binary file may also begin with the word, but it
-/// contains zeros, which text does not.
+/// Whether a file whose size does not fit a binary STL is text. A truncated binary file may also
+/// begin with the word, but it contains zeros, which text does not.
 bool is_text_stl(std::string_view content) {
     const std::size_t begin = content.find_first_not_of(" \t\r\n");
     constexpr std::size_t looked_at = 512;
@@ -175,8 +183,8 @@ bool is_text_stl(std::string_view content) {
            content.substr(0, looked_at).find('\0') == std::string_view::npos;
 }
 
-/// The centre to subtract: zero if floats are exact enough without it, so that ordinary models keep their coordinates. It is
-/// rounded to float, so that its text fits the header.
+/// The centre to subtract: zero if floats are exact enough without it, so that ordinary models keep
+/// their coordinates. It is rounded to float, so that its text fits the header.
 Vec3 centre_to_subtract(const surface::TriangleMesh& mesh) {
     const Box3 box = surface::used_box(mesh);
     if (box.empty() || box.centre().norm() <= box.diagonal()) return Vec3::Zero();
@@ -184,7 +192,8 @@ Vec3 centre_to_subtract(const surface::TriangleMesh& mesh) {
 }
 
 std::string header_of(const Vec3& centre) {
-    std::string header = centre == Vec3::Zero() ? std::string("dsc surface") : std::string(centre_mark);
+    std::string header =
+        centre == Vec3::Zero() ? std::string("dsc surface") : std::string(centre_mark);
     if (centre != Vec3::Zero()) {
         for (int k = 0; k < 3; ++k) {
             text::append_number(header, static_cast<float>(centre[k]));
@@ -198,23 +207,26 @@ std::string header_of(const Vec3& centre) {
 }  // namespace
 
 surface::TriangleMesh decode_stl(std::string_view content, std::string_view file) {
-    const bool fits =
-        content.size() >= data_start && content.size() == data_start + facet_size * facet_count(content);
+    const bool fits = content.size() >= data_start &&
+                      content.size() == data_start + facet_size * facet_count(content);
     if (fits) return decode_binary(content, file);
     if (has_wide_byte_order_mark(content)) {
-        text::fail("io.format", {file, 0}, std::string(wide_text_cause), std::string(wide_text_remedy));
+        text::fail("io.format", {file, 0}, std::string(wide_text_cause),
+                   std::string(wide_text_remedy));
     }
     const std::string_view text = without_byte_order_mark(content);
     if (is_text_stl(text)) return TextStl(text, file).read();
     if (content.size() < data_start) {
         text::fail("io.truncated", {file, 0},
-             fmt::format("a binary STL of {} is too short for its {} bytes of header", text::counted(content.size(), "byte"), data_start),
-             text::copy_again);
+                   fmt::format("a binary STL of {} is too short for its {} bytes of header",
+                               text::counted(content.size(), "byte"), data_start),
+                   text::copy_again);
     }
     const std::uint64_t expected = data_start + facet_size * facet_count(content);
     text::fail(expected > content.size() ? "io.truncated" : "io.count", {file, 0},
-         fmt::format("the header announces {}, {} bytes in total, but the file has {}", text::counted(facet_count(content), "facet"), expected, content.size()),
-         text::copy_again);
+               fmt::format("the header announces {}, {} bytes in total, but the file has {}",
+                           text::counted(facet_count(content), "facet"), expected, content.size()),
+               text::copy_again);
 }
 
 std::string encode_stl(const surface::TriangleMesh& mesh) {

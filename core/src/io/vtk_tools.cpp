@@ -1,12 +1,11 @@
 // Arrays and messages of VTK.
 #include "io/vtk_tools.hpp"
 
+#include <fmt/core.h>
 #include <vtkDoubleArray.h>
 #include <vtkObjectFactory.h>
-#include <fmt/core.h>
 
 #include <dsc/text/reading.hpp>
-
 
 namespace dsc::io {
 
@@ -68,7 +67,7 @@ std::vector<Vec3> points_of(vtkPointSet& data, std::string_view file) {
         data.GetPoints()->GetPoint(i, p.data());
         if (!p.allFinite()) {
             text::fail("io.not_finite", {file, 0}, fmt::format("point {} is NaN or infinite", i),
-                 "export the file again");
+                       "export the file again");
         }
         out.push_back(p);
     }
@@ -77,7 +76,8 @@ std::vector<Vec3> points_of(vtkPointSet& data, std::string_view file) {
 
 vtkDoubleArray* doubles_of(vtkFieldData& data, int index, int components, std::size_t elements) {
     auto* array = vtkDoubleArray::SafeDownCast(data.GetAbstractArray(index));
-    const bool fits = array != nullptr && array->GetName() != nullptr && array->GetNumberOfComponents() == components &&
+    const bool fits = array != nullptr && array->GetName() != nullptr &&
+                      array->GetNumberOfComponents() == components &&
                       array->GetNumberOfTuples() == static_cast<vtkIdType>(elements);
     return fits ? array : nullptr;
 }

@@ -1,6 +1,11 @@
 #pragma once
 // Common parts of the VTK formats: conversion of arrays, and capture of VTK's messages.
 
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -12,12 +17,8 @@
 #include <vtkSmartPointer.h>
 #include <vtkTypeInt64Array.h>
 
-#include <algorithm>
 #include <dsc/geometry/vec.hpp>
 #include <dsc/io/data_array.hpp>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace dsc::io {
 

@@ -1,12 +1,5 @@
 // VTK polygons, triangles only, with VTK's own XML reader and writer; and the .pvd index.
-#include <dsc/base/error.hpp>
-#include <dsc/base/read_file.hpp>
-#include <dsc/io/atomic_file.hpp>
-#include <dsc/io/series.hpp>
-#include <dsc/surface/measure.hpp>
-#include <dsc/text/reading.hpp>
-#include <dsc/text/words.hpp>
-
+#include <fmt/core.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkPointData.h>
@@ -14,7 +7,14 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
-#include <fmt/core.h>
+
+#include <dsc/base/error.hpp>
+#include <dsc/base/read_file.hpp>
+#include <dsc/io/atomic_file.hpp>
+#include <dsc/io/series.hpp>
+#include <dsc/surface/measure.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/words.hpp>
 
 #include "io/vtk_tools.hpp"
 #include "io/vtu_check.hpp"
@@ -26,14 +26,21 @@ constexpr const char* colour_array = "colour";
 
 void require_surface_size(std::size_t count, std::size_t expected, const std::string& array) {
     if (count == expected) return;
-    throw GeometryError("surface.size", "surface", fmt::format("array {} has {} for {}", text::in_quotes(array), text::counted(count, "value"), expected), "give one for each");
+    throw GeometryError("surface.size", "surface",
+                        fmt::format("array {} has {} for {}", text::in_quotes(array),
+                                    text::counted(count, "value"), expected),
+                        "give one for each");
 }
 
 void check_arrays(const surface::TriangleMesh& mesh, const SurfaceData& data) {
-    for (const DataArray& a : data.cells) require_surface_size(a.values.size(), mesh.faces.size(), a.name);
-    for (const DataArray& a : data.points) require_surface_size(a.values.size(), mesh.points.size(), a.name);
-    if (!mesh.colours.empty()) require_surface_size(mesh.colours.size(), mesh.points.size(), colour_array);
-    for (const VectorArray& a : data.vectors) require_surface_size(a.values.size(), mesh.points.size(), a.name);
+    for (const DataArray& a : data.cells)
+        require_surface_size(a.values.size(), mesh.faces.size(), a.name);
+    for (const DataArray& a : data.points)
+        require_surface_size(a.values.size(), mesh.points.size(), a.name);
+    if (!mesh.colours.empty())
+        require_surface_size(mesh.colours.size(), mesh.points.size(), colour_array);
+    for (const VectorArray& a : data.vectors)
+        require_surface_size(a.values.size(), mesh.points.size(), a.name);
 }
 
 vtkSmartPointer<vtkDoubleArray> make_vectors(const VectorArray& vectors) {
@@ -60,12 +67,16 @@ vtkSmartPointer<vtkUnsignedCharArray> make_colours(const surface::TriangleMesh& 
 void read_colours(vtkFieldData& from, surface::TriangleMesh& mesh) {
     auto* array = vtkUnsignedCharArray::SafeDownCast(from.GetAbstractArray(colour_array));
     const auto points = static_cast<vtkIdType>(mesh.points.size());
-    if (array == nullptr || array->GetNumberOfComponents() != 3 || array->GetNumberOfTuples() != points) return;
+    if (array == nullptr || array->GetNumberOfComponents() != 3 ||
+        array->GetNumberOfTuples() != points)
+        return;
     for (vtkIdType i = 0; i < points; ++i)
-        mesh.colours.push_back({array->GetValue(3 * i), array->GetValue(3 * i + 1), array->GetValue(3 * i + 2)});
+        mesh.colours.push_back(
+            {array->GetValue(3 * i), array->GetValue(3 * i + 1), array->GetValue(3 * i + 2)});
 }
 
-std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& data, std::string_view file) {
+std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& data,
+                       std::string_view file) {
     vtkNew<vtkPolyData> polygons;
     polygons->SetPoints(make_points(mesh.points));
     polygons->SetPolys(make_cells(mesh.faces));
@@ -84,7 +95,8 @@ std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& dat
     writer->SetHeaderTypeToUInt64();
     writer->WriteToOutputStringOn();
     if (writer->Write() == 0 || writer->GetErrorCode() != 0 || !capture.quiet())
-        text::fail("io.write", {file, 0}, "VTK cannot write it: " + capture.cause(), "leave the series out");
+        text::fail("io.write", {file, 0}, "VTK cannot write it: " + capture.cause(),
+                   "leave the series out");
     return writer->GetOutputString();
 }
 
@@ -92,24 +104,29 @@ std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& dat
 void read_faces(vtkPolyData& polygons, surface::TriangleMesh& mesh, std::string_view file) {
     const vtkIdType count = polygons.GetNumberOfPolys();
     if (polygons.GetNumberOfCells() != count)
-        text::fail("io.cell_type", {file, 0}, "it contains points, lines or strips", "export only the triangles");
+        text::fail("io.cell_type", {file, 0}, "it contains points, lines or strips",
+                   "export only the triangles");
     if (count == 0) return;
     vtkDataArray* offsets = polygons.GetPolys()->GetOffsetsArray();
     vtkDataArray* corners = polygons.GetPolys()->GetConnectivityArray();
-    if (offsets->GetNumberOfValues() != count + 1) text::fail("io.truncated", {file, 0}, "offsets are missing", text::copy_again);
+    if (offsets->GetNumberOfValues() != count + 1)
+        text::fail("io.truncated", {file, 0}, "offsets are missing", text::copy_again);
     const vtkIdType size = corners->GetNumberOfValues();
     for (vtkIdType f = 0; f < count; ++f) {
-        const auto begin = static_cast<vtkIdType>(offsets->GetTuple1(f)), end = static_cast<vtkIdType>(offsets->GetTuple1(f + 1));
+        const auto begin = static_cast<vtkIdType>(offsets->GetTuple1(f)),
+                   end = static_cast<vtkIdType>(offsets->GetTuple1(f + 1));
         if (begin < 0 || end - begin != 3 || end > size) {
-            text::fail("io.cell_type", {file, 0}, fmt::format("polygon {} does not have 3 corners", f), "export triangles");
+            text::fail("io.cell_type", {file, 0},
+                       fmt::format("polygon {} does not have 3 corners", f), "export triangles");
         }
         std::array<std::uint32_t, 3> face{};
         for (vtkIdType k = 0; k < 3; ++k) {
             const double index = corners->GetTuple1(begin + k);
             if (!(index >= 0.0) || index >= static_cast<double>(mesh.points.size())) {
                 text::fail("io.index", {file, 0},
-                     fmt::format("polygon {} refers to a point that is not one of {}", f, mesh.points.size()),
-                     "export the file again");
+                           fmt::format("polygon {} refers to a point that is not one of {}", f,
+                                       mesh.points.size()),
+                           "export the file again");
             }
             face[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(index);
         }
@@ -121,12 +138,15 @@ void read_vectors(vtkFieldData& from, std::size_t elements, std::vector<VectorAr
     for (int i = 0; i < from.GetNumberOfArrays(); ++i) {
         vtkDoubleArray* array = doubles_of(from, i, 3, elements);
         if (array == nullptr) continue;
-        VectorArray& vectors = out.emplace_back(VectorArray{array->GetName(), std::vector<Vec3>(elements)});
-        for (std::size_t v = 0; v < elements; ++v) array->GetTuple(static_cast<vtkIdType>(v), vectors.values[v].data());
+        VectorArray& vectors =
+            out.emplace_back(VectorArray{array->GetName(), std::vector<Vec3>(elements)});
+        for (std::size_t v = 0; v < elements; ++v)
+            array->GetTuple(static_cast<vtkIdType>(v), vectors.values[v].data());
     }
 }
 
-surface::TriangleMesh decode_checked(const std::string& content, std::string_view file, SurfaceData* data) {
+surface::TriangleMesh decode_checked(const std::string& content, std::string_view file,
+                                     SurfaceData* data) {
     CaptureScope capture;
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->ReadFromInputStringOn();
@@ -151,17 +171,10 @@ std::string xml_text(std::string_view text) {
     std::string out;
     for (const char c : text) {
         switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
+            case '&': out += "&amp;"; break;
+            case '<': out += "&lt;"; break;
+            case '"': out += "&quot;"; break;
+            default: out += c;
         }
     }
     return out;
@@ -169,7 +182,8 @@ std::string xml_text(std::string_view text) {
 
 }  // namespace
 
-void write_vtp(const std::filesystem::path& file, const surface::TriangleMesh& mesh, const SurfaceData& data) {
+void write_vtp(const std::filesystem::path& file, const surface::TriangleMesh& mesh,
+               const SurfaceData& data) {
     surface::require_sound(mesh);
     check_arrays(mesh, data);
     write_file(file, encode_vtp(mesh, data, file.string()));
@@ -183,15 +197,17 @@ surface::TriangleMesh read_vtp(const std::filesystem::path& file, SurfaceData* d
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
-        text::fail("io.count", {name, 0}, std::string("VTK cannot read it: ") + error.what(), text::copy_again);
+        text::fail("io.count", {name, 0}, std::string("VTK cannot read it: ") + error.what(),
+                   text::copy_again);
     }
 }
 
 void write_pvd(const std::filesystem::path& file, std::span<const SeriesEntry> entries) {
-    std::string text =
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n";
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+                       "byte_order=\"LittleEndian\">\n  <Collection>\n";
     for (const SeriesEntry& entry : entries) {
-        text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.step, xml_text(entry.file));
+        text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.step,
+                            xml_text(entry.file));
     }
     write_file(file, text + "  </Collection>\n</VTKFile>\n");
 }

@@ -1,9 +1,8 @@
 // VTK unstructured grids of tets with VTK's own XML reader and writer.
-#include <dsc/base/error.hpp>
-#include <dsc/geometry/quality.hpp>
-#include <dsc/text/reading.hpp>
-#include <dsc/text/words.hpp>
+#include <cmath>
+#include <limits>
 
+#include <fmt/core.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -19,9 +18,10 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <cmath>
-#include <limits>
-#include <fmt/core.h>
+#include <dsc/base/error.hpp>
+#include <dsc/geometry/quality.hpp>
+#include <dsc/text/reading.hpp>
+#include <dsc/text/words.hpp>
 
 #include "io/codecs.hpp"
 #include "io/vtk_tools.hpp"
@@ -41,7 +41,8 @@ std::vector<double> qualities(const mesh::TetMesh& mesh) {
     std::vector<double> out;
     out.reserve(mesh.tets.size());
     for (const auto& [a, b, c, d] : mesh.tets) {
-        out.push_back(geometry::tet_quality(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]));
+        out.push_back(
+            geometry::tet_quality(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]));
     }
     return out;
 }
@@ -56,30 +57,33 @@ void read_tets(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view 
     vtkUnsignedCharArray* types = grid.GetCellTypesArray();
     if (types == nullptr || types->GetNumberOfValues() != count ||
         offsets->GetNumberOfValues() != count + 1) {
-        text::fail("io.truncated", {file, 0}, "cell types or offsets are missing", text::copy_again);
+        text::fail("io.truncated", {file, 0}, "cell types or offsets are missing",
+                   text::copy_again);
     }
     const vtkIdType size = corners->GetNumberOfValues();
     mesh.tets.reserve(static_cast<std::size_t>(count));
     for (vtkIdType t = 0; t < count; ++t) {
         if (types->GetValue(t) != VTK_TETRA) {
-            text::fail("io.cell_type", {file, 0},
-                 fmt::format("cell {} has type {}, only tets (10) are read", t, types->GetValue(t)),
-                 "export only the tets");
+            text::fail(
+                "io.cell_type", {file, 0},
+                fmt::format("cell {} has type {}, only tets (10) are read", t, types->GetValue(t)),
+                "export only the tets");
         }
         const auto begin = static_cast<vtkIdType>(offsets->GetTuple1(t)),
                    end = static_cast<vtkIdType>(offsets->GetTuple1(t + 1));
         if (begin < 0 || end - begin != 4 || end > size) {
             text::fail("io.syntax", {file, 0},
-                 fmt::format("cell {} has offsets that do not name 4 corners", t),
-                 "export the file again");
+                       fmt::format("cell {} has offsets that do not name 4 corners", t),
+                       "export the file again");
         }
         std::array<std::uint32_t, 4> tet{};
         for (vtkIdType k = 0; k < 4; ++k) {
             const double index = corners->GetTuple1(begin + k);
             if (!(index >= 0.0) || index >= static_cast<double>(mesh.points.size())) {
                 text::fail("io.index", {file, 0},
-                     fmt::format("cell {}: point index {} of {}", t, static_cast<long long>(index), mesh.points.size()),
-                     "export the file again");
+                           fmt::format("cell {}: point index {} of {}", t,
+                                       static_cast<long long>(index), mesh.points.size()),
+                           "export the file again");
             }
             tet[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(index);
         }
@@ -90,13 +94,15 @@ void read_tets(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view 
 void read_labels(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_view file) {
     vtkDataArray* labels = grid.GetCellData()->GetArray("label");
     if (labels == nullptr || labels->GetNumberOfComponents() != 1) {
-        text::fail("io.no_labels", {file, 0}, "there is no cell array 'label' with one number per tet",
-             "add one: 0 outside, 1 the object, further phases above");
+        text::fail("io.no_labels", {file, 0},
+                   "there is no cell array 'label' with one number per tet",
+                   "add one: 0 outside, 1 the object, further phases above");
     }
     if (labels->GetNumberOfTuples() != static_cast<vtkIdType>(mesh.tets.size())) {
         text::fail("io.truncated", {file, 0},
-             fmt::format("cell array 'label' has {} values for {}", labels->GetNumberOfTuples(), text::counted(mesh.tets.size(), "tet")),
-             text::copy_again);
+                   fmt::format("cell array 'label' has {} values for {}",
+                               labels->GetNumberOfTuples(), text::counted(mesh.tets.size(), "tet")),
+                   text::copy_again);
     }
     mesh.labels.reserve(mesh.tets.size());
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -104,14 +110,15 @@ void read_labels(vtkUnstructuredGrid& grid, mesh::TetMesh& mesh, std::string_vie
         if (!(value >= 0.0) || value > std::numeric_limits<mesh::Label>::max() ||
             value != std::floor(value)) {
             text::fail("io.syntax", {file, 0},
-                 fmt::format("cell {} has a label that is not an integer of at least 0", t),
-                 "labels are 0 (outside) or larger");
+                       fmt::format("cell {} has a label that is not an integer of at least 0", t),
+                       "labels are 0 (outside) or larger");
         }
         mesh.labels.push_back(static_cast<mesh::Label>(value));
     }
 }
 
-mesh::TetMesh decode_checked(const std::string& content, std::string_view file, std::vector<DataArray>* points) {
+mesh::TetMesh decode_checked(const std::string& content, std::string_view file,
+                             std::vector<DataArray>* points) {
     CaptureScope capture;
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     reader->ReadFromInputStringOn();
@@ -130,14 +137,16 @@ mesh::TetMesh decode_checked(const std::string& content, std::string_view file, 
 
 }  // namespace
 
-mesh::TetMesh decode_vtu(const std::string& content, std::string_view file, std::vector<DataArray>* points) {
+mesh::TetMesh decode_vtu(const std::string& content, std::string_view file,
+                         std::vector<DataArray>* points) {
     check_vtu(content, file);
     try {
         return decode_checked(content, file, points);
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
-        text::fail("io.count", {file, 0}, std::string("VTK cannot read it: ") + error.what(), text::copy_again);
+        text::fail("io.count", {file, 0}, std::string("VTK cannot read it: ") + error.what(),
+                   text::copy_again);
     }
 }
 
@@ -160,7 +169,8 @@ std::string encode_vtu(const mesh::TetMesh& mesh, const VolumeData& data, std::s
     writer->SetHeaderTypeToUInt64();
     writer->WriteToOutputStringOn();
     if (writer->Write() == 0 || writer->GetErrorCode() != 0 || !capture.quiet()) {
-        text::fail("io.write", {file, 0}, "VTK cannot write it: " + capture.cause(), "write a .dsc instead");
+        text::fail("io.write", {file, 0}, "VTK cannot write it: " + capture.cause(),
+                   "write a .dsc instead");
     }
     return writer->GetOutputString();
 }

@@ -1,5 +1,9 @@
 // Writes surfaces and volumes: checks, and chooses the format.
-#include <dsc/io/write.hpp>
+#include "dsc/io/write.hpp"
+
+#include <limits>
+
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/predicates.hpp>
@@ -9,35 +13,38 @@
 #include <dsc/text/reading.hpp>
 #include <dsc/text/words.hpp>
 
-#include <limits>
-#include <fmt/core.h>
-
 #include "io/codecs.hpp"
 
 namespace dsc::io {
 namespace {
 
-const Format& require_format(const std::filesystem::path& file, bool Format::*kind, const std::string& what,
-                             const std::string& accepted) {
+const Format& require_format(const std::filesystem::path& file, bool Format::*kind,
+                             const std::string& what, const std::string& accepted) {
     const Format* format = find_format(file);
     if (format == nullptr || !(format->*kind)) {
-        text::fail("io.format", {file.string(), 0}, "a " + what + " cannot be written with this extension",
-             "use one of " + accepted);
+        text::fail("io.format", {file.string(), 0},
+                   "a " + what + " cannot be written with this extension",
+                   "use one of " + accepted);
     }
     return *format;
 }
 
 void require_volume_size(std::size_t count, std::size_t expected, const std::string& what) {
     if (count == expected) return;
-    throw GeometryError("volume.size", "volume", fmt::format("{} has {} for {}", what, text::counted(count, "value"), expected), "give one for each");
+    throw GeometryError(
+        "volume.size", "volume",
+        fmt::format("{} has {} for {}", what, text::counted(count, "value"), expected),
+        "give one for each");
 }
 
 void check_arrays(const mesh::TetMesh& mesh, const VolumeData& data) {
     require_volume_size(mesh.labels.size(), mesh.tets.size(), "the array of labels");
     for (const DataArray& a : data.cells)
-        require_volume_size(a.values.size(), mesh.tets.size(), "cell array " + text::in_quotes(a.name));
+        require_volume_size(a.values.size(), mesh.tets.size(),
+                            "cell array " + text::in_quotes(a.name));
     for (const DataArray& a : data.points) {
-        require_volume_size(a.values.size(), mesh.points.size(), "point array " + text::in_quotes(a.name));
+        require_volume_size(a.values.size(), mesh.points.size(),
+                            "point array " + text::in_quotes(a.name));
     }
 }
 
@@ -55,38 +62,50 @@ void check_tets(const mesh::TetMesh& mesh, const std::string& file) {
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         const auto& [a, b, c, d] = mesh.tets[t];
         if (std::max({a, b, c, d}) >= mesh.points.size()) {
-            throw GeometryError("volume.index", fmt::format("volume: tet {} refers to point {} of {}", t, std::max({a, b, c, d}), mesh.points.size()));
+            throw GeometryError("volume.index",
+                                fmt::format("volume: tet {} refers to point {} of {}", t,
+                                            std::max({a, b, c, d}), mesh.points.size()));
         }
-        if (geometry::orient3d(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) > 0) continue;
+        if (geometry::orient3d(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) > 0)
+            continue;
         if (wrong++ == 0) first = t;
     }
     if (wrong == 0) return;
-    throw GeometryError("volume.inverted",
-                        file, fmt::format("not written, {} of {} not positive, the first is tet {}", text::counted(wrong, "tet"), mesh.tets.size(), first), "orient the tets (adopt does) or use units in which their volume is not rounded to 0");
+    throw GeometryError(
+        "volume.inverted", file,
+        fmt::format("not written, {} of {} not positive, the first is tet {}",
+                    text::counted(wrong, "tet"), mesh.tets.size(), first),
+        "orient the tets (adopt does) or use units in which their volume is not rounded to 0");
 }
 
 void require_colours(const surface::TriangleMesh& mesh) {
     if (mesh.colours.empty() || mesh.colours.size() == mesh.points.size()) return;
-    throw GeometryError("surface.colours", "surface: " + text::counted(mesh.colours.size(), "colour") + " for " +
-                                               text::counted(mesh.points.size(), "point") +
-                                               "; give one for each or none");
+    throw GeometryError("surface.colours",
+                        "surface: " + text::counted(mesh.colours.size(), "colour") + " for " +
+                            text::counted(mesh.points.size(), "point") +
+                            "; give one for each or none");
 }
 
-void require_fit(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points, const std::vector<Vec3>& normals) {
+void require_fit(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points,
+                 const std::vector<Vec3>& normals) {
     if (!normals.empty() && normals.size() != mesh.points.size())
-        throw GeometryError("surface.size", "surface: " + text::counted(normals.size(), "normal") + " for " +
-                                                text::counted(mesh.points.size(), "point") + "; give one for each or none");
+        throw GeometryError("surface.size", "surface: " + text::counted(normals.size(), "normal") +
+                                                " for " +
+                                                text::counted(mesh.points.size(), "point") +
+                                                "; give one for each or none");
     for (const DataArray& a : points) {
         if (a.values.size() == mesh.points.size()) continue;
-        throw GeometryError("surface.size", "surface: array " + text::in_quotes(a.name) + " has " + text::counted(a.values.size(), "value") +
-                                                " for " + text::counted(mesh.points.size(), "point") + "; give one for each");
+        throw GeometryError("surface.size", "surface: array " + text::in_quotes(a.name) + " has " +
+                                                text::counted(a.values.size(), "value") + " for " +
+                                                text::counted(mesh.points.size(), "point") +
+                                                "; give one for each");
     }
 }
 
 }  // namespace
 
-void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh, const std::vector<DataArray>& points,
-                   const std::vector<Vec3>& normals) {
+void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh,
+                   const std::vector<DataArray>& points, const std::vector<Vec3>& normals) {
     const Format& format = require_format(file, &Format::surface, "surface", surface_extensions());
     surface::require_sound(mesh);
     require_colours(mesh);
@@ -97,7 +116,8 @@ void write_surface(const std::filesystem::path& file, const surface::TriangleMes
                                                   : encode_stl(mesh));
 }
 
-void write_volume(const std::filesystem::path& file, const mesh::TetMesh& mesh, const VolumeData& data) {
+void write_volume(const std::filesystem::path& file, const mesh::TetMesh& mesh,
+                  const VolumeData& data) {
     const Format& format = require_format(file, &Format::volume, "volume", volume_extensions());
     check_arrays(mesh, data);
     check_points(mesh);

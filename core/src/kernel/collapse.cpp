@@ -27,7 +27,8 @@ namespace {
 using repair::CollapseMode;
 using End = CollapseScratch::End;
 
-// The edge to collapse: `removed` is removed, `kept` lies at (1 - weight) kept + weight removed afterwards.
+// The edge to collapse: `removed` is removed, `kept` lies at (1 - weight) kept + weight removed
+// afterwards.
 struct Plan {
     VertexId kept = mesh::none, removed = mesh::none;
     double weight = 0.0;
@@ -38,7 +39,12 @@ struct Plan {
 class Collapse {
 public:
     Collapse(Workbench& bench, VertexId a, VertexId b, bool interface_edge)
-        : bench_(bench), own_(bench.collapse.get()), c_(bench.complex), interface_edge_(interface_edge), a_(a), b_(b) {
+        : bench_(bench),
+          own_(bench.collapse.get()),
+          c_(bench.complex),
+          interface_edge_(interface_edge),
+          a_(a),
+          b_(b) {
         c_.star(a, own_.a.star);
         c_.star(b, own_.b.star);
     }
@@ -52,7 +58,8 @@ public:
         return least;
     }
 
-    // Whether v may be removed: never a vertex of the box, and an interface vertex only along the interface.
+    // Whether v may be removed: never a vertex of the box, and an interface vertex only along the
+    // interface.
     bool removable(VertexId v) const {
         if (c_.on_box(v)) return false;
         return !c_.on_interface(v) || (interface_edge_ && c_.phases(v) == 2);
@@ -60,10 +67,12 @@ public:
     // Whether v may change its position.
     bool free_to_move(VertexId v) const { return removable(v); }
 
-    // Least quality of the remaining tets with the ends that move at `place`; -1 if it is not above `bound`.
+    // Least quality of the remaining tets with the ends that move at `place`; -1 if it is not above
+    // `bound`.
     float least(const Vec3& place, bool a_moves, bool b_moves, float bound) const {
         const auto scan = [&](const End& end, VertexId v, VertexId other) {
-            return mesh::star_quality_above(bound, c_, end.star, v, place, nullptr, [&](TetId t) { return remains(t, other); });
+            return mesh::star_quality_above(bound, c_, end.star, v, place, nullptr,
+                                            [&](TetId t) { return remains(t, other); });
         };
         const float at_a = a_moves ? scan(own_.a, a_, b_) : 2.0F;
         if (at_a < 0.0F || !b_moves) return at_a;
@@ -94,11 +103,12 @@ public:
     Vec3 place(const Plan& plan) const {
         if (plan.wanted) return *plan.wanted;
         if (plan.weight == 1.0) return c_.position(plan.removed);
-        return (1.0 - plan.weight) * c_.position(plan.kept) + plan.weight * c_.position(plan.removed);
+        return (1.0 - plan.weight) * c_.position(plan.kept) +
+               plan.weight * c_.position(plan.removed);
     }
 
-    // Largest distance that the interface moves: from each old vertex to the new faces, and from the new place to the old
-    // faces.
+    // Largest distance that the interface moves: from each old vertex to the new faces, and from
+    // the new place to the old faces.
     double interface_distance(const Plan& plan) {
         auto& old = own_.faces;
         auto& fan = own_.fan;
@@ -111,17 +121,22 @@ public:
         };
         double kept = INFINITY, removed = INFINITY, back = INFINITY;
         for (const auto& face : old) {
-            back = std::min(back, near(target, c_.position(face[0]), c_.position(face[1]), c_.position(face[2])));
-            const bool dies = (face[1] == plan.kept || face[2] == plan.kept || face[1] == plan.removed || face[2] == plan.removed);
+            back = std::min(back, near(target, c_.position(face[0]), c_.position(face[1]),
+                                       c_.position(face[2])));
+            const bool dies = (face[1] == plan.kept || face[2] == plan.kept ||
+                               face[1] == plan.removed || face[2] == plan.removed);
             if (dies) continue;
-            kept = std::min(kept, near(c_.position(plan.kept), target, c_.position(face[1]), c_.position(face[2])));
-            removed = std::min(removed, near(c_.position(plan.removed), target, c_.position(face[1]), c_.position(face[2])));
+            kept = std::min(kept, near(c_.position(plan.kept), target, c_.position(face[1]),
+                                       c_.position(face[2])));
+            removed = std::min(removed, near(c_.position(plan.removed), target,
+                                             c_.position(face[1]), c_.position(face[2])));
         }
         return std::max({kept, removed, back});
     }
 
-    // The link condition of a surface [Dey1999]. If it holds, the interface keeps its topology and every vertex stays regular:
-    // a and b have exactly the two vertices opposite their edge as common neighbours. If it does not hold, nothing is known.
+    // The link condition of a surface [Dey1999]. If it holds, the interface keeps its topology and
+    // every vertex stays regular: a and b have exactly the two vertices opposite their edge as
+    // common neighbours. If it does not hold, nothing is known.
     bool link_condition() {
         const auto simple = [this](VertexId v) { return c_.phases(v) == 2 && !c_.on_box(v); };
         if (!simple(a_) || !simple(b_)) return false;
@@ -140,8 +155,8 @@ public:
         return common == 2 && near_a.size() + near_b.size() >= 7;
     }
 
-    // Tests the topology at the interface vertices that both stars contain. At any other vertex no tet is removed and none is
-    // joined: only a corner of its tets changes its name.
+    // Tests the topology at the interface vertices that both stars contain. At any other vertex no
+    // tet is removed and none is joined: only a corner of its tets changes its name.
     Outcome check_topology() {
         if (link_condition()) return success;
         bench_.shared_interface_vertices(own_.a.star, own_.b.star, own_.concerned);
@@ -172,11 +187,13 @@ private:
 
 bool is_interface_edge(const mesh::Complex& c, const mesh::EdgeRing& ring) {
     const mesh::Label first = c.label(ring.tets.front());
-    return std::any_of(ring.tets.begin(), ring.tets.end(), [&](TetId t) { return c.label(t) != first; });
+    return std::any_of(ring.tets.begin(), ring.tets.end(),
+                       [&](TetId t) { return c.label(t) != first; });
 }
 
 // Tests and commits the collapse.
-Outcome finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool interface_edge, float must_exceed, float old) {
+Outcome finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool interface_edge,
+               float must_exceed, float old) {
     InterfaceChange change;
     collapse.build(plan);
     if (interface_edge) {
@@ -199,7 +216,8 @@ Outcome finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool inte
 
 }  // namespace
 
-Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode, float accept_above) {
+Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode,
+                      float accept_above) {
     mesh::Complex& c = bench.complex;
     mesh::EdgeRing& ring = bench.collapse.get().ring;
     c.ring(t, a, b, ring);
@@ -208,8 +226,10 @@ Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     if (interface_edge && (c.on_box(a) || c.on_box(b))) return Refusal::box;
     Collapse collapse(bench, a, b, interface_edge);
     const bool a_goes = collapse.removable(a), b_goes = collapse.removable(b);
-    if (!a_goes && !b_goes) return c.on_box(a) || c.on_box(b) ? Refusal::box : Refusal::not_applicable;
-    // In safe mode the interface may be edited only if it is flat round the vertex that leaves its place.
+    if (!a_goes && !b_goes)
+        return c.on_box(a) || c.on_box(b) ? Refusal::box : Refusal::not_applicable;
+    // In safe mode the interface may be edited only if it is flat round the vertex that leaves its
+    // place.
     const bool shape_matters = interface_edge && mode == CollapseMode::safe;
     const bool a_moves = a_goes && (!shape_matters || bench.flat(a, collapse.star_a()));
     const bool b_moves = b_goes && (!shape_matters || bench.flat(b, collapse.star_b()));
@@ -218,8 +238,10 @@ Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     const float old = collapse.least_quality_of_stars();
     const float must_exceed = std::min(old, accept_above);
     Plan best;
-    const auto offer = [&](VertexId kept, VertexId removed, double weight, const Vec3& place, bool moves_a, bool moves_b) {
-        const float least = collapse.least(place, moves_a, moves_b, std::max(must_exceed, best.least));
+    const auto offer = [&](VertexId kept, VertexId removed, double weight, const Vec3& place,
+                           bool moves_a, bool moves_b) {
+        const float least =
+            collapse.least(place, moves_a, moves_b, std::max(must_exceed, best.least));
         if (least > best.least) best = {kept, removed, weight, least};
     };
     if (a_moves) offer(b, a, 0.0, c.position(b), true, false);
@@ -238,12 +260,14 @@ Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
         if (!(to_a ? b_moves : a_moves) || (best.kept == kept && best.weight == 0.0)) continue;
         const float least = collapse.least(c.position(kept), !to_a, to_a, must_exceed);
         if (!(least > must_exceed)) continue;
-        if (!finish(bench, collapse, {kept, removed, 0.0, least}, true, must_exceed, old).refused()) return success;
+        if (!finish(bench, collapse, {kept, removed, 0.0, least}, true, must_exceed, old).refused())
+            return success;
     }
     return result;
 }
 
-Outcome collapse_edge_to(Workbench& bench, TetId t, VertexId kept, VertexId removed, const Vec3& place) {
+Outcome collapse_edge_to(Workbench& bench, TetId t, VertexId kept, VertexId removed,
+                         const Vec3& place) {
     mesh::Complex& c = bench.complex;
     mesh::EdgeRing& ring = bench.collapse.get().ring;
     c.ring(t, kept, removed, ring);

@@ -1,5 +1,5 @@
-// Split and collapse as one transaction, for nearly flat tets (method.md, section 4.9). The intermediate state with its flat
-// tets is never built; only the result is tested.
+// Split and collapse as one transaction, for nearly flat tets (method.md, section 4.9). The
+// intermediate state with its flat tets is never built; only the result is tested.
 #include <cmath>
 
 #include <dsc/geometry/quality.hpp>
@@ -18,7 +18,8 @@ struct CompoundScratch {
 namespace {
 
 // Parameters of the closest points of the lines ab and cd; false if they are parallel.
-bool closest_parameters(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double& s, double& t) {
+bool closest_parameters(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double& s,
+                        double& t) {
     const Vec3 u = b - a, v = d - c, w = a - c;
     const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
     const double det = uu * vv - uv * uv;
@@ -28,15 +29,19 @@ bool closest_parameters(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
     return true;
 }
 
-constexpr double margin = 0.05;  // a split closer to an end than this is handled by the adjacent shape class
+constexpr double margin = 0.05;  // a split closer to an end than this is handled by the adjacent
+                                 // shape class
 bool inside(double s) { return s > margin && s < 1.0 - margin; }
 
 bool same_edge(const repair::Request& request, VertexId a, VertexId b) {
-    return (request.vertices[0] == a && request.vertices[1] == b) || (request.vertices[0] == b && request.vertices[1] == a);
+    return (request.vertices[0] == a && request.vertices[1] == b) ||
+           (request.vertices[0] == b && request.vertices[1] == a);
 }
 
-// Splits the tets round (a, b), except `skip` and those that contain `merged`, at the created vertex.
-void split_ring(Workbench& bench, const mesh::EdgeRing& ring, VertexId a, VertexId b, TetId skip, VertexId merged) {
+// Splits the tets round (a, b), except `skip` and those that contain `merged`, at the created
+// vertex.
+void split_ring(Workbench& bench, const mesh::EdgeRing& ring, VertexId a, VertexId b, TetId skip,
+                VertexId merged) {
     const std::size_t n = ring.tets.size();
     for (std::size_t i = 0; i < n; ++i) {
         const TetId t = ring.tets[i];
@@ -56,7 +61,8 @@ double shortest_new_edge(const Workbench& bench) {
         if (std::find(t.v.begin(), t.v.end(), mesh::created_vertex) == t.v.end()) continue;
         for (const VertexId v : t.v) {
             if (v == mesh::created_vertex) continue;
-            least2 = std::min(least2, (bench.complex.position(v) - bench.edit.created_at).squaredNorm());
+            least2 =
+                std::min(least2, (bench.complex.position(v) - bench.edit.created_at).squaredNorm());
         }
     }
     return std::sqrt(least2);
@@ -67,15 +73,19 @@ Outcome finish(Workbench& bench, const repair::Request& request, VertexId a, Ver
     mesh::Complex& c = bench.complex;
     const float old = bench.old_quality();
     const float must_exceed = std::min(old * request.gain, request.accept_above);
-    if (request.least_edge > 0.0F && shortest_new_edge(bench) < static_cast<double>(request.least_edge)) return Refusal::bound;
+    if (request.least_edge > 0.0F &&
+        shortest_new_edge(bench) < static_cast<double>(request.least_edge))
+        return Refusal::bound;
     if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
     if (!c.link(bench.edit)) return Refusal::irregular;
     bool several = false;
-    for (const TetId t : bench.edit.removed) several = several || c.label(t) != c.label(bench.edit.removed.front());
+    for (const TetId t : bench.edit.removed)
+        several = several || c.label(t) != c.label(bench.edit.removed.front());
     InterfaceChange change;
     if (several) {
         const Vec3& place = bench.edit.created_at;
-        change = {(place - ((1.0 - s) * c.position(a) + s * c.position(b))).norm(), bench.phase_change()};
+        change = {(place - ((1.0 - s) * c.position(a) + s * c.position(b))).norm(),
+                  bench.phase_change()};
         if (change.exceeds(bench.bounds_at(a, b))) return Refusal::bound;
         std::vector<VertexId>& concerned = bench.compound.get().concerned;
         bench.cavity_interface_vertices(concerned);
@@ -91,19 +101,23 @@ Outcome finish(Workbench& bench, const repair::Request& request, VertexId a, Ver
 Outcome merge_edges(Workbench& bench, TetId t, const repair::Request& request) {
     mesh::Complex& c = bench.complex;
     const auto v = c.tet(t).v;
-    constexpr std::array<std::array<unsigned, 4>, 3> pairs = {{{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}}};
+    constexpr std::array<std::array<unsigned, 4>, 3> pairs = {
+        {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}}};
     double best = INFINITY, best_s = 0.0;
     std::array<VertexId, 4> chosen{};
     Vec3 place = Vec3::Zero();
     for (const auto& pair : pairs) {
         std::array<VertexId, 4> e = {v[pair[0]], v[pair[1]], v[pair[2]], v[pair[3]]};
         if (request.vertices[1] != mesh::none) {
-            // The named edge comes first: the destination of the new vertex follows the destinations of its ends.
+            // The named edge comes first: the destination of the new vertex follows the
+            // destinations of its ends.
             if (same_edge(request, e[2], e[3])) e = {e[2], e[3], e[0], e[1]};
             if (!same_edge(request, e[0], e[1])) continue;
         }
         double s = 0.0, u = 0.0;
-        if (!closest_parameters(c.position(e[0]), c.position(e[1]), c.position(e[2]), c.position(e[3]), s, u)) continue;
+        if (!closest_parameters(c.position(e[0]), c.position(e[1]), c.position(e[2]),
+                                c.position(e[3]), s, u))
+            continue;
         if (!inside(s) || !inside(u)) continue;
         const Vec3 p = (1.0 - s) * c.position(e[0]) + s * c.position(e[1]);
         const Vec3 q = (1.0 - u) * c.position(e[2]) + u * c.position(e[3]);
@@ -127,8 +141,8 @@ Outcome merge_edges(Workbench& bench, TetId t, const repair::Request& request) {
     return finish(bench, request, chosen[0], chosen[1], best_s);
 }
 
-// A free vertex v of the tet that is close to an edge or a face moves into it: the edge or face is split at v's projection, and
-// v collapses there. All tets at v must have one label.
+// A free vertex v of the tet that is close to an edge or a face moves into it: the edge or face is
+// split at v's projection, and v collapses there. All tets at v must have one label.
 Outcome merge_vertex(Workbench& bench, TetId t, unsigned apex, const repair::Request& request) {
     mesh::Complex& c = bench.complex;
     const VertexId v = c.tet(t).v[apex];
@@ -136,7 +150,8 @@ Outcome merge_vertex(Workbench& bench, TetId t, unsigned apex, const repair::Req
     std::array<VertexId, 3> f{};
     for (unsigned k = 0; k < 3; ++k) f[k] = c.tet(t).v[mesh::face_vertices[apex][k]];
     // Into the face if v projects well inside it, otherwise into the nearest edge.
-    const Vec3 &p0 = c.position(f[0]), &p1 = c.position(f[1]), &p2 = c.position(f[2]), &p = c.position(v);
+    const Vec3 &p0 = c.position(f[0]), &p1 = c.position(f[1]), &p2 = c.position(f[2]),
+               &p = c.position(v);
     const Vec3 normal = (p1 - p0).cross(p2 - p0);
     const double area2 = normal.squaredNorm();
     if (!(area2 > 0.0)) return Refusal::not_applicable;
@@ -187,13 +202,16 @@ Outcome merge_vertex(Workbench& bench, TetId t, unsigned apex, const repair::Req
     c.ring(t, a, b, own.ring);
     if (!own.ring.closed) return Refusal::box;
     bench.edit.created_at = (1.0 - best_s) * c.position(a) + best_s * c.position(b);
-    reconnect([&](TetId s) { return mesh::has_vertex(c.tet(s), a) && mesh::has_vertex(c.tet(s), b); });
+    reconnect(
+        [&](TetId s) { return mesh::has_vertex(c.tet(s), a) && mesh::has_vertex(c.tet(s), b); });
     const std::size_t star = bench.edit.removed.size();
     split_ring(bench, own.ring, a, b, mesh::none, v);
     // Ring tets that contain v are in its star already.
-    bench.edit.removed.erase(std::remove_if(bench.edit.removed.begin() + static_cast<std::ptrdiff_t>(star), bench.edit.removed.end(),
-                                            [&](TetId s) { return mesh::has_vertex(c.tet(s), v); }),
-                             bench.edit.removed.end());
+    bench.edit.removed.erase(
+        std::remove_if(bench.edit.removed.begin() + static_cast<std::ptrdiff_t>(star),
+                       bench.edit.removed.end(),
+                       [&](TetId s) { return mesh::has_vertex(c.tet(s), v); }),
+        bench.edit.removed.end());
     return finish(bench, request, a, b, best_s);
 }
 
@@ -201,13 +219,16 @@ Outcome merge_vertex(Workbench& bench, TetId t, unsigned apex, const repair::Req
 
 Outcome compound(Workbench& bench, TetId t, const repair::Request& request) {
     if (request.vertices[1] != mesh::none) return merge_edges(bench, t, request);
-    if (request.vertices[0] != mesh::none) return merge_vertex(bench, t, mesh::index_of(bench.complex.tet(t), request.vertices[0]), request);
+    if (request.vertices[0] != mesh::none)
+        return merge_vertex(bench, t, mesh::index_of(bench.complex.tet(t), request.vertices[0]),
+                            request);
     // The last outcome that says something about the tet.
     Outcome last = Refusal::not_applicable;
     const auto keep = [&last](Outcome o) {
         if (o != Refusal::not_applicable) last = o;
     };
-    for (unsigned apex = 0; apex < 4 && last.refused(); ++apex) keep(merge_vertex(bench, t, apex, request));
+    for (unsigned apex = 0; apex < 4 && last.refused(); ++apex)
+        keep(merge_vertex(bench, t, apex, request));
     if (last.refused()) keep(merge_edges(bench, t, request));
     return last;
 }

@@ -1,5 +1,5 @@
-// A Deformer as a table of contents: a step, a refinement, a relabelling, lengths and attributes, checkpoints. The parts of the
-// first three are in step.cpp, refine.cpp and relabelling.cpp.
+// A Deformer as a table of contents: a step, a refinement, a relabelling, lengths and attributes,
+// checkpoints. The parts of the first three are in step.cpp, refine.cpp and relabelling.cpp.
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -21,7 +21,8 @@ const mesh::Complex& Deformer::complex() const { return state_->complex; }
 double Deformer::target_length() const { return state_->length; }
 std::uint64_t Deformer::step_count() const { return state_->step; }
 
-StepReport Deformer::step(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy) {
+StepReport Deformer::step(std::span<const VertexId> vertices, std::span<const Vec3> displacements,
+                          const RepairPolicy& policy) {
     State& s = *state_;
     StepReport report;
     s.begin_step(vertices, displacements, policy, report);
@@ -31,7 +32,8 @@ StepReport Deformer::step(std::span<const VertexId> vertices, std::span<const Ve
     return report;
 }
 
-RefineReport Deformer::refine(std::span<const std::array<VertexId, 3>> faces, std::span<const std::array<VertexId, 2>> edges) {
+RefineReport Deformer::refine(std::span<const std::array<VertexId, 3>> faces,
+                              std::span<const std::array<VertexId, 2>> edges) {
     RefineRequests requests;
     requests.split_faces.assign(faces.begin(), faces.end());
     requests.split_edges.assign(edges.begin(), edges.end());
@@ -54,8 +56,8 @@ RefineReport Deformer::refine(const RefineRequests& requests) {
     return report;
 }
 
-std::size_t Deformer::relabel(std::span<const TetId> tets, std::span<const mesh::Label> labels, const RepairPolicy& policy,
-                              std::vector<Event>& events) {
+std::size_t Deformer::relabel(std::span<const TetId> tets, std::span<const mesh::Label> labels,
+                              const RepairPolicy& policy, std::vector<Event>& events) {
     State& s = *state_;
     s.apply_limits(policy.flatness);
     const mesh::InterfaceCounts before = mesh::count_interface(s.complex);
@@ -70,10 +72,12 @@ std::size_t Deformer::relabel(std::span<const TetId> tets, std::span<const mesh:
 
 void Deformer::set_target_length(double length) { state_->set_length(length); }
 
-void Deformer::set_target_lengths(std::span<const VertexId> vertices, std::span<const double> lengths) {
+void Deformer::set_target_lengths(std::span<const VertexId> vertices,
+                                  std::span<const double> lengths) {
     if (lengths.empty()) return;
     State& s = *state_;
-    s.length = std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
+    s.length =
+        std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
     s.fields.set(length_field, vertices, lengths, s.length);
     s.fields_changed();
     s.fields.settle();
@@ -88,7 +92,8 @@ std::vector<double> Deformer::target_lengths(std::span<const VertexId> vertices)
     return lengths;
 }
 
-void Deformer::set_attribute(std::string_view name, std::span<const VertexId> vertices, std::span<const double> values) {
+void Deformer::set_attribute(std::string_view name, std::span<const VertexId> vertices,
+                             std::span<const double> values) {
     state_->fields.set(name, vertices, values, 0.0);
     state_->fields_changed();
     state_->fields.settle();
@@ -100,13 +105,15 @@ std::vector<std::string> Deformer::attributes() const {
     return names;
 }
 
-std::vector<double> Deformer::attribute(std::string_view name, std::span<const VertexId> vertices) const {
+std::vector<double> Deformer::attribute(std::string_view name,
+                                        std::span<const VertexId> vertices) const {
     const std::vector<double>* values = state_->fields.find(name);
     std::vector<double> out;
     if (values == nullptr) return out;
     out.reserve(vertices.size());
     for (const VertexId v : vertices) {
-        out.push_back(state_->complex.on_interface(v) ? (*values)[v] : std::numeric_limits<double>::quiet_NaN());
+        out.push_back(state_->complex.on_interface(v) ? (*values)[v]
+                                                      : std::numeric_limits<double>::quiet_NaN());
     }
     return out;
 }

@@ -24,7 +24,8 @@ Deformer::State::State(mesh::Complex start, const DeformerOptions& wanted, Worke
     apply_limits(0.995);
 }
 
-void Deformer::State::apply_limits(double flatness, const std::optional<repair::CreaseRule>& creases) {
+void Deformer::State::apply_limits(double flatness,
+                                   const std::optional<repair::CreaseRule>& creases) {
     if (bench.limits.length != length) bench.forget_refusals();
     bench.limits = {length, options.quality_floor, options.max_edit_distance * length,
                     options.max_edit_volume * geometry::regular_tet_volume(length), flatness};
@@ -37,8 +38,10 @@ void Deformer::State::apply_limits(double flatness, const std::optional<repair::
 double Deformer::State::mean_interface_edge() const {
     double sum = 0.0;
     std::size_t edges = 0;
-    std::vector<VertexId> order(complex.interface_vertices().begin(), complex.interface_vertices().end());
-    std::sort(order.begin(), order.end(), [this](VertexId a, VertexId b) { return complex.birth(a) < complex.birth(b); });
+    std::vector<VertexId> order(complex.interface_vertices().begin(),
+                                complex.interface_vertices().end());
+    std::sort(order.begin(), order.end(),
+              [this](VertexId a, VertexId b) { return complex.birth(a) < complex.birth(b); });
     std::vector<TetId> star;
     std::vector<std::uint32_t> ends;
     std::vector<std::pair<std::uint32_t, double>> lengths;
@@ -50,7 +53,9 @@ double Deformer::State::mean_interface_edge() const {
                 if (complex.tet(t).v[f] == v || !complex.interface_face(t, f)) continue;
                 for (const auto k : mesh::face_vertices[f]) {
                     const VertexId w = complex.tet(t).v[k];
-                    if (complex.birth(w) > complex.birth(v)) lengths.emplace_back(complex.birth(w), (complex.position(w) - complex.position(v)).norm());
+                    if (complex.birth(w) > complex.birth(v))
+                        lengths.emplace_back(complex.birth(w),
+                                             (complex.position(w) - complex.position(v)).norm());
                 }
             }
         }

@@ -4,10 +4,10 @@
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/validate.hpp>
 
+#include "kernel/destinations.hpp"
 #include "kernel/operations.hpp"
 #include "kernel/queues.hpp"
 #include "kernel/topology.hpp"
-#include "kernel/destinations.hpp"
 #include "kernel/vertex_fields.hpp"
 
 namespace dsc::kernel {
@@ -49,8 +49,8 @@ struct Deformer::State {
     // ---- the parts of a step (step.cpp)
     class Stall;
     struct Smoothing;
-    void begin_step(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy,
-                    StepReport& report);
+    void begin_step(std::span<const VertexId> vertices, std::span<const Vec3> displacements,
+                    const RepairPolicy& policy, StepReport& report);
     void move_and_repair(const RepairPolicy& policy, StepReport& report);
     double make_moves();
     void repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report);
@@ -71,12 +71,16 @@ struct Deformer::State {
     Outcome move(const MoveTo& request);
 
     // ---- the parts of a relabelling (relabelling.cpp)
-    /// Gives the tets their labels; `touched` receives their vertices by birth. The event describes all of them together.
-    Event take_labels(std::span<const TetId> tets, std::span<const mesh::Label> labels, std::vector<VertexId>& touched);
+    /// Gives the tets their labels; `touched` receives their vertices by birth. The event describes
+    /// all of them together.
+    Event take_labels(std::span<const TetId> tets, std::span<const mesh::Label> labels,
+                      std::vector<VertexId>& touched);
 };
 
-/// Appends a copy of the event for each shell and handle that the interface has gained or lost, and for each unpinched vertex.
-void append_changes(const Event& event, const mesh::InterfaceCounts& before, const mesh::InterfaceCounts& after, std::size_t unpinched,
+/// Appends a copy of the event for each shell and handle that the interface has gained or lost, and
+/// for each unpinched vertex.
+void append_changes(const Event& event, const mesh::InterfaceCounts& before,
+                    const mesh::InterfaceCounts& after, std::size_t unpinched,
                     std::vector<Event>& events);
 
 }  // namespace dsc::kernel

@@ -1,4 +1,5 @@
-// Destinations of the moving vertices: passes of movement, and updates after edits (method.md, sections 5 and 9).
+// Destinations of the moving vertices: passes of movement, and updates after edits (method.md,
+// sections 5 and 9).
 #include "kernel/destinations.hpp"
 
 #include <string>
@@ -28,7 +29,8 @@ bool Destinations::moves(VertexId v) {
 }
 
 void Destinations::send(VertexId v, const Vec3& destination) {
-    if (entry_of_vertex_.size() < complex_.vertex_slots()) entry_of_vertex_.resize(complex_.vertex_slots(), mesh::none);
+    if (entry_of_vertex_.size() < complex_.vertex_slots())
+        entry_of_vertex_.resize(complex_.vertex_slots(), mesh::none);
     Entry* entry = entry_of(v);
     if (entry == nullptr) {
         entry_of_vertex_[v] = static_cast<std::uint32_t>(entries_.size());
@@ -44,7 +46,8 @@ void Destinations::on_split(VertexId vertex, VertexId a, VertexId b, double s) {
 }
 
 void Destinations::on_collapse(VertexId kept, VertexId removed, double s) {
-    // The removed id no longer exists, but its entry does: births differ only after the slot is used again.
+    // The removed id no longer exists, but its entry does: births differ only after the slot is
+    // used again.
     const bool goes = entry_of(removed) != nullptr;
     const bool stays = moves(kept);
     if ((!goes && !stays) || !complex_.movable(kept) || s == 0.0) return;
@@ -70,8 +73,10 @@ struct Destinations::Pass {
         if (entry.blocked_at != 0 && !all.queues_.awake(v, entry.blocked_at)) {
             decide(i, asleep);
             if (options.audit && all.complex_.vertex_date(v) > entry.blocked_at) {
-                throw GeometryError("kernel.audit", "audit: vertex " + std::to_string(v) +
-                                                        " sleeps though its star changed; the queues of the kernel lost a wake-up");
+                throw GeometryError(
+                    "kernel.audit",
+                    "audit: vertex " + std::to_string(v) +
+                        " sleeps though its star changed; the queues of the kernel lost a wake-up");
             }
             return false;
         }
@@ -80,7 +85,8 @@ struct Destinations::Pass {
     }
 
     bool attempt(std::size_t i, StarScratch& scratch) const {
-        const Motion motion = plan_move(all.complex_, limits, all.active_[i], at(i).place, options.free_path, scratch);
+        const Motion motion = plan_move(all.complex_, limits, all.active_[i], at(i).place,
+                                        options.free_path, scratch);
         decide(i, motion == Motion::arrived ? arrived : motion == Motion::moved ? moved : stopped);
         return motion != Motion::blocked;
     }
@@ -99,7 +105,9 @@ void Destinations::drop_dead_and_double() {
     ++pass_;
     std::size_t kept = 0;
     for (const VertexId v : active_) {
-        if (v >= complex_.vertex_slots() || !complex_.vertex_alive(v) || !moves(v) || !complex_.movable(v)) continue;
+        if (v >= complex_.vertex_slots() || !complex_.vertex_alive(v) || !moves(v) ||
+            !complex_.movable(v))
+            continue;
         Entry& entry = *entry_of(v);
         if (entry.listed == pass_) continue;
         entry.listed = pass_;

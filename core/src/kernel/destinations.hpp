@@ -1,6 +1,6 @@
 #pragma once
-// The destinations of a step: which vertices move, how destinations follow the edits, and the passes of movement (method.md,
-// section 5).
+// The destinations of a step: which vertices move, how destinations follow the edits, and the
+// passes of movement (method.md, section 5).
 
 #include <utility>
 
@@ -13,21 +13,25 @@ namespace dsc::kernel {
 
 /// How a pass moves vertices.
 struct PassOptions {
-    double free_path = 0.5;      ///< fraction of the distance to the first inversion that one move may cover
-    bool audit = false;          ///< throw GeometryError if a blocked vertex is not tried although its star changed
+    double free_path = 0.5;  ///< fraction of the distance to the first inversion that one move may
+                             ///< cover
+    bool audit = false;  ///< throw GeometryError if a blocked vertex is not tried although its star
+                         ///< changed
     Workers* workers = nullptr;  ///< null: one thread
 };
 
 class Destinations final : public EditListener {
 public:
-    Destinations(mesh::Complex& complex, RepairQueues& queues, StarLoop& loop) : complex_(complex), queues_(queues), loop_(loop) {}
+    Destinations(mesh::Complex& complex, RepairQueues& queues, StarLoop& loop)
+        : complex_(complex), queues_(queues), loop_(loop) {}
 
     /// Begins a step: no vertex moves. [step]
     void clear();
     /// Sets the destination of v. [step]
     void send(VertexId v, const Vec3& destination);
 
-    /// Makes one attempt for every vertex that moves; returns the sum of the remaining distances. [step]
+    /// Makes one attempt for every vertex that moves; returns the sum of the remaining distances.
+    /// [step]
     double pass(const Limits& limits, const PassOptions& options);
     /// Drops the remaining motion; dropped_motion counts it. [step]
     void drop_remaining(StepReport& report);
@@ -64,7 +68,8 @@ private:
     mesh::Complex& complex_;
     RepairQueues& queues_;
     StarLoop& loop_;
-    // One entry per moving vertex. `entry_of_vertex_` maps a vertex to its entry, which is valid if vertex and birth agree.
+    // One entry per moving vertex. `entry_of_vertex_` maps a vertex to its entry, which is valid if
+    // vertex and birth agree.
     std::vector<Entry> entries_;
     std::vector<std::uint32_t> entry_of_vertex_;
     std::vector<VertexId> active_;

@@ -1,4 +1,5 @@
-// Operations that re-triangulate round an edge: edge removal, interface flip, edge split (method.md, sections 4.3, 4.5, 4.6).
+// Operations that re-triangulate round an edge: edge removal, interface flip, edge split
+// (method.md, sections 4.3, 4.5, 4.6).
 #include <cmath>
 
 #include <dsc/geometry/quality.hpp>
@@ -16,15 +17,17 @@ struct EdgeScratch {
 
 namespace {
 
-// The best triangulation of a polygon of ring vertices: each triangle makes one tet with b above and one with a below.
+// The best triangulation of a polygon of ring vertices: each triangle makes one tet with b above
+// and one with a below.
 struct Fan {
     std::span<const VertexId> corners;  // counter-clockwise seen from b
     mesh::Label label;
-    float least = 2.0F;                 // of the best triangulation; 2 for a polygon of two corners
+    float least = 2.0F;  // of the best triangulation; 2 for a polygon of two corners
     std::uint64_t mask = 0;
 };
 
-// Finds the triangulation whose least quality is largest and above `must_exceed`; false if there is none.
+// Finds the triangulation whose least quality is largest and above `must_exceed`; false if there is
+// none.
 bool triangulate(const Workbench& bench, VertexId a, VertexId b, float must_exceed, Fan& fan) {
     if (fan.corners.size() < 3) return true;
     const Triangulations& table = triangulations(fan.corners.size());
@@ -109,18 +112,23 @@ Outcome flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, f
         start = i;
     }
     if (changes != 2) return Refusal::not_applicable;
-    std::rotate(ring.tets.begin(), ring.tets.begin() + static_cast<std::ptrdiff_t>(start), ring.tets.end());
-    std::rotate(ring.link.begin(), ring.link.begin() + static_cast<std::ptrdiff_t>(start), ring.link.end());
+    std::rotate(ring.tets.begin(), ring.tets.begin() + static_cast<std::ptrdiff_t>(start),
+                ring.tets.end());
+    std::rotate(ring.link.begin(), ring.link.begin() + static_cast<std::ptrdiff_t>(start),
+                ring.link.end());
     std::size_t turn = 1;
     while (label(turn) == label(0)) ++turn;
     // First fan: link[0..turn]; second: link[turn..n-1], link[0].
-    if (turn + 1 > max_polygon || n - turn + 1 > max_polygon || n < 3) return Refusal::not_applicable;
+    if (turn + 1 > max_polygon || n - turn + 1 > max_polygon || n < 3)
+        return Refusal::not_applicable;
     const VertexId p = ring.link[0], q = ring.link[turn];
     const Vec3 &pa = c.position(a), &pb = c.position(b), &pp = c.position(p), &pq = c.position(q);
-    if (geometry::triangle_normal(pa, pb, pp).dot(geometry::triangle_normal(pb, pa, pq)) < bench.limits.flatness) {
+    if (geometry::triangle_normal(pa, pb, pp).dot(geometry::triangle_normal(pb, pa, pq)) <
+        bench.limits.flatness) {
         return Refusal::bound;
     }
-    const InterfaceChange change{geometry::segment_distance(pa, pb, pp, pq), std::abs(geometry::tet_volume(pa, pb, pp, pq))};
+    const InterfaceChange change{geometry::segment_distance(pa, pb, pp, pq),
+                                 std::abs(geometry::tet_volume(pa, pb, pp, pq))};
     if (change.exceeds(bench.bounds_at(a, b))) return Refusal::bound;
     bench.edit.clear();
     bench.edit.removed = ring.tets;
@@ -130,15 +138,18 @@ Outcome flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, f
     corners.push_back(p);
     Fan first{std::span(ring.link).first(turn + 1), label(0)};
     Fan second{corners, label(turn)};
-    if (!triangulate(bench, a, b, must_exceed, first) || !triangulate(bench, a, b, must_exceed, second)) return Refusal::quality;
+    if (!triangulate(bench, a, b, must_exceed, first) ||
+        !triangulate(bench, a, b, must_exceed, second))
+        return Refusal::quality;
     add_tets(bench, a, b, first);
     add_tets(bench, a, b, second);
     if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
     if (!c.link(bench.edit)) return Refusal::irregular;
-    // If exactly two labels meet here and each has at least two tets at the edge, a flip keeps every vertex regular. Positive
-    // tets that fill the cavity contain the segment pq inside, so pq was not an edge before. In the cycles of interface
-    // neighbours, a and b lose each other, and p and q are inserted into each other's cycle between a and b. (If a label has a
-    // single tet, pq lies on the boundary of the cavity.)
+    // If exactly two labels meet here and each has at least two tets at the edge, a flip keeps
+    // every vertex regular. Positive tets that fill the cavity contain the segment pq inside, so pq
+    // was not an edge before. In the cycles of interface neighbours, a and b lose each other, and p
+    // and q are inserted into each other's cycle between a and b. (If a label has a single tet, pq
+    // lies on the boundary of the cavity.)
     const std::array<VertexId, 4> touched = {a, b, p, q};
     const auto simple = [&c](VertexId v) { return c.phases(v) == 2 && !c.on_box(v); };
     if (turn < 2 || n - turn < 2 || !std::all_of(touched.begin(), touched.end(), simple)) {

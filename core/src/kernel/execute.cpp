@@ -17,7 +17,8 @@ struct Edge {
 std::array<Edge, 6> edges_of(const mesh::Complex& c, TetId t) {
     std::array<Edge, 6> edges{};
     for (unsigned e = 0; e < 6; ++e) {
-        const VertexId a = c.tet(t).v[mesh::edge_vertices[e][0]], b = c.tet(t).v[mesh::edge_vertices[e][1]];
+        const VertexId a = c.tet(t).v[mesh::edge_vertices[e][0]],
+                       b = c.tet(t).v[mesh::edge_vertices[e][1]];
         edges[e] = {a, b, (c.position(a) - c.position(b)).squaredNorm()};
     }
     return edges;
@@ -26,11 +27,13 @@ std::array<Edge, 6> edges_of(const mesh::Complex& c, TetId t) {
 // Insertion sort: stable, and without the buffer that std::stable_sort allocates.
 void sort_by_length(std::array<Edge, 6>& edges) {
     for (std::size_t i = 1; i < edges.size(); ++i) {
-        for (std::size_t j = i; j > 0 && edges[j].length2 < edges[j - 1].length2; --j) std::swap(edges[j], edges[j - 1]);
+        for (std::size_t j = i; j > 0 && edges[j].length2 < edges[j - 1].length2; --j)
+            std::swap(edges[j], edges[j - 1]);
     }
 }
 
-// Of several refusals the most informative one: topology and bounds before quality before "does not apply".
+// Of several refusals the most informative one: topology and bounds before quality before "does not
+// apply".
 Refusal stronger(Outcome x, Outcome y) {
     const auto rank = [](Refusal r) {
         switch (r) {
@@ -61,7 +64,9 @@ Outcome on_edges(Workbench& bench, const Request& request, TetId t) {
     auto edges = edges_of(c, t);
     switch (request.operation) {
         case Operation::edge_removal:
-            return first_success(edges, [&](const Edge& e) { return remove_edge(bench, t, e.a, e.b, request.accept_above); });
+            return first_success(edges, [&](const Edge& e) {
+                return remove_edge(bench, t, e.a, e.b, request.accept_above);
+            });
         case Operation::interface_flip:
             return first_success(edges, [&](const Edge& e) -> Outcome {
                 if (!c.on_interface(e.a) || !c.on_interface(e.b)) return Refusal::not_applicable;
@@ -69,10 +74,15 @@ Outcome on_edges(Workbench& bench, const Request& request, TetId t) {
             });
         case Operation::edge_collapse:
             sort_by_length(edges);
-            return first_success(edges, [&](const Edge& e) { return collapse_edge(bench, t, e.a, e.b, request.mode, request.accept_above); });
+            return first_success(edges, [&](const Edge& e) {
+                return collapse_edge(bench, t, e.a, e.b, request.mode, request.accept_above);
+            });
         default: {
-            const auto longest = std::max_element(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return x.length2 < y.length2; });
-            return split_edge(bench, t, longest->a, longest->b, static_cast<double>(request.parameter));
+            const auto longest = std::max_element(
+                edges.begin(), edges.end(),
+                [](const Edge& x, const Edge& y) { return x.length2 < y.length2; });
+            return split_edge(bench, t, longest->a, longest->b,
+                              static_cast<double>(request.parameter));
         }
     }
 }
@@ -83,18 +93,22 @@ Outcome on_faces(Workbench& bench, const Request& request, TetId t) {
     for (unsigned f = 0; f < 4; ++f) {
         const auto& named = request.vertices;
         const bool whole_face = named[2] != mesh::none;
-        if (whole_face && std::find(named.begin(), named.end(), c.tet(t).v[f]) != named.end()) continue;
+        if (whole_face && std::find(named.begin(), named.end(), c.tet(t).v[f]) != named.end())
+            continue;
         Outcome o = Refusal::not_applicable;
         if (request.operation == Operation::face_removal) {
             o = remove_faces(bench, t, f, request.accept_above);
         } else {
             // Splits at the projection of the opposite vertex if it lies inside the face.
             const auto& v = c.tet(t).v;
-            const Vec3 &a = c.position(v[mesh::face_vertices[f][0]]), &b = c.position(v[mesh::face_vertices[f][1]]),
+            const Vec3 &a = c.position(v[mesh::face_vertices[f][0]]),
+                       &b = c.position(v[mesh::face_vertices[f][1]]),
                        &d = c.position(v[mesh::face_vertices[f][2]]);
             const Vec3 n = geometry::triangle_normal(a, b, d);
             const Vec3 p = c.position(v[f]) - n.dot(c.position(v[f]) - a) * n;
-            const bool inside = n.dot((b - a).cross(p - a)) > 0.0 && n.dot((d - b).cross(p - b)) > 0.0 && n.dot((a - d).cross(p - d)) > 0.0;
+            const bool inside = n.dot((b - a).cross(p - a)) > 0.0 &&
+                                n.dot((d - b).cross(p - b)) > 0.0 &&
+                                n.dot((a - d).cross(p - d)) > 0.0;
             if (inside) o = split_face(bench, t, f, p);
         }
         if (!o.refused()) return o;
@@ -118,7 +132,8 @@ Outcome execute(Workbench& bench, const Request& request) {
     const mesh::Complex& c = bench.complex;
     TetId t = request.tet;
     if (t != mesh::none) {
-        if (t >= c.tet_slots() || !c.tet_alive(t) || c.birth_date(t) != request.birth_date) return Refusal::stale;
+        if (t >= c.tet_slots() || !c.tet_alive(t) || c.birth_date(t) != request.birth_date)
+            return Refusal::stale;
         if (!(c.quality(t) < request.only_below)) return Refusal::stale;
     } else {
         t = tet_of(c, request);
@@ -131,20 +146,28 @@ Outcome execute(Workbench& bench, const Request& request) {
     const bool edge = a != mesh::none && b != mesh::none;
     switch (request.operation) {
         case Operation::smooth_laplacian:
-            return a == mesh::none ? Refusal::not_applicable : smooth_laplacian(bench, a, request.accept_above);
-        case Operation::smooth_optimise: return a == mesh::none ? Refusal::not_applicable : smooth_optimise(bench, a);
-        case Operation::vertex_split: return edge ? split_vertex(bench, a, b) : Refusal::not_applicable;
+            return a == mesh::none ? Refusal::not_applicable
+                                   : smooth_laplacian(bench, a, request.accept_above);
+        case Operation::smooth_optimise:
+            return a == mesh::none ? Refusal::not_applicable : smooth_optimise(bench, a);
+        case Operation::vertex_split:
+            return edge ? split_vertex(bench, a, b) : Refusal::not_applicable;
         case Operation::relabel: return relabel_tet(bench, t);
         case Operation::compound: return compound(bench, t, request);
         case Operation::face_removal:
         case Operation::face_split: return on_faces(bench, request, t);
-        case Operation::edge_removal: return edge ? remove_edge(bench, t, a, b, request.accept_above) : on_edges(bench, request, t);
+        case Operation::edge_removal:
+            return edge ? remove_edge(bench, t, a, b, request.accept_above)
+                        : on_edges(bench, request, t);
         case Operation::interface_flip:
-            return edge ? flip_interface_edge(bench, t, a, b, request.accept_above) : on_edges(bench, request, t);
+            return edge ? flip_interface_edge(bench, t, a, b, request.accept_above)
+                        : on_edges(bench, request, t);
         case Operation::edge_split:
-            return edge ? split_edge(bench, t, a, b, static_cast<double>(request.parameter)) : on_edges(bench, request, t);
+            return edge ? split_edge(bench, t, a, b, static_cast<double>(request.parameter))
+                        : on_edges(bench, request, t);
         case Operation::edge_collapse:
-            return edge ? collapse_edge(bench, t, a, b, request.mode, request.accept_above) : on_edges(bench, request, t);
+            return edge ? collapse_edge(bench, t, a, b, request.mode, request.accept_above)
+                        : on_edges(bench, request, t);
     }
     return Refusal::not_applicable;
 }

@@ -1,4 +1,5 @@
-// Operations at faces: multi-face removal (2-3 flips and wider), face split (method.md, sections 4.4 and 4.6).
+// Operations at faces: multi-face removal (2-3 flips and wider), face split (method.md,
+// sections 4.4 and 4.6).
 #include <dsc/geometry/quality.hpp>
 
 #include "kernel/operations.hpp"
@@ -8,10 +9,12 @@ namespace {
 
 constexpr std::size_t max_sandwiched = 8;
 
-// Faces between the apices `above` and `below`; the set grows over their edges as long as the quality does not fall.
+// Faces between the apices `above` and `below`; the set grows over their edges as long as the
+// quality does not fall.
 class Sandwich {
 public:
-    Sandwich(Workbench& bench, VertexId above, VertexId below) : bench_(bench), above_(above), below_(below) {}
+    Sandwich(Workbench& bench, VertexId above, VertexId below)
+        : bench_(bench), above_(above), below_(below) {}
 
     // The decision about one edge (u, w) of such a face, counter-clockwise seen from `above`.
     struct Answer {
@@ -25,13 +28,16 @@ public:
         const auto without = static_cast<float>(bench_.quality(below_, above_, u, w));
         const std::uint32_t code_a = c.tet(tet_a).n[mesh::index_of(c.tet(tet_a), third)];
         const std::uint32_t code_b = c.tet(tet_b).n[mesh::index_of(c.tet(tet_b), third)];
-        if (code_a != mesh::none && code_b != mesh::none && bench_.edit.removed.size() < 2 * max_sandwiched) {
+        if (code_a != mesh::none && code_b != mesh::none &&
+            bench_.edit.removed.size() < 2 * max_sandwiched) {
             const TetId next_a = mesh::neighbour_tet(code_a), next_b = mesh::neighbour_tet(code_b);
             const VertexId x = c.tet(next_a).v[mesh::neighbour_face(code_a)];
-            const bool fits = x == c.tet(next_b).v[mesh::neighbour_face(code_b)] && x != above_ && x != below_ &&
-                              c.label(next_a) == c.label(tet_a) && c.label(next_b) == c.label(tet_b) && !listed(next_a);
+            const bool fits = x == c.tet(next_b).v[mesh::neighbour_face(code_b)] && x != above_ &&
+                              x != below_ && c.label(next_a) == c.label(tet_a) &&
+                              c.label(next_b) == c.label(tet_b) && !listed(next_a);
             if (fits) {
-                const std::size_t removed = bench_.edit.removed.size(), added = bench_.edit.added.size();
+                const std::size_t removed = bench_.edit.removed.size(),
+                                  added = bench_.edit.added.size();
                 bench_.edit.removed.push_back(next_a);
                 bench_.edit.removed.push_back(next_b);
                 const float here = std::min(c.quality(next_a), c.quality(next_b));
@@ -50,7 +56,8 @@ public:
 
 private:
     bool listed(TetId t) const {
-        return std::find(bench_.edit.removed.begin(), bench_.edit.removed.end(), t) != bench_.edit.removed.end();
+        return std::find(bench_.edit.removed.begin(), bench_.edit.removed.end(), t) !=
+               bench_.edit.removed.end();
     }
 
     Workbench& bench_;
@@ -65,7 +72,8 @@ Outcome remove_faces(Workbench& bench, TetId t, unsigned face, float accept_abov
     if (code == mesh::none) return Refusal::box;
     const TetId other = mesh::neighbour_tet(code);
     if (c.label(t) != c.label(other)) return Refusal::not_applicable;
-    // Seen from inside t, its outward face order runs clockwise: from the apex (u, w, v) is counter-clockwise.
+    // Seen from inside t, its outward face order runs clockwise: from the apex (u, w, v) is
+    // counter-clockwise.
     const VertexId above = c.tet(t).v[face], below = c.tet(other).v[mesh::neighbour_face(code)];
     const VertexId u = c.tet(t).v[mesh::face_vertices[face][0]];
     const VertexId v = c.tet(t).v[mesh::face_vertices[face][2]];
@@ -105,18 +113,23 @@ Outcome split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point) 
     if (const Outcome o = bench.check_shape(0.0F, bench.old_quality()); o.refused()) return o;
     InterfaceChange change;
     if (c.label(t) != c.label(other)) {
-        // The point lies in the face's plane up to rounding; otherwise the split would move the interface.
+        // The point lies in the face's plane up to rounding; otherwise the split would move the
+        // interface.
         change.volume = bench.phase_change();
         if (change.exceeds(bench.bounds_at(c.tet(t).v))) return Refusal::bound;
     }
     if (!c.link(bench.edit)) return Refusal::irregular;
-    const std::array<VertexId, 3> corners = {c.tet(t).v[mesh::face_vertices[face][0]], c.tet(t).v[mesh::face_vertices[face][1]],
+    const std::array<VertexId, 3> corners = {c.tet(t).v[mesh::face_vertices[face][0]],
+                                             c.tet(t).v[mesh::face_vertices[face][1]],
                                              c.tet(t).v[mesh::face_vertices[face][2]]};
     const VertexId v = bench.commit(change);
     if (bench.listener != nullptr) {
-        // Its destination is interpolated between the first two corners, at the point's projection on their edge.
+        // Its destination is interpolated between the first two corners, at the point's projection
+        // on their edge.
         const Vec3 edge = c.position(corners[1]) - c.position(corners[0]);
-        const double s = std::clamp((point - c.position(corners[0])).dot(edge) / std::max(edge.squaredNorm(), 1e-300), 0.0, 1.0);
+        const double s = std::clamp(
+            (point - c.position(corners[0])).dot(edge) / std::max(edge.squaredNorm(), 1e-300), 0.0,
+            1.0);
         bench.listener->on_split(v, corners[0], corners[1], s);
     }
     return success;

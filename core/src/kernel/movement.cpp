@@ -13,10 +13,13 @@ struct MoveScratch {
 
 namespace {
 
-constexpr double arrival = 1e-4;  // in L: a vertex closer than this has arrived; a shorter move is not made
+constexpr double arrival = 1e-4;  // in L: a vertex closer than this has arrived; a shorter move is
+                                  // not made
 
-// Fraction of the distance to `d` at which the first link plane is reached; infinity if no plane is reached.
-double first_inversion(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& p, const Vec3& d) {
+// Fraction of the distance to `d` at which the first link plane is reached; infinity if no plane is
+// reached.
+double first_inversion(const mesh::Complex& c, std::span<const TetId> star, VertexId v,
+                       const Vec3& p, const Vec3& d) {
     double first = INFINITY;
     for (const TetId t : star) {
         const auto& x = c.tet(t).v;
@@ -33,8 +36,8 @@ double first_inversion(const mesh::Complex& c, std::span<const TetId> star, Vert
 }
 
 // Whether v may move to `place`; on success `qualities` contains the tets' qualities there.
-bool acceptable(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& place, float floor,
-                std::vector<float>& qualities) {
+bool acceptable(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& place,
+                float floor, std::vector<float>& qualities) {
     qualities.clear();
     for (const TetId t : star) {
         const auto corners = mesh::corners_at(c, t, v, place);
@@ -47,20 +50,24 @@ bool acceptable(const mesh::Complex& c, std::span<const TetId> star, VertexId v,
 
 }  // namespace
 
-bool has_arrived(const mesh::Complex& complex, const Limits& limits, VertexId v, const Vec3& destination) {
+bool has_arrived(const mesh::Complex& complex, const Limits& limits, VertexId v,
+                 const Vec3& destination) {
     return (destination - complex.position(v)).norm() < arrival * limits.length;
 }
 
-Motion plan_move(const mesh::Complex& complex, const Limits& limits, VertexId v, const Vec3& destination, double free_path,
-                 StarScratch& scratch) {
+Motion plan_move(const mesh::Complex& complex, const Limits& limits, VertexId v,
+                 const Vec3& destination, double free_path, StarScratch& scratch) {
     const Vec3 p = complex.position(v);
     const double length = (destination - p).norm();
     const double least_step = arrival * limits.length;
-    double fraction = std::min(1.0, free_path * first_inversion(complex, scratch.star, v, p, destination));
+    double fraction =
+        std::min(1.0, free_path * first_inversion(complex, scratch.star, v, p, destination));
     for (int halving = 0; halving <= 8; ++halving, fraction *= 0.5) {
         if (fraction * length < least_step) break;
         scratch.place = fraction == 1.0 ? destination : Vec3(p + fraction * (destination - p));
-        if (!acceptable(complex, scratch.star, v, scratch.place, static_cast<float>(limits.quality_floor), scratch.qualities)) continue;
+        if (!acceptable(complex, scratch.star, v, scratch.place,
+                        static_cast<float>(limits.quality_floor), scratch.qualities))
+            continue;
         return (destination - scratch.place).norm() < least_step ? Motion::arrived : Motion::moved;
     }
     return Motion::blocked;

@@ -1,4 +1,5 @@
-// The lists of changed and refused tets, and the audit that finds a missed tet (method.md, section 6.2).
+// The lists of changed and refused tets, and the audit that finds a missed tet (method.md,
+// section 6.2).
 #include "kernel/queues.hpp"
 
 #include <algorithm>
@@ -16,7 +17,8 @@ bool RepairQueues::lost() {
 
 bool RepairQueues::out_of_date(TetId t, std::uint32_t date) const {
     const auto& v = complex_.tet(t).v;
-    return std::any_of(v.begin(), v.end(), [&](VertexId x) { return complex_.vertex_date(x) > date; });
+    return std::any_of(v.begin(), v.end(),
+                       [&](VertexId x) { return complex_.vertex_date(x) > date; });
 }
 
 bool RepairQueues::awake(VertexId v, std::uint32_t blocked_at) {
@@ -42,7 +44,9 @@ std::span<const TetId> RepairQueues::next_round() {
     seen_.clear();
     std::size_t kept = 0;
     for (const Failure& failure : failed_) {
-        if (!complex_.tet_alive(failure.tet) || complex_.birth_date(failure.tet) != failure.birth_date) continue;
+        if (!complex_.tet_alive(failure.tet) ||
+            complex_.birth_date(failure.tet) != failure.birth_date)
+            continue;
         // Tets that changed since the last round are already in the list.
         if (complex_.date(failure.tet) > previous_clock) continue;
         if (!out_of_date(failure.tet, failure.date)) {
@@ -65,8 +69,8 @@ void RepairQueues::fail(TetId t, std::uint32_t date) {
     memory_[t] = failure;
 }
 
-// The full scan: every tet that changed since the last round, or whose neighbourhood changed after a failure, must be in the
-// list.
+// The full scan: every tet that changed since the last round, or whose neighbourhood changed after
+// a failure, must be in the list.
 void RepairQueues::check(std::uint32_t previous_clock) {
     memory_.resize(std::max(memory_.size(), complex_.tet_slots()), Failure{mesh::none, 0, 0});
     std::vector<char> offered(complex_.tet_slots(), 0);
@@ -75,12 +79,15 @@ void RepairQueues::check(std::uint32_t previous_clock) {
         if (!complex_.tet_alive(t) || offered[t] != 0) continue;
         const bool changed = complex_.date(t) > previous_clock;
         const Failure& failure = memory_[t];
-        const bool woken = failure.tet == t && failure.birth_date == complex_.birth_date(t) && out_of_date(t, failure.date);
+        const bool woken = failure.tet == t && failure.birth_date == complex_.birth_date(t) &&
+                           out_of_date(t, failure.date);
         if (!changed && !woken) {
             continue;
         }
-        throw GeometryError("kernel.audit", "audit: tet " + std::to_string(t) + (changed ? " changed" : " was to be tried again") +
-                                                " but is in no queue; the queues of the kernel lost a wake-up");
+        throw GeometryError("kernel.audit",
+                            "audit: tet " + std::to_string(t) +
+                                (changed ? " changed" : " was to be tried again") +
+                                " but is in no queue; the queues of the kernel lost a wake-up");
     }
     // A tet in the list is tried again; its failure counts only if it fails again.
     for (const TetId t : dirty_) memory_[t].tet = mesh::none;

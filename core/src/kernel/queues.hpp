@@ -1,5 +1,6 @@
 #pragma once
-// The tets that a repair round must look at, and the audit that proves that none is missed (method.md, section 6.2).
+// The tets that a repair round must look at, and the audit that proves that none is missed
+// (method.md, section 6.2).
 
 #include <cstdint>
 #include <span>
@@ -12,17 +13,19 @@ namespace dsc::kernel {
 using mesh::TetId;
 using mesh::VertexId;
 
-/// Changed tets and remembered failures. A failed tet is offered again only after a tet at one of its vertices has changed.
+/// Changed tets and remembered failures. A failed tet is offered again only after a tet at one of
+/// its vertices has changed.
 class RepairQueues {
 public:
     /// `drop_wake_up`: for tests of the audit, the n-th wake-up from now is dropped; 0: none.
     RepairQueues(mesh::Complex& complex, bool audit, std::uint64_t drop_wake_up)
         : complex_(complex), audit_(audit), drop_(drop_wake_up) {}
 
-    /// Collects the tets of the round: first those that changed since the last call, then tets whose failure is out of date.
-    /// Throws GeometryError if the audit finds a missed tet. [step]
+    /// Collects the tets of the round: first those that changed since the last call, then tets
+    /// whose failure is out of date. Throws GeometryError if the audit finds a missed tet. [step]
     std::span<const TetId> next_round();
-    /// Remembers that a request on this tet was refused in this round, when the change clock was `date`.
+    /// Remembers that a request on this tet was refused in this round, when the change clock was
+    /// `date`.
     void fail(TetId t, std::uint32_t date);
     /// Whether a blocked vertex may be tried again: its star has changed since `blocked_at`.
     bool awake(VertexId v, std::uint32_t blocked_at);
@@ -50,7 +53,8 @@ private:
     std::vector<Failure> failed_;
     std::vector<Failure> failed_now_;
     mesh::TetIndex seen_;
-    std::vector<Failure> memory_;          // audit only, per tet: its last failure, independent of the queues
+    std::vector<Failure> memory_;  // audit only, per tet: its last failure, independent of the
+                                   // queues
     std::uint32_t last_clock_ = 0;
 };
 

@@ -1,4 +1,5 @@
-// The parts of a refinement: splits, collapses, flips and moves that it requests (method.md, section 7).
+// The parts of a refinement: splits, collapses, flips and moves that it requests (method.md,
+// section 7).
 #include <cmath>
 
 #include "kernel/deformer_state.hpp"
@@ -23,7 +24,8 @@ Outcome Deformer::State::split_longest_edge(const std::array<VertexId, 3>& face)
     VertexId a = face[0], b = face[1];
     double longest = -1.0;
     for (unsigned k = 0; k < 3; ++k) {
-        const double d = (complex.position(face[k]) - complex.position(face[(k + 1) % 3])).squaredNorm();
+        const double d =
+            (complex.position(face[k]) - complex.position(face[(k + 1) % 3])).squaredNorm();
         if (d <= longest) continue;
         longest = d;
         a = face[k];
@@ -41,7 +43,9 @@ Outcome Deformer::State::split(const std::array<VertexId, 2>& edge) {
 Outcome Deformer::State::collapse(const CollapseTo& request) {
     if (!alive(request.kept) || !alive(request.removed)) return Refusal::stale;
     const TetId t = complex.find_edge(request.kept, request.removed);
-    return t != mesh::none ? collapse_edge_to(bench, t, request.kept, request.removed, request.place) : Refusal::stale;
+    return t != mesh::none
+               ? collapse_edge_to(bench, t, request.kept, request.removed, request.place)
+               : Refusal::stale;
 }
 
 Outcome Deformer::State::flip(const FlipTo& request) {
@@ -57,7 +61,8 @@ Outcome Deformer::State::move(const MoveTo& request) {
     if (!alive(request.vertex)) return Refusal::stale;
     if (!complex.movable(request.vertex)) return Refusal::not_applicable;
     bool moved = false;
-    const Vec3 low = complex.box().low.array() + 2.0 * length, high = complex.box().high.array() - 2.0 * length;
+    const Vec3 low = complex.box().low.array() + 2.0 * length,
+               high = complex.box().high.array() - 2.0 * length;
     const Vec3 place = request.place.cwiseMax(low).cwiseMin(high);
     // Several attempts, because each covers only part of the distance to the first inversion.
     for (int attempt = 0; attempt < 4; ++attempt) {
@@ -84,15 +89,20 @@ void each(const List& list, OperationCounts& counts, RefineReport& report, const
 
 void Deformer::State::split_all(const RefineRequests& wanted, RefineReport& report) {
     if (wanted.owns_sizing) bench.limits.set_floor(refinement_floor);
-    each(wanted.split_faces, report.splits, report, [this](const auto& face) { return split_longest_edge(face); });
-    each(wanted.split_edges, report.splits, report, [this](const auto& edge) { return split(edge); });
+    each(wanted.split_faces, report.splits, report,
+         [this](const auto& face) { return split_longest_edge(face); });
+    each(wanted.split_edges, report.splits, report,
+         [this](const auto& edge) { return split(edge); });
 }
 
 void Deformer::State::edit_all(const RefineRequests& wanted, RefineReport& report) {
     bench.limits.set_floor(refinement_floor);
-    each(wanted.collapses, report.collapses, report, [this](const CollapseTo& request) { return collapse(request); });
-    each(wanted.flips, report.flips, report, [this](const FlipTo& request) { return flip(request); });
-    each(wanted.moves, report.moves, report, [this](const MoveTo& request) { return move(request); });
+    each(wanted.collapses, report.collapses, report,
+         [this](const CollapseTo& request) { return collapse(request); });
+    each(wanted.flips, report.flips, report,
+         [this](const FlipTo& request) { return flip(request); });
+    each(wanted.moves, report.moves, report,
+         [this](const MoveTo& request) { return move(request); });
 }
 
 }  // namespace dsc::kernel

@@ -49,7 +49,9 @@ std::uint32_t root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
     return i;
 }
 
-bool contains(const std::vector<TetId>& list, TetId t) { return std::find(list.begin(), list.end(), t) != list.end(); }
+bool contains(const std::vector<TetId>& list, TetId t) {
+    return std::find(list.begin(), list.end(), t) != list.end();
+}
 
 }  // namespace
 
@@ -68,11 +70,13 @@ namespace {
 void collect_vertices(const mesh::Complex& c, const Region& region, std::vector<VertexId>& out) {
     out.clear();
     for (const TetId t : region.tets) out.insert(out.end(), c.tet(t).v.begin(), c.tet(t).v.end());
-    std::sort(out.begin(), out.end(), [&c](VertexId a, VertexId b) { return c.birth(a) < c.birth(b); });
+    std::sort(out.begin(), out.end(),
+              [&c](VertexId a, VertexId b) { return c.birth(a) < c.birth(b); });
     out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
-// The smallest group of `from` at the vertex if there are two or more: addition_group receives its tets.
+// The smallest group of `from` at the vertex if there are two or more: addition_group receives its
+// tets.
 void smallest_group(mesh::LocalStar& star, mesh::Label from, RegionScratch& own) {
     std::vector<TetId>& out = own.addition_group;
     out.clear();
@@ -99,13 +103,15 @@ void smallest_group(mesh::LocalStar& star, mesh::Label from, RegionScratch& own)
     }
 }
 
-// The shortest face-connected chain of `from` tets that joins two groups of label `to` at the vertex: addition_chain receives it.
+// The shortest face-connected chain of `from` tets that joins two groups of label `to` at the
+// vertex: addition_chain receives it.
 void shortest_chain(mesh::LocalStar& star, mesh::Label from, mesh::Label to, RegionScratch& own) {
     std::vector<TetId>& out = own.addition_chain;
     out.clear();
     star.groups();
     const std::size_t n = star.nodes().size();
-    std::vector<std::uint32_t>&group = own.group, &previous = own.previous, &distance = own.distance, &queue = own.queue;
+    std::vector<std::uint32_t>&group = own.group, &previous = own.previous,
+    &distance = own.distance, &queue = own.queue;
     group.assign(star.group_of().begin(), star.group_of().end());
     std::size_t best = n + 1;
     for (std::size_t start = 0; start < n; ++start) {
@@ -125,7 +131,8 @@ void shortest_chain(mesh::LocalStar& star, mesh::Label from, mesh::Label to, Reg
                     if (distance[node] < best) {
                         best = distance[node];
                         out.clear();
-                        for (std::uint32_t back = node; back != start; back = previous[back]) out.push_back(star.nodes()[back]);
+                        for (std::uint32_t back = node; back != start; back = previous[back])
+                            out.push_back(star.nodes()[back]);
                     }
                 } else if (star.label(next) == from && star.nodes()[next] != mesh::none) {
                     distance[next] = distance[node] + 1;
@@ -151,7 +158,9 @@ bool regular(Workbench& bench, const Region& region) {
 
 RegionFault grow(Workbench& bench, Region& region) {
     const mesh::Complex& c = bench.complex;
-    const double volume_limit = max_region_volume * geometry::regular_tet_volume(bench.length_at(c.tet(region.tets.front()).v));
+    const double volume_limit =
+        max_region_volume *
+        geometry::regular_tet_volume(bench.length_at(c.tet(region.tets.front()).v));
     mesh::LocalStar& star = bench.local_star();
     RegionScratch& own = bench.region.get();
     const std::vector<TetId>&group = own.addition_group, &chain = own.addition_chain;
@@ -171,7 +180,8 @@ RegionFault grow(Workbench& bench, Region& region) {
         // The star is still that of the vertex found.
         smallest_group(star, region.from, own);
         shortest_chain(star, region.from, region.to, own);
-        const auto& addition = chain.empty() || (!group.empty() && group.size() <= chain.size()) ? group : chain;
+        const auto& addition =
+            chain.empty() || (!group.empty() && group.size() <= chain.size()) ? group : chain;
         if (addition.empty()) return RegionFault::irregular;
         for (const TetId t : addition) {
             if (!contains(region.tets, t)) region.tets.push_back(t);
@@ -203,11 +213,13 @@ RegionFault measure(Workbench& bench, Region& region) {
             if (label != region.from && label != region.to) return RegionFault::labels;
             BoundaryFace face{{}, label == region.to, 0.0};
             for (unsigned k = 0; k < 3; ++k) face.v[k] = tet.v[mesh::face_vertices[f][k]];
-            face.area = geometry::triangle_area(c.position(face.v[0]), c.position(face.v[1]), c.position(face.v[2]));
+            face.area = geometry::triangle_area(c.position(face.v[0]), c.position(face.v[1]),
+                                                c.position(face.v[2]));
             (face.faces_to ? region.area_to : region.area_from) += face.area;
             for (unsigned k = 0; k < 3; ++k) {
                 const VertexId a = face.v[k], b = face.v[(k + 1) % 3];
-                edges.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(faces.size())});
+                edges.push_back(
+                    {std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(faces.size())});
                 vertices.push_back(a);
             }
             faces.push_back(face);
@@ -226,8 +238,10 @@ RegionFault measure(Workbench& bench, Region& region) {
     std::iota(patch.begin(), patch.end(), 0U);
     std::size_t edge_count = 0;
     for (std::size_t i = 0; i < edges.size(); i += 2, ++edge_count) {
-        const bool pair = i + 1 < edges.size() && edges[i].a == edges[i + 1].a && edges[i].b == edges[i + 1].b;
-        const bool third = i + 2 < edges.size() && edges[i].a == edges[i + 2].a && edges[i].b == edges[i + 2].b;
+        const bool pair =
+            i + 1 < edges.size() && edges[i].a == edges[i + 1].a && edges[i].b == edges[i + 1].b;
+        const bool third =
+            i + 2 < edges.size() && edges[i].a == edges[i + 2].a && edges[i].b == edges[i + 2].b;
         if (!pair || third) return RegionFault::not_a_ball;
         const std::uint32_t f = edges[i].face, g = edges[i + 1].face;
         whole[root(whole, f)] = root(whole, g);
@@ -249,8 +263,10 @@ RegionFault measure(Workbench& bench, Region& region) {
     if (two.size() == 2) {
         for (std::uint32_t f = 0; f < faces.size(); ++f) {
             const std::uint32_t r = root(patch, f);
-            if (r == two[0]) region.patch_a.insert(region.patch_a.end(), faces[f].v.begin(), faces[f].v.end());
-            if (r == two[1]) region.patch_b.insert(region.patch_b.end(), faces[f].v.begin(), faces[f].v.end());
+            if (r == two[0])
+                region.patch_a.insert(region.patch_a.end(), faces[f].v.begin(), faces[f].v.end());
+            if (r == two[1])
+                region.patch_b.insert(region.patch_b.end(), faces[f].v.begin(), faces[f].v.end());
         }
     }
     return RegionFault::none;

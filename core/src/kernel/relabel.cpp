@@ -1,4 +1,5 @@
-// The interface shift: a tet, with others if necessary, takes the label around it; the topology stays (method.md, section 4.8).
+// The interface shift: a tet, with others if necessary, takes the label around it; the topology
+// stays (method.md, section 4.8).
 #include <dsc/geometry/quality.hpp>
 
 #include "kernel/creases.hpp"
@@ -20,7 +21,8 @@ mesh::Label majority_across(const mesh::Complex& c, TetId t) {
     for (unsigned f = 0; f < 4; ++f) {
         if (!c.interface_face(t, f)) continue;
         unsigned count = 0;
-        for (unsigned g = 0; g < 4; ++g) count += c.label_across(t, g) == c.label_across(t, f) ? 1 : 0;
+        for (unsigned g = 0; g < 4; ++g)
+            count += c.label_across(t, g) == c.label_across(t, f) ? 1 : 0;
         if (count <= votes) continue;
         votes = count;
         best = c.label_across(t, f);

@@ -1,11 +1,13 @@
 #pragma once
-// Arrays that an operation reuses from call to call, so that it allocates nothing after they have grown.
+// Arrays that an operation reuses from call to call, so that it allocates nothing after they have
+// grown.
 
 #include <memory>
 
 namespace dsc::kernel {
 
-// Each type is defined in the one source file that uses it, so no other file can read or write its arrays.
+// Each type is defined in the one source file that uses it, so no other file can read or write its
+// arrays.
 struct EdgeScratch;
 struct CollapseScratch;
 struct SmoothScratch;

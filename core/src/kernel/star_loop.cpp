@@ -1,4 +1,5 @@
-// Splits a long list of vertices into blocks of space and runs the blocks in parallel (method.md, section 10).
+// Splits a long list of vertices into blocks of space and runs the blocks in parallel (method.md,
+// section 10).
 #include "kernel/star_loop.hpp"
 
 namespace dsc::kernel {
@@ -19,7 +20,8 @@ std::uint16_t z_order(const Vec3& p, const Vec3& low, const Vec3& scale) {
     std::uint32_t code = 0;
     for (unsigned axis = 0; axis < 3; ++axis) {
         const double x = (p[axis] - low[axis]) * scale[axis];
-        const auto cell = static_cast<std::uint32_t>(std::clamp(x, 0.0, static_cast<double>(cells_an_axis - 1)));
+        const auto cell =
+            static_cast<std::uint32_t>(std::clamp(x, 0.0, static_cast<double>(cells_an_axis - 1)));
         code |= spread(cell) << axis;
     }
     return static_cast<std::uint16_t>(code);
@@ -37,7 +39,9 @@ void find_neighbours(const mesh::Complex& complex, mesh::VertexId v, StarScratch
         }
     }
     std::sort(scratch.neighbours.begin(), scratch.neighbours.end(),
-              [&complex](mesh::VertexId x, mesh::VertexId y) { return complex.birth(x) < complex.birth(y); });
+              [&complex](mesh::VertexId x, mesh::VertexId y) {
+                  return complex.birth(x) < complex.birth(y);
+              });
 }
 
 void StarLoop::split(std::span<const mesh::VertexId> vertices) {
@@ -58,7 +62,8 @@ void StarLoop::split(std::span<const mesh::VertexId> vertices) {
         cells_[i] = z_order(complex_.position(vertices[i]), low, scale);
         ++cell_sizes_[cells_[i]];
     }
-    // Consecutive cells form a block until it has its share; then cell_sizes_ becomes the block of each cell.
+    // Consecutive cells form a block until it has its share; then cell_sizes_ becomes the block of
+    // each cell.
     std::size_t passed = 0;
     begins_.fill(0);
     for (std::uint32_t& size : cell_sizes_) {
@@ -93,12 +98,14 @@ void StarLoop::date_wave(std::size_t count, Workers* workers) {
             std::size_t at = 0;
             for (const Entry& entry : block.entries) {
                 if (entry.star_size == 0) continue;
-                complex_.date_star(std::span(block.stars).subspan(at, entry.star_size), ++date, block.changed);
+                complex_.date_star(std::span(block.stars).subspan(at, entry.star_size), ++date,
+                                   block.changed);
                 at += entry.star_size;
             }
         }
     });
-    for (std::size_t b = 0; b < count; ++b) complex_.note_changes(blocks_[b].clock + blocks_[b].moved, blocks_[b].changed);
+    for (std::size_t b = 0; b < count; ++b)
+        complex_.note_changes(blocks_[b].clock + blocks_[b].moved, blocks_[b].changed);
 }
 
 void StarLoop::join(std::span<const mesh::VertexId> vertices) {

@@ -1,11 +1,13 @@
 #pragma once
-// Performs an action at many vertices, each on its own star. Stars that cannot meet are processed in parallel; the result
-// depends only on the complex and the list, never on the number of threads (method.md, section 10).
+// Performs an action at many vertices, each on its own star. Stars that cannot meet are processed
+// in parallel; the result depends only on the complex and the list, never on the number of threads
+// (method.md, section 10).
 //
-// Long lists are split into blocks of space, along the Z-order of a coarse grid. Blocks run at the same time; each processes
-// its own vertices in the order of the list. A vertex whose star contains a vertex of another block waits and runs after all
-// blocks, in the order of the list. So no two threads write to the same tet, and no thread reads what another one writes. Short
-// lists run in their order without blocks.
+// Long lists are split into blocks of space, along the Z-order of a coarse grid. Blocks run at the
+// same time; each processes its own vertices in the order of the list. A vertex whose star contains
+// a vertex of another block waits and runs after all blocks, in the order of the list. So no two
+// threads write to the same tet, and no thread reads what another one writes. Short lists run in
+// their order without blocks.
 
 #include <algorithm>
 #include <array>
@@ -21,11 +23,11 @@ namespace dsc::kernel {
 /// Arrays for the visit of one star; one per thread.
 struct StarScratch {
     std::vector<mesh::TetId> star;
-    mesh::TetIndex places;                  // of the star's tets
+    mesh::TetIndex places;  // of the star's tets
     std::vector<mesh::VertexId> neighbours;
-    mesh::TetIndex seen;                    // of vertices, for find_neighbours()
-    Vec3 place = Vec3::Zero();              // the planned place of the vertex,
-    std::vector<float> qualities;           // and the qualities of the star there, in its order
+    mesh::TetIndex seen;           // of vertices, for find_neighbours()
+    Vec3 place = Vec3::Zero();     // the planned place of the vertex,
+    std::vector<float> qualities;  // and the qualities of the star there, in its order
 };
 
 /// Writes the other vertices of the star, in birth order, to scratch.neighbours. [parallel]
@@ -98,7 +100,8 @@ private:
         const bool ready = action.ready(i);
         if (ready) {
             complex_.star(v, scratch.star, scratch.places);
-            if (action.attempt(i, scratch)) complex_.move(v, scratch.place, scratch.star, scratch.qualities);
+            if (action.attempt(i, scratch))
+                complex_.move(v, scratch.place, scratch.star, scratch.qualities);
         }
         action.settle(i, ready, complex_.clock());
     }
@@ -149,11 +152,12 @@ private:
     std::array<Block, 8> blocks_;  // one wave of blocks, so that few stars are stored at a time
     std::size_t block_count_ = 0;
     std::size_t wave_ = 0;                // first block of the wave
-    std::vector<std::uint8_t> block_of_;  // per vertex: its block; no_block if it is not in the list
+    std::vector<std::uint8_t> block_of_;  // per vertex: its block; no_block if it is not in the
+                                          // list
     std::vector<std::uint32_t> order_;    // the list by block
     std::array<std::size_t, most_blocks + 1> begins_{};
     std::vector<std::uint32_t> waiting_;
-    std::vector<std::uint16_t> cells_;    // per entry of the list
+    std::vector<std::uint16_t> cells_;  // per entry of the list
     std::vector<std::uint32_t> cell_sizes_;
 };
 

@@ -9,7 +9,9 @@ namespace dsc::kernel {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 void count(const Event& event, repair::EventCounts& counts) {
     switch (event.kind) {
@@ -25,7 +27,8 @@ void count(const Event& event, repair::EventCounts& counts) {
 
 }  // namespace
 
-void Deformer::State::begin_step(std::span<const VertexId> vertices, std::span<const Vec3> displacements, const RepairPolicy& policy,
+void Deformer::State::begin_step(std::span<const VertexId> vertices,
+                                 std::span<const Vec3> displacements, const RepairPolicy& policy,
                                  StepReport& report) {
     apply_limits(policy.flatness, policy.creases);
     bench.limits.set_floor(policy.quality_floor.value_or(options.quality_floor));
@@ -62,11 +65,14 @@ void Deformer::State::note_changes(std::span<const TetId> changed) {
 }
 
 // The tet of a refused request waits until its neighbourhood changes.
-void Deformer::State::record(std::uint32_t i, Outcome outcome, std::uint32_t date, StepReport& report) {
+void Deformer::State::record(std::uint32_t i, Outcome outcome, std::uint32_t date,
+                             StepReport& report) {
     outcomes[i] = outcome;
     const repair::Request& request = requests[i];
     report.operations[static_cast<std::size_t>(request.operation)].add(outcome);
-    report.repair_classes[std::min<std::size_t>(request.repair_class, repair::repair_class_limit - 1)].add(outcome);
+    report
+        .repair_classes[std::min<std::size_t>(request.repair_class, repair::repair_class_limit - 1)]
+        .add(outcome);
     if (!outcome.refused()) return;
     if (outcome != Refusal::stale && request.tet != mesh::none) queues.fail(request.tet, date);
 }
@@ -86,42 +92,50 @@ struct Deformer::State::Smoothing {
         return decide(i, may_smooth(state.bench, request(i).vertices[0], request(i).accept_above));
     }
     bool attempt(std::size_t i, StarScratch& scratch) const {
-        return decide(i, plan_laplacian(state.complex, state.bench.limits, request(i).vertices[0], request(i).accept_above, scratch));
+        return decide(i, plan_laplacian(state.complex, state.bench.limits, request(i).vertices[0],
+                                        request(i).accept_above, scratch));
     }
     void settle(std::uint32_t i, bool attempted, std::uint32_t date) const {
         const Outcome outcome = state.outcomes[first + i];
         if (attempted && outcome.refused()) {
-            state.bench.remember(request(i).vertices[0], Workbench::Smoother::laplacian, request(i).accept_above, outcome.reason(), date);
+            state.bench.remember(request(i).vertices[0], Workbench::Smoother::laplacian,
+                                 request(i).accept_above, outcome.reason(), date);
         }
         state.record(first + i, outcome, date, report);
     }
 };
 
-// Whether the request is certainly a Laplacian smoothing at its turn, whatever other smoothings do before it.
+// Whether the request is certainly a Laplacian smoothing at its turn, whatever other smoothings do
+// before it.
 bool Deformer::State::plain_smoothing(const repair::Request& request) const {
     const VertexId v = request.vertices[0];
     const TetId t = request.tet;
-    return request.operation == repair::Operation::smooth_laplacian && v != mesh::none && request.vertices[1] == mesh::none &&
-           request.only_below > 1.0F && t != mesh::none && t < complex.tet_slots() && complex.tet_alive(t) &&
+    return request.operation == repair::Operation::smooth_laplacian && v != mesh::none &&
+           request.vertices[1] == mesh::none && request.only_below > 1.0F && t != mesh::none &&
+           t < complex.tet_slots() && complex.tet_alive(t) &&
            complex.birth_date(t) == request.birth_date && mesh::has_vertex(complex.tet(t), v);
 }
 
 std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) {
     smoothed.clear();
-    for (std::size_t i = first; i < requests.size() && plain_smoothing(requests[i]); ++i) smoothed.push_back(requests[i].vertices[0]);
+    for (std::size_t i = first; i < requests.size() && plain_smoothing(requests[i]); ++i)
+        smoothed.push_back(requests[i].vertices[0]);
     Smoothing action{*this, static_cast<std::uint32_t>(first), report};
     star_loop.run(smoothed, workers, action);
     return smoothed.size();
 }
 
-void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report) {
+void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool settled,
+                             StepReport& report) {
     const auto dirty = queues.next_round();
     note_changes(dirty);
     requests.clear();
-    policy.propose(repair::RepairRound{complex, dirty, destinations.blocked(), last_requests, outcomes, length, policy.flatness, round, settled,
-                                     policy.size_edits,
-                                     bench.lengths != nullptr ? std::span<const double>(*bench.lengths) : std::span<const double>()},
-                   requests);
+    policy.propose(
+        repair::RepairRound{complex, dirty, destinations.blocked(), last_requests, outcomes, length,
+                            policy.flatness, round, settled, policy.size_edits,
+                            bench.lengths != nullptr ? std::span<const double>(*bench.lengths)
+                                                     : std::span<const double>()},
+        requests);
     outcomes.resize(requests.size());
     for (std::size_t i = 0; i < requests.size();) {
         const std::size_t done = smooth_from(i, report);
@@ -134,19 +148,22 @@ void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool se
     std::swap(last_requests, requests);
 }
 
-// The remaining motion is dropped if it no longer falls, or if nothing can be tried any more (method.md, section 5.3).
+// The remaining motion is dropped if it no longer falls, or if nothing can be tried any more
+// (method.md, section 5.3).
 class Deformer::State::Stall {
 public:
     explicit Stall(const DeformerOptions& options) : options_(options) {}
 
-    /// After the passes of a round: `left` is the remaining distance, `tried` the number of attempted moves.
+    /// After the passes of a round: `left` is the remaining distance, `tried` the number of
+    /// attempted moves.
     bool reached(double left, std::size_t tried, bool done) {
         if (left < best_left_ * (1.0 - options_.stall_ratio)) {
             best_left_ = left;
             slow_rounds_ = 0;
             return false;
         }
-        return !done && (++slow_rounds_ >= options_.stall_rounds || (tried == 0 && ++idle_rounds_ > 1));
+        return !done &&
+               (++slow_rounds_ >= options_.stall_rounds || (tried == 0 && ++idle_rounds_ > 1));
     }
 
 private:
@@ -191,7 +208,8 @@ void Deformer::State::change_topology(const RepairPolicy& policy, StepReport& re
     note_changes(complex.changes());
     topology.run(step, step_changes, policy.topology, policy.select, report.events, workers);
     if (policy.topology.thickness > 0.0) {
-        topology.remove_small_components(step, destinations.near_collapses(), policy.topology.min_component, report.events);
+        topology.remove_small_components(step, destinations.near_collapses(),
+                                         policy.topology.min_component, report.events);
     }
     fields.settle();
     report.repair_seconds += seconds_since(start);
@@ -203,7 +221,8 @@ void Deformer::State::sum_up(StepReport& report) const {
     report.edit_distance = bench.sums.distance;
     report.edit_volume = bench.sums.volume;
     report.relabelled_volume = bench.sums.relabelled;
-    report.arrived = report.requested > destinations.stranded() ? report.requested - destinations.stranded() : 0;
+    report.arrived =
+        report.requested > destinations.stranded() ? report.requested - destinations.stranded() : 0;
 }
 
 }  // namespace dsc::kernel

@@ -1,11 +1,11 @@
 // Names of events and sums of counts.
-#include <dsc/kernel/step_report.hpp>
+#include "dsc/kernel/step_report.hpp"
 
 namespace dsc::kernel {
 
 std::string_view name(Event::Kind kind) {
-    constexpr std::array<std::string_view, 7> names = {"merge",    "split", "handle_opened", "handle_closed",
-                                                       "vanished", "born",  "unpinched"};
+    constexpr std::array<std::string_view, 7> names = {
+        "merge", "split", "handle_opened", "handle_closed", "vanished", "born", "unpinched"};
     return names[static_cast<std::size_t>(kind)];
 }
 

@@ -1,4 +1,5 @@
-// The topology stage: finds seeds, evaluates candidates, commits the selected ones (method.md, sections 8.1 to 8.5).
+// The topology stage: finds seeds, evaluates candidates, commits the selected ones (method.md,
+// sections 8.1 to 8.5).
 #include "kernel/topology.hpp"
 
 #include <cmath>
@@ -9,12 +10,13 @@
 namespace dsc::kernel {
 namespace {
 
-constexpr std::uint64_t rest_steps = 5;     // steps in which the vertices of an event take part in no change that undoes it
-constexpr double longest_edge = 1.0;        // of a seed, in L
-constexpr double thickest_neck = 0.5;       // area of a neck's cross-section, in L^2
-constexpr double events_per_vertex = 0.02;  // per step
-constexpr std::size_t seed_block = 8192;    // changed tets per block of the parallel search
-constexpr std::size_t small_component = 64; // largest number of tets that a flood visits
+constexpr std::uint64_t rest_steps = 5;  // steps in which the vertices of an event take part in no
+                                         // change that undoes it
+constexpr double longest_edge = 1.0;     // of a seed, in L
+constexpr double thickest_neck = 0.5;    // area of a neck's cross-section, in L^2
+constexpr double events_per_vertex = 0.02;   // per step
+constexpr std::size_t seed_block = 8192;     // changed tets per block of the parallel search
+constexpr std::size_t small_component = 64;  // largest number of tets that a flood visits
 
 // The label at an interface vertex that is not `own`; `own` if there is not exactly one such label.
 mesh::Label other_label(const mesh::Complex& c, std::span<const TetId> star, mesh::Label own) {
@@ -48,7 +50,9 @@ bool wanted(Kind kind, const repair::TopologyLimits& limits) {
 }  // namespace
 
 bool TopologyStage::recent(VertexId v, mesh::Label from, std::uint64_t step) const {
-    if (v >= event_step_.size() || event_step_[v] == 0 || event_birth_[v] != bench_.complex.birth(v)) return false;
+    if (v >= event_step_.size() || event_step_[v] == 0 ||
+        event_birth_[v] != bench_.complex.birth(v))
+        return false;
     if (event_to_[v] != from) return false;
     return event_step_[v] - 1 + rest_steps >= step;
 }
@@ -77,16 +81,20 @@ void TopologyStage::add_seed(std::array<VertexId, 3> v, SeedBlock& block) const 
 bool TopologyStage::interface_edge(TetId t, VertexId a, VertexId b, mesh::EdgeRing& ring) const {
     const mesh::Complex& c = bench_.complex;
     c.ring(t, a, b, ring);
-    return std::any_of(ring.tets.begin(), ring.tets.end(), [&](TetId r) { return c.label(r) != c.label(t); });
+    return std::any_of(ring.tets.begin(), ring.tets.end(),
+                       [&](TetId r) { return c.label(r) != c.label(t); });
 }
 
 bool TopologyStage::neck_face(TetId t, unsigned face, mesh::EdgeRing& ring) const {
     const mesh::Complex& c = bench_.complex;
     const std::uint32_t code = c.tet(t).n[face];
-    if (code == mesh::none || mesh::neighbour_tet(code) < t || c.label(mesh::neighbour_tet(code)) != c.label(t)) return false;
+    if (code == mesh::none || mesh::neighbour_tet(code) < t ||
+        c.label(mesh::neighbour_tet(code)) != c.label(t))
+        return false;
     const auto& f = mesh::face_vertices[face];
     const auto& v = c.tet(t).v;
-    const double area = geometry::triangle_area(c.position(v[f[0]]), c.position(v[f[1]]), c.position(v[f[2]]));
+    const double area =
+        geometry::triangle_area(c.position(v[f[0]]), c.position(v[f[1]]), c.position(v[f[2]]));
     const double length = bench_.length_at(v);
     if (area > thickest_neck * length * length) return false;
     for (unsigned k = 0; k < 3; ++k) {
@@ -107,48 +115,59 @@ void TopologyStage::collect_seeds_of(TetId t, std::uint64_t step, SeedBlock& blo
         count += ready[i] ? 1 : 0;
     }
     if (count < 2) return;
-    std::array<bool, 4> interface{};
+    std::array<bool, 4> interface {};
     for (unsigned f = 0; f < 4; ++f) interface[f] = c.interface_face(t, f);
     for (const auto& e : mesh::edge_vertices) {
         if (!ready[e[0]] || !ready[e[1]]) continue;
-        // A quick test for most interface edges: one of the two faces at the edge, opposite the other vertices, is on the
-        // interface.
+        // A quick test for most interface edges: one of the two faces at the edge, opposite the
+        // other vertices, is on the interface.
         bool seen = false;
         for (unsigned f = 0; f < 4; ++f) seen = seen || (interface[f] && f != e[0] && f != e[1]);
         if (seen) continue;
         if ((c.position(v[e[0]]) - c.position(v[e[1]])).squaredNorm() > limit2) continue;
-        if (!interface_edge(t, v[e[0]], v[e[1]], block.ring)) add_seed({v[e[0]], v[e[1]], mesh::none}, block);
+        if (!interface_edge(t, v[e[0]], v[e[1]], block.ring))
+            add_seed({v[e[0]], v[e[1]], mesh::none}, block);
     }
     for (unsigned f = 0; f < 4 && count > 2; ++f) {
         const auto& k = mesh::face_vertices[f];
-        if (ready[k[0]] && ready[k[1]] && ready[k[2]] && neck_face(t, f, block.ring)) add_seed({v[k[0]], v[k[1]], v[k[2]]}, block);
+        if (ready[k[0]] && ready[k[1]] && ready[k[2]] && neck_face(t, f, block.ring))
+            add_seed({v[k[0]], v[k[1]], v[k[2]]}, block);
     }
 }
 
-void TopologyStage::collect_seeds(std::uint64_t step, std::span<const TetId> changed, Workers* workers) {
+void TopologyStage::collect_seeds(std::uint64_t step, std::span<const TetId> changed,
+                                  Workers* workers) {
     struct Job {
         TopologyStage& stage;
         std::span<const TetId> changed;
         std::uint64_t step;
     } const job{*this, changed, step};
-    seed_blocks_.resize(std::max(seed_blocks_.size(), (changed.size() + seed_block - 1) / seed_block));
+    seed_blocks_.resize(
+        std::max(seed_blocks_.size(), (changed.size() + seed_block - 1) / seed_block));
     for (SeedBlock& block : seed_blocks_) block.seeds.clear();
     const auto body = [&job](std::size_t begin, std::size_t end) {
         SeedBlock& block = job.stage.seed_blocks_[begin / seed_block];
         for (const TetId t : job.changed.subspan(begin, end - begin)) {
-            if (job.stage.bench_.complex.tet_alive(t)) job.stage.collect_seeds_of(t, job.step, block);
+            if (job.stage.bench_.complex.tet_alive(t))
+                job.stage.collect_seeds_of(t, job.step, block);
         }
     };
     for_blocks(workers, changed.size(), seed_block, body);
     seeds_.clear();
-    for (const SeedBlock& block : seed_blocks_) seeds_.insert(seeds_.end(), block.seeds.begin(), block.seeds.end());
-    std::sort(seeds_.begin(), seeds_.end(), [](const Seed& x, const Seed& y) { return x.births < y.births; });
-    seeds_.erase(std::unique(seeds_.begin(), seeds_.end(), [](const Seed& x, const Seed& y) { return x.births == y.births; }), seeds_.end());
+    for (const SeedBlock& block : seed_blocks_)
+        seeds_.insert(seeds_.end(), block.seeds.begin(), block.seeds.end());
+    std::sort(seeds_.begin(), seeds_.end(),
+              [](const Seed& x, const Seed& y) { return x.births < y.births; });
+    seeds_.erase(std::unique(seeds_.begin(), seeds_.end(),
+                             [](const Seed& x, const Seed& y) { return x.births == y.births; }),
+                 seeds_.end());
 }
 
 bool TopologyStage::usable(const Seed& seed, mesh::Label from, std::uint64_t step) const {
     const mesh::Complex& c = bench_.complex;
-    return std::all_of(seed.v.begin(), seed.v.end(), [&](VertexId v) { return v == mesh::none || (c.movable(v) && !recent(v, from, step)); });
+    return std::all_of(seed.v.begin(), seed.v.end(), [&](VertexId v) {
+        return v == mesh::none || (c.movable(v) && !recent(v, from, step));
+    });
 }
 
 RegionFault TopologyStage::start(const Seed& seed, Region& region) {
@@ -159,7 +178,8 @@ RegionFault TopologyStage::start(const Seed& seed, Region& region) {
     if (!ring_.closed) return RegionFault::box;
     region.tets.clear();
     for (const TetId r : ring_.tets) {
-        if (seed.v[2] == mesh::none || mesh::has_vertex(c.tet(r), seed.v[2])) region.tets.push_back(r);
+        if (seed.v[2] == mesh::none || mesh::has_vertex(c.tet(r), seed.v[2]))
+            region.tets.push_back(r);
     }
     if (region.tets.empty()) return RegionFault::kind;
     region.from = c.label(region.tets.front());
@@ -171,7 +191,8 @@ RegionFault TopologyStage::start(const Seed& seed, Region& region) {
         if (v == mesh::none) continue;
         c.star(v, star_);
         const mesh::Label other = other_label(c, star_, region.from);
-        if (other == region.from || (region.to != region.from && region.to != other)) return RegionFault::labels;
+        if (other == region.from || (region.to != region.from && region.to != other))
+            return RegionFault::labels;
         region.to = other;
     }
     return RegionFault::none;
@@ -182,7 +203,8 @@ RegionFault TopologyStage::region_of(const Seed& seed, Region& region) {
     if (const RegionFault fault = grow(bench_, region); fault != RegionFault::none) return fault;
     if (const RegionFault fault = measure(bench_, region); fault != RegionFault::none) return fault;
     const unsigned s = region.patches_from, o = region.patches_to;
-    const bool known = (s == 1 && o == 2) || (s == 2 && o == 1) || (s == 1 && o == 1 && region.from > 0);
+    const bool known =
+        (s == 1 && o == 2) || (s == 2 && o == 1) || (s == 1 && o == 1 && region.from > 0);
     return known ? RegionFault::none : RegionFault::kind;
 }
 
@@ -211,11 +233,14 @@ bool TopologyStage::same_shell(std::span<const VertexId> from, std::span<const V
             }
         }
     }
-    return std::any_of(to.begin(), to.end(), [this](VertexId v) { return seen_[v] == seen_epoch_; });
+    return std::any_of(to.begin(), to.end(),
+                       [this](VertexId v) { return seen_[v] == seen_epoch_; });
 }
 
 // The target length at a region: at its first tet, from which it grew.
-double TopologyStage::length_at(const Region& region) const { return bench_.length_at(bench_.complex.tet(region.tets.front()).v); }
+double TopologyStage::length_at(const Region& region) const {
+    return bench_.length_at(bench_.complex.tet(region.tets.front()).v);
+}
 
 Event TopologyStage::commit(const Region& region, std::uint64_t step) {
     Event event;
@@ -230,7 +255,8 @@ Event TopologyStage::commit(const Region& region, std::uint64_t step) {
     if (region.patches_to == 2) {
         event.kind = bridged ? Event::Kind::handle_opened : Event::Kind::merge;
     } else if (region.patches_from == 2) {
-        event.kind = same_shell(region.patch_a, region.patch_b) ? Event::Kind::handle_closed : Event::Kind::split;
+        event.kind = same_shell(region.patch_a, region.patch_b) ? Event::Kind::handle_closed
+                                                                : Event::Kind::split;
     } else {
         event.kind = region.patches_from == 0 ? Event::Kind::vanished : Event::Kind::born;
         event.thickness = 0.0;
@@ -239,7 +265,8 @@ Event TopologyStage::commit(const Region& region, std::uint64_t step) {
     return event;
 }
 
-void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, const repair::TopologyLimits& limits, const Select& select,
+void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed,
+                        const repair::TopologyLimits& limits, const Select& select,
                         std::vector<Event>& events, Workers* workers) {
     if (!(limits.thickness > 0.0)) return;
     const mesh::Complex& c = bench_.complex;
@@ -279,8 +306,12 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
     for (const Found* f : order_) {
         const bool shift = f->candidate.kind == repair::TopologyCandidate::Kind::shift;
         if ((shift ? shifted : committed) == most) continue;
-        if (!usable(f->seed, f->candidate.label, step) || region_of(f->seed, region) != RegionFault::none) continue;
-        if (kind_of(region) != f->candidate.kind || thickness(region) / length_at(region) > limits.thickness) continue;
+        if (!usable(f->seed, f->candidate.label, step) ||
+            region_of(f->seed, region) != RegionFault::none)
+            continue;
+        if (kind_of(region) != f->candidate.kind ||
+            thickness(region) / length_at(region) > limits.thickness)
+            continue;
         if (shift) {
             const InterfaceChange change{0.0, region.volume};
             if (change.exceeds(bench_.bounds_at(c.tet(region.tets.front()).v))) continue;
@@ -290,7 +321,8 @@ void TopologyStage::run(std::uint64_t step, std::span<const TetId> changed, cons
             events.push_back(commit(region, step));
             ++committed;
         }
-        for (const TetId t : region.tets) touched_.insert(touched_.end(), c.tet(t).v.begin(), c.tet(t).v.end());
+        for (const TetId t : region.tets)
+            touched_.insert(touched_.end(), c.tet(t).v.begin(), c.tet(t).v.end());
     }
     if (!touched_.empty()) remove_small_components(step, touched_, limits.min_component, events);
 }
@@ -304,13 +336,15 @@ bool TopologyStage::flood_component(TetId seed, double volume_limit, Region& reg
     for (std::size_t i = 0; i < region.tets.size(); ++i) {
         const TetId t = region.tets[i];
         volume += c.volume(t);
-        if (volume >= volume_limit || region.tets.size() > small_component || touches_box(c, t)) return false;
+        if (volume >= volume_limit || region.tets.size() > small_component || touches_box(c, t))
+            return false;
         for (unsigned f = 0; f < 4; ++f) {
             const TetId next = mesh::neighbour_tet(c.tet(t).n[f]);
             if (c.label(next) != region.from) {
                 if (region.to != region.from && region.to != c.label(next)) return false;
                 region.to = c.label(next);
-            } else if (std::find(region.tets.begin(), region.tets.end(), next) == region.tets.end()) {
+            } else if (std::find(region.tets.begin(), region.tets.end(), next) ==
+                       region.tets.end()) {
                 region.tets.push_back(next);
             }
         }
@@ -318,8 +352,8 @@ bool TopologyStage::flood_component(TetId seed, double volume_limit, Region& reg
     return region.to != region.from;
 }
 
-void TopologyStage::remove_small_components(std::uint64_t step, std::span<const VertexId> near, double min_component,
-                                            std::vector<Event>& events) {
+void TopologyStage::remove_small_components(std::uint64_t step, std::span<const VertexId> near,
+                                            double min_component, std::vector<Event>& events) {
     if (!(min_component > 0.0)) return;
     const mesh::Complex& c = bench_.complex;
     Region& region = region_;
@@ -331,13 +365,17 @@ void TopologyStage::remove_small_components(std::uint64_t step, std::span<const 
         c.star(v, star_);
         seeds.clear();
         for (const TetId t : star_) {
-            const bool known = std::any_of(seeds.begin(), seeds.end(), [&](TetId s) { return c.label(s) == c.label(t); });
+            const bool known = std::any_of(seeds.begin(), seeds.end(),
+                                           [&](TetId s) { return c.label(s) == c.label(t); });
             if (!known) seeds.push_back(t);
         }
         for (const TetId seed : seeds) {
             if (!flood_component(seed, limit, region)) continue;
-            // A ball vanishes as one event; a component with handles or cavities stays until it has become a ball.
-            if (measure(bench_, region) != RegionFault::none || region.patches_from != 0 || region.patches_to != 1) continue;
+            // A ball vanishes as one event; a component with handles or cavities stays until it has
+            // become a ball.
+            if (measure(bench_, region) != RegionFault::none || region.patches_from != 0 ||
+                region.patches_to != 1)
+                continue;
             events.push_back(commit(region, step));
             break;
         }

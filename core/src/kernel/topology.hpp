@@ -1,5 +1,6 @@
 #pragma once
-// The topology stage: changes the topology of the interface by relabelling balls of tets (method.md, section 8).
+// The topology stage: changes the topology of the interface by relabelling balls of tets
+// (method.md, section 8).
 
 #include <functional>
 #include <span>
@@ -17,19 +18,24 @@ class TopologyStage {
 public:
     explicit TopologyStage(Workbench& bench) : bench_(bench) {}
 
-    using Select = std::function<void(std::span<const repair::TopologyCandidate>, std::span<std::uint8_t>)>;
+    using Select =
+        std::function<void(std::span<const repair::TopologyCandidate>, std::span<std::uint8_t>)>;
 
-    /// Finds candidates at the edges and faces of the changed tets, lets `select` choose, and commits the accepted ones one by
-    /// one. `workers`, null for one thread, share the search.
-    void run(std::uint64_t step, std::span<const TetId> changed, const repair::TopologyLimits& limits, const Select& select,
-             std::vector<Event>& events, Workers* workers = nullptr);
+    /// Finds candidates at the edges and faces of the changed tets, lets `select` choose, and
+    /// commits the accepted ones one by one. `workers`, null for one thread, share the search.
+    void run(std::uint64_t step, std::span<const TetId> changed,
+             const repair::TopologyLimits& limits, const Select& select, std::vector<Event>& events,
+             Workers* workers = nullptr);
 
-    /// Components near the given vertices that are smaller than `min_component` regular tets take the label around them.
-    void remove_small_components(std::uint64_t step, std::span<const VertexId> near, double min_component, std::vector<Event>& events);
+    /// Components near the given vertices that are smaller than `min_component` regular tets take
+    /// the label around them.
+    void remove_small_components(std::uint64_t step, std::span<const VertexId> near,
+                                 double min_component, std::vector<Event>& events);
 
     /// The target length at a region.
     double length_at(const Region& region) const;
-    /// Relabels the region and returns the event; the kind must be (1,2), (2,1), (0,1) or (1,0) (method.md, section 8.3).
+    /// Relabels the region and returns the event; the kind must be (1,2), (2,1), (0,1) or (1,0)
+    /// (method.md, section 8.3).
     Event commit(const Region& region, std::uint64_t step);
 
     /// Saves which vertices rest, and since which event. [step]
@@ -37,8 +43,9 @@ public:
     void load(StateReader& in);
 
 private:
-    // Start of a region: an edge inside a phase with its ends on the interface; or a face inside a phase whose three edges all
-    // lie on the interface, the cross-section of a neck that is too thin to have an edge inside.
+    // Start of a region: an edge inside a phase with its ends on the interface; or a face inside a
+    // phase whose three edges all lie on the interface, the cross-section of a neck that is too
+    // thin to have an edge inside.
     struct Seed {
         std::array<std::uint32_t, 3> births;  // ascending; the last is none for an edge
         std::array<VertexId, 3> v;
@@ -62,7 +69,8 @@ private:
     bool usable(const Seed& seed, mesh::Label from, std::uint64_t step) const;
     bool same_shell(std::span<const VertexId> from, std::span<const VertexId> to);
     void mark_event(const Region& region, std::uint64_t step);
-    /// Whether an event at v gave tets the label `from` within the last steps, so that taking them again would undo it.
+    /// Whether an event at v gave tets the label `from` within the last steps, so that taking them
+    /// again would undo it.
     bool recent(VertexId v, mesh::Label from, std::uint64_t step) const;
     bool flood_component(TetId seed, double volume_limit, Region& region);
 
@@ -70,9 +78,10 @@ private:
     std::vector<SeedBlock> seed_blocks_;
     std::vector<Seed> seeds_;
     std::vector<Found> found_;
-    std::vector<std::uint64_t> event_step_;  // per vertex: 1 + step of the last event that touched it
+    std::vector<std::uint64_t> event_step_;  // per vertex: 1 + step of the last event that touched
+                                             // it
     std::vector<std::uint32_t> event_birth_;
-    std::vector<mesh::Label> event_to_;      // the label that the event gave
+    std::vector<mesh::Label> event_to_;  // the label that the event gave
     std::vector<std::uint32_t> seen_;
     std::uint32_t seen_epoch_ = 0;
     std::vector<VertexId> queue_;

@@ -1,4 +1,5 @@
-// Numbers per interface vertex: target lengths and attributes, and how they follow the edits (method.md, section 9).
+// Numbers per interface vertex: target lengths and attributes, and how they follow the edits
+// (method.md, section 9).
 #include "kernel/vertex_fields.hpp"
 
 #include <cmath>
@@ -39,13 +40,16 @@ double VertexFields::value(const Column& column, VertexId v) const {
 }
 
 bool VertexFields::lacks(VertexId v) const {
-    return std::any_of(columns_.begin(), columns_.end(), [&](const Column& column) { return std::isnan(value(column, v)); });
+    return std::any_of(columns_.begin(), columns_.end(),
+                       [&](const Column& column) { return std::isnan(value(column, v)); });
 }
 
-void VertexFields::set(std::string_view name, std::span<const VertexId> vertices, std::span<const double> values,
-                       double otherwise) {
-    auto column = std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
-    if (column == columns_.end()) column = columns_.insert(columns_.end(), {std::string(name), otherwise, {}});
+void VertexFields::set(std::string_view name, std::span<const VertexId> vertices,
+                       std::span<const double> values, double otherwise) {
+    auto column = std::find_if(columns_.begin(), columns_.end(),
+                               [&](const Column& c) { return c.name == name; });
+    if (column == columns_.end())
+        column = columns_.insert(columns_.end(), {std::string(name), otherwise, {}});
     column->otherwise = otherwise;
     grow();
     column->values.assign(births_.size(), no_value);
@@ -62,7 +66,8 @@ void VertexFields::remove(std::string_view name) {
 }
 
 const std::vector<double>* VertexFields::find(std::string_view name) const {
-    const auto column = std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
+    const auto column = std::find_if(columns_.begin(), columns_.end(),
+                                     [&](const Column& c) { return c.name == name; });
     return column == columns_.end() ? nullptr : &column->values;
 }
 
@@ -76,13 +81,15 @@ void VertexFields::on_split(VertexId vertex, VertexId a, VertexId b, double s) {
     if (!empty()) {
         grow();
         claim(vertex);
-        for (Column& column : columns_) column.values[vertex] = between(value(column, a), value(column, b), s);
+        for (Column& column : columns_)
+            column.values[vertex] = between(value(column, a), value(column, b), s);
     }
     next_.on_split(vertex, a, b, s);
 }
 
 void VertexFields::on_collapse(VertexId kept, VertexId removed, double s) {
-    // The removed id no longer exists, but its slot is not used again yet. An end that is not on the interface is ignored.
+    // The removed id no longer exists, but its slot is not used again yet. An end that is not on
+    // the interface is ignored.
     if (!empty() && complex_.on_interface(kept)) {
         grow();
         claim(kept);
@@ -93,8 +100,8 @@ void VertexFields::on_collapse(VertexId kept, VertexId removed, double s) {
     next_.on_collapse(kept, removed, s);
 }
 
-// One ring: gives values to those of `missing` that have a neighbour with a value; the others stay in `missing`. False if none
-// got a value.
+// One ring: gives values to those of `missing` that have a neighbour with a value; the others stay
+// in `missing`. False if none got a value.
 bool VertexFields::fill_from_neighbours(std::vector<VertexId>& missing) {
     struct Found {
         VertexId vertex;
@@ -113,7 +120,8 @@ bool VertexFields::fill_from_neighbours(std::vector<VertexId>& missing) {
                 for (const auto k : mesh::face_vertices[f]) ring.push_back(complex_.tet(t).v[k]);
             }
         }
-        std::sort(ring.begin(), ring.end(), [&](VertexId a, VertexId b) { return complex_.birth(a) < complex_.birth(b); });
+        std::sort(ring.begin(), ring.end(),
+                  [&](VertexId a, VertexId b) { return complex_.birth(a) < complex_.birth(b); });
         ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
         for (std::size_t i = 0; i < columns_.size(); ++i) {
             if (!std::isnan(columns_[i].values[v])) continue;
@@ -130,7 +138,9 @@ bool VertexFields::fill_from_neighbours(std::vector<VertexId>& missing) {
     }
     // All at once, so that the order of the vertices has no influence.
     for (const Found& f : found) columns_[f.column].values[f.vertex] = f.value;
-    missing.erase(std::remove_if(missing.begin(), missing.end(), [this](VertexId v) { return !lacks(v); }), missing.end());
+    missing.erase(
+        std::remove_if(missing.begin(), missing.end(), [this](VertexId v) { return !lacks(v); }),
+        missing.end());
     return !found.empty();
 }
 
@@ -142,7 +152,8 @@ void VertexFields::settle() {
         claim(v);
         if (lacks(v)) missing.push_back(v);
     }
-    while (!missing.empty() && fill_from_neighbours(missing)) {}
+    while (!missing.empty() && fill_from_neighbours(missing)) {
+    }
     for (const VertexId v : missing) {
         for (Column& column : columns_) {
             if (std::isnan(column.values[v])) column.values[v] = column.otherwise;
@@ -171,7 +182,9 @@ void VertexFields::load(StateReader& in) {
         in.list(column.values);
         fits = fits && column.values.size() == births_.size();
     }
-    if (!fits) throw IoError("state.damaged", "the numbers per vertex in the saved state do not fit its complex");
+    if (!fits)
+        throw IoError("state.damaged",
+                      "the numbers per vertex in the saved state do not fit its complex");
 }
 
 }  // namespace dsc::kernel

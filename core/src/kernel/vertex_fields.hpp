@@ -1,5 +1,6 @@
 #pragma once
-// Numbers per interface vertex that follow the edits: target lengths, and the attributes of strategies (method.md, section 9).
+// Numbers per interface vertex that follow the edits: target lengths, and the attributes of
+// strategies (method.md, section 9).
 
 #include <string>
 #include <string_view>
@@ -8,23 +9,27 @@
 
 namespace dsc::kernel {
 
-/// Fields by name. A vertex made by a split gets the value interpolated between the edge's ends; after a collapse the kept end
-/// keeps its value; a vertex that comes to the interface in another way gets the mean of its neighbours at the next settle().
-/// All edits are reported on to `next`, so another listener can follow. Nothing is allocated without fields.
+/// Fields by name. A vertex made by a split gets the value interpolated between the edge's ends;
+/// after a collapse the kept end keeps its value; a vertex that comes to the interface in another
+/// way gets the mean of its neighbours at the next settle(). All edits are reported on to `next`,
+/// so another listener can follow. Nothing is allocated without fields.
 class VertexFields final : public EditListener {
 public:
-    VertexFields(const mesh::Complex& complex, EditListener& next) : complex_(complex), next_(next) {}
+    VertexFields(const mesh::Complex& complex, EditListener& next)
+        : complex_(complex), next_(next) {}
 
     bool empty() const { return columns_.empty(); }
-    /// Sets a field on these vertices; all others have no value. Creates the field if it is new. Sizes are equal. `otherwise`
-    /// is for vertices that cannot get a value from neighbours. [step]
-    void set(std::string_view name, std::span<const VertexId> vertices, std::span<const double> values, double otherwise);
+    /// Sets a field on these vertices; all others have no value. Creates the field if it is new.
+    /// Sizes are equal. `otherwise` is for vertices that cannot get a value from neighbours. [step]
+    void set(std::string_view name, std::span<const VertexId> vertices,
+             std::span<const double> values, double otherwise);
     void remove(std::string_view name);
-    /// Gives every interface vertex without a value the mean of its neighbours, ring after ring, and `otherwise` to vertices
-    /// that are connected to no vertex with a value. [step]
+    /// Gives every interface vertex without a value the mean of its neighbours, ring after ring,
+    /// and `otherwise` to vertices that are connected to no vertex with a value. [step]
     void settle();
 
-    /// The values by vertex, NaN if there is none; null if there is no such field. Valid until the next change.
+    /// The values by vertex, NaN if there is none; null if there is no such field. Valid until the
+    /// next change.
     const std::vector<double>* find(std::string_view name) const;
     /// Names in the order in which they were set first.
     std::vector<std::string> names() const;
@@ -51,7 +56,8 @@ private:
 
     const mesh::Complex& complex_;
     EditListener& next_;
-    std::vector<std::uint32_t> births_;  // per vertex: birth of the vertex to which the values belong
+    std::vector<std::uint32_t> births_;  // per vertex: birth of the vertex to which the values
+                                         // belong
     std::vector<Column> columns_;
 };
 

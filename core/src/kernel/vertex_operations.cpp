@@ -1,4 +1,5 @@
-// Operations on one vertex or one tet: smoothing, vertex split, relabelling (method.md, sections 4.2, 4.6, 4.8).
+// Operations on one vertex or one tet: smoothing, vertex split, relabelling (method.md,
+// sections 4.2, 4.6, 4.8).
 #include <cmath>
 
 #include <dsc/mesh/star_quality.hpp>
@@ -21,8 +22,11 @@ struct VertexSplitScratch {
 
 namespace {
 
-bool star_positive(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& place) {
-    return std::all_of(star.begin(), star.end(), [&](TetId t) { return mesh::exactly_positive(mesh::corners_at(c, t, v, place)); });
+bool star_positive(const mesh::Complex& c, std::span<const TetId> star, VertexId v,
+                   const Vec3& place) {
+    return std::all_of(star.begin(), star.end(), [&](TetId t) {
+        return mesh::exactly_positive(mesh::corners_at(c, t, v, place));
+    });
 }
 
 float star_old(const mesh::Complex& c, std::span<const TetId> star) {
@@ -36,12 +40,13 @@ Outcome smoothable(const mesh::Complex& c, VertexId v) {
     return c.on_interface(v) ? Refusal::not_applicable : success;
 }
 
-// Gradient of the signed quality of tet (v, b, c, d) by v; q = sqrt(2) det / m^(3/2), m the mean squared edge.
+// Gradient of the signed quality of tet (v, b, c, d) by v; q = sqrt(2) det / m^(3/2), m the mean
+// squared edge.
 Vec3 quality_gradient(const Vec3& v, const Vec3& b, const Vec3& c, const Vec3& d) {
     const Vec3 u = b - v, s = c - v, w = d - v;
     const double det = u.cross(s).dot(w);
-    const double m = (u.squaredNorm() + s.squaredNorm() + w.squaredNorm() + (c - b).squaredNorm() + (d - b).squaredNorm() +
-                      (d - c).squaredNorm()) /
+    const double m = (u.squaredNorm() + s.squaredNorm() + w.squaredNorm() + (c - b).squaredNorm() +
+                      (d - b).squaredNorm() + (d - c).squaredNorm()) /
                      6.0;
     const Vec3 det_gradient = -(c - b).cross(d - b);
     const Vec3 m_gradient = -(u + s + w) / 3.0;
@@ -53,11 +58,13 @@ Vec3 quality_gradient(const Vec3& v, const Vec3& b, const Vec3& c, const Vec3& d
 
 Outcome may_smooth(const Workbench& bench, VertexId v, float accept_above) {
     if (const Outcome o = smoothable(bench.complex, v); o.refused()) return o;
-    if (const auto known = bench.known_refusal(v, Workbench::Smoother::laplacian, accept_above)) return *known;
+    if (const auto known = bench.known_refusal(v, Workbench::Smoother::laplacian, accept_above))
+        return *known;
     return success;
 }
 
-Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, VertexId v, float accept_above, StarScratch& scratch) {
+Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, VertexId v,
+                       float accept_above, StarScratch& scratch) {
     find_neighbours(complex, v, scratch);
     Vec3 mean = Vec3::Zero();
     for (const VertexId w : scratch.neighbours) mean += complex.position(w);
@@ -65,7 +72,8 @@ Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, Verte
     // A vertex that is already there is not moved: the move would only mark its star as changed.
     if ((mean - complex.position(v)).norm() < 0.02 * limits.length) return Refusal::no_gain;
     const float bound = std::min(star_old(complex, scratch.star), accept_above);
-    if (mesh::star_quality_above(bound, complex, scratch.star, v, mean, &scratch.qualities) < 0.0F) return Refusal::quality;
+    if (mesh::star_quality_above(bound, complex, scratch.star, v, mean, &scratch.qualities) < 0.0F)
+        return Refusal::quality;
     if (!star_positive(complex, scratch.star, v, mean)) return Refusal::quality;
     scratch.place = mean;
     return success;
@@ -76,7 +84,8 @@ Outcome smooth_laplacian(Workbench& bench, VertexId v, float accept_above) {
     StarScratch& scratch = bench.smooth.get().laplacian;
     bench.complex.star(v, scratch.star, scratch.places);
     const Outcome o = plan_laplacian(bench.complex, bench.limits, v, accept_above, scratch);
-    if (o.refused()) return bench.remember(v, Workbench::Smoother::laplacian, accept_above, o.reason());
+    if (o.refused())
+        return bench.remember(v, Workbench::Smoother::laplacian, accept_above, o.reason());
     bench.complex.move(v, scratch.place, scratch.star, scratch.qualities);
     return success;
 }
@@ -99,7 +108,8 @@ Outcome smooth_optimise(Workbench& bench, VertexId v) {
         for (const TetId t : star) {
             auto x = c.tet(t).v;
             const unsigned i = mesh::index_of(c.tet(t), v);
-            // (v, rest) in positive order: moving v to the front by i exchanges keeps the sign for even i.
+            // (v, rest) in positive order: moving v to the front by i exchanges keeps the sign for
+            // even i.
             for (unsigned k = i; k > 0; --k) std::swap(x[k], x[k - 1]);
             if (i % 2 == 1) std::swap(x[2], x[3]);
             const Vec3 &p1 = c.position(x[1]), &p2 = c.position(x[2]), &p3 = c.position(x[3]);
@@ -122,7 +132,8 @@ Outcome smooth_optimise(Workbench& bench, VertexId v) {
         if (!better) break;
     }
     if (!(best > old * 1.01F)) return bench.remember(v, smoother, 0.0F, Refusal::no_gain);
-    if (!star_positive(c, star, v, place)) return bench.remember(v, smoother, 0.0F, Refusal::quality);
+    if (!star_positive(c, star, v, place))
+        return bench.remember(v, smoother, 0.0F, Refusal::quality);
     c.move(v, place, star);
     return success;
 }
@@ -154,13 +165,15 @@ Outcome split_vertex(Workbench& bench, VertexId v, VertexId w) {
     if (group.empty()) return Refusal::not_applicable;
     const std::vector<mesh::RimFace> rim = mesh::rim_of(c, v, group);
     if (rim.empty()) return Refusal::not_applicable;
-    if (!mesh::plan_vertex_split(c, v, group, rim, mesh::RimLabel::own, bench.limits.quality_floor, bench.edit)) {
+    if (!mesh::plan_vertex_split(c, v, group, rim, mesh::RimLabel::own, bench.limits.quality_floor,
+                                 bench.edit)) {
         return Refusal::quality;
     }
     if (const Outcome o = bench.check_shape(0.0F, bench.old_quality()); o.refused()) return o;
     if (!c.link(bench.edit)) return Refusal::irregular;
     InterfaceChange change;
-    // If the star's interface corner is in the group, the new vertex would take over the corner and the geometry would change.
+    // If the star's interface corner is in the group, the new vertex would take over the corner and
+    // the geometry would change.
     if (c.on_interface(v)) {
         change = {(bench.edit.created_at - c.position(v)).norm(), bench.phase_change()};
         if (change.exceeds(bench.bounds_at(v, v))) return Refusal::bound;

@@ -45,9 +45,11 @@ Outcome Workbench::check_shape(float must_exceed, float old) {
         if (!(q > must_exceed) || !(q >= floor)) return Refusal::quality;
         edit.qualities.push_back(q);
     }
-    // The exact test comes last: the filter decides nearly all cases, and candidates that fail are usually far from flat.
+    // The exact test comes last: the filter decides nearly all cases, and candidates that fail are
+    // usually far from flat.
     for (const mesh::NewTet& t : edit.added) {
-        if (geometry::orient3d(at(t.v[0]), at(t.v[1]), at(t.v[2]), at(t.v[3])) != 1) return Refusal::quality;
+        if (geometry::orient3d(at(t.v[0]), at(t.v[1]), at(t.v[2]), at(t.v[3])) != 1)
+            return Refusal::quality;
     }
     return success;
 }
@@ -106,7 +108,8 @@ void Workbench::commit(const Relabelling& relabelling, const InterfaceChange& ch
     complex.relabel(relabelling.tets, relabelling.label);
 }
 
-void Workbench::interface_fan(VertexId v, std::span<const TetId> star, std::vector<std::array<VertexId, 3>>& out) const {
+void Workbench::interface_fan(VertexId v, std::span<const TetId> star,
+                              std::vector<std::array<VertexId, 3>>& out) const {
     out.clear();
     for (const TetId t : star) {
         const mesh::Tet& tet = complex.tet(t);
@@ -114,18 +117,21 @@ void Workbench::interface_fan(VertexId v, std::span<const TetId> star, std::vect
             if (tet.v[f] == v || complex.label(t) <= complex.label_across(t, f)) continue;
             std::array<VertexId, 3> corners{};
             for (unsigned k = 0; k < 3; ++k) corners[k] = tet.v[mesh::face_vertices[f][k]];
-            while (corners[0] != v) std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+            while (corners[0] != v)
+                std::rotate(corners.begin(), corners.begin() + 1, corners.end());
             out.push_back(corners);
         }
     }
 }
 
 std::uint32_t Workbench::new_vertex_epoch() {
-    if (vertex_marks_.size() < complex.vertex_slots()) vertex_marks_.resize(complex.vertex_slots(), 0);
+    if (vertex_marks_.size() < complex.vertex_slots())
+        vertex_marks_.resize(complex.vertex_slots(), 0);
     return ++vertex_epoch_;
 }
 
-void Workbench::shared_interface_vertices(std::span<const TetId> star_a, std::span<const TetId> star_b,
+void Workbench::shared_interface_vertices(std::span<const TetId> star_a,
+                                          std::span<const TetId> star_b,
                                           std::vector<VertexId>& out) {
     out.clear();
     const std::uint32_t first_star = new_vertex_epoch(), listed = new_vertex_epoch();
@@ -154,7 +160,8 @@ void Workbench::cavity_interface_vertices(std::vector<VertexId>& out) const {
     out.push_back(mesh::created_vertex);
 }
 
-std::optional<Refusal> Workbench::known_refusal(VertexId v, Smoother smoother, float accept_above) const {
+std::optional<Refusal> Workbench::known_refusal(VertexId v, Smoother smoother,
+                                                float accept_above) const {
     if (v >= memory_.size()) return std::nullopt;
     const auto i = static_cast<std::size_t>(smoother);
     const Memory& m = memory_[v];
@@ -163,7 +170,8 @@ std::optional<Refusal> Workbench::known_refusal(VertexId v, Smoother smoother, f
     return m.last[i].reason();
 }
 
-Refusal Workbench::remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal, std::uint32_t date) {
+Refusal Workbench::remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal,
+                            std::uint32_t date) {
     if (memory_.size() < complex.vertex_slots()) memory_.resize(complex.vertex_slots());
     const auto i = static_cast<std::size_t>(smoother);
     Memory& m = memory_[v];
@@ -177,7 +185,8 @@ bool Workbench::flat(VertexId v, std::span<const TetId> star) {
     interface_fan(v, star, fan_);
     normals_.clear();
     for (const auto& face : fan_) {
-        normals_.push_back(geometry::triangle_normal(complex.position(face[0]), complex.position(face[1]), complex.position(face[2])));
+        normals_.push_back(geometry::triangle_normal(
+            complex.position(face[0]), complex.position(face[1]), complex.position(face[2])));
     }
     for (std::size_t i = 0; i < normals_.size(); ++i) {
         for (std::size_t j = i + 1; j < normals_.size(); ++j) {

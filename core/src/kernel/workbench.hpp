@@ -1,6 +1,7 @@
 #pragma once
-// Where an operation is built, tested and committed (method.md, section 4.1). Every operation fills `edit`, calls the checks
-// below and commits. Until then the complex is unchanged, so a refusal costs nothing.
+// Where an operation is built, tested and committed (method.md, section 4.1). Every operation fills
+// `edit`, calls the checks below and commits. Until then the complex is unchanged, so a refusal
+// costs nothing.
 
 #include <algorithm>
 #include <optional>
@@ -15,25 +16,28 @@
 
 namespace dsc::kernel {
 
+using mesh::TetId;
+using mesh::VertexId;
 using repair::Outcome;
 using repair::Refusal;
 using repair::success;
-using mesh::TetId;
-using mesh::VertexId;
 
-/// Absolute limits of one edit, in normalised units, where the target length is L (method.md, section 3).
+/// Absolute limits of one edit, in normalised units, where the target length is L (method.md,
+/// section 3).
 struct Limits {
-    double length = 0.0;          ///< L
+    double length = 0.0;  ///< L
     double quality_floor = 1e-3;
-    double edit_distance = 0.0;   ///< largest distance by which one edit may move the interface
-    double edit_volume = 0.0;     ///< largest volume by which one edit may change a phase
-    double flatness = 0.995;      ///< cosine
-    double crease = -2.0;         ///< an edge with a smaller cosine between its two faces is a crease and must stay; -2: no creases
-    double turn = -2.0;           ///< least cosine between a face's normals before and after an edit
-    double crease_floor = 0.0;    ///< the rule for creases does not apply to a cavity with a tet below this quality
+    double edit_distance = 0.0;  ///< largest distance by which one edit may move the interface
+    double edit_volume = 0.0;    ///< largest volume by which one edit may change a phase
+    double flatness = 0.995;     ///< cosine
+    double crease = -2.0;  ///< an edge with a smaller cosine between its two faces is a crease and
+                           ///< must stay; -2: no creases
+    double turn = -2.0;    ///< least cosine between a face's normals before and after an edit
+    double crease_floor = 0.0;  ///< the rule for creases does not apply to a cavity with a tet
+                                ///< below this quality
     bool keeps_creases() const { return crease > -2.0; }
-    /// No move takes a tet below the floor. A tet close to the floor cannot be moved any more, so it counts as degenerate
-    /// before it reaches the floor.
+    /// No move takes a tet below the floor. A tet close to the floor cannot be moved any more, so
+    /// it counts as degenerate before it reaches the floor.
     void set_floor(double floor) {
         quality_floor = floor;
         crease_floor = 1.5 * floor;
@@ -50,7 +54,9 @@ struct EditBounds {
 struct InterfaceChange {
     double distance = 0.0;  ///< by which the interface moves
     double volume = 0.0;    ///< by which a phase changes
-    bool exceeds(const EditBounds& bounds) const { return distance > bounds.distance || volume > bounds.volume; }
+    bool exceeds(const EditBounds& bounds) const {
+        return distance > bounds.distance || volume > bounds.volume;
+    }
 };
 
 /// Tets that take another label.
@@ -71,7 +77,8 @@ public:
     virtual void on_split(VertexId vertex, VertexId a, VertexId b, double s) = 0;
     /// `removed` was merged into `kept`, which now lies at (1 - s) kept + s removed.
     virtual void on_collapse(VertexId kept, VertexId removed, double s) = 0;
-    /// A collapse changed the interface within these vertices' stars: a component may have become small.
+    /// A collapse changed the interface within these vertices' stars: a component may have become
+    /// small.
     virtual void on_interface_collapse(VertexId kept) = 0;
 };
 
@@ -91,7 +98,8 @@ public:
 
     mesh::Complex& complex;
     Limits limits;
-    const std::vector<double>* lengths = nullptr;  ///< target length per vertex, NaN for none; null if it is L everywhere
+    const std::vector<double>* lengths = nullptr;  ///< target length per vertex, NaN for none; null
+                                                   ///< if it is L everywhere
     mesh::Edit edit;
     EditListener* listener = nullptr;
     EditSums sums;
@@ -115,50 +123,63 @@ public:
     }
     double quality(VertexId a, VertexId b, VertexId c, VertexId d) const;
 
-    /// The target length at these vertices: the mean of those that have one; L if none has one. [parallel]
+    /// The target length at these vertices: the mean of those that have one; L if none has one.
+    /// [parallel]
     double length_at(std::span<const VertexId> vertices) const;
     double length_at(VertexId v) const { return length_at(std::span(&v, 1)); }
-    double length_at(VertexId a, VertexId b) const { return length_at(std::array<VertexId, 2>{a, b}); }
+    double length_at(VertexId a, VertexId b) const {
+        return length_at(std::array<VertexId, 2>{a, b});
+    }
     /// The bounds of an edit at these vertices.
     EditBounds bounds_at(std::span<const VertexId> vertices) const;
-    EditBounds bounds_at(VertexId a, VertexId b) const { return bounds_at(std::array<VertexId, 2>{a, b}); }
+    EditBounds bounds_at(VertexId a, VertexId b) const {
+        return bounds_at(std::array<VertexId, 2>{a, b});
+    }
 
     /// Least cached quality of the edit's removed tets; 1 if there is none.
     float old_quality() const;
-    /// Writes the qualities of the added tets to edit.qualities. Refuses if one is not above `must_exceed`, below min(floor,
-    /// old), or not exactly positive.
+    /// Writes the qualities of the added tets to edit.qualities. Refuses if one is not above
+    /// `must_exceed`, below min(floor, old), or not exactly positive.
     Outcome check_shape(float must_exceed, float old);
-    /// Call after link(): tests that every given vertex stays regular and that the sum of their Euler shares does not change.
+    /// Call after link(): tests that every given vertex stays regular and that the sum of their
+    /// Euler shares does not change.
     Outcome check_topology(std::span<const VertexId> touched);
     /// Volume that changes phase: half the sum over labels of |added - removed|.
     double phase_change() const;
 
-    // Operations replace and relabel tets only by these two functions, which also count the change in the sums. (The repair of
-    // irregular vertices after a relabelling is mesh::unpinch().)
+    // Operations replace and relabel tets only by these two functions, which also count the change
+    // in the sums. (The repair of irregular vertices after a relabelling is mesh::unpinch().)
     /// Commits the linked edit. Returns the vertex that it creates, or none.
     VertexId commit(const InterfaceChange& change = {});
     /// Gives the tets their new label.
     void commit(const Relabelling& relabelling, const InterfaceChange& change = {});
 
     /// Interface vertices that both stars contain, by id.
-    void shared_interface_vertices(std::span<const TetId> star_a, std::span<const TetId> star_b, std::vector<VertexId>& out);
-    /// Interface vertices of the edit's removed tets, by id, and then the vertex that the edit creates.
+    void shared_interface_vertices(std::span<const TetId> star_a, std::span<const TetId> star_b,
+                                   std::vector<VertexId>& out);
+    /// Interface vertices of the edit's removed tets, by id, and then the vertex that the edit
+    /// creates.
     void cavity_interface_vertices(std::vector<VertexId>& out) const;
 
-    /// A refused smoothing would be refused again as long as nothing in the vertex' star has changed: the reason of that
-    /// refusal, or nothing if an attempt is useful. `smoother` distinguishes the kinds of smoothing of one vertex.
+    /// A refused smoothing would be refused again as long as nothing in the vertex' star has
+    /// changed: the reason of that refusal, or nothing if an attempt is useful. `smoother`
+    /// distinguishes the kinds of smoothing of one vertex.
     std::optional<Refusal> known_refusal(VertexId v, Smoother smoother, float accept_above) const;
     Refusal remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal) {
         return remember(v, smoother, accept_above, refusal, complex.clock());
     }
-    Refusal remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal, std::uint32_t date);
+    Refusal remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal,
+                     std::uint32_t date);
     /// Forgets all refusals, because the limits have changed.
     void forget_refusals() { memory_.clear(); }
 
-    /// Whether the interface faces round v are flat to each other (signed normals). `star`: the tets of v.
+    /// Whether the interface faces round v are flat to each other (signed normals). `star`: the
+    /// tets of v.
     bool flat(VertexId v, std::span<const TetId> star);
-    /// Vertices of the star's interface faces as triangles with v first, counter-clockwise from the smaller label.
-    void interface_fan(VertexId v, std::span<const TetId> star, std::vector<std::array<VertexId, 3>>& out) const;
+    /// Vertices of the star's interface faces as triangles with v first, counter-clockwise from the
+    /// smaller label.
+    void interface_fan(VertexId v, std::span<const TetId> star,
+                       std::vector<std::array<VertexId, 3>>& out) const;
 
     mesh::LocalStar& local_star() { return star_; }
 
@@ -169,8 +190,8 @@ private:
     std::vector<std::array<VertexId, 3>> fan_;
     std::vector<Vec3> normals_;
 
-    // Refusals at a vertex, by kind of smoothing: the change clock and the reason. If another vertex takes the slot, its star
-    // is younger than the remembered clock.
+    // Refusals at a vertex, by kind of smoothing: the change clock and the reason. If another
+    // vertex takes the slot, its star is younger than the remembered clock.
     struct Memory {
         std::array<std::uint32_t, 2> date = {0, 0};
         float accept_above = 0.0F;  // of the Laplacian; the other kind has no bound

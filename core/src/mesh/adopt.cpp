@@ -1,44 +1,50 @@
 // Turns plain arrays into a complex, or names the first fault (method.md, section 1.3).
-#include <dsc/mesh/adopt.hpp>
+#include "dsc/mesh/adopt.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/union_find.hpp>
+#include <dsc/geometry/point_text.hpp>
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/face_groups.hpp>
 #include <dsc/mesh/unpinch.hpp>
-
-#include <dsc/base/union_find.hpp>
-#include <dsc/geometry/point_text.hpp>
 #include <dsc/text/numbers.hpp>
 
 namespace dsc::mesh {
 namespace {
 
-[[noreturn]] void refuse(std::string_view name, const std::string& code, const std::string& cause, const std::string& remedy) {
+[[noreturn]] void refuse(std::string_view name, const std::string& code, const std::string& cause,
+                         const std::string& remedy) {
     throw GeometryError(code, name, cause, remedy);
 }
 
 void check_arrays(const TetMesh& mesh, std::string_view name) {
-    if (mesh.tets.empty()) refuse(name, "mesh.empty", "the mesh has no tets", "provide a box filled with labelled tets");
+    if (mesh.tets.empty())
+        refuse(name, "mesh.empty", "the mesh has no tets",
+               "provide a box filled with labelled tets");
     if (mesh.labels.size() != mesh.tets.size()) {
-        refuse(name, "mesh.labels", std::to_string(mesh.labels.size()) + " labels for " + std::to_string(mesh.tets.size()) + " tets",
+        refuse(name, "mesh.labels",
+               std::to_string(mesh.labels.size()) + " labels for " +
+                   std::to_string(mesh.tets.size()) + " tets",
                "provide exactly one label per tet");
     }
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         if (!mesh.points[i].allFinite()) {
-            refuse(name, "mesh.not_finite", "vertex " + std::to_string(i) + " has a coordinate that is not finite",
+            refuse(name, "mesh.not_finite",
+                   "vertex " + std::to_string(i) + " has a coordinate that is not finite",
                    "fix or remove this vertex and export the mesh again");
         }
     }
     for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
         for (const std::uint32_t v : mesh.tets[i]) {
             if (v < mesh.points.size()) continue;
-            refuse(name, "mesh.index", "tet " + std::to_string(i) + " uses vertex " + std::to_string(v) + " of " +
-                                      std::to_string(mesh.points.size()),
+            refuse(name, "mesh.index",
+                   "tet " + std::to_string(i) + " uses vertex " + std::to_string(v) + " of " +
+                       std::to_string(mesh.points.size()),
                    "indices count from 0");
         }
     }
@@ -75,7 +81,8 @@ std::vector<T> per_block(std::size_t count) {
     return std::vector<T>(count / adopt_block + 1);
 }
 
-void orient(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name, AdoptReport& report, Workers* workers) {
+void orient(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name,
+            AdoptReport& report, Workers* workers) {
     struct Found {
         std::size_t turned = 0, flat = 0, first_flat = 0;
     };
@@ -84,7 +91,8 @@ void orient(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string
         Found found;
         for (std::size_t i = begin; i < end; ++i) {
             auto& v = tets[i].v;
-            const int sign = geometry::orient3d(points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
+            const int sign =
+                geometry::orient3d(points[v[0]], points[v[1]], points[v[2]], points[v[3]]);
             if (sign < 0) {
                 std::swap(v[2], v[3]);
                 ++found.turned;
@@ -102,7 +110,8 @@ void orient(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string
     }
     if (flat == 0) return;
     refuse(name, "mesh.flat_tet",
-           "tet " + std::to_string(first) + " at " + geometry::point_text(points[tets[first].v[0]]) + " has zero volume (" +
+           "tet " + std::to_string(first) + " at " +
+               geometry::point_text(points[tets[first].v[0]]) + " has zero volume (" +
                std::to_string(flat) + " in total)",
            "remove flat tets, or write the coordinates with more digits");
 }
@@ -123,8 +132,10 @@ struct Fault {
 };
 
 // Joins equal faces; positive tets on the two sides of a face have its vertices in opposite order.
-void join_faces(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name, Workers* workers) {
-    FaceTable table = deal_faces(points.size(), tets.size(), [&](std::size_t t) { return &tets[t].v; });
+void join_faces(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::string_view name,
+                Workers* workers) {
+    FaceTable table =
+        deal_faces(points.size(), tets.size(), [&](std::size_t t) { return &tets[t].v; });
     struct Found {
         Fault crowded, same_side;
     };
@@ -151,40 +162,48 @@ void join_faces(const std::vector<Vec3>& points, std::vector<Tet>& tets, std::st
         same_side.add(found.same_side);
     }
     const auto face_text = [&](const Fault& fault) {
-        return "tet " + std::to_string(fault.tet) + " at " + geometry::point_text(points[fault.vertex]);
+        return "tet " + std::to_string(fault.tet) + " at " +
+               geometry::point_text(points[fault.vertex]);
     };
     if (crowded.count > 0) {
         refuse(name, "mesh.crowded_face",
-               face_text(crowded) + " has a face that two other tets already have (" + std::to_string(crowded.count) + " in total)",
+               face_text(crowded) + " has a face that two other tets already have (" +
+                   std::to_string(crowded.count) + " in total)",
                "remove duplicate tets: some writers repeat the last line of the file");
     }
     if (same_side.count > 0) {
         refuse(name, "mesh.same_side",
-               face_text(same_side) + " lies on the same side of a face as its neighbour (" + std::to_string(same_side.count) +
-                   " in total)",
+               face_text(same_side) + " lies on the same side of a face as its neighbour (" +
+                   std::to_string(same_side.count) + " in total)",
                "tets must not overlap");
     }
 }
 
-void check_volume(const std::vector<Vec3>& points, const std::vector<Tet>& tets, std::string_view name) {
+void check_volume(const std::vector<Vec3>& points, const std::vector<Tet>& tets,
+                  std::string_view name) {
     double sum = 0.0;
-    for (const Tet& t : tets) sum += geometry::tet_volume(points[t.v[0]], points[t.v[1]], points[t.v[2]], points[t.v[3]]);
+    for (const Tet& t : tets)
+        sum += geometry::tet_volume(points[t.v[0]], points[t.v[1]], points[t.v[2]], points[t.v[3]]);
     const Vec3 size = bounding_box(points).size();
     const double box = size.x() * size.y() * size.z();
     if (std::abs(sum - box) <= 1e-9 * box) return;
     refuse(name, "mesh.volume",
-           "the tets' volumes add up to " + text::rounded(sum, 12) + ", their bounding box has " + text::rounded(box, 12), "the tets must fill an axis-parallel box without gaps or overlaps");
+           "the tets' volumes add up to " + text::rounded(sum, 12) + ", their bounding box has " +
+               text::rounded(box, 12),
+           "the tets must fill an axis-parallel box without gaps or overlaps");
 }
 
-// Whether every face without a second tet lies exactly in one side of the box. Then the tets of every vertex are joined through
-// faces. Reason: the tets are positive and joined on both sides of every other face, so they cover the inside of the box
-// equally often everywhere; this is once, because their volumes add up to the box. If the tets of a vertex were not joined
-// through faces, each group of them would cover the surroundings of the vertex.
+// Whether every face without a second tet lies exactly in one side of the box. Then the tets of
+// every vertex are joined through faces. Reason: the tets are positive and joined on both sides of
+// every other face, so they cover the inside of the box equally often everywhere; this is once,
+// because their volumes add up to the box. If the tets of a vertex were not joined through faces,
+// each group of them would cover the surroundings of the vertex.
 bool open_faces_are_on_box(const Complex& c) {
     const Box3 box = c.box();
     const auto side_of = [&](const Vec3& p) {
         unsigned sides = 0;
-        for (unsigned i = 0; i < 3; ++i) sides |= (p[i] == box.low[i] ? 1U << i : 0U) | (p[i] == box.high[i] ? 8U << i : 0U);
+        for (unsigned i = 0; i < 3; ++i)
+            sides |= (p[i] == box.low[i] ? 1U << i : 0U) | (p[i] == box.high[i] ? 8U << i : 0U);
         return sides;
     };
     for (TetId t = 0; t < c.tet_slots(); ++t) {
@@ -209,7 +228,8 @@ void check_stars(const Complex& c, std::string_view name) {
         c.star(v, star);
         if (star.size() == degree[v]) continue;
         refuse(name, "mesh.torn_star",
-               "the tets at vertex " + std::to_string(v) + " " + geometry::point_text(c.position(v)) + " are not joined through faces",
+               "the tets at vertex " + std::to_string(v) + " " +
+                   geometry::point_text(c.position(v)) + " are not joined through faces",
                "the mesh must be conforming");
     }
 }
@@ -221,7 +241,9 @@ double mean_interface_edge(const Complex& c) {
         for (unsigned f = 0; f < 4; ++f) {
             if (!c.tet_alive(t) || !c.interface_face(t, f)) continue;
             for (unsigned k = 0; k < 3; ++k) {
-                sum += (c.position(c.tet(t).v[face_vertices[f][k]]) - c.position(c.tet(t).v[face_vertices[f][(k + 1) % 3]])).norm();
+                sum += (c.position(c.tet(t).v[face_vertices[f][k]]) -
+                        c.position(c.tet(t).v[face_vertices[f][(k + 1) % 3]]))
+                           .norm();
                 ++count;
             }
         }
@@ -229,15 +251,18 @@ double mean_interface_edge(const Complex& c) {
     return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-// Marks the tets of face-connected components of equal label that are clearly larger than the volume. Most tets belong to such
-// components, and a union over the tets in their order uses the memory better than a walk from tet to tet.
+// Marks the tets of face-connected components of equal label that are clearly larger than the
+// volume. Most tets belong to such components, and a union over the tets in their order uses the
+// memory better than a walk from tet to tet.
 std::vector<char> tets_of_large_components(const Complex& c, double volume) {
     const auto count = static_cast<TetId>(c.tet_slots());
     UnionFind components(count);
     for (TetId t = 0; t < count; ++t) {
         if (!c.tet_alive(t)) continue;
         for (const std::uint32_t code : c.tet(t).n) {
-            if (code == none || neighbour_tet(code) > t || c.label(neighbour_tet(code)) != c.label(t)) continue;
+            if (code == none || neighbour_tet(code) > t ||
+                c.label(neighbour_tet(code)) != c.label(t))
+                continue;
             components.join(t, neighbour_tet(code));
         }
     }
@@ -253,8 +278,8 @@ std::vector<char> tets_of_large_components(const Complex& c, double volume) {
     return large;
 }
 
-// Face-connected components of equal label below the volume take the label around them if there is exactly one. The largest
-// component of label 0, and all components on the box, stay.
+// Face-connected components of equal label below the volume take the label around them if there is
+// exactly one. The largest component of label 0, and all components on the box, stay.
 std::size_t remove_small_components(Complex& c, double volume) {
     std::size_t removed = 0;
     std::vector<char> seen = tets_of_large_components(c, volume);
@@ -296,14 +321,16 @@ std::size_t remove_small_components(Complex& c, double volume) {
 std::size_t orient(TetMesh& mesh) {
     std::size_t turned = 0;
     for (auto& [a, b, c, d] : mesh.tets) {
-        if (geometry::orient3d(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) >= 0) continue;
+        if (geometry::orient3d(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) >= 0)
+            continue;
         std::swap(c, d);
         ++turned;
     }
     return turned;
 }
 
-Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report, double min_component, Workers* workers) {
+Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report, double min_component,
+              Workers* workers) {
     AdoptReport local;
     AdoptReport& out = report != nullptr ? *report : local;
     out = {};
@@ -317,7 +344,8 @@ Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report, d
     check_stars(complex, name);
     out.unpinched_vertices = unpinch(complex, name, workers);
     const double edge = mean_interface_edge(complex);
-    out.vanished_components = remove_small_components(complex, min_component * geometry::regular_tet_volume(edge));
+    out.vanished_components =
+        remove_small_components(complex, min_component * geometry::regular_tet_volume(edge));
     return complex;
 }
 

@@ -1,5 +1,6 @@
-// The complex: its three primitives replace(), move() and relabel(), and its construction (method.md, sections 1 and 4.1).
-#include <dsc/mesh/complex.hpp>
+// The complex: its three primitives replace(), move() and relabel(), and its construction
+// (method.md, sections 1 and 4.1).
+#include "dsc/mesh/complex.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -86,7 +87,8 @@ unsigned Complex::count_phases(VertexId v, std::span<const TetId> star) const {
     std::array<Label, 3> seen{};
     unsigned count = 0;
     const auto note = [&](Label label) {
-        if (count < 3 && std::find(seen.begin(), seen.begin() + count, label) == seen.begin() + count) {
+        if (count < 3 &&
+            std::find(seen.begin(), seen.begin() + count, label) == seen.begin() + count) {
             seen[count++] = label;
         }
     };
@@ -105,13 +107,15 @@ void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star
     vertices_[v].position = position;
     for (const TetId t : star) {
         const auto& x = tets_[t].v;
-        qualities_[t] = static_cast<float>(
-            geometry::tet_quality(this->position(x[0]), this->position(x[1]), this->position(x[2]), this->position(x[3])));
+        qualities_[t] =
+            static_cast<float>(geometry::tet_quality(this->position(x[0]), this->position(x[1]),
+                                                     this->position(x[2]), this->position(x[3])));
         touch(t);
     }
 }
 
-void Complex::place(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities) {
+void Complex::place(VertexId v, const Vec3& position, std::span<const TetId> star,
+                    std::span<const float> qualities) {
     vertices_[v].position = position;
     for (std::size_t i = 0; i < star.size(); ++i) qualities_[star[i]] = qualities[i];
 }
@@ -121,7 +125,8 @@ void Complex::note_change(std::span<const TetId> star) {
     for (const TetId t : star) touch(t);
 }
 
-void Complex::date_star(std::span<const TetId> star, std::uint32_t clock, std::vector<TetId>& changed) {
+void Complex::date_star(std::span<const TetId> star, std::uint32_t clock,
+                        std::vector<TetId>& changed) {
     for (const TetId t : star) {
         if (dates_[t] <= taken_clock_) changed.push_back(t);
         dates_[t] = clock;
@@ -129,7 +134,8 @@ void Complex::date_star(std::span<const TetId> star, std::uint32_t clock, std::v
             // Stars may share the vertex: the latest date is kept, in whatever order they come.
             const std::atomic_ref<std::uint32_t> date(vertices_[v].date);
             std::uint32_t before = date.load(std::memory_order_relaxed);
-            while (before < clock && !date.compare_exchange_weak(before, clock, std::memory_order_relaxed)) {
+            while (before < clock &&
+                   !date.compare_exchange_weak(before, clock, std::memory_order_relaxed)) {
             }
         }
     }
@@ -154,20 +160,26 @@ void Complex::relabel(std::span<const TetId> tets, Label label) {
     for (const VertexId v : relabelled_) refresh_phases(v);
 }
 
-// Whether the labels round some vertices may change; relabelled_ then contains the existing vertices among them. If a vertex
-// has the same labels in the cavity before and after, as in nearly every edit, the labels of its star do not change either.
+// Whether the labels round some vertices may change; relabelled_ then contains the existing
+// vertices among them. If a vertex has the same labels in the cavity before and after, as in nearly
+// every edit, the labels of its star do not change either.
 bool Complex::find_relabelled(const Edit& edit) {
     relabelled_.clear();
     const Label first = edit.added.empty() ? 0 : edit.added.front().label;
     const auto same = [first](Label label) { return label == first; };
-    if (std::all_of(edit.removed.begin(), edit.removed.end(), [&](TetId t) { return same(labels_[t]); }) &&
-        std::all_of(edit.added.begin(), edit.added.end(), [&](const NewTet& t) { return same(t.label); })) {
+    if (std::all_of(edit.removed.begin(), edit.removed.end(),
+                    [&](TetId t) { return same(labels_[t]); }) &&
+        std::all_of(edit.added.begin(), edit.added.end(),
+                    [&](const NewTet& t) { return same(t.label); })) {
         return false;
     }
     places_.clear();
     cavity_labels_.clear();
-    // A set of labels as bits, exact for labels up to 63; with larger labels, every vertex of the cavity is tested.
-    const auto bit = [](Label label) { return std::uint64_t{1} << (static_cast<std::uint32_t>(label) & 63U); };
+    // A set of labels as bits, exact for labels up to 63; with larger labels, every vertex of the
+    // cavity is tested.
+    const auto bit = [](Label label) {
+        return std::uint64_t{1} << (static_cast<std::uint32_t>(label) & 63U);
+    };
     const auto note = [&](VertexId v, Label label, std::size_t when) {
         if (v == created_vertex) return;
         if (places_.insert(v)) cavity_labels_.push_back({v, {0, 0}});
@@ -184,7 +196,8 @@ bool Complex::find_relabelled(const Edit& edit) {
         for (const VertexId v : tet.v) note(v, tet.label, 1);
     }
     for (const CavityLabels& entry : cavity_labels_) {
-        if (entry.vertex != edit.deleted && (!exact || entry.labels[0] != entry.labels[1])) relabelled_.push_back(entry.vertex);
+        if (entry.vertex != edit.deleted && (!exact || entry.labels[0] != entry.labels[1]))
+            relabelled_.push_back(entry.vertex);
     }
     return true;
 }
@@ -229,9 +242,10 @@ VertexId Complex::replace(Edit& edit) {
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
         const TetId t = last_added_[i];
         const auto& x = tets_[t].v;
-        qualities_[t] = have_qualities ? edit.qualities[i]
-                                       : static_cast<float>(geometry::tet_quality(position(x[0]), position(x[1]),
-                                                                                  position(x[2]), position(x[3])));
+        qualities_[t] = have_qualities
+                            ? edit.qualities[i]
+                            : static_cast<float>(geometry::tet_quality(
+                                  position(x[0]), position(x[1]), position(x[2]), position(x[3])));
         touch(t);
     }
     for (std::size_t i = edit.added.size(); i < edit.removed.size(); ++i) {
@@ -251,7 +265,8 @@ VertexId Complex::replace(Edit& edit) {
     return created;
 }
 
-Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::span<const Label> labels, Workers* workers) {
+Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets,
+                          std::span<const Label> labels, Workers* workers) {
     constexpr std::size_t assembled_tets = 16384, assembled_stars = 2048;  // per block
     Complex c;
     c.vertices_.reserve(points.size());
@@ -270,8 +285,8 @@ Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::
     for_blocks(workers, n, assembled_tets, [&c](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
             const auto& v = c.tets_[t].v;
-            c.qualities_[t] = static_cast<float>(
-                geometry::tet_quality(c.position(v[0]), c.position(v[1]), c.position(v[2]), c.position(v[3])));
+            c.qualities_[t] = static_cast<float>(geometry::tet_quality(
+                c.position(v[0]), c.position(v[1]), c.position(v[2]), c.position(v[3])));
         }
     });
     for (TetId t = 0; t < n; ++t) {
@@ -283,7 +298,8 @@ Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::
         }
         c.touch(t);
     }
-    // Vertices with one label in their star need no change; only vertices of interface faces are tested.
+    // Vertices with one label in their star need no change; only vertices of interface faces are
+    // tested.
     std::vector<char> candidate(c.vertices_.size(), 0);
     for (TetId t = 0; t < n; ++t) {
         for (unsigned f = 0; f < 4; ++f) {
@@ -314,7 +330,8 @@ TetMesh Complex::to_mesh(std::vector<VertexId>* ids) const {
     for (VertexId v = 0; v < vertices_.size(); ++v) {
         if (vertex_alive(v)) order.push_back(v);
     }
-    std::sort(order.begin(), order.end(), [this](VertexId a, VertexId b) { return birth(a) < birth(b); });
+    std::sort(order.begin(), order.end(),
+              [this](VertexId a, VertexId b) { return birth(a) < birth(b); });
     std::vector<std::uint32_t> index(vertices_.size(), none);
     TetMesh mesh;
     mesh.points.reserve(order.size());
@@ -332,7 +349,8 @@ TetMesh Complex::to_mesh(std::vector<VertexId>* ids) const {
         if (!tet_alive(t)) continue;
         std::array<std::uint32_t, 4> v{};
         for (unsigned i = 0; i < 4; ++i) v[i] = index[tets_[t].v[i]];
-        // Sorts; an odd number of exchanges inverts the tet, and exchanging the last two corrects this.
+        // Sorts; an odd number of exchanges inverts the tet, and exchanging the last two corrects
+        // this.
         bool odd = false;
         for (unsigned i = 1; i < 4; ++i) {
             for (unsigned j = i; j > 0 && v[j] < v[j - 1]; --j) {

@@ -43,8 +43,9 @@ Complex Complex::load(StateReader& in) {
     const std::size_t tets = c.tets_.size();
     if (c.labels_.size() != tets || c.qualities_.size() != tets || c.dates_.size() != tets ||
         c.birth_dates_.size() != tets)
-        throw IoError("state.damaged",
-                      "a saved complex has lists of different lengths; it is damaged or not a saved complex");
+        throw IoError(
+            "state.damaged",
+            "a saved complex has lists of different lengths; it is damaged or not a saved complex");
     return c;
 }
 

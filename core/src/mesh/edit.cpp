@@ -1,9 +1,9 @@
-// Linking a cavity: finds the neighbours of the added tets, among each other and across the boundary of the cavity (method.md,
-// section 4.1).
-#include <dsc/mesh/complex.hpp>
-
+// Linking a cavity: finds the neighbours of the added tets, among each other and across the
+// boundary of the cavity (method.md, section 4.1).
 #include <algorithm>
 #include <bit>
+
+#include <dsc/mesh/complex.hpp>
 
 namespace dsc::mesh {
 
@@ -20,7 +20,8 @@ void Edit::clear() {
 namespace {
 
 std::array<VertexId, 3> face_key(const std::array<VertexId, 4>& v, unsigned face) {
-    std::array<VertexId, 3> key = {v[face_vertices[face][0]], v[face_vertices[face][1]], v[face_vertices[face][2]]};
+    std::array<VertexId, 3> key = {v[face_vertices[face][0]], v[face_vertices[face][1]],
+                                   v[face_vertices[face][2]]};
     if (key[0] > key[1]) std::swap(key[0], key[1]);
     if (key[1] > key[2]) std::swap(key[1], key[2]);
     if (key[0] > key[1]) std::swap(key[0], key[1]);
@@ -46,7 +47,8 @@ bool Complex::link(Edit& edit) const {
     const std::size_t mask = face_table_.size() - 1;
     const auto find = [&](const std::array<VertexId, 3>& key) -> FaceSlot& {
         std::size_t at = hash(key) & mask;
-        while (face_table_[at].stamp == face_stamp_ && face_table_[at].key != key) at = (at + 1) & mask;
+        while (face_table_[at].stamp == face_stamp_ && face_table_[at].key != key)
+            at = (at + 1) & mask;
         return face_table_[at];
     };
     places_.clear();

@@ -1,5 +1,6 @@
-// The star of a vertex as a labelled graph: regularity and share of the Euler number (method.md, sections 2 and 4.1).
-#include <dsc/mesh/local_star.hpp>
+// The star of a vertex as a labelled graph: regularity and share of the Euler number (method.md,
+// sections 2 and 4.1).
+#include "dsc/mesh/local_star.hpp"
 
 #include <algorithm>
 
@@ -69,7 +70,8 @@ void LocalStar::build(VertexId v, const Edit& edit) {
         complex_.star(v, star_, places_);
         node_of_.assign(star_.size(), none);
         for (const TetId t : edit.removed) {
-            if (const std::uint32_t place = places_.find(t); place != TetIndex::absent) node_of_[place] = removed_node;
+            if (const std::uint32_t place = places_.find(t); place != TetIndex::absent)
+                node_of_[place] = removed_node;
         }
         for (std::size_t place = 0; place < star_.size(); ++place) {
             const TetId t = star_[place];
@@ -94,7 +96,10 @@ void LocalStar::build(VertexId v, const Edit& edit) {
                 adjacent_[i][f] = outside_node;
                 outside = true;
             } else {
-                adjacent_[i][f] = node_of_[places_.find(neighbour_tet(tet.n[f]))];  // none if removed: set from the other side
+                adjacent_[i][f] = node_of_[places_.find(neighbour_tet(tet.n[f]))];  // none if
+                                                                                    // removed: set
+                                                                                    // from the
+                                                                                    // other side
             }
         }
     }
@@ -124,12 +129,13 @@ void LocalStar::build(VertexId v, const Edit& edit) {
     }
 }
 
-// Numbers the face-connected groups of equal labels (complement false), or counts the connected groups of all nodes
-// whose label is not `label` (complement true).
+// Numbers the face-connected groups of equal labels (complement false), or counts the connected
+// groups of all nodes whose label is not `label` (complement true).
 unsigned LocalStar::flood(bool complement, Label label) {
     const std::size_t n = tets_.size();
     group_.assign(n, none);
-    // The outside has more than four neighbours. It is reached from its neighbours; then all nodes next to it are pushed.
+    // The outside has more than four neighbours. It is reached from its neighbours; then all nodes
+    // next to it are pushed.
     const bool has_outside = n > 0 && corners_[n - 1][0] == none;
     const auto outside_node = static_cast<std::uint32_t>(n - 1);
     unsigned count = 0;
@@ -147,7 +153,8 @@ unsigned LocalStar::flood(bool complement, Label label) {
             if (has_outside && node == outside_node) {
                 for (std::uint32_t i = 0; i < outside_node; ++i) {
                     const auto& adj = adjacent_[i];
-                    if (group_[i] == none && together(node, i) && std::find(adj.begin(), adj.end(), outside_node) != adj.end()) {
+                    if (group_[i] == none && together(node, i) &&
+                        std::find(adj.begin(), adj.end(), outside_node) != adj.end()) {
                         group_[i] = count;
                         stack_.push_back(i);
                     }
@@ -181,16 +188,19 @@ bool LocalStar::regular() {
     }
     if (second == first) return groups() == 1;
     if (!more) return groups() == 2;
-    // Three labels or more: each label must form one group, and all other labels together must form one.
+    // Three labels or more: each label must form one group, and all other labels together must form
+    // one.
     std::vector<Label> distinct(labels_);
     std::sort(distinct.begin(), distinct.end());
     distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
     if (groups() != distinct.size()) return false;
-    return std::all_of(distinct.begin(), distinct.end(), [this](Label l) { return flood(true, l) == 1; });
+    return std::all_of(distinct.begin(), distinct.end(),
+                       [this](Label l) { return flood(true, l) == 1; });
 }
 
 bool LocalStar::on_interface() const {
-    return std::any_of(labels_.begin(), labels_.end(), [this](Label l) { return l != labels_.front(); });
+    return std::any_of(labels_.begin(), labels_.end(),
+                       [this](Label l) { return l != labels_.front(); });
 }
 
 int LocalStar::euler_share() const {

@@ -1,5 +1,5 @@
 // The table from tets to places: insertion and growth.
-#include <dsc/mesh/tet_index.hpp>
+#include "dsc/mesh/tet_index.hpp"
 
 namespace dsc::mesh {
 

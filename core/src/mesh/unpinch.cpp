@@ -1,13 +1,13 @@
 // Makes irregular vertices regular by splitting or relabelling (method.md, section 8.6).
-#include <dsc/mesh/unpinch.hpp>
+#include "dsc/mesh/unpinch.hpp"
 
 #include <algorithm>
 #include <string>
 
 #include <dsc/base/error.hpp>
+#include <dsc/geometry/point_text.hpp>
 #include <dsc/mesh/local_star.hpp>
 #include <dsc/mesh/vertex_split.hpp>
-#include <dsc/geometry/point_text.hpp>
 
 namespace dsc::mesh {
 namespace {
@@ -43,7 +43,9 @@ std::vector<Group> groups_of(const Complex& c, LocalStar& star) {
 bool split_group(Complex& c, VertexId v, const Group& group) {
     const std::vector<RimFace> rim = rim_of(c, v, group.tets);
     Edit edit;
-    if (rim.empty() || !plan_vertex_split(c, v, group.tets, rim, RimLabel::across, quality_floor, edit)) return false;
+    if (rim.empty() ||
+        !plan_vertex_split(c, v, group.tets, rim, RimLabel::across, quality_floor, edit))
+        return false;
     if (!c.link(edit)) return false;
     c.replace(edit);
     return true;
@@ -78,8 +80,9 @@ bool relabel_group(Complex& c, VertexId v, const Group& group) {
     labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
     std::string list;
     for (const Label l : labels) list += (list.empty() ? "" : ", ") + std::to_string(l);
-    throw GeometryError("mesh.pinched", name, "labels " + list + " touch at vertex " + std::to_string(v) + " " +
-                                            geometry::point_text(c.position(v)) + " and cannot be separated",
+    throw GeometryError("mesh.pinched", name,
+                        "labels " + list + " touch at vertex " + std::to_string(v) + " " +
+                            geometry::point_text(c.position(v)) + " and cannot be separated",
                         "relabel the tets there");
 }
 
@@ -89,8 +92,8 @@ std::size_t unpinch(Complex& c, std::string_view name, std::span<const VertexId>
     std::vector<VertexId> queue(seeds.begin(), seeds.end());
     LocalStar star(c);
     std::size_t treated = 0;
-    // Each split separates one group from a vertex. Relabelling may move a problem to another vertex, so the number of attempts
-    // is limited.
+    // Each split separates one group from a vertex. Relabelling may move a problem to another
+    // vertex, so the number of attempts is limited.
     std::size_t budget = 64 * (queue.size() + 16);
     for (std::size_t i = 0; i < queue.size(); ++i) {
         const VertexId v = queue[i];
@@ -142,7 +145,8 @@ std::size_t unpinch(Complex& c, std::string_view name, Workers* workers) {
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         if (regular[i] == 0) irregular.push_back(vertices[i]);
     }
-    std::sort(irregular.begin(), irregular.end(), [&c](VertexId a, VertexId b) { return c.birth(a) < c.birth(b); });
+    std::sort(irregular.begin(), irregular.end(),
+              [&c](VertexId a, VertexId b) { return c.birth(a) < c.birth(b); });
     return unpinch(c, name, irregular);
 }
 

@@ -1,5 +1,5 @@
 // Checks all invariants of a complex by a full scan (method.md, section 2).
-#include <dsc/mesh/validate.hpp>
+#include "dsc/mesh/validate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,8 @@ void check_tet(const Complex& c, TetId t, ComplexReport& report, Faults& faults)
             return;
         }
     }
-    const Vec3 &p0 = c.position(tet.v[0]), &p1 = c.position(tet.v[1]), &p2 = c.position(tet.v[2]), &p3 = c.position(tet.v[3]);
+    const Vec3 &p0 = c.position(tet.v[0]), &p1 = c.position(tet.v[1]), &p2 = c.position(tet.v[2]),
+               &p3 = c.position(tet.v[3]);
     if (geometry::orient3d(p0, p1, p2, p3) != 1) {
         ++report.inverted_tets;
         faults.add(tet_name(t) + " is not positive");
@@ -48,19 +49,24 @@ void check_tet(const Complex& c, TetId t, ComplexReport& report, Faults& faults)
         const std::uint32_t code = tet.n[f];
         if (code == none) {
             for (const auto i : face_vertices[f]) {
-                if (!c.on_box(tet.v[i])) faults.add("vertex " + std::to_string(tet.v[i]) + " lies on a box face but is not marked");
+                if (!c.on_box(tet.v[i]))
+                    faults.add("vertex " + std::to_string(tet.v[i]) +
+                               " lies on a box face but is not marked");
             }
             continue;
         }
         const TetId other = neighbour_tet(code);
         const unsigned g = neighbour_face(code);
         if (other >= c.tet_slots() || !c.tet_alive(other) || c.tet(other).n[g] != 4 * t + f) {
-            faults.add(tet_name(t) + " and its neighbour across face " + std::to_string(f) + " disagree");
+            faults.add(tet_name(t) + " and its neighbour across face " + std::to_string(f) +
+                       " disagree");
             continue;
         }
         for (const auto i : face_vertices[f]) {
             const unsigned j = index_of(c.tet(other), tet.v[i]);
-            if (j == 4 || j == g) faults.add(tet_name(t) + " and " + tet_name(other) + " do not share their common face");
+            if (j == 4 || j == g)
+                faults.add(tet_name(t) + " and " + tet_name(other) +
+                           " do not share their common face");
         }
     }
 }
@@ -85,7 +91,8 @@ ComplexReport validate(const Complex& c) {
     }
     for (VertexId v = 0; v < c.vertex_slots(); ++v) {
         if (!c.vertex_alive(v)) {
-            if (degree[v] != 0 || listed[v] != 0) faults.add("dead vertex " + std::to_string(v) + " is in use");
+            if (degree[v] != 0 || listed[v] != 0)
+                faults.add("dead vertex " + std::to_string(v) + " is in use");
             continue;
         }
         const std::string vertex = "vertex " + std::to_string(v);
@@ -95,15 +102,19 @@ ComplexReport validate(const Complex& c) {
         }
         c.star(v, star);
         if (star.size() != degree[v]) {
-            faults.add(vertex + " has " + std::to_string(degree[v]) + " tets but a star of " + std::to_string(star.size()));
+            faults.add(vertex + " has " + std::to_string(degree[v]) + " tets but a star of " +
+                       std::to_string(star.size()));
         }
         std::vector<Label> labels;
         for (const TetId t : star) labels.push_back(c.label(t));
         if (c.on_box(v)) labels.push_back(0);
         std::sort(labels.begin(), labels.end());
-        const auto distinct = static_cast<unsigned>(std::unique(labels.begin(), labels.end()) - labels.begin());
-        if (c.phases(v) != std::min(distinct, 3U)) faults.add(vertex + " has an outdated count of phases");
-        if ((listed[v] != 0) != (distinct > 1)) faults.add(vertex + " is wrongly in the interface list or missing in it");
+        const auto distinct =
+            static_cast<unsigned>(std::unique(labels.begin(), labels.end()) - labels.begin());
+        if (c.phases(v) != std::min(distinct, 3U))
+            faults.add(vertex + " has an outdated count of phases");
+        if ((listed[v] != 0) != (distinct > 1))
+            faults.add(vertex + " is wrongly in the interface list or missing in it");
         if (distinct < 2) continue;
         local.build(v);
         if (!local.regular()) {
@@ -113,7 +124,8 @@ ComplexReport validate(const Complex& c) {
     }
     const Vec3 size = c.box().size();
     const double box = size.x() * size.y() * size.z();
-    if (std::abs(report.volume - box) > 1e-9 * box) faults.add("the tets' volumes do not add up to the box");
+    if (std::abs(report.volume - box) > 1e-9 * box)
+        faults.add("the tets' volumes do not add up to the box");
     return report;
 }
 
@@ -134,7 +146,8 @@ InterfaceCounts count_interface(const Complex& c) {
             if (!c.interface_face(t, f) || (code != none && neighbour_tet(code) < t)) continue;
             ++counts.faces;
             for (unsigned k = 0; k < 3; ++k) {
-                const VertexId a = c.tet(t).v[face_vertices[f][k]], b = c.tet(t).v[face_vertices[f][(k + 1) % 3]];
+                const VertexId a = c.tet(t).v[face_vertices[f][k]],
+                               b = c.tet(t).v[face_vertices[f][(k + 1) % 3]];
                 edges.push_back({std::min(a, b), std::max(a, b)});
                 used[a] = 1;
                 parent[root(a)] = root(b);
@@ -142,7 +155,8 @@ InterfaceCounts count_interface(const Complex& c) {
         }
     }
     std::sort(edges.begin(), edges.end());
-    counts.edges = static_cast<std::size_t>(std::unique(edges.begin(), edges.end()) - edges.begin());
+    counts.edges =
+        static_cast<std::size_t>(std::unique(edges.begin(), edges.end()) - edges.begin());
     for (VertexId v = 0; v < used.size(); ++v) {
         if (used[v] == 0) continue;
         ++counts.vertices;

@@ -1,5 +1,6 @@
-// Splits a vertex: rim of a group, direction and distance of the new vertex (method.md, section 4.6).
-#include <dsc/mesh/vertex_split.hpp>
+// Splits a vertex: rim of a group, direction and distance of the new vertex (method.md,
+// section 4.6).
+#include "dsc/mesh/vertex_split.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,9 @@
 namespace dsc::mesh {
 namespace {
 
-// The direction that maximises the least distance to the planes with the given unit normals. This is a small linear program on
-// the unit sphere; one, two or three planes limit its optimum. Zero if no direction has a positive distance to all planes.
+// The direction that maximises the least distance to the planes with the given unit normals. This
+// is a small linear program on the unit sphere; one, two or three planes limit its optimum. Zero if
+// no direction has a positive distance to all planes.
 Vec3 deepest_direction(const std::vector<Vec3>& normals) {
     Vec3 best = Vec3::Zero();
     double best_depth = 1e-9;
@@ -41,7 +43,9 @@ Vec3 deepest_direction(const std::vector<Vec3>& normals) {
 
 double least_quality(const Complex& c, const Edit& edit) {
     double least = 1.0;
-    const auto at = [&](VertexId v) -> const Vec3& { return v == created_vertex ? edit.created_at : c.position(v); };
+    const auto at = [&](VertexId v) -> const Vec3& {
+        return v == created_vertex ? edit.created_at : c.position(v);
+    };
     for (const NewTet& t : edit.added) {
         const Vec3 &p = at(t.v[0]), &q = at(t.v[1]), &r = at(t.v[2]), &s = at(t.v[3]);
         if (geometry::orient3d(p, q, r, s) != 1) return -1.0;
@@ -59,10 +63,12 @@ std::vector<RimFace> rim_of(const Complex& c, VertexId v, std::span<const TetId>
         for (unsigned f = 0; f < 4; ++f) {
             if (tet.v[f] == v) continue;
             if (tet.n[f] == none) return {};
-            if (std::find(group.begin(), group.end(), neighbour_tet(tet.n[f])) != group.end()) continue;
+            if (std::find(group.begin(), group.end(), neighbour_tet(tet.n[f])) != group.end())
+                continue;
             std::array<VertexId, 3> corners{};
             for (unsigned k = 0; k < 3; ++k) corners[k] = tet.v[face_vertices[f][k]];
-            while (corners[0] != v) std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+            while (corners[0] != v)
+                std::rotate(corners.begin(), corners.begin() + 1, corners.end());
             faces.push_back({corners[1], corners[2], c.label_across(t, f)});
         }
     }
@@ -70,7 +76,9 @@ std::vector<RimFace> rim_of(const Complex& c, VertexId v, std::span<const TetId>
     if (faces.empty()) return cycle;
     cycle.push_back(faces.front());
     while (cycle.size() < faces.size()) {
-        const auto next = std::find_if(faces.begin(), faces.end(), [&](const RimFace& face) { return face.a == cycle.back().b; });
+        const auto next = std::find_if(faces.begin(), faces.end(), [&](const RimFace& face) {
+            return face.a == cycle.back().b;
+        });
         if (next == faces.end() || next->a == cycle.front().a) break;
         cycle.push_back(*next);
     }
@@ -78,11 +86,12 @@ std::vector<RimFace> rim_of(const Complex& c, VertexId v, std::span<const TetId>
     return cycle;
 }
 
-bool plan_vertex_split(const Complex& c, VertexId v, std::span<const TetId> group, std::span<const RimFace> rim,
-                       RimLabel labels, double floor, Edit& edit) {
+bool plan_vertex_split(const Complex& c, VertexId v, std::span<const TetId> group,
+                       std::span<const RimFace> rim, RimLabel labels, double floor, Edit& edit) {
     const Vec3 p = c.position(v);
     std::vector<Vec3> inward;
-    for (const RimFace& face : rim) inward.push_back(-geometry::triangle_normal(p, c.position(face.a), c.position(face.b)));
+    for (const RimFace& face : rim)
+        inward.push_back(-geometry::triangle_normal(p, c.position(face.a), c.position(face.b)));
     const Vec3 direction = deepest_direction(inward);
     if (direction.isZero()) return false;
     edit.clear();
@@ -105,7 +114,8 @@ bool plan_vertex_split(const Complex& c, VertexId v, std::span<const TetId> grou
     const Label own = c.label(group.front());
     // The rim face (v, a, b) is oriented out of the group, so v' lies behind it.
     for (const RimFace& face : rim) {
-        edit.added.push_back({{v, face.b, face.a, created_vertex}, labels == RimLabel::across ? face.across : own});
+        edit.added.push_back(
+            {{v, face.b, face.a, created_vertex}, labels == RimLabel::across ? face.across : own});
     }
     const double bound = std::min(floor, old);
     double t = 0.3 * shortest;

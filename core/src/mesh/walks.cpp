@@ -27,8 +27,8 @@ void Complex::star(VertexId v, std::vector<TetId>& out, TetIndex& places) const 
     const Tet* const tets = tets_.data();
     const TetId first = vertices_[v].seed;
     places.insert(first);
-    // Until the end `out` contains codes: the tet, and the face through which it was reached, because nothing new lies behind
-    // that face.
+    // Until the end `out` contains codes: the tet, and the face through which it was reached,
+    // because nothing new lies behind that face.
     out.push_back(4 * first + index_of(tets[first], v));
     for (std::size_t i = 0; i < out.size(); ++i) {
         const Tet& tet = tets[neighbour_tet(out[i])];

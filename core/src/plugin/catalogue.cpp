@@ -1,7 +1,8 @@
 // Creates strategies from their ids and parameters.
+#include "dsc/plugin/catalogue.hpp"
+
 #include <dsc/base/random.hpp>
 #include <dsc/config/spelling.hpp>
-#include <dsc/plugin/catalogue.hpp>
 #include <dsc/plugin/guarded.hpp>
 
 #include "plugin/checked.hpp"
@@ -14,18 +15,24 @@ std::unique_ptr<Hook> as(std::unique_ptr<hooks::Strategy> strategy) {
     return std::unique_ptr<Hook>(static_cast<Hook*>(strategy.release()));
 }
 
-std::unique_ptr<hooks::Strategy> check(std::unique_ptr<hooks::Strategy> made, Attribution attribution) {
+std::unique_ptr<hooks::Strategy> check(std::unique_ptr<hooks::Strategy> made,
+                                       Attribution attribution) {
     switch (attribution.who.kind) {
         case Kind::velocity:
-            return check_velocity(as<hooks::VelocityField>(std::move(made)), std::move(attribution));
+            return check_velocity(as<hooks::VelocityField>(std::move(made)),
+                                  std::move(attribution));
         case Kind::curvature:
-            return check_curvature(as<hooks::CurvatureEstimator>(std::move(made)), std::move(attribution));
+            return check_curvature(as<hooks::CurvatureEstimator>(std::move(made)),
+                                   std::move(attribution));
         case Kind::refinement:
-            return check_refinement(as<hooks::RefinementPolicy>(std::move(made)), std::move(attribution));
+            return check_refinement(as<hooks::RefinementPolicy>(std::move(made)),
+                                    std::move(attribution));
         case Kind::initial_mesh:
-            return check_initial_mesh(as<hooks::InitialMesh>(std::move(made)), std::move(attribution));
+            return check_initial_mesh(as<hooks::InitialMesh>(std::move(made)),
+                                      std::move(attribution));
         case Kind::improvement:
-            return check_improvement(as<hooks::Improvement>(std::move(made)), std::move(attribution));
+            return check_improvement(as<hooks::Improvement>(std::move(made)),
+                                     std::move(attribution));
         case Kind::observer:
             return check_observer(as<hooks::Observer>(std::move(made)), std::move(attribution));
         case Kind::filter:
@@ -44,9 +51,11 @@ std::string place_of(const config::ConfigNode& params) {
     const std::vector<std::string> known = catalogue.ids(name);
     std::string text = path + ": there is no " + name + " '" + id + "'";
     if (const auto near = config::closest(id, known)) text += ", did you mean '" + *near + "'?";
-    text += known.empty()
-                ? "; no plugin with a strategy of this kind is loaded, see --plugin and DSC_PLUGIN_PATH"
-                : "; loaded are " + config::join(known) + ", others come with --plugin or DSC_PLUGIN_PATH";
+    text +=
+        known.empty()
+            ? "; no plugin with a strategy of this kind is loaded, see --plugin and DSC_PLUGIN_PATH"
+            : "; loaded are " + config::join(known) +
+                  ", others come with --plugin or DSC_PLUGIN_PATH";
     throw PluginError("plugin.unknown_strategy", text);
 }
 
@@ -81,10 +90,9 @@ std::unique_ptr<hooks::Strategy> Catalogue::create(Kind kind, const config::Stra
     diagnostics.throw_if_errors();
 
     const Setup setup(*this, path);
-    Attribution attribution{
-        {kind, config.type, path, found->plugin->name, found->plugin->version, found->plugin->file.string(),
-         place_of(config.params)},
-        setup.instance()};
+    Attribution attribution{{kind, config.type, path, found->plugin->name, found->plugin->version,
+                             found->plugin->file.string(), place_of(config.params)},
+                            setup.instance()};
     const Call call = attribution.call("constructor");
     auto made = guarded(call, [&] { return found->strategy->make(resolved, setup); });
     return check(std::move(made), std::move(attribution));

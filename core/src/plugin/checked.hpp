@@ -1,11 +1,12 @@
 #pragma once
-// Wrappers for strategies of each kind: they guard every call, set the strategy's own instance number in the contexts, and
-// check the answers. Catalogue::create returns only wrapped strategies.
+// Wrappers for strategies of each kind: they guard every call, set the strategy's own instance
+// number in the contexts, and check the answers. Catalogue::create returns only wrapped strategies.
 
-#include <dsc/plugin/guarded.hpp>
 #include <memory>
 #include <string>
 #include <string_view>
+
+#include <dsc/plugin/guarded.hpp>
 
 namespace dsc::plugin {
 
@@ -13,7 +14,9 @@ namespace dsc::plugin {
 inline constexpr std::string_view report_it = "report this to the plugin's authors";
 
 /// An entry of a list, as messages name it: "normal 3".
-inline std::string entry(std::string_view what, std::size_t index) { return std::string(what) + " " + std::to_string(index); }
+inline std::string entry(std::string_view what, std::size_t index) {
+    return std::string(what) + " " + std::to_string(index);
+}
 
 /// Identifies the wrapped strategy.
 struct Attribution {
@@ -25,7 +28,8 @@ struct Attribution {
     }
 };
 
-/// Checks attributes of a surface: one finite number per vertex, under allowed names that differ. Throws StrategyFailure.
+/// Checks attributes of a surface: one finite number per vertex, under allowed names that differ.
+/// Throws StrategyFailure.
 void judge(const Call& current, const hooks::Attributes& attributes, std::size_t vertices);
 
 /// Checks the angles of a rule for creases: above 0, at most pi. Throws StrategyFailure.
@@ -76,9 +80,11 @@ std::unique_ptr<hooks::Strategy> check_improvement(std::unique_ptr<hooks::Improv
                                                    Attribution attribution);
 std::unique_ptr<hooks::Strategy> check_observer(std::unique_ptr<hooks::Observer> inner,
                                                 Attribution attribution);
-std::unique_ptr<hooks::Strategy> check_filter(std::unique_ptr<hooks::CloudFilter> inner, Attribution attribution);
+std::unique_ptr<hooks::Strategy> check_filter(std::unique_ptr<hooks::CloudFilter> inner,
+                                              Attribution attribution);
 
-/// Refuses figures with names that are not snake_case or that repeat, and values that are not finite.
+/// Refuses figures with names that are not snake_case or that repeat, and values that are not
+/// finite.
 void judge(const Call& current, const hooks::Figures& figures);
 /// Refuses warnings without a text, and codes that are not lower-case words joined by dots.
 void judge(const Call& current, const hooks::Warnings& warnings);

@@ -1,6 +1,8 @@
-// Checks that answers of every kind of strategy share: names, attributes, rules for creases, figures and warnings.
+// Checks that answers of every kind of strategy share: names, attributes, rules for creases,
+// figures and warnings.
 #include <algorithm>
 #include <cmath>
+
 #include <fmt/core.h>
 
 #include <dsc/text/words.hpp>
@@ -12,21 +14,25 @@ namespace dsc::plugin {
 void judge(const Call& current, const hooks::Attributes& attributes, std::size_t vertices) {
     std::vector<std::string_view> seen;
     for (const hooks::Attribute& a : attributes) {
-        if (!hooks::may_name_attribute(a.name) || std::find(seen.begin(), seen.end(), a.name) != seen.end()) {
+        if (!hooks::may_name_attribute(a.name) ||
+            std::find(seen.begin(), seen.end(), a.name) != seen.end()) {
             fail(current, "strategy.range", "gave an attribute the name '" + a.name + "'",
-                 "names are snake_case, differ, and are not reserved for other data in files; report this to the plugin's "
-                 "authors");
+                 "names are snake_case, differ, and are not reserved for other data in files; "
+                 "report this to the plugin's authors");
         }
         seen.push_back(a.name);
         if (a.values.size() != vertices) {
             fail(current, "strategy.size",
-                 fmt::format("gave the attribute '{}' {} values for {} vertices", a.name, a.values.size(), vertices),
+                 fmt::format("gave the attribute '{}' {} values for {} vertices", a.name,
+                             a.values.size(), vertices),
                  report_it);
         }
         for (std::size_t i = 0; i < vertices; ++i) {
             if (std::isfinite(a.values[i])) continue;
             fail(current, "strategy.not_finite",
-                 fmt::format("gave the attribute '{}' the value {:f} at {}", a.name, a.values[i], entry("vertex", i)), report_it);
+                 fmt::format("gave the attribute '{}' the value {:f} at {}", a.name, a.values[i],
+                             entry("vertex", i)),
+                 report_it);
         }
     }
 }
@@ -51,8 +57,8 @@ void judge(const Call& current, const hooks::Figures& figures) {
         }
         seen.push_back(name);
         if (!std::isfinite(value)) {
-            fail(current, "strategy.not_finite", fmt::format("gave the figure '{}' the value {:f}", name, value),
-                 report_it);
+            fail(current, "strategy.not_finite",
+                 fmt::format("gave the figure '{}' the value {:f}", name, value), report_it);
         }
     }
 }
@@ -64,8 +70,11 @@ void judge(const Call& current, const hooks::Warnings& warnings) {
             return text::is_lower(c) || text::is_digit(c) || c == '_' || c == '.';
         });
         if (warning.code.empty() || !plain || warning.text.empty()) {
-            fail(current, "strategy.range", "gave a warning with the code '" + warning.code + "' and the text '" + warning.text + "'",
-                 "a code has lower-case letters, digits, '_' and '.', a text is not empty; report this to the plugin's authors");
+            fail(current, "strategy.range",
+                 "gave a warning with the code '" + warning.code + "' and the text '" +
+                     warning.text + "'",
+                 "a code has lower-case letters, digits, '_' and '.', a text is not empty; report "
+                 "this to the plugin's authors");
         }
     }
 }

@@ -1,9 +1,11 @@
 // Velocity and curvature: checks batches of values per vertex, which are computed concurrently.
 #include <algorithm>
 #include <cmath>
-#include <dsc/config/yaml.hpp>
 #include <limits>
+
 #include <fmt/core.h>
+
+#include <dsc/config/yaml.hpp>
 
 #include "plugin/checked.hpp"
 #include "plugin/fenced.hpp"
@@ -12,8 +14,8 @@ namespace dsc::plugin {
 namespace {
 
 constexpr double unset = std::numeric_limits<double>::quiet_NaN();
-constexpr std::string_view values_remedy =
-    "every entry of the output must be written with a finite number; report this to the plugin's authors";
+constexpr std::string_view values_remedy = "every entry of the output must be written with a "
+                                           "finite number; report this to the plugin's authors";
 
 std::string number(double value) {
     if (std::isfinite(value)) return config::real_text(value);
@@ -34,7 +36,8 @@ std::string vertex_text(const hooks::StepContext& context, std::size_t vertex) {
     return text + ")";
 }
 
-[[noreturn]] void wrote_outside(const Call& current, const std::string& whose, std::size_t entries) {
+[[noreturn]] void wrote_outside(const Call& current, const std::string& whose,
+                                std::size_t entries) {
     fail(current, "strategy.outside",
          fmt::format("wrote outside the {} entries of its output{}", entries, whose),
          "an output ends at the end of its span; report this to the plugin's authors");
@@ -52,7 +55,8 @@ public:
     }
     const hooks::StepContext& get(const Call& call) const {
         if (!context_)
-            throw Error(ExitCode::internal, "plugin.not_prepared", call.who.describe() + ": not prepared");
+            throw Error(ExitCode::internal, "plugin.not_prepared",
+                        call.who.describe() + ": not prepared");
         return *context_;
     }
 
@@ -65,7 +69,8 @@ public:
     using Checked::Checked;
 
     bool needs_faces_of_points() const override {
-        return guarded(call("needs_faces_of_points"), [&] { return inner().needs_faces_of_points(); });
+        return guarded(call("needs_faces_of_points"),
+                       [&] { return inner().needs_faces_of_points(); });
     }
 
     void advance(const hooks::StepContext& context) override {
@@ -110,7 +115,8 @@ public:
         for (std::size_t i = 0; i < out.size(); ++i) {
             if (!given[i].allFinite()) {
                 fail(current, "strategy.not_finite",
-                     fmt::format("gave the displacement {} to point {} at {}", vector_text(given[i]), i, vector_text(points[i])),
+                     fmt::format("gave the displacement {} to point {} at {}",
+                                 vector_text(given[i]), i, vector_text(points[i])),
                      values_remedy);
             }
             out[i] = given[i];
@@ -154,7 +160,8 @@ public:
         guarded(call("prepare", kept.step), [&] { inner().prepare(kept); });
     }
 
-    void evaluate(hooks::Range range, std::span<double> scalar, std::span<Vec3> vector) const override {
+    void evaluate(hooks::Range range, std::span<double> scalar,
+                  std::span<Vec3> vector) const override {
         const hooks::StepContext& context = step_.get(call("evaluate"));
         const Call current = call("evaluate", context.step);
         Fenced<double> scalars(scalar.size(), unset);
@@ -168,8 +175,8 @@ public:
         for (std::size_t i = 0; i < s.size(); ++i) {
             if (!std::isfinite(s[i]) || !v[i].allFinite()) {
                 fail(current, "strategy.not_finite",
-                     "gave the curvature " + number(s[i]) + " and the vector " + vector_text(v[i]) + " to " +
-                         vertex_text(context, range.begin + i),
+                     "gave the curvature " + number(s[i]) + " and the vector " + vector_text(v[i]) +
+                         " to " + vertex_text(context, range.begin + i),
                      values_remedy);
             }
             scalar[i] = s[i];

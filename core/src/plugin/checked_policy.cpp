@@ -1,7 +1,9 @@
-// Refinement, initial mesh, improvement and observer: called from one thread; checks answers of any size.
+// Refinement, initial mesh, improvement and observer: called from one thread; checks answers of any
+// size.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
 #include <fmt/core.h>
 
 #include <dsc/text/words.hpp>
@@ -11,7 +13,8 @@
 namespace dsc::plugin {
 namespace {
 
-constexpr std::string_view lengths_remedy = "lengths must be finite and above 0; report this to the plugin's authors";
+constexpr std::string_view lengths_remedy =
+    "lengths must be finite and above 0; report this to the plugin's authors";
 
 class CheckedRefinement final : public Checked<hooks::RefinementPolicy> {
 public:
@@ -37,7 +40,8 @@ public:
         const unsigned passes = guarded(current, [&] { return inner().passes(); });
         if (passes < 1 || passes > hooks::refinement_passes) {
             fail(current, "strategy.range", fmt::format("asked for {} passes", passes),
-                 fmt::format("use 1 to {} passes; report this to the plugin's authors", hooks::refinement_passes));
+                 fmt::format("use 1 to {} passes; report this to the plugin's authors",
+                             hooks::refinement_passes));
         }
         return passes;
     }
@@ -52,7 +56,8 @@ public:
     }
 
 private:
-    static void judge_changes(const Call& current, const hooks::StepContext& step, const hooks::RefinementRequests& out) {
+    static void judge_changes(const Call& current, const hooks::StepContext& step,
+                              const hooks::RefinementRequests& out) {
         const surface::SurfaceView& view = step.surface;
         const std::size_t vertices = view.vertex_count();
         for (std::size_t i = 0; i < out.split_faces.size(); ++i) {
@@ -75,7 +80,8 @@ private:
             for (const std::uint32_t v : out.flip_edges[i].edge) {
                 if (v >= vertices) bad_index(current, entry("flip_edges", i), v);
             }
-            if (!std::isfinite(out.flip_edges[i].flatness)) bad_number(current, entry("flip_edges", i));
+            if (!std::isfinite(out.flip_edges[i].flatness))
+                bad_number(current, entry("flip_edges", i));
         }
         for (std::size_t i = 0; i < out.move_vertices.size(); ++i) {
             const hooks::MoveRequest& r = out.move_vertices[i];
@@ -83,38 +89,47 @@ private:
             if (!r.place.allFinite()) bad_number(current, entry("move_vertices", i));
         }
         for (std::size_t i = 0; i < out.relabel.size(); ++i) {
-            constexpr auto greatest = static_cast<std::uint32_t>(std::numeric_limits<mesh::Label>::max());
-            if (out.relabel[i][1] > greatest) bad_index(current, entry("relabel", i), out.relabel[i][1]);
+            constexpr auto greatest =
+                static_cast<std::uint32_t>(std::numeric_limits<mesh::Label>::max());
+            if (out.relabel[i][1] > greatest)
+                bad_index(current, entry("relabel", i), out.relabel[i][1]);
         }
     }
 
-    static void judge_lengths(const Call& current, std::size_t vertices, const hooks::RefinementRequests& out) {
+    static void judge_lengths(const Call& current, std::size_t vertices,
+                              const hooks::RefinementRequests& out) {
         for (const std::vector<double>* lengths : {&out.sizing, &out.target_lengths}) {
             if (!lengths->empty() && lengths->size() != vertices) {
                 fail(current, "strategy.size",
-                     fmt::format("gave a sizing field of {} entries for {} vertices", lengths->size(), vertices),
+                     fmt::format("gave a sizing field of {} entries for {} vertices",
+                                 lengths->size(), vertices),
                      report_it);
             }
             for (std::size_t i = 0; i < lengths->size(); ++i) {
                 const double length = (*lengths)[i];
                 if (std::isfinite(length) && length > 0) continue;
                 fail(current, "strategy.not_finite",
-                     fmt::format("gave vertex {} the target length {:f}", i, length), lengths_remedy);
+                     fmt::format("gave vertex {} the target length {:f}", i, length),
+                     lengths_remedy);
             }
         }
         if (!std::isfinite(out.target_length) || out.target_length < 0) {
-            fail(current, "strategy.not_finite", "gave the target length " + std::to_string(out.target_length), lengths_remedy);
+            fail(current, "strategy.not_finite",
+                 "gave the target length " + std::to_string(out.target_length), lengths_remedy);
         }
         if (out.target_length > 0 && !out.target_lengths.empty()) {
-            fail(current, "strategy.size", "gave a target length for the whole surface and one per vertex",
+            fail(current, "strategy.size",
+                 "gave a target length for the whole surface and one per vertex",
                  "give only one of them; report this to the plugin's authors");
         }
     }
 
     [[noreturn]] static void bad_number(const Call& current, const std::string& where) {
-        fail(current, "strategy.not_finite", "gave a number that is not finite in " + where, report_it);
+        fail(current, "strategy.not_finite", "gave a number that is not finite in " + where,
+             report_it);
     }
-    [[noreturn]] static void bad_index(const Call& current, const std::string& where, std::uint32_t value) {
+    [[noreturn]] static void bad_index(const Call& current, const std::string& where,
+                                       std::uint32_t value) {
         fail(current, "strategy.range",
              fmt::format("asked in {} for {}, which does not exist", where, value), report_it);
     }
@@ -129,7 +144,8 @@ public:
         own_context.instance = instance();
         const Call current = call("build");
         mesh::TetMesh mesh = guarded(current, [&] { return inner().build(own_context); });
-        if (mesh.tets.empty()) fail(current, "strategy.size", "gave a mesh without tets", report_it);
+        if (mesh.tets.empty())
+            fail(current, "strategy.size", "gave a mesh without tets", report_it);
         if (mesh.labels.size() != mesh.tets.size()) {
             fail(current, "strategy.size",
                  fmt::format("gave {} labels for {} tets", mesh.labels.size(), mesh.tets.size()),
@@ -145,7 +161,8 @@ public:
             for (const std::uint32_t v : mesh.tets[i]) {
                 if (v < mesh.points.size()) continue;
                 fail(current, "strategy.range",
-                     fmt::format("gave {} the point {} of {}", entry("tet", i), v, mesh.points.size()),
+                     fmt::format("gave {} the point {} of {}", entry("tet", i), v,
+                                 mesh.points.size()),
                      report_it);
             }
             if (mesh.labels[i] < 0) {
@@ -192,7 +209,8 @@ public:
         guarded(current, [&] { inner().propose(step, round, out); });
         if (out.size() < before)
             fail(current, "strategy.size", "removed requests that were there before", report_it);
-        for (std::size_t i = before; i < out.size(); ++i) judge(current, round.complex, *class_count_, out[i], i - before);
+        for (std::size_t i = before; i < out.size(); ++i)
+            judge(current, round.complex, *class_count_, out[i], i - before);
     }
 
     std::vector<std::string> repair_classes() const override {
@@ -200,12 +218,14 @@ public:
         std::vector<std::string> names = guarded(current, [&] { return inner().repair_classes(); });
         if (names.size() > repair::repair_class_limit) {
             fail(current, "strategy.size",
-                 fmt::format("named {} classes of requests; {} is the limit", names.size(), repair::repair_class_limit),
+                 fmt::format("named {} classes of requests; {} is the limit", names.size(),
+                             repair::repair_class_limit),
                  report_it);
         }
         for (std::size_t i = 0; i < names.size(); ++i) {
-            if (text::is_snake_case(names[i]) && std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) ==
-                                            names.begin() + static_cast<std::ptrdiff_t>(i)) {
+            if (text::is_snake_case(names[i]) &&
+                std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i),
+                          names[i]) == names.begin() + static_cast<std::ptrdiff_t>(i)) {
                 continue;
             }
             fail(current, "strategy.range", "gave a class of requests the name '" + names[i] + "'",
@@ -226,7 +246,8 @@ public:
 
     repair::TopologyLimits topology_limits() const override {
         const Call current = call("topology_limits");
-        const repair::TopologyLimits limits = guarded(current, [&] { return inner().topology_limits(); });
+        const repair::TopologyLimits limits =
+            guarded(current, [&] { return inner().topology_limits(); });
         for (const double value : {limits.thickness, limits.min_component}) {
             if (std::isfinite(value) && value >= 0) continue;
             fail(current, "strategy.range", "gave the limit " + std::to_string(value),
@@ -235,7 +256,8 @@ public:
         return limits;
     }
 
-    void select(const hooks::StepContext& context, std::span<const repair::TopologyCandidate> candidates,
+    void select(const hooks::StepContext& context,
+                std::span<const repair::TopologyCandidate> candidates,
                 std::span<std::uint8_t> accept) override {
         const hooks::StepContext step = own(context);
         const Call current = call("select", step.step);
@@ -245,7 +267,8 @@ public:
         for (std::size_t i = 0; i < accept.size(); ++i) {
             if (accept[i] <= 1) continue;
             fail(current, "strategy.range",
-                 fmt::format("gave {} the answer {} instead of 0 or 1", entry("candidate", i), accept[i]),
+                 fmt::format("gave {} the answer {} instead of 0 or 1", entry("candidate", i),
+                             accept[i]),
                  report_it);
         }
     }
@@ -256,11 +279,13 @@ private:
         // The text is made only for a fault, because there are many requests.
         const auto where = [index] { return "in " + entry("request", index); };
         if (static_cast<std::size_t>(request.operation) >= repair::operation_count) {
-            fail(current, "strategy.range", "named an operation that does not exist " + where(), report_it);
+            fail(current, "strategy.range", "named an operation that does not exist " + where(),
+                 report_it);
         }
         if (request.tet != mesh::none && request.tet >= complex.tet_slots()) {
             fail(current, "strategy.range",
-                 fmt::format("named tet {}, which does not exist, {}", request.tet, where()), report_it);
+                 fmt::format("named tet {}, which does not exist, {}", request.tet, where()),
+                 report_it);
         }
         for (const mesh::VertexId v : request.vertices) {
             if (v == mesh::none || v < complex.vertex_slots()) continue;
@@ -269,11 +294,15 @@ private:
         }
         if (request.repair_class >= classes) {
             fail(current, "strategy.range",
-                 fmt::format("named the class {}, which does not exist, {}", request.repair_class, where()), report_it);
+                 fmt::format("named the class {}, which does not exist, {}", request.repair_class,
+                             where()),
+                 report_it);
         }
-        for (const float value : {request.parameter, request.only_below, request.accept_above, request.gain, request.least_edge}) {
+        for (const float value : {request.parameter, request.only_below, request.accept_above,
+                                  request.gain, request.least_edge}) {
             if (std::isnan(value))
-                fail(current, "strategy.not_finite", "gave a number that is NaN " + where(), report_it);
+                fail(current, "strategy.not_finite", "gave a number that is NaN " + where(),
+                     report_it);
         }
     }
 
@@ -289,16 +318,19 @@ public:
         guarded(call("begin", step.step), [&] { inner().begin(step); });
     }
 
-    hooks::Figures step(const hooks::StepContext& context, const hooks::StepFigures& figures) override {
+    hooks::Figures step(const hooks::StepContext& context,
+                        const hooks::StepFigures& figures) override {
         const hooks::StepContext own_context = own(context);
         const Call current = call("step", own_context.step);
-        hooks::Figures result = guarded(current, [&] { return inner().step(own_context, figures); });
+        hooks::Figures result =
+            guarded(current, [&] { return inner().step(own_context, figures); });
         judge(current, result);
         std::vector<std::string> names;
         for (const auto& figure : result) names.push_back(figure.first);
         if (names_ && *names_ != names) {
             fail(current, "strategy.size", "gave figures with other names than in its first step",
-                 "the columns of metrics.csv must stay the same; report this to the plugin's authors");
+                 "the columns of metrics.csv must stay the same; report this to the plugin's "
+                 "authors");
         }
         names_ = std::move(names);
         return result;

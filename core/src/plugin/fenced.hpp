@@ -1,5 +1,6 @@
 #pragma once
-// Fenced: the memory for a strategy's output, with a margin on both sides that the strategy must not change.
+// Fenced: the memory for a strategy's output, with a margin on both sides that the strategy must
+// not change.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,8 +11,8 @@
 
 namespace dsc::plugin {
 
-/// `size` entries of `fill` between two margins with the same value. The memory comes from a store per thread, so that later
-/// steps allocate nothing; nested strategies get separate memory.
+/// `size` entries of `fill` between two margins with the same value. The memory comes from a store
+/// per thread, so that later steps allocate nothing; nested strategies get separate memory.
 template <class T>
 class Fenced {
 public:
@@ -27,7 +28,9 @@ public:
 
     /// Whether the margins are unchanged, bit for bit.
     bool intact() const {
-        const auto same = [this](const T& entry) { return std::memcmp(&entry, &fill_, sizeof(T)) == 0; };
+        const auto same = [this](const T& entry) {
+            return std::memcmp(&entry, &fill_, sizeof(T)) == 0;
+        };
         const auto begin = memory_.begin();
         const auto end = memory_.end();
         constexpr auto width = static_cast<std::ptrdiff_t>(margin);

@@ -1,9 +1,11 @@
 // The fingerprint of this build, and the comparison of two fingerprints.
+#include "dsc/plugin/fingerprint.hpp"
+
 #include <algorithm>
 #include <array>
-#include <dsc/plugin/entry.hpp>
-#include <dsc/plugin/fingerprint.hpp>
 #include <type_traits>
+
+#include <dsc/plugin/entry.hpp>
 
 namespace dsc::plugin {
 
@@ -25,8 +27,9 @@ std::vector<Pair> parse(std::string_view text) {
         text.remove_prefix(std::min(text.size(), item.size() + 1));
         const std::size_t equals = item.find('=');
         if (item.empty()) continue;
-        pairs.push_back({item.substr(0, equals),
-                         equals == std::string_view::npos ? std::string_view{} : item.substr(equals + 1)});
+        pairs.push_back({item.substr(0, equals), equals == std::string_view::npos
+                                                     ? std::string_view{}
+                                                     : item.substr(equals + 1)});
     }
     return pairs;
 }
@@ -47,7 +50,8 @@ bool is_hard(std::string_view key) {
 
 std::string_view core_fingerprint() noexcept { return DSC_FINGERPRINT; }
 
-std::vector<FingerprintDifference> compare_fingerprints(std::string_view plugin, std::string_view host) {
+std::vector<FingerprintDifference> compare_fingerprints(std::string_view plugin,
+                                                        std::string_view host) {
     const std::vector<Pair> theirs = parse(plugin);
     const std::vector<Pair> ours = parse(host);
     std::vector<FingerprintDifference> differences;
@@ -60,13 +64,15 @@ std::vector<FingerprintDifference> compare_fingerprints(std::string_view plugin,
     }
     for (const Pair& other : theirs) {
         if (find(ours, other.key) != nullptr) continue;
-        differences.push_back({std::string(other.key), std::string(other.value), {}, is_hard(other.key)});
+        differences.push_back(
+            {std::string(other.key), std::string(other.value), {}, is_hard(other.key)});
     }
     return differences;
 }
 
 const void* core_address() noexcept {
-    // Data, not a function: the address of a function could be that of a jump table in the caller's file.
+    // Data, not a function: the address of a function could be that of a jump table in the caller's
+    // file.
     static const char inside = 0;
     return &inside;
 }

@@ -1,5 +1,6 @@
 // Turns the faults of a strategy into errors that name it.
-#include <dsc/plugin/guarded.hpp>
+#include "dsc/plugin/guarded.hpp"
+
 #include <exception>
 
 namespace dsc::plugin {
@@ -19,7 +20,9 @@ std::string call_text(const Call& call) {
 Inside::Inside(const Call& call) noexcept : outer_(call_of_thread) { call_of_thread = &call; }
 Inside::~Inside() { call_of_thread = outer_; }
 
-std::string current_call() { return call_of_thread == nullptr ? std::string() : call_text(*call_of_thread); }
+std::string current_call() {
+    return call_of_thread == nullptr ? std::string() : call_text(*call_of_thread);
+}
 
 StrategyFailure::~StrategyFailure() = default;
 
@@ -36,7 +39,8 @@ void fail(const Call& call, std::string code, std::string_view cause, std::strin
 }
 
 void rethrow_attributed(const Call& call) {
-    constexpr std::string_view remedy = "check its parameters or report this to the plugin's authors";
+    constexpr std::string_view remedy =
+        "check its parameters or report this to the plugin's authors";
     try {
         throw;
     } catch (const CancelledError&) {
@@ -46,9 +50,11 @@ void rethrow_attributed(const Call& call) {
     } catch (const StrategyFailure&) {
         throw;
     } catch (const Error& error) {
-        const bool users_file = error.exit_code() == ExitCode::io || error.exit_code() == ExitCode::geometry;
+        const bool users_file =
+            error.exit_code() == ExitCode::io || error.exit_code() == ExitCode::geometry;
         if (!call.step && users_file) throw;
-        fail(call, "strategy.threw", std::string("threw ") + error.code() + ": " + error.what(), remedy);
+        fail(call, "strategy.threw", std::string("threw ") + error.code() + ": " + error.what(),
+             remedy);
     } catch (const std::exception& error) {
         fail(call, "strategy.threw", std::string("threw: ") + error.what(), remedy);
     } catch (...) {

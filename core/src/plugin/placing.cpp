@@ -1,21 +1,23 @@
 // Readers and units for generators that start from a file.
+#include "dsc/plugin/placing.hpp"
+
 #include <dsc/base/error.hpp>
-#include <dsc/plugin/placing.hpp>
 
 namespace dsc::plugin {
 
 const hooks::MeshFiles& require_files(const hooks::InitialMeshContext& context) {
     if (context.files != nullptr) return *context.files;
-    throw StrategyError("strategy.no_files",
-                        "an initial mesh from a file needs a host that reads files; fill InitialMeshContext::files");
+    throw StrategyError("strategy.no_files", "an initial mesh from a file needs a host that reads "
+                                             "files; fill InitialMeshContext::files");
 }
 
-void place(std::span<Vec3> points, Coordinates coordinates, const hooks::InitialMeshContext& context) {
+void place(std::span<Vec3> points, Coordinates coordinates,
+           const hooks::InitialMeshContext& context) {
     if (coordinates == Coordinates::as_they_are) return;
     if (context.cloud == nullptr) {
         throw ConfigError("config.no_input",
-                          "initial_mesh.coordinates is 'of_input', but the experiment has no input; leave it out or give "
-                          "the cloud");
+                          "initial_mesh.coordinates is 'of_input', but the experiment has no "
+                          "input; leave it out or give the cloud");
     }
     for (Vec3& p : points) p = context.cloud->transform().apply(p);
 }

@@ -1,5 +1,5 @@
 // The keys of one shape in a list, and the list of all shapes of a generator.
-#include <dsc/plugin/shape_params.hpp>
+#include "dsc/plugin/shape_params.hpp"
 
 namespace dsc::plugin {
 
@@ -28,16 +28,22 @@ std::vector<Shape> ShapeParams::all() const {
 void declare_shape(config::ParamSchema<Shape>& schema) {
     schema
         .choice("shape", &Shape::shape,
-                {{"sphere", ShapeKind::sphere}, {"box", ShapeKind::box}, {"cylinder", ShapeKind::cylinder}})
+                {{"sphere", ShapeKind::sphere},
+                 {"box", ShapeKind::box},
+                 {"cylinder", ShapeKind::cylinder}})
         .doc("Kind of shape; a cylinder has flat ends.");
     schema.choice("action", &Shape::action, {{"add", ShapeAction::add}, {"cut", ShapeAction::cut}})
         .doc("'add' gives the tets inside the shape's label, 'cut' gives them label 0.");
     schema
         .choice("rule", &Shape::rule,
                 {{"barycentre", ShapeRule::barycentre}, {"vertices", ShapeRule::vertices}})
-        .doc("A tet is inside if its barycentre is inside, or only if all four of its vertices are inside.");
+        .doc("A tet is inside if its barycentre is inside, or only if all four of its vertices are "
+             "inside.");
     schema.vec3("centre", &Shape::centre).unit("length").doc("The shape's centre.");
-    schema.real("radius", &Shape::radius).greater(0).unit("length").doc("Radius of a sphere or a cylinder.");
+    schema.real("radius", &Shape::radius)
+        .greater(0)
+        .unit("length")
+        .doc("Radius of a sphere or a cylinder.");
     schema.vec3("half_size", &Shape::half_size)
         .greater(0)
         .unit("length")
@@ -50,7 +56,8 @@ void declare_shape(config::ParamSchema<Shape>& schema) {
         .unit("length")
         .doc("Half the length of a cylinder.");
     schema.integer("label", &Shape::label).range(1, 1000).doc("Label that 'add' gives.");
-    schema.check([](const Shape& s) { return s.axis.norm() > 1e-9; }, "axis must not be the zero vector");
+    schema.check([](const Shape& s) { return s.axis.norm() > 1e-9; },
+                 "axis must not be the zero vector");
 }
 
 }  // namespace dsc::plugin

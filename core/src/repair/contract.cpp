@@ -1,12 +1,13 @@
 // Names of operations and refusals, and the target length of a tet.
-#include <dsc/repair/contract.hpp>
+#include "dsc/repair/contract.hpp"
 
 namespace dsc::repair {
 
 std::string_view name(Operation operation) {
     constexpr std::array<std::string_view, operation_count> names = {
-        "smooth_laplacian", "smooth_optimise", "edge_removal", "interface_flip", "face_removal", "edge_split",
-        "face_split",       "vertex_split",    "edge_collapse", "relabel",       "compound"};
+        "smooth_laplacian", "smooth_optimise", "edge_removal", "interface_flip",
+        "face_removal",     "edge_split",      "face_split",   "vertex_split",
+        "edge_collapse",    "relabel",         "compound"};
     return names[static_cast<std::size_t>(operation)];
 }
 

@@ -1,11 +1,12 @@
 // The page that compares several runs.
 #include <algorithm>
+#include <map>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/report/report.hpp>
-#include <dsc/text/words.hpp>
 #include <dsc/run/metrics.hpp>
-#include <map>
+#include <dsc/text/words.hpp>
 
 #include "html.hpp"
 #include "page.hpp"
@@ -41,7 +42,8 @@ std::vector<Column> read_columns(std::span<const fs::path> folders) {
         column.name = column.record.name();
         if (seen[column.name] < 2) continue;
         const fs::path folder = column.record.folder.lexically_normal();
-        column.name = (folder.has_filename() ? folder.filename() : folder.parent_path().filename()).string();
+        column.name =
+            (folder.has_filename() ? folder.filename() : folder.parent_path().filename()).string();
     }
     return columns;
 }
@@ -66,16 +68,19 @@ std::string figures(const std::vector<Column>& columns) {
     std::vector<html::Row> rows;
     for (const std::string& name : names) {
         html::Row& row = rows.emplace_back(html::Row{name});
-        for (const auto& of_run : values) row.push_back(of_run.count(name) != 0 ? of_run.at(name) : "-");
+        for (const auto& of_run : values)
+            row.push_back(of_run.count(name) != 0 ? of_run.at(name) : "-");
     }
     return html::table(column_header(columns, "figure"), rows);
 }
 
 /// The scalar values of a configuration by their dotted paths.
-void collect(const config::ConfigNode& node, std::vector<std::string>& order, std::map<std::string, std::string>& out) {
+void collect(const config::ConfigNode& node, std::vector<std::string>& order,
+             std::map<std::string, std::string>& out) {
     if ((node.is_map() || node.is_list()) && node.size() > 0) {
         if (node.is_map()) {
-            for (const config::ConfigEntry& entry : node.entries()) collect(entry.value, order, out);
+            for (const config::ConfigEntry& entry : node.entries())
+                collect(entry.value, order, out);
         } else {
             for (const config::ConfigNode& item : node.items()) collect(item, order, out);
         }
@@ -103,20 +108,27 @@ void collect(const config::ConfigNode& node, std::vector<std::string>& order, st
 std::string differences(const std::vector<Column>& columns) {
     std::vector<std::string> order;
     std::vector<std::map<std::string, std::string>> values;
-    for (const Column& column : columns) collect(column.record.resolved, order, values.emplace_back());
+    for (const Column& column : columns)
+        collect(column.record.resolved, order, values.emplace_back());
     std::vector<html::Row> rows;
     for (const std::string& path : order) {
         html::Row row = {path};
         for (auto& of_run : values) row.push_back(of_run.count(path) != 0 ? of_run[path] : "-");
-        const bool same = std::all_of(row.begin() + 2, row.end(), [&](const std::string& value) { return value == row[1]; });
+        const bool same = std::all_of(row.begin() + 2, row.end(),
+                                      [&](const std::string& value) { return value == row[1]; });
         if (!same) rows.push_back(std::move(row));
     }
     if (rows.empty()) return tag("p", "The experiments are the same.");
     return html::table(column_header(columns, "key"), rows, false);
 }
 
-std::string plot(const std::vector<Column>& columns, const std::string& title, std::string_view figure, bool logarithmic) {
-    Plot out{.title = title, .x_label = "step", .curves = {}, .logarithmic = logarithmic, .from_zero = !logarithmic};
+std::string plot(const std::vector<Column>& columns, const std::string& title,
+                 std::string_view figure, bool logarithmic) {
+    Plot out{.title = title,
+             .x_label = "step",
+             .curves = {},
+             .logarithmic = logarithmic,
+             .from_zero = !logarithmic};
     for (const Column& column : columns) {
         const std::vector<double>* x = column.record.metrics.find(column_name<&StepMetrics::step>);
         const std::vector<double>* y = column.record.metrics.find(figure);
@@ -125,7 +137,8 @@ std::string plot(const std::vector<Column>& columns, const std::string& title, s
     return svg_plot(out);
 }
 
-std::string viewers(const std::vector<Column>& columns, const plugin::Catalogue& catalogue, Workers* workers) {
+std::string viewers(const std::vector<Column>& columns, const plugin::Catalogue& catalogue,
+                    Workers* workers) {
     // All runs together may use as much memory as one run in its own report.
     SceneLimits limits;
     limits.frames = 0;
@@ -136,7 +149,11 @@ std::string viewers(const std::vector<Column>& columns, const plugin::Catalogue&
     for (std::size_t i = 0; i < columns.size(); ++i) {
         const Scene scene = make_scene(columns[i].record, limits, {catalogue, nullptr}, workers);
         const std::string body = viewer(columns[i].record, scene, "view-" + std::to_string(i));
-        out += tag("div", tag("h3", text(columns[i].name)) + "\n" + (body.empty() ? tag("p", "nothing to show") : body), "run") + "\n";
+        out += tag("div",
+                   tag("h3", text(columns[i].name)) + "\n" +
+                       (body.empty() ? tag("p", "nothing to show") : body),
+                   "run") +
+               "\n";
     }
     return tag("div", out, "runs");
 }
@@ -154,7 +171,8 @@ std::string times(const std::vector<Column>& columns) {
     std::vector<html::Row> rows;
     for (const std::string& name : names) {
         html::Row& row = rows.emplace_back(html::Row{name});
-        for (const auto& of_run : values) row.push_back(of_run.count(name) != 0 ? html::real(of_run.at(name)) + " s" : "-");
+        for (const auto& of_run : values)
+            row.push_back(of_run.count(name) != 0 ? html::real(of_run.at(name)) + " s" : "-");
     }
     return html::table(column_header(columns, "phase"), rows);
 }
@@ -170,22 +188,30 @@ std::string all_warnings(const std::vector<Column>& columns) {
 
 }  // namespace
 
-std::string comparison_html(std::span<const fs::path> run_folders, const plugin::Catalogue& catalogue, Workers* workers) {
-    if (run_folders.empty()) throw UsageError("report.no_run", "a comparison needs runs; name their folders");
+std::string comparison_html(std::span<const fs::path> run_folders,
+                            const plugin::Catalogue& catalogue, Workers* workers) {
+    if (run_folders.empty())
+        throw UsageError("report.no_run", "a comparison needs runs; name their folders");
     return guarded_report([&] {
         const std::vector<Column> columns = read_columns(run_folders);
-        const std::string plots = plot(columns, "Distance, cloud to surface, mean", column_name<&StepMetrics::cloud_to_surface_mean>, true) +
-                                  plot(columns, "Distance, vertex to cloud, mean", column_name<&StepMetrics::vertex_to_cloud_mean>, true) +
-                                  plot(columns, "Vertices of the surface", column_name<&StepMetrics::interface_vertices>, false) +
-                                  plot(columns, "Least tet quality", column_name<&StepMetrics::min_tet_quality>, false) +
-                                  plot(columns, "Mean speed, normalised units per step", column_name<&StepMetrics::mean_speed>, true) +
-                                  plot(columns, "Volume, normalised units", column_name<&StepMetrics::volume>, false);
+        const std::string plots =
+            plot(columns, "Distance, cloud to surface, mean",
+                 column_name<&StepMetrics::cloud_to_surface_mean>, true) +
+            plot(columns, "Distance, vertex to cloud, mean",
+                 column_name<&StepMetrics::vertex_to_cloud_mean>, true) +
+            plot(columns, "Vertices of the surface", column_name<&StepMetrics::interface_vertices>,
+                 false) +
+            plot(columns, "Least tet quality", column_name<&StepMetrics::min_tet_quality>, false) +
+            plot(columns, "Mean speed, normalised units per step",
+                 column_name<&StepMetrics::mean_speed>, true) +
+            plot(columns, "Volume, normalised units", column_name<&StepMetrics::volume>, false);
         const std::string body = section("In short", figures(columns)) + all_warnings(columns) +
                                  section("The surfaces", viewers(columns, catalogue, workers)) +
-                                 section("Convergence", tag("div", plots, "plots")) + section("Time by phase", times(columns)) +
+                                 section("Convergence", tag("div", plots, "plots")) +
+                                 section("Time by phase", times(columns)) +
                                  section("What differs in the experiments", differences(columns));
-        return report_page(text::counted(columns.size(), "run") + " compared",
-                           "one column per run", body);
+        return report_page(text::counted(columns.size(), "run") + " compared", "one column per run",
+                           body);
     });
 }
 

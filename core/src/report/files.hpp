@@ -1,8 +1,9 @@
 #pragma once
 // The files of share/report and of three.js, compiled into the library.
 
-#include <dsc/base/embedded_file.hpp>
 #include <span>
+
+#include <dsc/base/embedded_file.hpp>
 
 namespace dsc::report {
 

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+
+#include <openssl/evp.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/text/numbers.hpp>
 #include <dsc/text/utf8.hpp>
-#include <openssl/evp.h>
-#include <set>
 
 namespace dsc::report::html {
 namespace {
@@ -77,12 +79,17 @@ std::string table(const Row& header, const std::vector<Row>& rows, bool numbers)
     };
     std::string body;
     for (const Row& cells : rows) body += row(cells, "td");
-    return tag("div", tag("table", tag("thead", row(header, "th")) + tag("tbody", body), numbers ? "numbers" : ""), "wide") + "\n";
+    return tag("div",
+               tag("table", tag("thead", row(header, "th")) + tag("tbody", body),
+                   numbers ? "numbers" : ""),
+               "wide") +
+           "\n";
 }
 
 std::string facts(const std::vector<std::pair<std::string, std::string>>& rows) {
     std::string body;
-    for (const auto& [name, value] : rows) body += tag("tr", tag("th", text(name)) + tag("td", text(value))) + "\n";
+    for (const auto& [name, value] : rows)
+        body += tag("tr", tag("th", text(name)) + tag("td", text(value))) + "\n";
     return tag("div", tag("table", tag("tbody", body), "facts"), "wide") + "\n";
 }
 
@@ -94,12 +101,10 @@ std::string integer(double value) {
     return digits;
 }
 
-std::string real(double value) {
-    return std::isfinite(value) ? dsc::text::rounded(value, 4) : "-";
-}
+std::string real(double value) { return std::isfinite(value) ? dsc::text::rounded(value, 4) : "-"; }
 
 std::string base64(std::string_view bytes) {
-    constexpr std::size_t block = 3U << 20U;  // OpenSSL counts in int
+    constexpr std::size_t block = 3U << 20U;                // OpenSSL counts in int
     std::string out((bytes.size() + 2) / 3 * 4 + 1, '\0');  // and ends its text with a zero
     auto* to = reinterpret_cast<unsigned char*>(out.data());
     for (; !bytes.empty(); bytes.remove_prefix(std::min(block, bytes.size()))) {
@@ -110,7 +115,8 @@ std::string base64(std::string_view bytes) {
     return out;
 }
 
-std::string fill(std::string_view page, const std::vector<std::pair<std::string, std::string>>& values) {
+std::string fill(std::string_view page,
+                 const std::vector<std::pair<std::string, std::string>>& values) {
     std::string out;
     std::set<std::string> used;
     while (true) {
@@ -131,7 +137,8 @@ std::string fill(std::string_view page, const std::vector<std::pair<std::string,
     }
     for (const auto& value : values) {
         if (used.count(value.first) == 0)
-            throw Error(ExitCode::internal, "report.template", "the report's page has no place @" + value.first + "@");
+            throw Error(ExitCode::internal, "report.template",
+                        "the report's page has no place @" + value.first + "@");
     }
     return out.append(page);
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Text for HTML and SVG. Everything from a run goes through text(), so that no name can become markup.
+// Text for HTML and SVG. Everything from a run goes through text(), so that no name can become
+// markup.
 
 #include <cstdint>
 #include <string>
@@ -9,7 +10,8 @@
 
 namespace dsc::report::html {
 
-/// Escaped for content and for attributes in quotes. Bytes that are not UTF-8, and control characters, become U+FFFD.
+/// Escaped for content and for attributes in quotes. Bytes that are not UTF-8, and control
+/// characters, become U+FFFD.
 std::string text(std::string_view raw);
 
 /// JSON for a <script>: it cannot contain the start of markup.
@@ -32,8 +34,9 @@ std::string real(double value);
 /// Standard base64.
 std::string base64(std::string_view bytes);
 
-/// `page` with every @NAME@ of `values` replaced, in one pass: inserted text is not searched again. Throws Error
-/// "report.template" for a name that only the page or only `values` has.
-std::string fill(std::string_view page, const std::vector<std::pair<std::string, std::string>>& values);
+/// `page` with every @NAME@ of `values` replaced, in one pass: inserted text is not searched again.
+/// Throws Error "report.template" for a name that only the page or only `values` has.
+std::string fill(std::string_view page,
+                 const std::vector<std::pair<std::string, std::string>>& values);
 
 }  // namespace dsc::report::html

@@ -7,8 +7,9 @@
 #include <cstdio>
 #include <limits>
 
-#include "html.hpp"
 #include <dsc/text/numbers.hpp>
+
+#include "html.hpp"
 
 namespace dsc::report {
 namespace {
@@ -19,26 +20,29 @@ constexpr double left = 58, right = 14, top = 34, bottom = 40;
 /// A coordinate on the page; a tenth of a unit is finer than print.
 std::string at(double value) { return text::fixed(value, 1); }
 
-std::string label(double x, double y, const std::string& text, const char* classes, const char* anchor = "middle") {
-    return "<text x=\"" + at(x) + "\" y=\"" + at(y) + "\" class=\"" + classes + "\" text-anchor=\"" + anchor + "\">" +
-           html::text(text) + "</text>\n";
+std::string label(double x, double y, const std::string& text, const char* classes,
+                  const char* anchor = "middle") {
+    return "<text x=\"" + at(x) + "\" y=\"" + at(y) + "\" class=\"" + classes +
+           "\" text-anchor=\"" + anchor + "\">" + html::text(text) + "</text>\n";
 }
 
 std::string line(double x1, double y1, double x2, double y2, const char* classes) {
-    return "<line x1=\"" + at(x1) + "\" y1=\"" + at(y1) + "\" x2=\"" + at(x2) + "\" y2=\"" + at(y2) + "\" class=\"" + classes +
-           "\"/>\n";
+    return "<line x1=\"" + at(x1) + "\" y1=\"" + at(y1) + "\" x2=\"" + at(x2) + "\" y2=\"" +
+           at(y2) + "\" class=\"" + classes + "\"/>\n";
 }
 
-std::string rectangle(double x, double y, double w, double h, const std::string& classes, const std::string& title = "") {
-    std::string out = "<rect x=\"" + at(x) + "\" y=\"" + at(y) + "\" width=\"" + at(w) + "\" height=\"" + at(h) + "\" class=\"" +
-                      classes + "\"";
+std::string rectangle(double x, double y, double w, double h, const std::string& classes,
+                      const std::string& title = "") {
+    std::string out = "<rect x=\"" + at(x) + "\" y=\"" + at(y) + "\" width=\"" + at(w) +
+                      "\" height=\"" + at(h) + "\" class=\"" + classes + "\"";
     return out + (title.empty() ? "/>\n" : "><title>" + html::text(title) + "</title></rect>\n");
 }
 
 std::string colour(std::size_t index) { return "c" + std::to_string(index % 8); }
 
 std::string open_svg(const std::string& title, double w, double h) {
-    return "<svg viewBox=\"0 0 " + at(w) + " " + at(h) + "\" role=\"img\" aria-label=\"" + html::text(title) + "\">\n";
+    return "<svg viewBox=\"0 0 " + at(w) + " " + at(h) + "\" role=\"img\" aria-label=\"" +
+           html::text(title) + "\">\n";
 }
 
 /// An axis: maps numbers to positions on the page.
@@ -69,14 +73,16 @@ struct PlotAxis {
         }
     }
     double place(double value) const {
-        const double part = logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+        const double part = logarithmic ? std::log(value / low) / std::log(high / low)
+                                        : (value - low) / (high - low);
         return begin + part * (end - begin);
     }
     std::vector<double> ticks(int count) const {
         if (!logarithmic) return axis_ticks(low, high, count);
         std::vector<double> out;
         const bool wide = std::log10(high / low) > 2.5;
-        for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high; decade *= 10.0) {
+        for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high;
+             decade *= 10.0) {
             for (const double digit : {1.0, 3.0}) {
                 if (digit > 1.0 && wide) continue;
                 const double tick = digit * decade;
@@ -88,12 +94,14 @@ struct PlotAxis {
 };
 
 std::string tick_text(double value) {
-    if (value != 0.0 && std::abs(value) >= 10000.0 && value == std::floor(value) && std::abs(value) < 1e9)
+    if (value != 0.0 && std::abs(value) >= 10000.0 && value == std::floor(value) &&
+        std::abs(value) < 1e9)
         return html::integer(value);
     return text::rounded(value);
 }
 
-std::string frame(const PlotAxis& x, const PlotAxis& y, const std::string& title, const std::string& x_label) {
+std::string frame(const PlotAxis& x, const PlotAxis& y, const std::string& title,
+                  const std::string& x_label) {
     std::string out = label(left, 16, title, "title", "start");
     for (const double tick : y.ticks(5)) {
         out += line(left, y.place(tick), width - right, y.place(tick), "grid");
@@ -107,7 +115,8 @@ std::string frame(const PlotAxis& x, const PlotAxis& y, const std::string& title
     return out + label(0.5 * (left + width - right), height - 6, x_label, "tick");
 }
 
-/// Thins a long curve to the resolution of the page: the first, least, greatest and last value of each part keep its outline.
+/// Thins a long curve to the resolution of the page: the first, least, greatest and last value of
+/// each part keep its outline.
 std::vector<std::size_t> outline(const Curve& curve) {
     constexpr std::size_t most = 1200;
     std::vector<std::size_t> kept;
@@ -138,16 +147,19 @@ std::string path(const Curve& curve, const PlotAxis& x, const PlotAxis& y, std::
     bool pen_down = false;
     for (const std::size_t i : outline(curve)) {
         const bool drawn = x.takes(curve.x[i]) && y.takes(curve.y[i]);
-        if (drawn) d += (pen_down ? "L" : "M") + at(x.place(curve.x[i])) + " " + at(y.place(curve.y[i]));
+        if (drawn)
+            d += (pen_down ? "L" : "M") + at(x.place(curve.x[i])) + " " + at(y.place(curve.y[i]));
         pen_down = drawn;
     }
-    return "<path d=\"" + d + "\" class=\"curve " + colour(index) + "\"><title>" + html::text(curve.name) + "</title></path>\n";
+    return "<path d=\"" + d + "\" class=\"curve " + colour(index) + "\"><title>" +
+           html::text(curve.name) + "</title></path>\n";
 }
 
 std::string legend(const std::vector<Curve>& curves) {
     std::string items;
     for (std::size_t i = 0; i < curves.size(); ++i) {
-        items += "<span><i class=\"" + colour(i) + "\"></i>" + html::text(curves[i].name) + "</span>";
+        items +=
+            "<span><i class=\"" + colour(i) + "\"></i>" + html::text(curves[i].name) + "</span>";
     }
     return "<figcaption>" + items + "</figcaption>";
 }
@@ -157,7 +169,8 @@ std::string legend(const std::vector<Curve>& curves) {
 std::vector<double> axis_ticks(double low, double high, int count) {
     std::vector<double> out;
     if (!(high > low) || count < 1) return out;
-    const double rough = (high - low) / count, power = std::pow(10.0, std::floor(std::log10(rough)));
+    const double rough = (high - low) / count,
+                 power = std::pow(10.0, std::floor(std::log10(rough)));
     double step = 10.0 * power;
     for (const double nice : {1.0, 2.0, 5.0}) {
         if (nice * power >= rough) {
@@ -165,7 +178,8 @@ std::vector<double> axis_ticks(double low, double high, int count) {
             break;
         }
     }
-    for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) out.push_back(k * step + 0.0);  // no -0
+    for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k)
+        out.push_back(k * step + 0.0);  // no -0
     return out;
 }
 
@@ -189,10 +203,13 @@ std::string svg_plot(const Plot& plot) {
     y.settle();
     std::string out = open_svg(plot.title, width, height) + frame(x, y, plot.title, plot.x_label);
     for (std::size_t i = 0; i < plot.curves.size(); ++i) out += path(plot.curves[i], x, y, i);
-    return html::tag("figure", out + "</svg>" + (plot.curves.size() > 1 ? legend(plot.curves) : "")) + "\n";
+    return html::tag("figure",
+                     out + "</svg>" + (plot.curves.size() > 1 ? legend(plot.curves) : "")) +
+           "\n";
 }
 
-std::vector<std::size_t> count_bins(const std::vector<double>& values, double low, double high, std::size_t bins) {
+std::vector<std::size_t> count_bins(const std::vector<double>& values, double low, double high,
+                                    std::size_t bins) {
     std::vector<std::size_t> counts(bins, 0);
     for (const double value : values) {
         if (!std::isfinite(value)) continue;
@@ -202,8 +219,8 @@ std::vector<std::size_t> count_bins(const std::vector<double>& values, double lo
     return counts;
 }
 
-std::string svg_histogram(const std::string& title, const std::string& x_label, double low, double high,
-                          const std::vector<std::size_t>& counts) {
+std::string svg_histogram(const std::string& title, const std::string& x_label, double low,
+                          double high, const std::vector<std::size_t>& counts) {
     PlotAxis x{.low = low, .high = high, .begin = left, .end = width - right};
     PlotAxis y{.low = 0, .high = 1, .begin = height - bottom, .end = top};
     for (const std::size_t count : counts) y.hold(static_cast<double>(count));
@@ -213,15 +230,19 @@ std::string svg_histogram(const std::string& title, const std::string& x_label, 
         if (counts[i] == 0) continue;
         const double from = low + static_cast<double>(i) * step;
         const double place = y.place(static_cast<double>(counts[i]));
-        out += rectangle(x.place(from) + 0.5, place, x.place(from + step) - x.place(from) - 1, height - bottom - place, "bar",
-                         html::real(from) + " to " + html::real(from + step) + ": " + html::integer(static_cast<double>(counts[i])));
+        out += rectangle(x.place(from) + 0.5, place, x.place(from + step) - x.place(from) - 1,
+                         height - bottom - place, "bar",
+                         html::real(from) + " to " + html::real(from + step) + ": " +
+                             html::integer(static_cast<double>(counts[i])));
     }
     return html::tag("figure", out + "</svg>") + "\n";
 }
 
-std::string svg_shares(const std::vector<std::pair<std::string, double>>& parts, const std::string& unit) {
+std::string svg_shares(const std::vector<std::pair<std::string, double>>& parts,
+                       const std::string& unit) {
     double sum = 0.0;
-    for (const auto& [name, value] : parts) sum += std::isfinite(value) ? std::max(0.0, value) : 0.0;
+    for (const auto& [name, value] : parts)
+        sum += std::isfinite(value) ? std::max(0.0, value) : 0.0;
     if (!(sum > 0.0)) return "";
     constexpr double length = 940, thickness = 26;
     std::string out = open_svg("parts of the whole", length, thickness), items;
@@ -235,7 +256,8 @@ std::string svg_shares(const std::vector<std::pair<std::string, double>>& parts,
         items += "<span><i class=\"" + colour(i) + "\"></i>" + html::text(text) + "</span>";
         from += share;
     }
-    return "<figure class=\"shares\">" + out + "</svg><figcaption>" + items + "</figcaption></figure>\n";
+    return "<figure class=\"shares\">" + out + "</svg><figcaption>" + items +
+           "</figcaption></figure>\n";
 }
 
 }  // namespace dsc::report

@@ -25,15 +25,18 @@ struct Plot {
 /// Empty if no curve has two points.
 std::string svg_plot(const Plot& plot);
 
-/// Number of values in each of equal parts of [low, high]; values outside count for the nearest part.
-std::vector<std::size_t> count_bins(const std::vector<double>& values, double low, double high, std::size_t bins);
+/// Number of values in each of equal parts of [low, high]; values outside count for the nearest
+/// part.
+std::vector<std::size_t> count_bins(const std::vector<double>& values, double low, double high,
+                                    std::size_t bins);
 
 /// Bars over equal parts of [low, high].
-std::string svg_histogram(const std::string& title, const std::string& x_label, double low, double high,
-                          const std::vector<std::size_t>& counts);
+std::string svg_histogram(const std::string& title, const std::string& x_label, double low,
+                          double high, const std::vector<std::size_t>& counts);
 
 /// Parts of a whole as one bar with a legend.
-std::string svg_shares(const std::vector<std::pair<std::string, double>>& parts, const std::string& unit);
+std::string svg_shares(const std::vector<std::pair<std::string, double>>& parts,
+                       const std::string& unit);
 
 /// Round numbers of an axis for [low, high], at most about `count`.
 std::vector<double> axis_ticks(double low, double high, int count);

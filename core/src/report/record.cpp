@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/config/yaml.hpp>
@@ -16,13 +17,15 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 [[noreturn]] void no_run(const fs::path& folder, const std::string& cause) {
-    throw IoError("report.no_run", folder.string(), "", cause, "name the folder of a run that has ended (dsc run CONFIG -o DIR)");
+    throw IoError("report.no_run", folder.string(), "", cause,
+                  "name the folder of a run that has ended (dsc run CONFIG -o DIR)");
 }
 
 ordered_json read_record_json(const fs::path& file) {
     ordered_json json = ordered_json::parse(read_file(file), nullptr, false);
     if (!json.is_object())
-        throw IoError("report.damaged", file.string(), "", "is not a JSON object", "run the experiment again");
+        throw IoError("report.damaged", file.string(), "", "is not a JSON object",
+                      "run the experiment again");
     return json;
 }
 
@@ -40,7 +43,8 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 
 const std::vector<double>* MetricsTable::find(std::string_view column) const {
     const auto found = std::find(columns.begin(), columns.end(), column);
-    return found == columns.end() ? nullptr : &values[static_cast<std::size_t>(found - columns.begin())];
+    return found == columns.end() ? nullptr
+                                  : &values[static_cast<std::size_t>(found - columns.begin())];
 }
 
 MetricsTable parse_metrics(std::string_view csv, const std::string& file) {
@@ -55,16 +59,19 @@ MetricsTable parse_metrics(std::string_view csv, const std::string& file) {
             continue;
         }
         const auto damaged = [&](const std::string& cause) {
-            throw IoError("report.metrics", file, std::to_string(number), cause, "run the experiment again");
+            throw IoError("report.metrics", file, std::to_string(number), cause,
+                          "run the experiment again");
         };
         if (cells.size() != metrics.columns.size())
-            damaged(std::to_string(cells.size()) + " cells for " + std::to_string(metrics.columns.size()) + " columns");
+            damaged(std::to_string(cells.size()) + " cells for " +
+                    std::to_string(metrics.columns.size()) + " columns");
         for (std::size_t i = 0; i < cells.size(); ++i) {
             double value = std::numeric_limits<double>::quiet_NaN();
             const char* const last = cells[i].data() + cells[i].size();
             if (!cells[i].empty()) {
                 const auto [rest, error] = std::from_chars(cells[i].data(), last, value);
-                if (error != std::errc() || rest != last) damaged("a cell of column " + metrics.columns[i] + " is not a number");
+                if (error != std::errc() || rest != last)
+                    damaged("a cell of column " + metrics.columns[i] + " is not a number");
             }
             metrics.values[i].push_back(value);
         }
@@ -87,7 +94,8 @@ const ordered_json* find(const ordered_json& root, std::string_view path) {
 
 double RunRecord::number(std::string_view path) const {
     const ordered_json* value = find(summary, path);
-    return value != nullptr && value->is_number() ? value->get<double>() : std::numeric_limits<double>::quiet_NaN();
+    return value != nullptr && value->is_number() ? value->get<double>()
+                                                  : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string RunRecord::word(std::string_view path) const {
@@ -108,13 +116,16 @@ bool RunRecord::has(std::string_view path) const {
 bool RunRecord::several_labels() const {
     const ordered_json* labels = find(summary, "labels");
     if (labels == nullptr || !labels->is_object()) return false;
-    return std::any_of(labels->begin(), labels->end(), [](const ordered_json& label) { return label.contains("surface"); });
+    return std::any_of(labels->begin(), labels->end(),
+                       [](const ordered_json& label) { return label.contains("surface"); });
 }
 
 RunRecord read_record(const fs::path& folder) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) no_run(folder, "is not a folder");
-    if (!run::RunFolder::is_ours(folder)) no_run(folder, "no run wrote this folder: status.json is missing or was not written by dsc");
+    if (!run::RunFolder::is_ours(folder))
+        no_run(folder,
+               "no run wrote this folder: status.json is missing or was not written by dsc");
     if (!fs::exists(folder / "summary.json", error))
         no_run(folder, "the run has no result: it failed or has not ended, see status.json");
     RunRecord record;
@@ -127,7 +138,8 @@ RunRecord read_record(const fs::path& folder) {
     // The values in this file are final: `${` is ordinary text.
     config::YamlOptions options;
     options.environment = [](const std::string&) { return std::optional<std::string>(); };
-    record.resolved = config::parse_yaml(record.config, (folder / "config.resolved.yaml").string(), options);
+    record.resolved =
+        config::parse_yaml(record.config, (folder / "config.resolved.yaml").string(), options);
     return record;
 }
 

@@ -1,14 +1,16 @@
 #pragma once
 // A finished run as its folder contains it: the data of a report.
 
-#include <dsc/config/node.hpp>
 #include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <dsc/config/node.hpp>
 
 namespace dsc::report {
 
@@ -22,7 +24,8 @@ struct MetricsTable {
     std::size_t rows() const { return values.empty() ? 0 : values.front().size(); }
 };
 
-/// Throws IoError "report.metrics" for text that is not such a table; `file` is used in the message.
+/// Throws IoError "report.metrics" for text that is not such a table; `file` is used in the
+/// message.
 MetricsTable parse_metrics(std::string_view csv, const std::string& file);
 
 struct RunRecord {
@@ -33,23 +36,24 @@ struct RunRecord {
     std::string config;  ///< text of config.resolved.yaml
     config::ConfigNode resolved;
 
-    /// A value of the summary by its path, "vertex_to_cloud.mean"; NaN, an empty text or false if there is none.
+    /// A value of the summary by its path, "vertex_to_cloud.mean"; NaN, an empty text or false if
+    /// there is none.
     double number(std::string_view path) const;
     std::string word(std::string_view path) const;
     bool flag(std::string_view path) const;
     /// Whether there is a value other than null.
     bool has(std::string_view path) const;
     std::string name() const { return word("name"); }
-    /// Whether there are several labels above 0. The interface is not a manifold where they meet; each label has its own
-    /// surface.
+    /// Whether there are several labels above 0. The interface is not a manifold where they meet;
+    /// each label has its own surface.
     bool several_labels() const;
 };
 
 /// Value at a dotted path; null if there is none.
 const nlohmann::ordered_json* find(const nlohmann::ordered_json& root, std::string_view path);
 
-/// Reads the files. Throws IoError "report.no_run" for a folder that no run wrote or whose run has no result, "report.damaged"
-/// for a file that cannot be parsed, and what readers throw. [setup]
+/// Reads the files. Throws IoError "report.no_run" for a folder that no run wrote or whose run has
+/// no result, "report.damaged" for a file that cannot be parsed, and what readers throw. [setup]
 RunRecord read_record(const std::filesystem::path& folder);
 
 }  // namespace dsc::report

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <filesystem>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/parallel_table.hpp>
 #include <dsc/geometry/quality.hpp>
@@ -16,7 +18,6 @@
 #include <dsc/surface/decimate.hpp>
 #include <dsc/surface/distance.hpp>
 #include <dsc/surface/measure.hpp>
-#include <filesystem>
 
 #include "attributes.hpp"
 #include "html.hpp"
@@ -29,7 +30,8 @@ using nlohmann::ordered_json;
 
 template <class Integer>
 void append_little_endian(std::string& out, Integer value) {
-    for (std::size_t i = 0; i < sizeof(Integer); ++i) out += static_cast<char>((value >> (8 * i)) & 0xFFU);
+    for (std::size_t i = 0; i < sizeof(Integer); ++i)
+        out += static_cast<char>((value >> (8 * i)) & 0xFFU);
 }
 
 /// Points as 16-bit numbers in their box.
@@ -69,7 +71,8 @@ ordered_json pack_cells(const std::vector<Corners>& cells, std::size_t points) {
 }
 
 ordered_json pack_mesh(const surface::TriangleMesh& mesh) {
-    return {{"points", pack_points(mesh.points)}, {"faces", pack_cells(mesh.faces, mesh.points.size())}};
+    return {{"points", pack_points(mesh.points)},
+            {"faces", pack_cells(mesh.faces, mesh.points.size())}};
 }
 
 /// Numbers from 0 to `top` in 8 bits.
@@ -84,7 +87,8 @@ std::string pack_levels(const std::vector<double>& values, double top) {
 
 class SceneMaker {
 public:
-    SceneMaker(const RunRecord& record, const SceneLimits& limits, const SceneInput& input, Workers* workers)
+    SceneMaker(const RunRecord& record, const SceneLimits& limits, const SceneInput& input,
+               Workers* workers)
         : record_(record), limits_(limits), input_(input), workers_(workers) {}
 
     Scene make() {
@@ -93,7 +97,8 @@ public:
         json_["units"] = "normalised units";
         read_result();
         json_["frames"] = ordered_json::array();
-        if (limits_.frames > 0) attempt("the intermediate steps are not shown", [&] { add_frames(); });
+        if (limits_.frames > 0)
+            attempt("the intermediate steps are not shown", [&] { add_frames(); });
         if (!surface_.faces.empty()) {
             attempt("the surface is not shown", [&] {
                 add_frame("result", thinned(surface_, limits_.faces, "the surface"), attributes_);
@@ -121,7 +126,8 @@ private:
     }
 
     void read_result() {
-        const fs::path surface = result_file(record_.folder, "surface", {"obj", "ply", "off", "stl"});
+        const fs::path surface =
+            result_file(record_.folder, "surface", {"obj", "ply", "off", "stl"});
         // Of the surface's files, .ply contains the attributes; of the volume's files, .vtu.
         const fs::path coloured = result_file(record_.folder, "surface", {"ply"});
         AttributeSource source;
@@ -132,10 +138,12 @@ private:
             });
         }
         if (coloured != surface && !coloured.empty()) {
-            attempt("the surface has no attributes", [&] { source.points = io::read_surface(coloured, &source.arrays).points; });
+            attempt("the surface has no attributes",
+                    [&] { source.points = io::read_surface(coloured, &source.arrays).points; });
         }
         if (!coloured.empty()) take_attributes(std::move(source));
-        const auto order = coloured.empty() ? std::vector<std::string>{"vtu", "dsc"} : std::vector<std::string>{"dsc", "vtu"};
+        const auto order = coloured.empty() ? std::vector<std::string>{"vtu", "dsc"}
+                                            : std::vector<std::string>{"dsc", "vtu"};
         const fs::path volume = result_file(record_.folder, "volume", order);
         if (volume.empty()) return;
         attempt("the volume is not shown", [&] {
@@ -156,13 +164,16 @@ private:
         std::vector<io::DataArray>& arrays = attributes_.arrays;
         arrays = attributes_among(std::move(arrays));
         if (arrays.size() <= limits_.attributes) return;
-        note("of the surface's " + html::integer(static_cast<double>(arrays.size())) + " attributes only these can be used as colours: the first " +
+        note("of the surface's " + html::integer(static_cast<double>(arrays.size())) +
+             " attributes only these can be used as colours: the first " +
              html::integer(static_cast<double>(limits_.attributes)));
         arrays.resize(limits_.attributes);
     }
 
-    /// Attributes that the result does not have are left out, so that all frames offer the same choice.
-    void add_frame(const std::string& label, const surface::TriangleMesh& mesh, AttributeSource source) {
+    /// Attributes that the result does not have are left out, so that all frames offer the same
+    /// choice.
+    void add_frame(const std::string& label, const surface::TriangleMesh& mesh,
+                   AttributeSource source) {
         std::vector<io::DataArray> arrays;
         for (const io::DataArray& known : attributes_.arrays) {
             for (io::DataArray& array : source.arrays) {
@@ -176,12 +187,14 @@ private:
         json_["frames"].push_back(std::move(frame));
     }
 
-    surface::TriangleMesh thinned(const surface::TriangleMesh& mesh, std::size_t faces, const std::string& what) {
+    surface::TriangleMesh thinned(const surface::TriangleMesh& mesh, std::size_t faces,
+                                  const std::string& what) {
         if (mesh.faces.size() <= faces) return mesh;
         try {
             const surface::TriangleMesh few = surface::decimate(mesh, faces);
             if (!what.empty())
-                note(what + " is drawn with " + html::integer(static_cast<double>(few.faces.size())) + " of its " +
+                note(what + " is drawn with " +
+                     html::integer(static_cast<double>(few.faces.size())) + " of its " +
                      html::integer(static_cast<double>(mesh.faces.size())) + " triangles");
             return few;
         } catch (const GeometryError&) {
@@ -195,13 +208,18 @@ private:
         const std::size_t count = std::min(kept.size(), limits_.frames);
         const auto last = static_cast<std::uint64_t>(std::max(0.0, record_.number("steps")));
         for (std::size_t i = 0; i < count; ++i) {
-            const io::SeriesEntry& entry = kept[count == kept.size() ? i : i * (kept.size() - 1) / std::max<std::size_t>(1, count - 1)];
+            const io::SeriesEntry& entry =
+                kept[count == kept.size()
+                         ? i
+                         : i * (kept.size() - 1) / std::max<std::size_t>(1, count - 1)];
             // The state after the last step equals the result, unless a refinement followed.
             if (entry.step >= last && last > 0) continue;
             io::SurfaceData data;
-            const surface::TriangleMesh mesh = io::read_vtp(record_.folder / "series" / entry.file, &data);
+            const surface::TriangleMesh mesh =
+                io::read_vtp(record_.folder / "series" / entry.file, &data);
             if (mesh.faces.empty()) continue;
-            add_frame("step " + std::to_string(entry.step), thinned(mesh, limits_.frame_faces, ""), {mesh.points, std::move(data.points)});
+            add_frame("step " + std::to_string(entry.step), thinned(mesh, limits_.frame_faces, ""),
+                      {mesh.points, std::move(data.points)});
         }
     }
 
@@ -218,15 +236,17 @@ private:
         const run::LoadedInput& loaded = again ? *again : *input_.loaded;
         std::vector<Vec3> points = loaded.cloud.points;
         if (points.size() > limits_.points) {
-            note("of the cloud's " + html::integer(static_cast<double>(points.size())) + " points " +
-                 html::integer(static_cast<double>(limits_.points)) + " are drawn");
-            for (std::size_t i = 0; i < limits_.points; ++i) points[i] = points[i * points.size() / limits_.points];
+            note("of the cloud's " + html::integer(static_cast<double>(points.size())) +
+                 " points " + html::integer(static_cast<double>(limits_.points)) + " are drawn");
+            for (std::size_t i = 0; i < limits_.points; ++i)
+                points[i] = points[i * points.size() / limits_.points];
             points.resize(limits_.points);
         }
         ordered_json cloud = {{"points", pack_points(points)}};
         if (!surface_.faces.empty()) {
             scene_.distances = distances(points, loaded.target.transform().scale);
-            // With the maximum as bound, a few distant points would give all others the same colour.
+            // With the maximum as bound, a few distant points would give all others the same
+            // colour.
             const double top = io::colour_bounds(scene_.distances).high;
             cloud["top"] = top;
             cloud["distance"] = pack_levels(scene_.distances, top);
@@ -237,18 +257,22 @@ private:
 
     run::LoadedInput load(const run::Input& input) {
         const config::ConfigNode* seed = record_.resolved.find("seed");
-        return run::load_input(input, seed != nullptr ? static_cast<std::uint64_t>(seed->as_integer()) : 1, input_.catalogue, files_, workers_);
+        return run::load_input(input,
+                               seed != nullptr ? static_cast<std::uint64_t>(seed->as_integer()) : 1,
+                               input_.catalogue, files_, workers_);
     }
 
-    /// The report of an old run must not show a changed file. The provenance contains paths as they were typed, so files of the
-    /// same name are compared.
+    /// The report of an old run must not show a changed file. The provenance contains paths as they
+    /// were typed, so files of the same name are compared.
     void require_same_file(const run::Input& input) {
         const ordered_json* inputs = find(record_.provenance, "inputs");
         if (!input.cloud.file || inputs == nullptr || !inputs->is_array()) return;
         const std::filesystem::path name = std::filesystem::path(*input.cloud.file).filename();
         bool known = false;
         for (const ordered_json& read : *inputs) {
-            if (!read.is_object() || std::filesystem::path(read.value("file", "")).filename() != name) continue;
+            if (!read.is_object() ||
+                std::filesystem::path(read.value("file", "")).filename() != name)
+                continue;
             if (read.value("sha256", "") == files_.sha256(*input.cloud.file)) return;
             known = true;
         }
@@ -259,10 +283,13 @@ private:
 
     std::vector<double> distances(const std::vector<Vec3>& points, double scale) const {
         const surface::TriangleTree tree(surface_);
-        return parallel_table(workers_, points.size(), [&](std::size_t i) { return scale * tree.nearest(points[i]).distance; });
+        return parallel_table(workers_, points.size(), [&](std::size_t i) {
+            return scale * tree.nearest(points[i]).distance;
+        });
     }
 
-    /// Tets near the surface: all inside ones, and those outside whose centre is near the surface's box.
+    /// Tets near the surface: all inside ones, and those outside whose centre is near the surface's
+    /// box.
     std::vector<std::size_t> near_tets() const {
         Box3 box = bounding_box(surface_.points);
         const Vec3 margin = Vec3::Constant(0.12 * box.diagonal());
@@ -301,7 +328,8 @@ private:
                 v = index[v];
             }
             tets.push_back(tet);
-            labels += static_cast<char>(static_cast<unsigned char>(std::min<mesh::Label>(volume_.labels[t], 255)));
+            labels += static_cast<char>(
+                static_cast<unsigned char>(std::min<mesh::Label>(volume_.labels[t], 255)));
             qualities.push_back(scene_.qualities[t]);
         }
         json_["tets"] = {{"points", pack_points(points)},
@@ -324,11 +352,13 @@ private:
 
 }  // namespace
 
-Scene make_scene(const RunRecord& record, const SceneLimits& limits, const SceneInput& input, Workers* workers) {
+Scene make_scene(const RunRecord& record, const SceneLimits& limits, const SceneInput& input,
+                 Workers* workers) {
     return SceneMaker(record, limits, input, workers).make();
 }
 
-fs::path result_file(const fs::path& run_folder, const std::string& stem, const std::vector<std::string>& extensions) {
+fs::path result_file(const fs::path& run_folder, const std::string& stem,
+                     const std::vector<std::string>& extensions) {
     std::error_code error;
     for (const std::string& extension : extensions) {
         const fs::path file = run_folder / "result" / (stem + "." + extension);

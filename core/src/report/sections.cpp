@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+
 #include <dsc/base/read_file.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/run/metrics.hpp>
-#include <map>
 
 #include "html.hpp"
 #include "plot.hpp"
@@ -34,18 +35,21 @@ std::string how_it_ended(const RunRecord& record) {
     return status;
 }
 
-std::string card(const std::string& name, const std::string& value, const std::string& classes = "") {
+std::string card(const std::string& name, const std::string& value,
+                 const std::string& classes = "") {
     return tag("div", tag("b", text(value)) + tag("span", text(name)), "card " + classes);
 }
 
-/// The rows of tables 6.1 and 6.2 of the thesis [Saul2015]: seconds, vertices, faces; mean, least and largest distance.
+/// The rows of tables 6.1 and 6.2 of the thesis [Saul2015]: seconds, vertices, faces; mean, least
+/// and largest distance.
 struct ThesisRow {
     const char* mesh;
     double seconds, vertices, faces, mean, least, largest;
 };
-constexpr std::array<ThesisRow, 3> thesis_rows = {{{"bunny", 946, 5063, 10154, 0.02915, 0.00015, 0.11350},
-                                                   {"teapot", 845, 2550, 5110, 0.03291, 0.00034, 0.10509},
-                                                   {"cow", 893, 2355, 4848, 0.02443, 0.00026, 0.16622}}};
+constexpr std::array<ThesisRow, 3> thesis_rows = {
+    {{"bunny", 946, 5063, 10154, 0.02915, 0.00015, 0.11350},
+     {"teapot", 845, 2550, 5110, 0.03291, 0.00034, 0.10509},
+     {"cow", 893, 2355, 4848, 0.02443, 0.00026, 0.16622}}};
 
 Curve curve(const RunRecord& record, std::string_view column, const std::string& name) {
     const std::vector<double>* x = record.metrics.find(column_name<&StepMetrics::step>);
@@ -66,13 +70,15 @@ Curve in_edges(const RunRecord& record, std::string_view column, const std::stri
 std::string observer_plots(const RunRecord& record) {
     std::string out;
     for (const std::string& column : record.metrics.columns) {
-        if (column.rfind("observers.", 0) == 0) out += svg_plot({column.substr(10), "step", {curve(record, column, column)}});
+        if (column.rfind("observers.", 0) == 0)
+            out += svg_plot({column.substr(10), "step", {curve(record, column, column)}});
     }
     return out;
 }
 
 /// One line per value; nested names are joined by blanks; lists are left out.
-void flatten(const ordered_json& json, const std::string& prefix, std::vector<std::pair<std::string, std::string>>& rows) {
+void flatten(const ordered_json& json, const std::string& prefix,
+             std::vector<std::pair<std::string, std::string>>& rows) {
     for (const auto& [key, value] : json.items()) {
         const std::string name = prefix.empty() ? key : prefix + " " + key;
         if (value.is_object()) {
@@ -96,9 +102,11 @@ std::string command_line(const ordered_json& provenance) {
     if (command == nullptr || !command->is_array()) return line;
     for (const ordered_json& item : *command) {
         std::string argument = item.is_string() ? item.get<std::string>() : item.dump();
-        if (argument.empty() || argument.find_first_of(" \t\n'\"$&;|<>()*?[]{}\\`") != std::string::npos) {
+        if (argument.empty() ||
+            argument.find_first_of(" \t\n'\"$&;|<>()*?[]{}\\`") != std::string::npos) {
             std::string quoted = "'";
-            for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+            for (const char c : argument)
+                quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
             argument = quoted + "'";
         }
         line += (line.empty() ? "" : " ") + argument;
@@ -107,7 +115,8 @@ std::string command_line(const ordered_json& provenance) {
 }
 
 /// Rows of a list of objects in the provenance.
-std::vector<html::Row> rows_of(const ordered_json& provenance, const char* list, const std::vector<const char*>& keys) {
+std::vector<html::Row> rows_of(const ordered_json& provenance, const char* list,
+                               const std::vector<const char*>& keys) {
     std::vector<html::Row> rows;
     const ordered_json* items = find(provenance, list);
     if (items == nullptr || !items->is_array()) return rows;
@@ -129,7 +138,8 @@ std::string section(const std::string& title, const std::string& body, const std
 
 std::vector<std::pair<std::string, std::string>> key_figures(const RunRecord& record) {
     const std::vector<Check> checks = validity(record);
-    const bool valid = std::all_of(checks.begin(), checks.end(), [](const Check& check) { return check.holds; });
+    const bool valid =
+        std::all_of(checks.begin(), checks.end(), [](const Check& check) { return check.holds; });
     std::vector<std::pair<std::string, std::string>> rows = {
         {"result", valid ? "valid" : "not valid"},
         {"end", how_it_ended(record)},
@@ -138,10 +148,13 @@ std::vector<std::pair<std::string, std::string>> key_figures(const RunRecord& re
         {"faces of the surface", integer(record.number("interface_faces"))},
         {"tets", integer(record.number("tets"))},
         {"least tet quality", real(record.number("min_tet_quality"))},
-        {"components / genus", integer(record.number("components")) + " / " + integer(record.number("genus"))}};
+        {"components / genus",
+         integer(record.number("components")) + " / " + integer(record.number("genus"))}};
     if (record.has("cloud_to_surface")) {
-        rows.emplace_back("mean distance, cloud to surface", real(record.number("cloud_to_surface.mean")));
-        rows.emplace_back("mean distance, vertex to cloud", real(record.number("vertex_to_cloud.mean")));
+        rows.emplace_back("mean distance, cloud to surface",
+                          real(record.number("cloud_to_surface.mean")));
+        rows.emplace_back("mean distance, vertex to cloud",
+                          real(record.number("vertex_to_cloud.mean")));
     }
     rows.emplace_back("volume", real(record.number("volume")));
     rows.emplace_back("wall time", seconds(record.number("wall_s")));
@@ -157,9 +170,11 @@ std::string headline_section(const RunRecord& record) {
     }
     std::string list;
     for (const Check& check : validity(record)) {
-        list += tag("li", text(check.name) + ": " + tag("b", text(check.value)), check.holds ? "good" : "bad");
+        list += tag("li", text(check.name) + ": " + tag("b", text(check.value)),
+                    check.holds ? "good" : "bad");
     }
-    return section("In short", tag("div", cards, "cards") + "\n" + tag("p", "Measured on the files as written, read back:") + "\n" +
+    return section("In short", tag("div", cards, "cards") + "\n" +
+                                   tag("p", "Measured on the files as written, read back:") + "\n" +
                                    tag("ul", list, "checks"));
 }
 
@@ -171,25 +186,33 @@ std::string warnings_section(const RunRecord& record) {
 
 std::string coverage_section(const RunRecord& record) {
     if (!record.has("coverage")) return "";
-    const double width = record.number("cloud.point_width"), scale = record.number("to_normalised.scale");
+    const double width = record.number("cloud.point_width"),
+                 scale = record.number("to_normalised.scale");
     const auto percent = [&](const char* path) { return real(100.0 * record.number(path)) + " %"; };
     std::vector<html::Row> rows = {
-        {"points farther from the surface than 3 noise scales and 1 spacing", percent("coverage.far_share")},
-        {"largest distance of a point from the surface", real(record.number("coverage.largest_distance") / width) + " spacings"},
-        {"area of the surface without a point within 3 spacings", percent("coverage.unsupported_share")},
+        {"points farther from the surface than 3 noise scales and 1 spacing",
+         percent("coverage.far_share")},
+        {"largest distance of a point from the surface",
+         real(record.number("coverage.largest_distance") / width) + " spacings"},
+        {"area of the surface without a point within 3 spacings",
+         percent("coverage.unsupported_share")},
         {"mean edge of the surface", real(record.number("coverage.edge_to_spacing")) + " spacings"},
-        {"spacing, root of the area per point", real(width / scale) + ", in the units of the input"}};
-    if (record.has("trimmed")) rows.push_back({"area removed by trimming", percent("trimmed.area_share")});
+        {"spacing, root of the area per point",
+         real(width / scale) + ", in the units of the input"}};
+    if (record.has("trimmed"))
+        rows.push_back({"area removed by trimming", percent("trimmed.area_share")});
     std::string body = html::table({"how well the surface explains its points", ""}, rows);
     std::vector<html::Row> groups;
     const ordered_json* told = find(record.summary, "coverage.groups_of_far_points");
     const ordered_json* centre = find(record.summary, "to_normalised.centre");
-    if (told != nullptr && told->is_array() && centre != nullptr && centre->is_array() && centre->size() == 3) {
+    if (told != nullptr && told->is_array() && centre != nullptr && centre->is_array() &&
+        centre->size() == 3) {
         for (const ordered_json& group : *told) {
             html::Row row = {integer(group.value("points", 0.0))};
             std::string place;
             for (std::size_t k = 0; k < 3; ++k) {
-                place += (k == 0 ? "" : ", ") + real(group["centre"][k].get<double>() / scale + (*centre)[k].get<double>());
+                place += (k == 0 ? "" : ", ") + real(group["centre"][k].get<double>() / scale +
+                                                     (*centre)[k].get<double>());
             }
             row.push_back(place);
             row.push_back(real(group.value("diameter", 0.0) / scale));
@@ -201,8 +224,12 @@ std::string coverage_section(const RunRecord& record) {
         body += tag("p", "Groups of points without a surface, in the units of the input:") + "\n" +
                 html::table({"points", "centre", "diameter", "largest distance"}, groups);
     }
-    return section("Points and surface", body + tag("p", "The viewer can colour the surface by gap (the distance to the nearest point, in spacings) and by support, if the "
-                                                         "velocity publishes them.", "hint"));
+    return section(
+        "Points and surface",
+        body + tag("p",
+                   "The viewer can colour the surface by gap (the distance to the nearest point, "
+                   "in spacings) and by support, if the velocity publishes them.",
+                   "hint"));
 }
 
 std::string notes_section(const RunRecord& record) {
@@ -228,38 +255,49 @@ std::string viewer(const RunRecord& record, const Scene& scene, const std::strin
     }
     std::string notes;
     for (const std::string& note : scene.notes) notes += tag("li", text(note));
-    return "<div class=\"viewer\" id=\"" + id + "\">" + picture + "</div>\n<script type=\"application/json\" id=\"" + id +
-           "-scene\">" + html::json_in_script(scene.json) + "</script>\n" + (notes.empty() ? "" : tag("ul", notes, "notes") + "\n");
+    return "<div class=\"viewer\" id=\"" + id + "\">" + picture +
+           "</div>\n<script type=\"application/json\" id=\"" + id + "-scene\">" +
+           html::json_in_script(scene.json) + "</script>\n" +
+           (notes.empty() ? "" : tag("ul", notes, "notes") + "\n");
 }
 
 std::string viewer_section(const RunRecord& record, const Scene& scene) {
     const std::string body = viewer(record, scene, "view-0");
     if (body.empty()) return "";
-    return section("The surface", body + tag("p",
-                                             "Drag to rotate, use the wheel to zoom, drag with the right button to move. "
-                                             "Intermediate surfaces are drawn with fewer triangles.",
-                                             "hint"));
+    return section("The surface",
+                   body + tag("p",
+                              "Drag to rotate, use the wheel to zoom, drag with the right button "
+                              "to move. Intermediate surfaces are drawn with fewer triangles.",
+                              "hint"));
 }
 
 std::string thesis_section(const RunRecord& record) {
-    std::vector<html::Row> times = {{record.name(), seconds(record.number("wall_s")), seconds(record.number("cpu_s")),
-                                     integer(record.number("interface_vertices")), integer(record.number("interface_faces"))}};
+    std::vector<html::Row> times = {
+        {record.name(), seconds(record.number("wall_s")), seconds(record.number("cpu_s")),
+         integer(record.number("interface_vertices")), integer(record.number("interface_faces"))}};
     std::vector<html::Row> distances;
     if (record.has("vertex_to_cloud")) {
-        distances.push_back({record.name(), real(record.number("vertex_to_cloud.mean")), real(record.number("vertex_to_cloud.min")),
-                             real(record.number("vertex_to_cloud.max")),
-                             integer(record.number("shells")) + " / " + integer(record.number("genus")),
-                             integer(record.number("self_intersections"))});
+        distances.push_back(
+            {record.name(), real(record.number("vertex_to_cloud.mean")),
+             real(record.number("vertex_to_cloud.min")), real(record.number("vertex_to_cloud.max")),
+             integer(record.number("shells")) + " / " + integer(record.number("genus")),
+             integer(record.number("self_intersections"))});
         for (const ThesisRow& row : thesis_rows) {
-            times.push_back({"thesis: " + std::string(row.mesh), integer(row.seconds) + " s", "-", integer(row.vertices), integer(row.faces)});
-            distances.push_back({"thesis: " + std::string(row.mesh), real(row.mean), real(row.least), real(row.largest), "-", "-"});
+            times.push_back({"thesis: " + std::string(row.mesh), integer(row.seconds) + " s", "-",
+                             integer(row.vertices), integer(row.faces)});
+            distances.push_back({"thesis: " + std::string(row.mesh), real(row.mean),
+                                 real(row.least), real(row.largest), "-", "-"});
         }
     }
     std::string body = tag("h3", "Time and size (table 6.1)") + "\n" +
                        html::table({"mesh", "wall time", "CPU time", "vertices", "faces"}, times);
     if (!distances.empty()) {
-        body += tag("h3", "From the vertices of the surface to the cloud, normalised units (table 6.2)") + "\n" +
-                html::table({"mesh", "mean", "least", "largest", "shells / genus", "self-intersections"}, distances);
+        body += tag("h3",
+                    "From the vertices of the surface to the cloud, normalised units (table 6.2)") +
+                "\n" +
+                html::table(
+                    {"mesh", "mean", "least", "largest", "shells / genus", "self-intersections"},
+                    distances);
     }
     return section("The thesis' tables", body, "thesis");
 }
@@ -268,30 +306,48 @@ std::string plots_section(const RunRecord& record, const Scene& scene) {
     std::string convergence =
         svg_plot({.title = "Distance, normalised units",
                   .x_label = "step",
-                  .curves = {curve(record, column_name<&StepMetrics::vertex_to_cloud_mean>, "vertex to cloud, mean"),
-                             curve(record, column_name<&StepMetrics::vertex_to_cloud_max>, "vertex to cloud, largest"),
-                             curve(record, column_name<&StepMetrics::cloud_to_surface_mean>, "cloud to surface, mean")},
+                  .curves = {curve(record, column_name<&StepMetrics::vertex_to_cloud_mean>,
+                                   "vertex to cloud, mean"),
+                             curve(record, column_name<&StepMetrics::vertex_to_cloud_max>,
+                                   "vertex to cloud, largest"),
+                             curve(record, column_name<&StepMetrics::cloud_to_surface_mean>,
+                                   "cloud to surface, mean")},
                   .logarithmic = true}) +
         svg_plot({.title = "Speed, current mean edges per step",
                   .x_label = "step",
                   .curves = {in_edges(record, column_name<&StepMetrics::mean_speed>, "mean"),
                              in_edges(record, column_name<&StepMetrics::max_speed>, "largest")},
                   .logarithmic = true}) +
-        svg_plot({.title = "Vertices of the surface", .x_label = "step", .curves = {curve(record, column_name<&StepMetrics::interface_vertices>, "")}, .from_zero = true}) +
-        svg_plot({.title = "Volume, normalised units", .x_label = "step", .curves = {curve(record, column_name<&StepMetrics::volume>, "")}, .from_zero = true}) +
+        svg_plot({.title = "Vertices of the surface",
+                  .x_label = "step",
+                  .curves = {curve(record, column_name<&StepMetrics::interface_vertices>, "")},
+                  .from_zero = true}) +
+        svg_plot({.title = "Volume, normalised units",
+                  .x_label = "step",
+                  .curves = {curve(record, column_name<&StepMetrics::volume>, "")},
+                  .from_zero = true}) +
         observer_plots(record);
     std::string quality =
-        svg_plot({.title = "Least tet quality", .x_label = "step", .curves = {curve(record, column_name<&StepMetrics::min_tet_quality>, "")}, .from_zero = true}) +
-        svg_plot({.title = "Operations committed", .x_label = "step", .curves = {curve(record, column_name<&StepMetrics::committed>, "")}, .from_zero = true});
+        svg_plot({.title = "Least tet quality",
+                  .x_label = "step",
+                  .curves = {curve(record, column_name<&StepMetrics::min_tet_quality>, "")},
+                  .from_zero = true}) +
+        svg_plot({.title = "Operations committed",
+                  .x_label = "step",
+                  .curves = {curve(record, column_name<&StepMetrics::committed>, "")},
+                  .from_zero = true});
     if (!scene.qualities.empty())
-        quality += svg_histogram("Tets by quality, result", "quality: 1 for a regular tet", 0.0, 1.0, count_bins(scene.qualities, 0.0, 1.0, 40));
+        quality += svg_histogram("Tets by quality, result", "quality: 1 for a regular tet", 0.0,
+                                 1.0, count_bins(scene.qualities, 0.0, 1.0, 40));
     if (!scene.distances.empty()) {
         const double most = *std::max_element(scene.distances.begin(), scene.distances.end());
         if (most > 0.0)
-            quality += svg_histogram("Points of the cloud by distance", "distance to the surface, normalised units", 0.0, most,
+            quality += svg_histogram("Points of the cloud by distance",
+                                     "distance to the surface, normalised units", 0.0, most,
                                      count_bins(scene.distances, 0.0, most, 40));
     }
-    return section("Convergence", tag("div", convergence, "plots")) + section("Quality", tag("div", quality, "plots"));
+    return section("Convergence", tag("div", convergence, "plots")) +
+           section("Quality", tag("div", quality, "plots"));
 }
 
 std::vector<std::pair<std::string, double>> phases(const RunRecord& record) {
@@ -307,7 +363,9 @@ std::vector<std::pair<std::string, double>> phases(const RunRecord& record) {
     return parts;
 }
 
-std::string time_section(const RunRecord& record) { return section("Time by phase", svg_shares(phases(record), "s")); }
+std::string time_section(const RunRecord& record) {
+    return section("Time by phase", svg_shares(phases(record), "s"));
+}
 
 std::string topology_section(const RunRecord& record) {
     html::Row names, counts;
@@ -324,28 +382,37 @@ std::string topology_section(const RunRecord& record) {
     const ordered_json* operations = find(record.summary, "operations");
     if (operations != nullptr && operations->is_object()) {
         for (const auto& [operation, figures] : operations->items()) {
-            const ordered_json *tried = find(figures, "tried"), *committed = find(figures, "committed");
-            if (tried == nullptr || committed == nullptr || !tried->is_number() || !committed->is_number()) continue;
+            const ordered_json *tried = find(figures, "tried"),
+                               *committed = find(figures, "committed");
+            if (tried == nullptr || committed == nullptr || !tried->is_number() ||
+                !committed->is_number())
+                continue;
             if (!(tried->get<double>() > 0.0)) continue;
             std::string name = operation;
             std::replace(name.begin(), name.end(), '_', ' ');
-            rows.push_back({name, integer(tried->get<double>()), integer(committed->get<double>())});
+            rows.push_back(
+                {name, integer(tried->get<double>()), integer(committed->get<double>())});
         }
     }
-    if (!rows.empty()) body += tag("h3", "Local operations") + "\n" + html::table({"operation", "tried", "committed"}, rows);
+    if (!rows.empty())
+        body += tag("h3", "Local operations") + "\n" +
+                html::table({"operation", "tried", "committed"}, rows);
     return section("Changes of topology", body);
 }
 
 std::string cloud_section(const RunRecord& record) {
     std::string body;
-    for (const auto& [key, title] : {std::pair{"cloud", "The points, normalised units"}, std::pair{"initial_mesh", "The initial mesh"}}) {
+    for (const auto& [key, title] : {std::pair{"cloud", "The points, normalised units"},
+                                     std::pair{"initial_mesh", "The initial mesh"}}) {
         const ordered_json* figures = find(record.summary, key);
         if (figures == nullptr || !figures->is_object() || figures->empty()) continue;
         std::vector<std::pair<std::string, std::string>> rows;
         for (const auto& [figure, value] : figures->items()) {
             std::string name = figure;
             std::replace(name.begin(), name.end(), '_', ' ');
-            if (value.is_number()) rows.emplace_back(name, value.is_number_integer() ? integer(value.get<double>()) : real(value.get<double>()));
+            if (value.is_number())
+                rows.emplace_back(name, value.is_number_integer() ? integer(value.get<double>())
+                                                                  : real(value.get<double>()));
         }
         body += tag("h3", title) + "\n" + html::facts(rows);
     }
@@ -353,17 +420,23 @@ std::string cloud_section(const RunRecord& record) {
 }
 
 std::string config_section(const RunRecord& record) {
-    return section("Experiment, all defaults written out", tag("pre", text(record.config), "config"));
+    return section("Experiment, all defaults written out",
+                   tag("pre", text(record.config), "config"));
 }
 
 std::string provenance_section(const RunRecord& record) {
-    std::vector<std::pair<std::string, std::string>> rows = {{"command", command_line(record.provenance)}};
+    std::vector<std::pair<std::string, std::string>> rows = {
+        {"command", command_line(record.provenance)}};
     flatten(record.provenance, "", rows);
     std::string body = html::facts(rows);
     const auto inputs = rows_of(record.provenance, "inputs", {"file", "sha256"});
-    if (!inputs.empty()) body += tag("h3", "Inputs") + "\n" + html::table({"file", "SHA-256"}, inputs, false);
-    const auto plugins = rows_of(record.provenance, "plugins", {"name", "version", "license", "sha256"});
-    if (!plugins.empty()) body += tag("h3", "Plugins") + "\n" + html::table({"name", "version", "licence", "SHA-256"}, plugins, false);
+    if (!inputs.empty())
+        body += tag("h3", "Inputs") + "\n" + html::table({"file", "SHA-256"}, inputs, false);
+    const auto plugins =
+        rows_of(record.provenance, "plugins", {"name", "version", "license", "sha256"});
+    if (!plugins.empty())
+        body += tag("h3", "Plugins") + "\n" +
+                html::table({"name", "version", "licence", "SHA-256"}, plugins, false);
     return section("Provenance", body, "provenance");
 }
 

@@ -25,7 +25,8 @@ std::string cloud_section(const RunRecord& record);
 std::string config_section(const RunRecord& record);
 std::string provenance_section(const RunRecord& record);
 
-/// A viewer for viewer.js: the scene, and a picture for browsers without WebGL. `id` must be a plain word.
+/// A viewer for viewer.js: the scene, and a picture for browsers without WebGL. `id` must be a
+/// plain word.
 std::string viewer(const RunRecord& record, const Scene& scene, const std::string& id);
 
 /// The main figures of a run: names and values for people.
@@ -34,6 +35,7 @@ std::vector<std::pair<std::string, std::string>> key_figures(const RunRecord& re
 /// The phases and their wall seconds; the rest is "other".
 std::vector<std::pair<std::string, double>> phases(const RunRecord& record);
 
-std::string section(const std::string& title, const std::string& body, const std::string& classes = "");
+std::string section(const std::string& title, const std::string& body,
+                    const std::string& classes = "");
 
 }  // namespace dsc::report

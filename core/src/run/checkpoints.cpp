@@ -2,14 +2,15 @@
 #include "checkpoints.hpp"
 
 #include <algorithm>
+#include <vector>
+
 #include <dsc/base/error.hpp>
-#include <dsc/base/read_file.hpp>
 #include <dsc/base/log.hpp>
+#include <dsc/base/read_file.hpp>
 #include <dsc/base/state.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/plugin/fingerprint.hpp>
 #include <dsc/run/sha256.hpp>
-#include <vector>
 
 namespace dsc::run {
 namespace {
@@ -21,7 +22,8 @@ constexpr std::size_t seal_size = 64;  // number of hex digits of a SHA-256
 
 std::string name_of(std::uint64_t steps) {
     const std::string number = std::to_string(steps);
-    return "step_" + std::string(number.size() < 10 ? 10 - number.size() : 0, '0') + number + ".dscstate";
+    return "step_" + std::string(number.size() < 10 ? 10 - number.size() : 0, '0') + number +
+           ".dscstate";
 }
 
 /// Oldest first, because the names contain their steps with leading zeros.
@@ -31,7 +33,8 @@ std::vector<fs::path> files_of(const fs::path& folder) {
     for (auto i = fs::directory_iterator(folder, error); !error && i != fs::directory_iterator();
          i.increment(error)) {
         const std::string name = i->path().filename().string();
-        if (name.rfind("step_", 0) == 0 && i->path().extension() == ".dscstate") files.push_back(i->path());
+        if (name.rfind("step_", 0) == 0 && i->path().extension() == ".dscstate")
+            files.push_back(i->path());
     }
     std::sort(files.begin(), files.end());
     return files;
@@ -50,12 +53,15 @@ std::string packed(const Checkpoint& c) {
     return bytes + sha256(bytes);
 }
 
-[[noreturn]] void unusable(const std::string& cause) { throw IoError("checkpoint.unusable", cause); }
+[[noreturn]] void unusable(const std::string& cause) {
+    throw IoError("checkpoint.unusable", cause);
+}
 
 Checkpoint unpacked(const std::string& file) {
     if (file.size() < seal_size) unusable("it is truncated");
     const std::string_view bytes(file.data(), file.size() - seal_size);
-    if (sha256(bytes) != file.substr(bytes.size())) unusable("it is damaged: its SHA-256 does not match");
+    if (sha256(bytes) != file.substr(bytes.size()))
+        unusable("it is damaged: its SHA-256 does not match");
     StateReader in(bytes);
     if (in.text() != magic) unusable("it was written by another version");
     if (in.text() != plugin::core_fingerprint()) unusable("it was written by another build of dsc");
@@ -81,7 +87,8 @@ void Checkpoints::write(const Checkpoint& checkpoint) const {
     for (std::size_t i = 0; i + keep_ < files.size(); ++i) fs::remove(files[i], error);
 }
 
-std::optional<Checkpoint> Checkpoints::last(const std::string& hash, const std::function<void(const Checkpoint&)>& require,
+std::optional<Checkpoint> Checkpoints::last(const std::string& hash,
+                                            const std::function<void(const Checkpoint&)>& require,
                                             std::string* reason) const {
     std::vector<fs::path> files = files_of(folder_);
     std::vector<std::string> refused;
@@ -90,7 +97,8 @@ std::optional<Checkpoint> Checkpoints::last(const std::string& hash, const std::
             Checkpoint checkpoint = unpacked(read_file(*file));
             if (checkpoint.hash != hash) unusable("it belongs to another experiment");
             require(checkpoint);
-            for (const std::string& text : refused) log(LogLevel::warning, text + "; using the previous one");
+            for (const std::string& text : refused)
+                log(LogLevel::warning, text + "; using the previous one");
             return checkpoint;
         } catch (const Error& error) {
             refused.push_back(file->string() + " cannot be used: " + error.what());

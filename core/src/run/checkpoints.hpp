@@ -1,5 +1,6 @@
 #pragma once
-// The folder checkpoint/ of a run: states of the run. Each file is complete or absent, and ends with its SHA-256.
+// The folder checkpoint/ of a run: states of the run. Each file is complete or absent, and ends
+// with its SHA-256.
 
 #include <cstdint>
 #include <filesystem>
@@ -23,15 +24,17 @@ struct Checkpoint {
 class Checkpoints {
 public:
     /// `keep`: number of checkpoints that are kept, the last ones.
-    Checkpoints(std::filesystem::path folder, std::size_t keep) : folder_(std::move(folder)), keep_(keep) {}
+    Checkpoints(std::filesystem::path folder, std::size_t keep)
+        : folder_(std::move(folder)), keep_(keep) {}
 
     /// Writes a checkpoint, then removes old ones. Throws IoError. [step]
     void write(const Checkpoint& checkpoint) const;
 
-    /// The last checkpoint that is complete, belongs to this experiment and this build, and for which `require` does not throw.
-    /// Warns about each later one. If none is left, `reason` says what is wrong with the last one; it stays empty if there is
-    /// no file. [setup]
-    std::optional<Checkpoint> last(const std::string& hash, const std::function<void(const Checkpoint&)>& require,
+    /// The last checkpoint that is complete, belongs to this experiment and this build, and for
+    /// which `require` does not throw. Warns about each later one. If none is left, `reason` says
+    /// what is wrong with the last one; it stays empty if there is no file. [setup]
+    std::optional<Checkpoint> last(const std::string& hash,
+                                   const std::function<void(const Checkpoint&)>& require,
                                    std::string* reason) const;
 
 private:

@@ -1,13 +1,15 @@
 // Measures how well a surface and its points agree.
+#include "dsc/run/coverage.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+
 #include <dsc/base/median.hpp>
 #include <dsc/base/union_find.hpp>
 #include <dsc/cloud/search.hpp>
-#include <dsc/run/coverage.hpp>
 #include <dsc/surface/distance.hpp>
-#include <map>
 
 namespace dsc::run {
 namespace {
@@ -15,16 +17,19 @@ namespace {
 constexpr double far_noise = 3.0;           // noise scales
 constexpr double far_width = 1.0;           // spacings
 constexpr double unsupported_beyond = 3.0;  // spacings
-constexpr double group_cell = 3.0;          // median spacings: points in neighbouring cells belong to the same group
-constexpr double widest = 2.0;              // median spacings: larger spacings of a point count as this
+constexpr double group_cell = 3.0;  // median spacings: points in neighbouring cells belong to the
+                                    // same group
+constexpr double widest = 2.0;      // median spacings: larger spacings of a point count as this
 
 /// Pieces of a set of points: two points are joined if the cells of a grid that contain them touch.
 class Pieces {
 public:
     Pieces(std::span<const Vec3> points, double cell) : cells_(points.size()) {
         for (std::size_t i = 0; i < points.size(); ++i) {
-            const Cell at = {index(points[i].x() / cell), index(points[i].y() / cell), index(points[i].z() / cell)};
-            cells_[i] = static_cast<std::uint32_t>(numbers_.try_emplace(at, numbers_.size()).first->second);
+            const Cell at = {index(points[i].x() / cell), index(points[i].y() / cell),
+                             index(points[i].z() / cell)};
+            cells_[i] =
+                static_cast<std::uint32_t>(numbers_.try_emplace(at, numbers_.size()).first->second);
         }
         sets_ = UnionFind(numbers_.size());
         for (const auto& [at, number] : numbers_) join_neighbours(at, number);
@@ -36,14 +41,18 @@ public:
 private:
     using Cell = std::array<std::int64_t, 3>;
 
-    static std::int64_t index(double coordinate) { return static_cast<std::int64_t>(std::floor(coordinate)); }
+    static std::int64_t index(double coordinate) {
+        return static_cast<std::int64_t>(std::floor(coordinate));
+    }
 
     void join_neighbours(const Cell& at, std::size_t number) {
         for (std::int64_t x = -1; x <= 1; ++x)
             for (std::int64_t y = -1; y <= 1; ++y)
                 for (std::int64_t z = -1; z <= 1; ++z) {
                     const auto near = numbers_.find({at[0] + x, at[1] + y, at[2] + z});
-                    if (near != numbers_.end()) sets_.join(static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(near->second));
+                    if (near != numbers_.end())
+                        sets_.join(static_cast<std::uint32_t>(number),
+                                   static_cast<std::uint32_t>(near->second));
                 }
     }
 
@@ -57,11 +66,13 @@ struct FarPoint {
     double distance;
 };
 
-std::vector<PointGroup> groups_of(const std::vector<FarPoint>& far, double width, Workers* workers) {
+std::vector<PointGroup> groups_of(const std::vector<FarPoint>& far, double width,
+                                  Workers* workers) {
     if (far.empty() || !(width > 0.0)) return {};
     std::vector<Vec3> places;
     for (const FarPoint& p : far) places.push_back(p.place);
-    const std::vector<double> nearest = cloud::distances_to_nearest(cloud::NearestSearch(places), workers);
+    const std::vector<double> nearest =
+        cloud::distances_to_nearest(cloud::NearestSearch(places), workers);
     Pieces pieces(places, group_cell * width);
     std::map<std::uint32_t, std::vector<std::size_t>> members;
     for (std::size_t i = 0; i < far.size(); ++i) members[pieces.of(i)].push_back(i);
@@ -80,34 +91,41 @@ std::vector<PointGroup> groups_of(const std::vector<FarPoint>& far, double width
         group.diameter = box.diagonal();
         group.spacing = median_of(std::move(apart));
     }
-    std::stable_sort(groups.begin(), groups.end(), [](const PointGroup& a, const PointGroup& b) { return a.points > b.points; });
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const PointGroup& a, const PointGroup& b) { return a.points > b.points; });
     return groups;
 }
 
 /// Areas and gaps of the surface.
-void measure_support(const surface::TriangleMesh& surface, const surface::CloudDistances& distances, std::span<const double> widths,
-                     Coverage& out) {
+void measure_support(const surface::TriangleMesh& surface, const surface::CloudDistances& distances,
+                     std::span<const double> widths, Coverage& out) {
     out.gaps.assign(surface.points.size(), 0.0);
     for (std::size_t i = 0; i < distances.vertices.size(); ++i) {
         const surface::NearestHit& hit = distances.of_vertices[i];
-        if (widths[hit.index] > 0.0) out.gaps[distances.vertices[i]] = hit.distance / widths[hit.index];
+        if (widths[hit.index] > 0.0)
+            out.gaps[distances.vertices[i]] = hit.distance / widths[hit.index];
     }
     double area = 0.0, unsupported = 0.0, edges = 0.0;
     for (const auto& face : surface.faces) {
-        const Vec3 &a = surface.points[face[0]], &b = surface.points[face[1]], &c = surface.points[face[2]];
+        const Vec3 &a = surface.points[face[0]], &b = surface.points[face[1]],
+                   &c = surface.points[face[2]];
         const double third = (b - a).cross(c - a).norm() / 6.0;
-        for (const std::uint32_t v : face) unsupported += out.gaps[v] > unsupported_beyond ? third : 0.0;
+        for (const std::uint32_t v : face)
+            unsupported += out.gaps[v] > unsupported_beyond ? third : 0.0;
         area += 3.0 * third;
         edges += (b - a).norm() + (c - b).norm() + (a - c).norm();
     }
     out.unsupported_share = area > 0.0 ? unsupported / area : 0.0;
-    if (!surface.faces.empty()) out.mean_edge = edges / static_cast<double>(3 * surface.faces.size());
+    if (!surface.faces.empty())
+        out.mean_edge = edges / static_cast<double>(3 * surface.faces.size());
 }
 
 }  // namespace
 
-Coverage measure_coverage(const surface::TriangleMesh& surface, std::span<const Vec3> points, const surface::CloudDistances& distances,
-                          const cloud::Statistics& statistics, std::span<const Vec3> removed, Workers* workers) {
+Coverage measure_coverage(const surface::TriangleMesh& surface, std::span<const Vec3> points,
+                          const surface::CloudDistances& distances,
+                          const cloud::Statistics& statistics, std::span<const Vec3> removed,
+                          Workers* workers) {
     Coverage out;
     out.points = points.size();
     out.width = statistics.width;
@@ -121,7 +139,8 @@ Coverage measure_coverage(const surface::TriangleMesh& surface, std::span<const 
             out.farthest_point = points[i];
         }
         const double spacing = std::min(statistics.point_width[i], widest * statistics.width);
-        if (distance > far_noise * statistics.noise + far_width * spacing) far.push_back({points[i], distance});
+        if (distance > far_noise * statistics.noise + far_width * spacing)
+            far.push_back({points[i], distance});
     }
     out.far_points = far.size();
     if (!removed.empty()) {
@@ -131,7 +150,8 @@ Coverage measure_coverage(const surface::TriangleMesh& surface, std::span<const 
             for (std::size_t i = begin; i < end; ++i) away[i] = tree.nearest(removed[i]).distance;
         });
         for (std::size_t i = 0; i < removed.size(); ++i) {
-            if (away[i] > far_noise * statistics.noise + far_width * statistics.width) far.push_back({removed[i], away[i]});
+            if (away[i] > far_noise * statistics.noise + far_width * statistics.width)
+                far.push_back({removed[i], away[i]});
         }
     }
     out.groups = groups_of(far, statistics.width, workers);

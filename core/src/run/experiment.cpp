@@ -1,12 +1,14 @@
 // Loads an experiment: files, overrides, plugins, validation, hash.
+#include "dsc/run/experiment.hpp"
+
 #include <algorithm>
-#include <dsc/base/error.hpp>
-#include <dsc/config/overrides.hpp>
-#include <dsc/run/experiment.hpp>
-#include <dsc/run/sha256.hpp>
-#include <dsc/text/words.hpp>
 #include <filesystem>
 #include <set>
+
+#include <dsc/base/error.hpp>
+#include <dsc/config/overrides.hpp>
+#include <dsc/run/sha256.hpp>
+#include <dsc/text/words.hpp>
 
 namespace dsc::run {
 namespace {
@@ -40,12 +42,13 @@ std::vector<std::string> plugin_paths(const ConfigNode& root) {
 
 using FileChange = std::function<ConfigNode(const ConfigNode& file)>;
 
-/// Replaces the value of every file field that is set by `change(value)`, also in nested objects and strategies.
+/// Replaces the value of every file field that is set by `change(value)`, also in nested objects
+/// and strategies.
 ConfigNode map_files(const ConfigNode& node, const Schema& schema, const StrategyLookup& lookup,
                      const FileChange& change);
 
-ConfigNode map_strategy(const ConfigNode& node, const std::string& kind, const StrategyLookup& lookup,
-                        const FileChange& change) {
+ConfigNode map_strategy(const ConfigNode& node, const std::string& kind,
+                        const StrategyLookup& lookup, const FileChange& change) {
     const ConfigNode* type = node.find("type");
     if (type == nullptr || !type->is_string()) return node;
     const Schema* schema = lookup.find_schema(kind, type->as_string());
@@ -57,12 +60,9 @@ ConfigNode map_value(const ConfigNode& value, const Field& field, const Strategy
     if (value.is_null()) return value;
     std::vector<ConfigNode> items;
     switch (field.type) {
-        case FieldType::file:
-            return value.as_string().empty() ? value : change(value);
-        case FieldType::object:
-            return map_files(value, *field.object, lookup, change);
-        case FieldType::strategy:
-            return map_strategy(value, field.kind, lookup, change);
+        case FieldType::file: return value.as_string().empty() ? value : change(value);
+        case FieldType::object: return map_files(value, *field.object, lookup, change);
+        case FieldType::strategy: return map_strategy(value, field.kind, lookup, change);
         case FieldType::object_list:
             for (const ConfigNode& item : value.items())
                 items.push_back(map_files(item, *field.object, lookup, change));
@@ -71,8 +71,7 @@ ConfigNode map_value(const ConfigNode& value, const Field& field, const Strategy
             for (const ConfigNode& item : value.items())
                 items.push_back(map_strategy(item, field.kind, lookup, change));
             return ConfigNode::list(std::move(items));
-        default:
-            return value;
+        default: return value;
     }
 }
 
@@ -81,13 +80,15 @@ ConfigNode map_files(const ConfigNode& node, const Schema& schema, const Strateg
     std::vector<ConfigEntry> entries;
     for (const ConfigEntry& entry : node.entries()) {
         const Field* field = schema.find(entry.key);
-        entries.emplace_back(entry.key,
-                             field == nullptr ? entry.value : map_value(entry.value, *field, lookup, change));
+        entries.emplace_back(entry.key, field == nullptr
+                                            ? entry.value
+                                            : map_value(entry.value, *field, lookup, change));
     }
     return ConfigNode::map(std::move(entries));
 }
 
-/// Content of a plugin path: the hash of a library, or the hashes of all libraries of a folder in the order of their names.
+/// Content of a plugin path: the hash of a library, or the hashes of all libraries of a folder in
+/// the order of their names.
 ConfigNode plugin_content(const std::string& path, InputFiles& known) {
     std::vector<fs::path> files;
     if (fs::is_directory(path)) {
@@ -110,14 +111,17 @@ void require_files(const ConfigNode& resolved, const StrategyLookup& lookup) {
         std::error_code ignored;
         const bool typed = file.position().from_command_line();
         if (!fs::exists(file.as_string(), ignored)) {
-            missing.error("io.open", file.position(), "'" + file.path() + "': " + file.as_string() + " does not exist",
+            missing.error("io.open", file.position(),
+                          "'" + file.path() + "': " + file.as_string() + " does not exist",
                           std::string("check the path; it is relative to the ") +
                               (typed ? "current folder" : "folder of this file"));
         }
         return file;
     });
     if (!missing.has_errors()) return;
-    throw IoError("io.open", missing.text(config::Severity::error) + text::counted(missing.error_count(), "error") + "; nothing was run");
+    throw IoError("io.open", missing.text(config::Severity::error) +
+                                 text::counted(missing.error_count(), "error") +
+                                 "; nothing was run");
 }
 
 }  // namespace
@@ -131,7 +135,8 @@ LoadedExperiment resolve_experiment(const ConfigNode& root, const PluginLoader& 
     loaded.resolved = config::validate(root, *schema, lookup, diagnostics);
     diagnostics.throw_if_errors();
 
-    if (const ConfigNode* list = loaded.resolved.find("plugins"); list != nullptr && list->is_list()) {
+    if (const ConfigNode* list = loaded.resolved.find("plugins");
+        list != nullptr && list->is_list()) {
         for (std::size_t i = 0; i < list->size(); ++i) {
             loaded.resolved = loaded.resolved.with(
                 "plugins", loaded.resolved.at("plugins").with_item(i, ConfigNode(plugins.at(i))));
@@ -145,7 +150,8 @@ LoadedExperiment resolve_experiment(const ConfigNode& root, const PluginLoader& 
 }
 
 LoadedExperiment load_experiment(const std::string& file, std::span<const std::string> overrides,
-                                 const PluginLoader& load_plugins, const config::YamlOptions& options) {
+                                 const PluginLoader& load_plugins,
+                                 const config::YamlOptions& options) {
     ConfigNode root = config::load_yaml(file, options);
     root = config::apply_overrides(root, overrides, options);
     if (root.is_map() && root.find("name") == nullptr) {
@@ -154,15 +160,19 @@ LoadedExperiment load_experiment(const std::string& file, std::span<const std::s
     return resolve_experiment(root, load_plugins);
 }
 
-std::string resolved_text(const LoadedExperiment& loaded) { return config::to_yaml(loaded.resolved); }
+std::string resolved_text(const LoadedExperiment& loaded) {
+    return config::to_yaml(loaded.resolved);
+}
 
 std::string config_hash(const LoadedExperiment& loaded, const StrategyLookup& lookup) {
     require_files(loaded.resolved, lookup);
-    ConfigNode canonical = map_files(loaded.resolved, *experiment_schema(), lookup, [&loaded](const ConfigNode& file) {
-        return ConfigNode("sha256:" + loaded.files->sha256(file.as_string()));
-    });
+    ConfigNode canonical =
+        map_files(loaded.resolved, *experiment_schema(), lookup, [&loaded](const ConfigNode& file) {
+            return ConfigNode("sha256:" + loaded.files->sha256(file.as_string()));
+        });
     std::vector<ConfigNode> plugins;
-    for (const std::string& path : loaded.experiment.plugins) plugins.push_back(plugin_content(path, *loaded.files));
+    for (const std::string& path : loaded.experiment.plugins)
+        plugins.push_back(plugin_content(path, *loaded.files));
     canonical = canonical.with("plugins", ConfigNode::list(std::move(plugins)));
     return sha256(config::to_yaml(canonical));
 }

@@ -1,20 +1,18 @@
 // Texts of events.jsonl, and the sums over the steps of a run.
+#include "dsc/run/figures.hpp"
+
 #include <array>
-#include <dsc/run/figures.hpp>
+
 #include <dsc/text/numbers.hpp>
 
 namespace dsc::run {
 
 std::string_view name(Status status) {
     switch (status) {
-        case Status::converged:
-            return "converged";
-        case Status::max_steps:
-            return "max_steps";
-        case Status::stalled:
-            return "stalled";
-        case Status::cancelled:
-            return "cancelled";
+        case Status::converged: return "converged";
+        case Status::max_steps: return "max_steps";
+        case Status::stalled: return "stalled";
+        case Status::cancelled: return "cancelled";
     }
     return "cancelled";
 }
@@ -24,7 +22,8 @@ std::string event_line(const kernel::Event& event, const cloud::Transform& to_no
     const double scale = to_normalised.scale;
     std::string text = "{\"kind\":\"" + std::string(kernel::name(event.kind)) + "\"";
     text += ",\"step\":" + std::to_string(event.step);
-    text += ",\"place\":[" + text::exact(place.x()) + "," + text::exact(place.y()) + "," + text::exact(place.z()) + "]";
+    text += ",\"place\":[" + text::exact(place.x()) + "," + text::exact(place.y()) + "," +
+            text::exact(place.z()) + "]";
     text += ",\"label\":" + std::to_string(event.label);
     text += ",\"tets\":" + std::to_string(event.tets);
     text += ",\"volume\":" + text::exact(event.volume / (scale * scale * scale));
@@ -34,7 +33,8 @@ std::string event_line(const kernel::Event& event, const cloud::Transform& to_no
 
 std::string class_line(const ClassFigures& figures) {
     return "{\"kind\":\"repair\",\"step\":" + std::to_string(figures.step) + ",\"class\":\"" +
-           std::string(figures.repair_class) + "\",\"requested\":" + std::to_string(figures.requested) +
+           std::string(figures.repair_class) +
+           "\",\"requested\":" + std::to_string(figures.requested) +
            ",\"committed\":" + std::to_string(figures.committed) + "}\n";
 }
 
@@ -57,7 +57,8 @@ void RunTotals::add(const kernel::StepReport& report) {
     edit_volume += report.edit_volume;
     relabelled_volume += report.relabelled_volume;
     for (std::size_t i = 0; i < operations.size(); ++i) operations[i] += report.operations[i];
-    for (std::size_t i = 0; i < repair_classes.size(); ++i) repair_classes[i] += report.repair_classes[i];
+    for (std::size_t i = 0; i < repair_classes.size(); ++i)
+        repair_classes[i] += report.repair_classes[i];
     events.merge += report.event_counts.merge;
     events.split += report.event_counts.split;
     events.handle_opened += report.event_counts.handle_opened;
@@ -72,27 +73,13 @@ void RunTotals::add(const kernel::StepReport& report) {
 void RunTotals::count(kernel::Event::Kind kind) {
     using Kind = kernel::Event::Kind;
     switch (kind) {
-        case Kind::merge:
-            ++events.merge;
-            break;
-        case Kind::split:
-            ++events.split;
-            break;
-        case Kind::handle_opened:
-            ++events.handle_opened;
-            break;
-        case Kind::handle_closed:
-            ++events.handle_closed;
-            break;
-        case Kind::vanished:
-            ++events.vanished;
-            break;
-        case Kind::born:
-            ++events.born;
-            break;
-        case Kind::unpinched:
-            ++events.unpinched;
-            break;
+        case Kind::merge: ++events.merge; break;
+        case Kind::split: ++events.split; break;
+        case Kind::handle_opened: ++events.handle_opened; break;
+        case Kind::handle_closed: ++events.handle_closed; break;
+        case Kind::vanished: ++events.vanished; break;
+        case Kind::born: ++events.born; break;
+        case Kind::unpinched: ++events.unpinched; break;
     }
 }
 

@@ -1,10 +1,11 @@
 // Builds and adopts the initial mesh.
 #include "initial_complex.hpp"
 
+#include <string>
+
 #include <dsc/base/error.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/run/mesh_files.hpp>
-#include <string>
 
 #include "stopwatch.hpp"
 
@@ -14,18 +15,18 @@ namespace {
 void require_inside(const cloud::TargetCloud& cloud, const Box3& box) {
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         if (box.contains(cloud[i])) continue;
-        throw GeometryError(
-            "cloud.outside_box",
-            "point " + std::to_string(i + 1) +
-                " of the cloud lies outside the box of the initial mesh; lower input.normalize.scale or "
-                "make the initial mesh larger");
+        throw GeometryError("cloud.outside_box",
+                            "point " + std::to_string(i + 1) +
+                                " of the cloud lies outside the box of the initial mesh; lower "
+                                "input.normalize.scale or make the initial mesh larger");
     }
 }
 
 }  // namespace
 
-mesh::Complex initial_complex(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
-                              const CancelToken* cancel, Workers& workers, RunTotals& totals) {
+mesh::Complex initial_complex(const Experiment& experiment, Strategies& strategies,
+                              const cloud::TargetCloud* cloud, const CancelToken* cancel,
+                              Workers& workers, RunTotals& totals) {
     hooks::InitialMeshContext context;
     context.cloud = cloud;
     context.seed = experiment.seed;

@@ -1,26 +1,29 @@
 // Reads or samples the cloud, filters and normalises it.
+#include "dsc/run/input.hpp"
+
 #include <algorithm>
+#include <iterator>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/shapes.hpp>
 #include <dsc/geometry/order.hpp>
 #include <dsc/hooks/cloud_filter.hpp>
-#include <dsc/run/input.hpp>
-#include <iterator>
 
 #include "stopwatch.hpp"
 
 namespace dsc::run {
 namespace {
 
-cloud::Cloud read_points(const CloudInput& input, std::uint64_t seed, InputFiles& files, InputReport& report) {
+cloud::Cloud read_points(const CloudInput& input, std::uint64_t seed, InputFiles& files,
+                         InputReport& report) {
     if (input.sample) {
         report.source = input.sample->shape;
         report.format = "sample";
-        cloud::Cloud cloud =
-            cloud::sample_shape(input.sample->shape, input.sample->n,
-                                RandomStream(RandomKey{seed, stream_id("input.cloud.sample"), 0, 0})(),
-                                input.sample->noise, input.sample->outliers);
+        cloud::Cloud cloud = cloud::sample_shape(
+            input.sample->shape, input.sample->n,
+            RandomStream(RandomKey{seed, stream_id("input.cloud.sample"), 0, 0})(),
+            input.sample->noise, input.sample->outliers);
         report.points = cloud.points.size();
         return cloud;
     }
@@ -38,7 +41,8 @@ using Filters = std::vector<std::unique_ptr<hooks::CloudFilter>>;
 Filters make_filters(const CloudInput& input, const plugin::Catalogue& catalogue) {
     Filters filters;
     for (std::size_t i = 0; i < input.filters.size(); ++i) {
-        filters.push_back(catalogue.create<hooks::CloudFilter>(input.filters[i], "input.cloud.filters." + std::to_string(i)));
+        filters.push_back(catalogue.create<hooks::CloudFilter>(
+            input.filters[i], "input.cloud.filters." + std::to_string(i)));
     }
     return filters;
 }
@@ -50,14 +54,15 @@ std::vector<Vec3> places_lost(std::vector<Vec3> before, std::vector<Vec3> after)
     before.erase(std::unique(before.begin(), before.end()), before.end());
     std::sort(after.begin(), after.end(), earlier);
     std::vector<Vec3> lost;
-    std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(lost), earlier);
+    std::set_difference(before.begin(), before.end(), after.begin(), after.end(),
+                        std::back_inserter(lost), earlier);
     return lost;
 }
 
 }  // namespace
 
-LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Catalogue& catalogue, InputFiles& files, Workers* workers,
-                       const CancelToken* cancel) {
+LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Catalogue& catalogue,
+                       InputFiles& files, Workers* workers, const CancelToken* cancel) {
     const Filters filters = make_filters(input.cloud, catalogue);
     InputReport report;
     cloud::Cloud cloud = read_points(input.cloud, seed, files, report);
@@ -77,12 +82,14 @@ LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Cat
     }
     report.used = cloud.points.size();
     report.diagonal = bounding_box(cloud.points).diagonal();
-    const cloud::Normalized normalized =
-        input.normalize ? cloud::normalize(cloud, input.normalize->scale) : cloud::keep_coordinates(cloud);
+    const cloud::Normalized normalized = input.normalize
+                                             ? cloud::normalize(cloud, input.normalize->scale)
+                                             : cloud::keep_coordinates(cloud);
     std::vector<Vec3> removed;
     if (given.size() > cloud.points.size()) removed = places_lost(given, cloud.points);
     for (Vec3& p : removed) p = normalized.transform.apply(p);
-    return {std::move(cloud), cloud::TargetCloud(normalized), std::move(report), std::move(removed)};
+    return {std::move(cloud), cloud::TargetCloud(normalized), std::move(report),
+            std::move(removed)};
 }
 
 }  // namespace dsc::run

@@ -1,9 +1,11 @@
 // The files of a command, each read once.
-#include <dsc/base/read_file.hpp>
-#include <dsc/run/input_files.hpp>
-#include <dsc/run/sha256.hpp>
+#include "dsc/run/input_files.hpp"
+
 #include <system_error>
 #include <utility>
+
+#include <dsc/base/read_file.hpp>
+#include <dsc/run/sha256.hpp>
 
 namespace dsc::run {
 
@@ -22,7 +24,8 @@ const std::string& InputFiles::sha256(const std::filesystem::path& file) {
     return known.sha256;
 }
 
-const ReadCloud& InputFiles::cloud(const std::filesystem::path& file, const std::vector<std::string>& columns) {
+const ReadCloud& InputFiles::cloud(const std::filesystem::path& file,
+                                   const std::vector<std::string>& columns) {
     Entry& known = entry(file);
     if (known.cloud && known.columns == columns) return *known.cloud;
     std::string content = known.content ? std::move(*known.content) : read_file(file);
@@ -34,7 +37,8 @@ const ReadCloud& InputFiles::cloud(const std::filesystem::path& file, const std:
     return known.cloud.emplace(std::move(read));
 }
 
-ReadCloud InputFiles::take_cloud(const std::filesystem::path& file, const std::vector<std::string>& columns) {
+ReadCloud InputFiles::take_cloud(const std::filesystem::path& file,
+                                 const std::vector<std::string>& columns) {
     cloud(file, columns);
     Entry& known = entry(file);
     ReadCloud read = std::move(*known.cloud);

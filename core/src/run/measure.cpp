@@ -1,12 +1,14 @@
 // Measures surfaces and volumes.
+#include "dsc/run/measure.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/complex.hpp>
 #include <dsc/mesh/face_groups.hpp>
-#include <dsc/run/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
 
 namespace dsc::run {
@@ -42,7 +44,8 @@ private:
     bool third_ = false;
 };
 
-void count_junctions(const mesh::TetMesh& mesh, const std::vector<char>& valid, VolumeMeasure& measure) {
+void count_junctions(const mesh::TetMesh& mesh, const std::vector<char>& valid,
+                     VolumeMeasure& measure) {
     if (measure.label_tets.size() < 2) return;
     std::vector<LabelsAt> at(mesh.points.size());
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -55,12 +58,13 @@ void count_junctions(const mesh::TetMesh& mesh, const std::vector<char>& valid, 
                             if (uses.size() > 1) return;
                             for (const std::uint32_t v : key) at[v].meet(0);
                         });
-    measure.junction_vertices = static_cast<std::size_t>(
-        std::count_if(at.begin(), at.end(), [](const LabelsAt& labels) { return labels.junction(); }));
+    measure.junction_vertices = static_cast<std::size_t>(std::count_if(
+        at.begin(), at.end(), [](const LabelsAt& labels) { return labels.junction(); }));
 }
 
 /// Counts faces by the number and the sides of their tets.
-void count_faces(const mesh::TetMesh& mesh, const std::vector<char>& valid, VolumeMeasure& measure) {
+void count_faces(const mesh::TetMesh& mesh, const std::vector<char>& valid,
+                 VolumeMeasure& measure) {
     const auto corners = [&](std::size_t t) { return valid[t] ? &mesh.tets[t] : nullptr; };
     const auto count = [&](const mesh::FaceKey& key, std::span<const mesh::FaceUse> uses) {
         if (uses.size() == 1) {
@@ -70,7 +74,8 @@ void count_faces(const mesh::TetMesh& mesh, const std::vector<char>& valid, Volu
         } else {
             const auto side = [&](const mesh::FaceUse& use) {
                 const std::uint32_t apex = mesh.tets[use.code >> 2U][use.code & 3U];
-                return geometry::orient3d(mesh.points[key[0]], mesh.points[key[1]], mesh.points[key[2]], mesh.points[apex]);
+                return geometry::orient3d(mesh.points[key[0]], mesh.points[key[1]],
+                                          mesh.points[key[2]], mesh.points[apex]);
             };
             if (side(uses[0]) * side(uses[1]) >= 0) ++measure.folded_faces;
         }
@@ -108,7 +113,8 @@ VolumeMeasure measure(const mesh::TetMesh& mesh, Workers* workers, bool with_int
         }
         valid[t] = 1;
         const auto& [a, b, c, d] = tet;
-        const Vec3 &pa = mesh.points[a], &pb = mesh.points[b], &pc = mesh.points[c], &pd = mesh.points[d];
+        const Vec3 &pa = mesh.points[a], &pb = mesh.points[b], &pc = mesh.points[c],
+                   &pd = mesh.points[d];
         for (const std::uint32_t v : tet) {
             used[v] = 1;
             result.box.extend(mesh.points[v]);
@@ -140,7 +146,8 @@ VolumeMeasure measure(const mesh::TetMesh& mesh, Workers* workers, bool with_int
 bool identical(const surface::TriangleMesh& a, const surface::TriangleMesh& b) {
     if (a.points.size() != b.points.size() || a.faces != b.faces) return false;
     for (std::size_t i = 0; i < a.points.size(); ++i) {
-        if (std::memcmp(a.points[i].data(), b.points[i].data(), 3 * sizeof(double)) != 0) return false;
+        if (std::memcmp(a.points[i].data(), b.points[i].data(), 3 * sizeof(double)) != 0)
+            return false;
     }
     return true;
 }

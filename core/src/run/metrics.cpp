@@ -1,14 +1,13 @@
 // Texts of metrics.csv.
-#include <dsc/run/metrics.hpp>
+#include "dsc/run/metrics.hpp"
+
 #include <dsc/text/numbers.hpp>
 
 namespace dsc::run {
 
 void append_cell(std::string& text, std::uint64_t value) { text += std::to_string(value); }
 
-void append_cell(std::string& to, double value) {
-    to += text::exact(value);
-}
+void append_cell(std::string& to, double value) { to += text::exact(value); }
 
 void append_cell(std::string& text, const std::optional<double>& value) {
     if (value) append_cell(text, *value);
@@ -16,7 +15,8 @@ void append_cell(std::string& text, const std::optional<double>& value) {
 
 std::string csv_header(const StepMetrics& row) {
     std::string text;
-    for (const MetricsColumn& column : metrics_columns) (text += text.empty() ? "" : ",") += column.name;
+    for (const MetricsColumn& column : metrics_columns)
+        (text += text.empty() ? "" : ",") += column.name;
     for (const auto& [figure, value] : row.observers) text += "," + figure;
     return text + "\n";
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The nearest cloud point of each vertex of a view. Vertices that have not moved since the last view keep their points.
+// The nearest cloud point of each vertex of a view. Vertices that have not moved since the last
+// view keep their points.
 
 #include <cstdint>
 #include <span>
@@ -15,7 +16,8 @@ namespace dsc::run {
 class NearestPoints {
 public:
     /// Finds the points nearest to the vertices of this view. [step]
-    void refresh(const surface::SurfaceView& view, const cloud::NearestSearch& search, Workers* workers);
+    void refresh(const surface::SurfaceView& view, const cloud::NearestSearch& search,
+                 Workers* workers);
     /// One per vertex of the last view; empty before.
     std::span<const cloud::Neighbour> all() const { return found_; }
 

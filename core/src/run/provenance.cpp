@@ -1,22 +1,25 @@
 // Texts of provenance.json and of `dsc --version`.
+#include "dsc/run/provenance.hpp"
+
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+
 #include <pwd.h>
 #include <sys/resource.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
 #include <Eigen/Core>
-#include <array>
 #include <boost/version.hpp>
-#include <cctype>
-#include <cmath>
-#include <cstdlib>
-#include <ctime>
+#include <nlohmann/json.hpp>
+
 #include <dsc/base/version.hpp>
 #include <dsc/plugin/fingerprint.hpp>
-#include <dsc/run/provenance.hpp>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 namespace dsc::run {
 namespace {
@@ -35,7 +38,8 @@ std::string cpu_model() {
 }
 
 double memory_mb() {
-    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+           static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
 }
 
 /// Properties that determine the speed of a run. The name of the host is private and not included.
@@ -54,11 +58,13 @@ ordered_json machine(unsigned threads) {
 /// Times and memory of the whole process up to now.
 ordered_json usage(double wall_seconds) {
     const Usage so_far = process_usage();
-    return {{"wall_s", wall_seconds}, {"cpu_s", so_far.cpu_seconds}, {"peak_rss_mb", so_far.peak_rss_mb}};
+    return {{"wall_s", wall_seconds},
+            {"cpu_s", so_far.cpu_seconds},
+            {"peak_rss_mb", so_far.peak_rss_mb}};
 }
 
-/// The home folder from the environment, the same without symbolic links, and the one of the user's entry: all of them contain
-/// the user's name.
+/// The home folder from the environment, the same without symbolic links, and the one of the user's
+/// entry: all of them contain the user's name.
 std::vector<std::string> home_folders() {
     std::vector<std::string> folders;
     const auto add = [&](std::string folder) {
@@ -70,7 +76,9 @@ std::vector<std::string> home_folders() {
         add(home);
         add(std::filesystem::weakly_canonical(home, error).string());
     }
-    if (const passwd* const entry = getpwuid(getuid()); entry != nullptr && entry->pw_dir != nullptr) add(entry->pw_dir);
+    if (const passwd* const entry = getpwuid(getuid());
+        entry != nullptr && entry->pw_dir != nullptr)
+        add(entry->pw_dir);
     return folders;
 }
 
@@ -79,7 +87,8 @@ std::string without_homes(std::string text, const std::vector<std::string>& home
     return text;
 }
 
-/// A file name as it would be typed here: relative if it is below the current folder, else below "~" or absolute.
+/// A file name as it would be typed here: relative if it is below the current folder, else below
+/// "~" or absolute.
 std::string shown(const std::filesystem::path& file, const std::vector<std::string>& homes) {
     std::error_code error;
     const std::filesystem::path here = std::filesystem::current_path(error);
@@ -120,16 +129,19 @@ Usage process_usage() {
     const auto seconds = [](const timeval& t) {
         return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
     };
-    return {seconds(usage.ru_utime) + seconds(usage.ru_stime), static_cast<double>(usage.ru_maxrss) / 1024.0};
+    return {seconds(usage.ru_utime) + seconds(usage.ru_stime),
+            static_cast<double>(usage.ru_maxrss) / 1024.0};
 }
 
 std::string without_home(std::string text, const std::string& home) {
     if (home.size() < 2) return text;
     for (std::size_t at = text.find(home); at != std::string::npos; at = text.find(home, at + 1)) {
-        // Only complete folder names match: the home of ann is not that of anna, nor a folder elsewhere with the same ending.
+        // Only complete folder names match: the home of ann is not that of anna, nor a folder
+        // elsewhere with the same ending.
         const std::size_t end = at + home.size();
         const auto part_of_name = [](char c) {
-            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.' || c == '/';
+            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' ||
+                   c == '.' || c == '/';
         };
         if (end < text.size() && text[end] != '/' && part_of_name(text[end])) continue;
         if (at > 0 && part_of_name(text[at - 1])) continue;
@@ -140,8 +152,8 @@ std::string without_home(std::string text, const std::string& home) {
 
 std::string provenance_json(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
                             const std::string& hash, const std::vector<std::string>& command,
-                            unsigned threads, const std::string& started, const std::string& finished,
-                            double wall_seconds) {
+                            unsigned threads, const std::string& started,
+                            const std::string& finished, double wall_seconds) {
     const std::vector<std::string> homes = home_folders();
     ordered_json plugins = ordered_json::array();
     for (const plugin::PluginInfo& plugin : catalogue.plugins()) {
@@ -160,29 +172,31 @@ std::string provenance_json(const LoadedExperiment& loaded, const plugin::Catalo
     }
     ordered_json typed = ordered_json::array();
     for (const std::string& word : command) typed.push_back(without_homes(word, homes));
-    const ordered_json root = {{"format", "dsc-provenance-1"},
-                               {"name", loaded.experiment.name},
-                               {"config_sha256", hash},
-                               {"seed", loaded.experiment.seed},
-                               {"command", typed},
-                               {"started", started},
-                               {"finished", finished.empty() ? ordered_json() : ordered_json(finished)},
-                               {"usage", usage(wall_seconds)},
-                               {"versions", versions()},
-                               {"fingerprint", std::string(plugin::core_fingerprint())},
-                               {"machine", machine(threads)},
-                               {"inputs", inputs},
-                               {"plugins", plugins}};
+    const ordered_json root = {
+        {"format", "dsc-provenance-1"},
+        {"name", loaded.experiment.name},
+        {"config_sha256", hash},
+        {"seed", loaded.experiment.seed},
+        {"command", typed},
+        {"started", started},
+        {"finished", finished.empty() ? ordered_json() : ordered_json(finished)},
+        {"usage", usage(wall_seconds)},
+        {"versions", versions()},
+        {"fingerprint", std::string(plugin::core_fingerprint())},
+        {"machine", machine(threads)},
+        {"inputs", inputs},
+        {"plugins", plugins}};
     return root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string version_text() {
-    std::string text = "dsc " DSC_VERSION "\ncompiler " DSC_RUN_COMPILER ", " DSC_RUN_BUILD "\nfingerprint ";
+    std::string text =
+        "dsc " DSC_VERSION "\ncompiler " DSC_RUN_COMPILER ", " DSC_RUN_BUILD "\nfingerprint ";
     text += plugin::core_fingerprint();
     text += "\nEigen " DSC_TEXT(EIGEN_WORLD_VERSION) "." DSC_TEXT(EIGEN_MAJOR_VERSION) "." DSC_TEXT(
         EIGEN_MINOR_VERSION);
-    text +=
-        ", Boost " BOOST_LIB_VERSION ", PCL " DSC_RUN_PCL ", OpenMesh " DSC_RUN_OPENMESH ", VTK " DSC_RUN_VTK;
+    text += ", Boost " BOOST_LIB_VERSION ", PCL " DSC_RUN_PCL ", OpenMesh " DSC_RUN_OPENMESH
+            ", VTK " DSC_RUN_VTK;
     text += ", Embree " DSC_RUN_EMBREE ", yaml-cpp " DSC_RUN_YAML ", fmt " DSC_RUN_FMT "\n";
     return text;
 }

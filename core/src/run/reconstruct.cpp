@@ -1,8 +1,10 @@
-// The experiment of `dsc reconstruct`: a file of configs/reconstruct, which is compiled into the library, and a cloud.
-#include <dsc/run/reconstruct.hpp>
+// The experiment of `dsc reconstruct`: a file of configs/reconstruct, which is compiled into the
+// library, and a cloud.
+#include "dsc/run/reconstruct.hpp"
 
 #include <algorithm>
 #include <cstdint>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/yaml.hpp>
 
@@ -17,20 +19,25 @@ constexpr double no_noise = 1e-6;  // spacings; 0 would mean that it is measured
 
 ConfigNode embedded(std::string_view name) {
     for (const EmbeddedFile& file : reconstruct_files()) {
-        if (file.path == name) return config::parse_yaml(file.text, "configs/reconstruct/" + std::string(name));
+        if (file.path == name)
+            return config::parse_yaml(file.text, "configs/reconstruct/" + std::string(name));
     }
-    throw Error(ExitCode::internal, "reconstruct.file", "configs/reconstruct/" + std::string(name) + " is not part of the program");
+    throw Error(ExitCode::internal, "reconstruct.file",
+                "configs/reconstruct/" + std::string(name) + " is not part of the program");
 }
 
 /// Sets a parameter of every refinement in the schedule.
-ConfigNode with_refinement(const ConfigNode& root, const std::string& key, const ConfigNode& value) {
+ConfigNode with_refinement(const ConfigNode& root, const std::string& key,
+                           const ConfigNode& value) {
     std::vector<ConfigNode> items;
-    for (const ConfigNode& item : root.at("schedule").items()) items.push_back(item.with("refine", item.at("refine").with(key, value)));
+    for (const ConfigNode& item : root.at("schedule").items())
+        items.push_back(item.with("refine", item.at("refine").with(key, value)));
     return root.with("schedule", ConfigNode::list(std::move(items)));
 }
 
 ConfigNode with_size(ConfigNode root, const ReconstructOptions& options) {
-    if (options.edge_length) root = with_refinement(root, "edge_length", ConfigNode(*options.edge_length));
+    if (options.edge_length)
+        root = with_refinement(root, "edge_length", ConfigNode(*options.edge_length));
     if (options.vertices) {
         const ConfigNode number(static_cast<std::int64_t>(*options.vertices));
         root = with_refinement(root, "vertices", number);
@@ -50,24 +57,26 @@ std::optional<Detail> detail_from_name(std::string_view name) {
 
 std::string_view detail_name(Detail detail) {
     switch (detail) {
-        case Detail::low:
-            return "low";
-        case Detail::medium:
-            return "medium";
-        case Detail::high:
-            return "high";
+        case Detail::low: return "low";
+        case Detail::medium: return "medium";
+        case Detail::high: return "high";
     }
     return {};
 }
 
 ConfigNode reconstruction_of(const std::string& file, const ReconstructOptions& options) {
-    ConfigNode root = with_size(embedded(std::string(detail_name(options.detail)) + ".yaml"), options);
-    if (options.noise) root = root.with("velocity", root.at("velocity").with("noise", ConfigNode(std::max(*options.noise, no_noise))));
+    ConfigNode root =
+        with_size(embedded(std::string(detail_name(options.detail)) + ".yaml"), options);
+    if (options.noise)
+        root = root.with(
+            "velocity",
+            root.at("velocity").with("noise", ConfigNode(std::max(*options.noise, no_noise))));
     if (options.trim) root = root.with("output", ConfigNode::map({{"trim", ConfigNode::map()}}));
     const ConfigNode& input = root.at("input");
     ConfigNode cloud = input.at("cloud").without("sample").with("file", ConfigNode(file));
     if (!options.columns.empty()) {
-        cloud = cloud.with("columns", ConfigNode::list(std::vector<ConfigNode>(options.columns.begin(), options.columns.end())));
+        cloud = cloud.with("columns", ConfigNode::list(std::vector<ConfigNode>(
+                                          options.columns.begin(), options.columns.end())));
     }
     return root.with("input", input.with("cloud", cloud));
 }

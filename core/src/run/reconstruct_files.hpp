@@ -1,8 +1,9 @@
 #pragma once
 // The experiments of configs/reconstruct, compiled into the library.
 
-#include <dsc/base/embedded_file.hpp>
 #include <span>
+
+#include <dsc/base/embedded_file.hpp>
 
 namespace dsc::run {
 

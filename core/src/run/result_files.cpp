@@ -2,6 +2,7 @@
 #include "result_files.hpp"
 
 #include <algorithm>
+
 #include <dsc/base/error.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
@@ -16,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The attributes of a surface's points; `vertex_of` maps them to points of the volume.
-std::vector<io::DataArray> arrays(const hooks::Attributes& attributes, const std::vector<std::uint32_t>& vertex_of) {
+std::vector<io::DataArray> arrays(const hooks::Attributes& attributes,
+                                  const std::vector<std::uint32_t>& vertex_of) {
     std::vector<io::DataArray> all;
     for (const hooks::Attribute& a : attributes) {
         io::DataArray& array = all.emplace_back();
@@ -26,7 +28,8 @@ std::vector<io::DataArray> arrays(const hooks::Attributes& attributes, const std
     return all;
 }
 
-/// The labels above 0 if there are two or more: each has its own surface, and the interface is not a manifold where they meet.
+/// The labels above 0 if there are two or more: each has its own surface, and the interface is not
+/// a manifold where they meet.
 std::vector<mesh::Label> several_phases(const mesh::TetMesh& mesh) {
     std::vector<mesh::Label> labels(mesh.labels);
     std::sort(labels.begin(), labels.end());
@@ -43,7 +46,8 @@ std::vector<Vec3> normals(const Output& output, const surface::TriangleMesh& sur
 
 std::string label_stem(mesh::Label label) { return "surface_" + std::to_string(label) + "."; }
 
-std::string preferred(const std::vector<std::string>& given, std::initializer_list<const char*> order) {
+std::string preferred(const std::vector<std::string>& given,
+                      std::initializer_list<const char*> order) {
     for (const char* extension : order) {
         if (std::find(given.begin(), given.end(), extension) != given.end()) return extension;
     }
@@ -52,29 +56,32 @@ std::string preferred(const std::vector<std::string>& given, std::initializer_li
 
 }  // namespace
 
-void ResultFiles::write(const mesh::TetMesh& mesh, const hooks::Attributes& attributes, const cloud::TargetCloud* target,
-                        std::span<const double> gaps, RunOutcome& outcome) {
+void ResultFiles::write(const mesh::TetMesh& mesh, const hooks::Attributes& attributes,
+                        const cloud::TargetCloud* target, std::span<const double> gaps,
+                        RunOutcome& outcome) {
     folder_.open_staging();
     std::vector<std::uint32_t> vertex_of;
     surface_ = surface::extract_interface(mesh, &vertex_of);
     if (surface_.faces.empty() && target != nullptr) {
         throw GeometryError("run.vanished",
-                            "the surface vanished: no tet with a label above 0 is left, so there is no result; parts of "
-                            "the object may be thinner than the mesh resolution: use more cells, smaller steps, or stop "
-                            "earlier");
+                            "the surface vanished: no tet with a label above 0 is left, so there "
+                            "is no result; parts of the object may be thinner than the mesh "
+                            "resolution: use more cells, smaller steps, or stop earlier");
     }
     if (output_.trim && target != nullptr) trim_surface(attributes, gaps, vertex_of, outcome);
     if (target != nullptr) paint(surface_, *target);
     for (const std::string& extension : output_.surface) {
         if (surface_.faces.empty()) break;
-        io::write_surface(staged("surface.", extension), surface_, arrays(attributes, vertex_of), normals(output_, surface_));
+        io::write_surface(staged("surface.", extension), surface_, arrays(attributes, vertex_of),
+                          normals(output_, surface_));
         outcome.surfaces.push_back(folder_.file("result") / ("surface." + extension));
     }
     for (const mesh::Label label : several_phases(mesh)) {
         surface::TriangleMesh phase = surface::extract_phase(mesh, label, &vertex_of);
         if (target != nullptr) paint(phase, *target);
         for (const std::string& extension : output_.surface) {
-            io::write_surface(staged(label_stem(label), extension), phase, arrays(attributes, vertex_of), normals(output_, phase));
+            io::write_surface(staged(label_stem(label), extension), phase,
+                              arrays(attributes, vertex_of), normals(output_, phase));
             outcome.surfaces.push_back(folder_.file("result") / (label_stem(label) + extension));
         }
     }
@@ -86,8 +93,8 @@ void ResultFiles::write(const mesh::TetMesh& mesh, const hooks::Attributes& attr
     }
 }
 
-void ResultFiles::trim_surface(const hooks::Attributes& attributes, std::span<const double> gaps, std::vector<std::uint32_t>& vertex_of,
-                               RunOutcome& outcome) {
+void ResultFiles::trim_surface(const hooks::Attributes& attributes, std::span<const double> gaps,
+                               std::vector<std::uint32_t>& vertex_of, RunOutcome& outcome) {
     gaps_.assign(gaps.begin(), gaps.end());
     support_.clear();
     for (const hooks::Attribute& a : attributes) {
@@ -95,19 +102,24 @@ void ResultFiles::trim_surface(const hooks::Attributes& attributes, std::span<co
         for (const std::uint32_t v : vertex_of) support_.push_back(a.values[v]);
     }
     std::vector<std::uint32_t> points_of;
-    surface_ = surface::trim(surface_, gaps_, support_, {output_.trim->distance, output_.trim->support}, &points_of, &outcome.trimmed.emplace());
+    surface_ =
+        surface::trim(surface_, gaps_, support_, {output_.trim->distance, output_.trim->support},
+                      &points_of, &outcome.trimmed.emplace());
     if (surface_.faces.empty()) {
-        throw GeometryError("run.trimmed", "trimming removed the whole surface: every face has a vertex farther than " +
-                                               std::to_string(output_.trim->distance) +
-                                               " spacings from the points or with too little support; raise output.trim.distance, lower "
-                                               "output.trim.support, or write the whole surface");
+        throw GeometryError(
+            "run.trimmed",
+            "trimming removed the whole surface: every face has a vertex farther than " +
+                std::to_string(output_.trim->distance) +
+                " spacings from the points or with too little support; raise output.trim.distance, "
+                "lower output.trim.support, or write the whole surface");
     }
     for (std::uint32_t& p : points_of) p = vertex_of[p];
     vertex_of = std::move(points_of);
 }
 
 void ResultFiles::measure_files(RunOutcome& outcome) const {
-    const mesh::TetMesh volume = io::read_volume(staged("volume.", preferred(output_.volume, {"dsc", "vtu"})));
+    const mesh::TetMesh volume =
+        io::read_volume(staged("volume.", preferred(output_.volume, {"dsc", "vtu"})));
     outcome.volume = measure(volume, &workers_, false);
     outcome.volume.interface = surface::extract_interface(volume);
     outcome.conforms = true;
@@ -116,21 +128,32 @@ void ResultFiles::measure_files(RunOutcome& outcome) const {
         return;
     }
     const surface::TriangleMesh& whole = outcome.volume.interface;
-    outcome.surface = outcome.trimmed ? measure_surface("surface.", surface::trim(whole, gaps_, support_, {output_.trim->distance, output_.trim->support}), outcome.conforms)
-                                      : measure_surface("surface.", whole, outcome.conforms);
+    outcome.surface =
+        outcome.trimmed
+            ? measure_surface("surface.",
+                              surface::trim(whole, gaps_, support_,
+                                            {output_.trim->distance, output_.trim->support}),
+                              outcome.conforms)
+            : measure_surface("surface.", whole, outcome.conforms);
     for (const mesh::Label label : several_phases(volume)) {
-        outcome.label_surfaces[label] = measure_surface(label_stem(label), surface::extract_phase(volume, label), outcome.conforms);
+        outcome.label_surfaces[label] = measure_surface(
+            label_stem(label), surface::extract_phase(volume, label), outcome.conforms);
     }
-    outcome.volume.interface_measure = outcome.trimmed ? measure(whole, &workers_) : outcome.surface;
+    outcome.volume.interface_measure =
+        outcome.trimmed ? measure(whole, &workers_) : outcome.surface;
 }
 
 /// `conforms` becomes false if one of the files differs from the expected surface.
-SurfaceMeasure ResultFiles::measure_surface(const std::string& stem, const surface::TriangleMesh& expected, bool& conforms) const {
+SurfaceMeasure ResultFiles::measure_surface(const std::string& stem,
+                                            const surface::TriangleMesh& expected,
+                                            bool& conforms) const {
     for (const std::string& extension : output_.surface) {
         if (extension == "stl") continue;  // it contains floats
         conforms = conforms && identical(io::read_surface(staged(stem, extension)), expected);
     }
-    return measure(io::read_surface(staged(stem, preferred(output_.surface, {"obj", "ply", "off", "stl"}))), &workers_);
+    return measure(
+        io::read_surface(staged(stem, preferred(output_.surface, {"obj", "ply", "off", "stl"}))),
+        &workers_);
 }
 
 fs::path ResultFiles::staged(const std::string& stem, const std::string& extension) const {

@@ -2,13 +2,14 @@
 #include "resume.hpp"
 
 #include <algorithm>
+#include <vector>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/run/run_folder.hpp>
-#include <vector>
 
 namespace dsc::run {
 namespace {
@@ -17,23 +18,26 @@ namespace fs = std::filesystem;
 using config::ConfigEntry;
 using config::ConfigNode;
 
-constexpr const char* remedy_of_resume =
-    "; nothing in it was changed; run without --resume to start again there, or name another folder with -o";
+constexpr const char* remedy_of_resume = "; nothing in it was changed; run without --resume to "
+                                         "start again there, or name another folder with -o";
 
 /// The places where two trees differ.
 class Comparison {
 public:
     void compare(const ConfigNode* there, const ConfigNode* here, const std::string& path) {
         if (there != nullptr && here != nullptr && *there == *here) return;
-        if (there != nullptr && here != nullptr && there->is_map() && here->is_map()) return maps(*there, *here, path);
-        if (there != nullptr && here != nullptr && there->is_list() && here->is_list()) return lists(*there, *here, path);
+        if (there != nullptr && here != nullptr && there->is_map() && here->is_map())
+            return maps(*there, *here, path);
+        if (there != nullptr && here != nullptr && there->is_list() && here->is_list())
+            return lists(*there, *here, path);
         found_.push_back(path + " is " + text(there) + " there and " + text(here) + " here");
     }
 
     std::string told() const {
         constexpr std::size_t most = 3;
         std::string all;
-        for (std::size_t i = 0; i < std::min(most, found_.size()); ++i) all += (i > 0 ? ", " : "") + found_[i];
+        for (std::size_t i = 0; i < std::min(most, found_.size()); ++i)
+            all += (i > 0 ? ", " : "") + found_[i];
         if (found_.size() > most) all += ", and " + std::to_string(found_.size() - most) + " more";
         return all;
     }
@@ -46,19 +50,23 @@ private:
         return whole.size() <= longest ? whole : whole.substr(0, longest) + "...";
     }
 
-    static std::string below(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
+    static std::string below(const std::string& path, const std::string& key) {
+        return path.empty() ? key : path + "." + key;
+    }
 
     void maps(const ConfigNode& there, const ConfigNode& here, const std::string& path) {
-        for (const ConfigEntry& entry : there.entries()) compare(&entry.value, here.find(entry.key), below(path, entry.key));
+        for (const ConfigEntry& entry : there.entries())
+            compare(&entry.value, here.find(entry.key), below(path, entry.key));
         for (const ConfigEntry& entry : here.entries()) {
-            if (there.find(entry.key) == nullptr) compare(nullptr, &entry.value, below(path, entry.key));
+            if (there.find(entry.key) == nullptr)
+                compare(nullptr, &entry.value, below(path, entry.key));
         }
     }
 
     void lists(const ConfigNode& there, const ConfigNode& here, const std::string& path) {
         for (std::size_t i = 0; i < std::max(there.size(), here.size()); ++i) {
-            compare(i < there.size() ? &there.at(i) : nullptr, i < here.size() ? &here.at(i) : nullptr,
-                    below(path, std::to_string(i)));
+            compare(i < there.size() ? &there.at(i) : nullptr,
+                    i < here.size() ? &here.at(i) : nullptr, below(path, std::to_string(i)));
         }
     }
 
@@ -68,11 +76,13 @@ private:
 std::string difference_to(const fs::path& folder, const LoadedExperiment& loaded) {
     const fs::path file = folder / "config.resolved.yaml";
     try {
-        // The values are final: `${` is ordinary text. The same writer made both texts, so equal numbers have equal texts.
+        // The values are final: `${` is ordinary text. The same writer made both texts, so equal
+        // numbers have equal texts.
         config::YamlOptions options;
         options.environment = [](const std::string&) { return std::optional<std::string>(); };
-        const std::string told = experiment_differences(config::parse_yaml(read_file(file), file.string(), options),
-                                                        config::parse_yaml(resolved_text(loaded), "the experiment", options));
+        const std::string told = experiment_differences(
+            config::parse_yaml(read_file(file), file.string(), options),
+            config::parse_yaml(resolved_text(loaded), "the experiment", options));
         return told.empty() ? "the content of a file or a plugin that it names has changed" : told;
     } catch (const Error&) {
         return "its " + file.filename().string() + " cannot be read";
@@ -84,7 +94,9 @@ void require_tables(const fs::path& folder, const Checkpoint& checkpoint) {
     const auto require = [&folder](const char* name, std::uint64_t bytes) {
         std::error_code error;
         const std::uintmax_t size = fs::file_size(folder / name, error);
-        if (error || size < bytes) throw IoError("checkpoint.unusable", std::string(name) + " is shorter than at the checkpoint");
+        if (error || size < bytes)
+            throw IoError("checkpoint.unusable",
+                          std::string(name) + " is shorter than at the checkpoint");
     };
     require("metrics.csv", checkpoint.log.metrics_bytes);
     require("events.jsonl", checkpoint.log.events_bytes);
@@ -98,18 +110,22 @@ std::string experiment_differences(const ConfigNode& there, const ConfigNode& he
     return comparison.told();
 }
 
-std::optional<Checkpoint> checkpoint_to_resume(const fs::path& folder, const Checkpoints& checkpoints,
-                                               const LoadedExperiment& loaded, const std::string& hash) {
+std::optional<Checkpoint> checkpoint_to_resume(const fs::path& folder,
+                                               const Checkpoints& checkpoints,
+                                               const LoadedExperiment& loaded,
+                                               const std::string& hash) {
     const std::optional<RunFolder::Status> status = RunFolder::status(folder);
     if (status && !status->hash.empty() && status->hash != hash) {
-        throw UsageError("run.resume", folder.string() + " contains the run of another experiment: " +
+        throw UsageError("run.resume", folder.string() +
+                                           " contains the run of another experiment: " +
                                            difference_to(folder, loaded) + remedy_of_resume);
     }
     std::string reason;
-    std::optional<Checkpoint> found =
-        checkpoints.last(hash, [&folder](const Checkpoint& c) { require_tables(folder, c); }, &reason);
+    std::optional<Checkpoint> found = checkpoints.last(
+        hash, [&folder](const Checkpoint& c) { require_tables(folder, c); }, &reason);
     if (!found && !reason.empty()) {
-        throw UsageError("run.resume", folder.string() + " has no checkpoint from which this run can continue: " +
+        throw UsageError("run.resume", folder.string() +
+                                           " has no checkpoint from which this run can continue: " +
                                            reason + remedy_of_resume);
     }
     return found;

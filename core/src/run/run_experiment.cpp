@@ -1,6 +1,12 @@
 // A complete run, from a loaded experiment to its folder.
+#include "dsc/run/run_experiment.hpp"
+
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <span>
+#include <string_view>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/geometry/quality.hpp>
@@ -9,11 +15,7 @@
 #include <dsc/io/write.hpp>
 #include <dsc/run/provenance.hpp>
 #include <dsc/run/run_folder.hpp>
-#include <dsc/run/run_experiment.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <iterator>
-#include <span>
-#include <string_view>
 
 #include "checkpoints.hpp"
 #include "result_files.hpp"
@@ -32,19 +34,21 @@ namespace fs = std::filesystem;
 void require_valid(const RunOutcome& outcome) {
     const VolumeMeasure& v = outcome.volume;
     if (v.inverted_tets == 0 && v.adjacency_valid() && outcome.conforms) return;
-    throw GeometryError(
-        "run.invalid_result",
-        "the result as written is not valid: " + std::to_string(v.inverted_tets) + " inverted tets, " +
-            std::to_string(v.overused_faces + v.folded_faces) + " wrong faces, the surface is " +
-            (outcome.conforms ? "" : "not ") +
-            "the interface of the volume; if the coordinates are huge, move the input closer to the origin");
+    throw GeometryError("run.invalid_result",
+                        "the result as written is not valid: " + std::to_string(v.inverted_tets) +
+                            " inverted tets, " + std::to_string(v.overused_faces + v.folded_faces) +
+                            " wrong faces, the surface is " + (outcome.conforms ? "" : "not ") +
+                            "the interface of the volume; if the coordinates are huge, move the "
+                            "input closer to the origin");
 }
 
 /// Warnings about parts of the surface that trimming removes.
-constexpr std::array<std::string_view, 3> about_unsupported_parts = {"cloud.open", "cloud.one_sided", "coverage.unsupported"};
+constexpr std::array<std::string_view, 3> about_unsupported_parts = {
+    "cloud.open", "cloud.one_sided", "coverage.unsupported"};
 
 bool settled_by_trimming(const hooks::Warning& warning) {
-    return std::find(about_unsupported_parts.begin(), about_unsupported_parts.end(), warning.code) != about_unsupported_parts.end();
+    return std::find(about_unsupported_parts.begin(), about_unsupported_parts.end(),
+                     warning.code) != about_unsupported_parts.end();
 }
 
 fs::path folder_of(const LoadedExperiment& loaded, const std::string& hash) {
@@ -52,7 +56,8 @@ fs::path folder_of(const LoadedExperiment& loaded, const std::string& hash) {
 }
 
 /// The up axis is z for the built-in shapes and y for most models in files.
-void draw(const RunFolder& folder, const surface::TriangleMesh& surface, bool sampled, Workers& workers) {
+void draw(const RunFolder& folder, const surface::TriangleMesh& surface, bool sampled,
+          Workers& workers) {
     io::RenderOptions options;
     options.width = 800;
     options.height = 600;
@@ -64,7 +69,8 @@ void draw(const RunFolder& folder, const surface::TriangleMesh& surface, bool sa
 /// The work between "running" and "done" in status.json.
 class ExperimentRun {
 public:
-    ExperimentRun(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue, const RunOptions& options)
+    ExperimentRun(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
+                  const RunOptions& options)
         : loaded_(loaded),
           catalogue_(catalogue),
           options_(options),
@@ -75,14 +81,18 @@ public:
         state_.started = utc_now();
         state_.hash = config_hash(loaded_, catalogue_);
         Strategies strategies = make_strategies(loaded_.experiment, catalogue_);
-        const fs::path path = options_.folder.empty() ? folder_of(loaded_, state_.hash) : options_.folder;
+        const fs::path path =
+            options_.folder.empty() ? folder_of(loaded_, state_.hash) : options_.folder;
         const Checkpoints checkpoints(path / "checkpoint", kept_checkpoints());
         const RunFolder folder = RunFolder::claimed(path);
-        if (options_.resume) resumed_ = checkpoint_to_resume(path, checkpoints, loaded_, state_.hash);
+        if (options_.resume)
+            resumed_ = checkpoint_to_resume(path, checkpoints, loaded_, state_.hash);
         folder.clear(resumed_ ? RunFolder::Keep::progress : RunFolder::Keep::nothing);
         if (options_.resume) {
-            log(LogLevel::info, resumed_ ? "continuing after step " + std::to_string(resumed_->steps)
-                                         : "no checkpoint of this experiment in " + path.string() + ": starting at the beginning");
+            log(LogLevel::info, resumed_
+                                    ? "continuing after step " + std::to_string(resumed_->steps)
+                                    : "no checkpoint of this experiment in " + path.string() +
+                                          ": starting at the beginning");
         }
         folder.write("status.json", status_json(state_));
         const Running running([this, &folder](const Error& error) {
@@ -92,10 +102,12 @@ public:
             RunOutcome outcome = work(folder, strategies, checkpoints);
             state_.finished = utc_now();
             state_.state = outcome.totals.status == Status::cancelled ? "stopped" : "done";
-            state_.exit_code = static_cast<int>(state_.state == "done" ? ExitCode::ok : ExitCode::stopped);
+            state_.exit_code =
+                static_cast<int>(state_.state == "done" ? ExitCode::ok : ExitCode::stopped);
             state_.totals = outcome.totals;
             folder.write("provenance.json", provenance(state_.finished));
-            if (options_.make_report && loaded_.experiment.output.report.value_or(false)) write_report(folder, outcome);
+            if (options_.make_report && loaded_.experiment.output.report.value_or(false))
+                write_report(folder, outcome);
             folder.write("status.json", status_json(state_));
             return outcome;
         } catch (const Error& error) {
@@ -116,29 +128,37 @@ private:
     /// Of the whole run, including the time before a checkpoint.
     double run_seconds() const { return watch_.seconds() + (resumed_ ? resumed_->seconds : 0.0); }
 
-    RunOutcome work(const RunFolder& folder, Strategies& strategies, const Checkpoints& checkpoints) {
+    RunOutcome work(const RunFolder& folder, Strategies& strategies,
+                    const Checkpoints& checkpoints) {
         const Experiment& experiment = loaded_.experiment;
         folder.write("config.resolved.yaml", resolved_text(loaded_));
         folder.write("provenance.json", provenance(""));
         std::optional<LoadedInput>& input = input_;
         if (experiment.input) {
-            input = load_input(*experiment.input, experiment.seed, catalogue_, *loaded_.files, &workers_, options_.cancel);
+            input = load_input(*experiment.input, experiment.seed, catalogue_, *loaded_.files,
+                               &workers_, options_.cancel);
             report_input(input->report);
         }
         const cloud::TargetCloud* target = input ? &input->target : nullptr;
-        const cloud::Transform to_normalised = target != nullptr ? target->transform() : cloud::Transform{};
+        const cloud::Transform to_normalised =
+            target != nullptr ? target->transform() : cloud::Transform{};
 
-        RunLog run_log = resumed_ ? RunLog(folder.path(), to_normalised, resumed_->log) : RunLog(folder.path(), to_normalised);
+        RunLog run_log = resumed_ ? RunLog(folder.path(), to_normalised, resumed_->log)
+                                  : RunLog(folder.path(), to_normalised);
         SimulationOptions simulation_options;
         if (resumed_) simulation_options.resume = resumed_->state;
-        if (experiment.output.checkpoint) simulation_options.checkpoint_every = experiment.output.checkpoint->every;
+        if (experiment.output.checkpoint)
+            simulation_options.checkpoint_every = experiment.output.checkpoint->every;
         simulation_options.on_checkpoint = [&](std::string state, std::uint64_t steps) {
-            checkpoints.write({state_.hash, steps, run_seconds(), run_log.state(), std::move(state)});
+            checkpoints.write(
+                {state_.hash, steps, run_seconds(), run_log.state(), std::move(state)});
         };
         simulation_options.workers = &workers_;
         simulation_options.cancel = options_.cancel;
         if (options_.time_budget) {
-            simulation_options.out_of_time = [this] { return watch_.seconds() > *options_.time_budget; };
+            simulation_options.out_of_time = [this] {
+                return watch_.seconds() > *options_.time_budget;
+            };
         }
         simulation_options.on_step = [&](const StepMetrics& row, std::uint64_t planned) {
             run_log.add(row);
@@ -148,11 +168,13 @@ private:
         simulation_options.on_repairs = [&](const ClassFigures& figures) { run_log.add(figures); };
         StateSeries states(experiment, catalogue_, folder.path());
         if (states.active()) {
-            simulation_options.on_state = [&](const hooks::StepContext& context, const mesh::Complex& complex) {
+            simulation_options.on_state = [&](const hooks::StepContext& context,
+                                              const mesh::Complex& complex) {
                 states.add(context, complex);
             };
         }
-        simulation_options.on_strategy_failure = [&](const mesh::TetMesh& mesh, std::uint64_t steps) {
+        simulation_options.on_strategy_failure = [&](const mesh::TetMesh& mesh,
+                                                     std::uint64_t steps) {
             save_last_good(folder, to_input(mesh, to_normalised), steps);
         };
         SimulationResult end = simulate(experiment, strategies, target, simulation_options);
@@ -163,61 +185,76 @@ private:
         outcome.totals = end.totals;
         const Stopwatch io_watch;
         std::optional<surface::CloudEvaluation> distances;
-        if (target != nullptr && !end.surface.faces.empty()) distances = measure_cloud_distances(end.surface, *target, outcome);
+        if (target != nullptr && !end.surface.faces.empty())
+            distances = measure_cloud_distances(end.surface, *target, outcome);
         ResultFiles files(folder, experiment.output, workers_);
         files.write(to_input(end.mesh, to_normalised), end.attributes, target,
-                    outcome.coverage ? std::span<const double>(outcome.coverage->gaps) : std::span<const double>(), outcome);
+                    outcome.coverage ? std::span<const double>(outcome.coverage->gaps)
+                                     : std::span<const double>(),
+                    outcome);
         files.measure_files(outcome);
         require_valid(outcome);
         if (options_.picture && !outcome.surfaces.empty()) {
-            draw(folder, files.surface(), experiment.input && experiment.input->cloud.sample, workers_);
+            draw(folder, files.surface(), experiment.input && experiment.input->cloud.sample,
+                 workers_);
             outcome.picture = folder.file("preview.png");
         }
         outcome.totals.seconds.io += io_watch.seconds();
         folder.publish_results();
         folder.write("summary.json",
-                     summary_json({loaded_, state_.hash, input ? &*input : nullptr, distances, outcome, to_normalised, run_seconds(),
-                                   process_usage()}));
+                     summary_json({loaded_, state_.hash, input ? &*input : nullptr, distances,
+                                   outcome, to_normalised, run_seconds(), process_usage()}));
         return outcome;
     }
 
     /// Measures the distances between surface and points, and adds the warnings about them.
-    surface::CloudEvaluation measure_cloud_distances(const surface::TriangleMesh& surface, const cloud::TargetCloud& target, RunOutcome& outcome) {
-        const surface::CloudDistances distances = surface::cloud_distances(surface, target.points(), &workers_);
-        outcome.coverage = measure_coverage(surface, target.points(), distances, target.statistics(&workers_), input_->removed, &workers_);
+    surface::CloudEvaluation measure_cloud_distances(const surface::TriangleMesh& surface,
+                                                     const cloud::TargetCloud& target,
+                                                     RunOutcome& outcome) {
+        const surface::CloudDistances distances =
+            surface::cloud_distances(surface, target.points(), &workers_);
+        outcome.coverage =
+            measure_coverage(surface, target.points(), distances, target.statistics(&workers_),
+                             input_->removed, &workers_);
         hooks::Warnings& warnings = outcome.totals.warnings;
         hooks::Warnings found = warnings_of(*outcome.coverage, target.transform());
-        warnings.insert(warnings.end(), std::make_move_iterator(found.begin()), std::make_move_iterator(found.end()));
+        warnings.insert(warnings.end(), std::make_move_iterator(found.begin()),
+                        std::make_move_iterator(found.end()));
         if (loaded_.experiment.output.trim) std::erase_if(warnings, settled_by_trimming);
         return surface::evaluate_cloud(distances);
     }
 
-    /// Made from the folder, as `dsc report` does. A result without its page is still a valid result.
+    /// Made from the folder, as `dsc report` does. A result without its page is still a valid
+    /// result.
     void write_report(const RunFolder& folder, RunOutcome& outcome) {
         try {
-            folder.write("report.html", options_.make_report(folder.path(), catalogue_, &workers_, input_ ? &*input_ : nullptr));
+            folder.write("report.html", options_.make_report(folder.path(), catalogue_, &workers_,
+                                                             input_ ? &*input_ : nullptr));
             outcome.report = folder.file("report.html");
         } catch (const Error& error) {
             log(LogLevel::warning, std::string("the report could not be written: ") + error.what());
         }
     }
 
-    /// Saves the last state before a strategy failed. A fault in this function must not hide the strategy's error.
+    /// Saves the last state before a strategy failed. A fault in this function must not hide the
+    /// strategy's error.
     void save_last_good(const RunFolder& folder, const mesh::TetMesh& mesh, std::uint64_t steps) {
         try {
             const fs::path place = folder.make("last_good");
             io::write_volume(place / "volume.dsc", mesh);
             const surface::TriangleMesh surface = surface::extract_interface(mesh);
             if (!surface.faces.empty()) io::write_surface(place / "surface.obj", surface);
-            log(LogLevel::warning, "the state after step " + std::to_string(steps) + " is kept in " + place.string());
+            log(LogLevel::warning,
+                "the state after step " + std::to_string(steps) + " is kept in " + place.string());
         } catch (const std::exception& error) {
-            log(LogLevel::warning, std::string("the last good state could not be kept: ") + error.what());
+            log(LogLevel::warning,
+                std::string("the last good state could not be kept: ") + error.what());
         }
     }
 
     std::string provenance(const std::string& finished) const {
-        return provenance_json(loaded_, catalogue_, state_.hash, options_.command, workers_.threads(),
-                               state_.started, finished, watch_.seconds());
+        return provenance_json(loaded_, catalogue_, state_.hash, options_.command,
+                               workers_.threads(), state_.started, finished, watch_.seconds());
     }
 
     static void report_input(const InputReport& report) {
@@ -232,9 +269,11 @@ private:
             for (const std::string& note : filter.notes) log(LogLevel::info, note);
     }
 
-    /// Writes to the folder that the run failed, or was stopped before there was a result, and removes all results. The first
-    /// error is kept: a further error here (for example a full disk) must not hide it.
-    void fail(const RunFolder& folder, int exit_code, const std::string& code, const std::string& message) {
+    /// Writes to the folder that the run failed, or was stopped before there was a result, and
+    /// removes all results. The first error is kept: a further error here (for example a full disk)
+    /// must not hide it.
+    void fail(const RunFolder& folder, int exit_code, const std::string& code,
+              const std::string& message) {
         state_.state = exit_code == static_cast<int>(ExitCode::stopped) ? "stopped" : "failed";
         state_.finished = utc_now();
         state_.exit_code = exit_code;
@@ -265,7 +304,8 @@ RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogu
     return ExperimentRun(loaded, catalogue, options).run();
 }
 
-bool is_finished(const fs::path& folder, const LoadedExperiment& loaded, const plugin::Catalogue& catalogue) {
+bool is_finished(const fs::path& folder, const LoadedExperiment& loaded,
+                 const plugin::Catalogue& catalogue) {
     const std::optional<RunFolder::Status> status = RunFolder::status(folder);
     return status && status->state == "done" && status->hash == config_hash(loaded, catalogue);
 }

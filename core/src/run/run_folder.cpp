@@ -1,9 +1,12 @@
 // Claims, clears and fills the folder of a run.
+#include "dsc/run/run_folder.hpp"
+
 #include <array>
+
+#include <nlohmann/json.hpp>
+
 #include <dsc/base/error.hpp>
 #include <dsc/io/atomic_file.hpp>
-#include <dsc/run/run_folder.hpp>
-#include <nlohmann/json.hpp>
 
 #include "run_lock.hpp"
 
@@ -13,10 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The files that a run writes. Those that look like a result come first.
-constexpr std::array result_names = {"result",      ".result.part", "summary.json",
-                                     "preview.png", "report.html"};
-constexpr std::array other_names = {"metrics.csv", "events.jsonl", "config.resolved.yaml", "provenance.json",
-                                    "checkpoint", "last_good", "series"};
+constexpr std::array result_names = {"result", ".result.part", "summary.json", "preview.png",
+                                     "report.html"};
+constexpr std::array other_names = {"metrics.csv",     "events.jsonl", "config.resolved.yaml",
+                                    "provenance.json", "checkpoint",   "last_good",
+                                    "series"};
 
 [[noreturn]] void cannot(const fs::path& folder, const char* what, const std::error_code& error) {
     throw IoError("run.folder", folder.string(), "", std::string(what) + ": " + error.message(),
@@ -37,7 +41,8 @@ std::optional<RunFolder::Status> RunFolder::status(const fs::path& folder) {
     const nlohmann::json status = nlohmann::json::parse(file, nullptr, false);
     const auto text = [&status](const char* key) {
         const auto found = status.find(key);
-        return found != status.end() && found->is_string() ? found->get<std::string>() : std::string();
+        return found != status.end() && found->is_string() ? found->get<std::string>()
+                                                           : std::string();
     };
     if (!status.is_object() || text("format") != "dsc-run-1") return std::nullopt;
     return Status{text("state"), text("config_sha256")};
@@ -45,9 +50,12 @@ std::optional<RunFolder::Status> RunFolder::status(const fs::path& folder) {
 
 bool RunFolder::is_ours(const fs::path& folder) { return status(folder).has_value(); }
 
-RunFolder::RunFolder(fs::path folder, std::unique_ptr<RunLock> lock) : folder_(std::move(folder)), lock_(std::move(lock)) {}
+RunFolder::RunFolder(fs::path folder, std::unique_ptr<RunLock> lock)
+    : folder_(std::move(folder)), lock_(std::move(lock)) {}
 
-RunFolder::RunFolder(fs::path folder) : RunFolder(claimed(std::move(folder))) { clear(Keep::nothing); }
+RunFolder::RunFolder(fs::path folder) : RunFolder(claimed(std::move(folder))) {
+    clear(Keep::nothing);
+}
 
 RunFolder::~RunFolder() = default;
 RunFolder::RunFolder(RunFolder&&) noexcept = default;
@@ -65,8 +73,8 @@ RunFolder RunFolder::claimed(fs::path folder) {
         if (!empty && !is_ours(folder)) {
             throw UsageError("run.folder",
                              folder.string() +
-                                 " is not empty and no run wrote it; nothing in it was changed; name "
-                                 "another folder with -o or empty it");
+                                 " is not empty and no run wrote it; nothing in it was changed; "
+                                 "name another folder with -o or empty it");
         }
     }
     fs::create_directories(folder, error);

@@ -1,14 +1,6 @@
 // The lock file of a run folder.
 #include "run_lock.hpp"
 
-#include <dsc/base/error.hpp>
-
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -16,12 +8,21 @@
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <dsc/base/error.hpp>
+
 namespace dsc::run {
 namespace {
 
 std::string this_host() {
     std::array<char, 256> name{};
-    return ::gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : std::string("unknown");
+    return ::gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data())
+                                                            : std::string("unknown");
 }
 
 /// The text that the owner wrote: its process and its host.
@@ -35,18 +36,21 @@ Owner owner_in(int descriptor) {
     const ::ssize_t count = ::pread(descriptor, bytes.data(), bytes.size(), 0);
     const std::string_view text(bytes.data(), count > 0 ? static_cast<std::size_t>(count) : 0);
     Owner owner;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), owner.process);
+    const auto [rest, error] =
+        std::from_chars(text.data(), text.data() + text.size(), owner.process);
     if (error == std::errc()) {
         const std::string_view host = text.substr(static_cast<std::size_t>(rest - text.data()));
         const std::size_t begin = host.find_first_not_of(' ');
-        if (begin != std::string_view::npos) owner.host = host.substr(begin, host.find('\n') - begin);
+        if (begin != std::string_view::npos)
+            owner.host = host.substr(begin, host.find('\n') - begin);
     }
     return owner;
 }
 
 std::string described(const Owner& owner) {
     if (owner.process <= 0) return "another process";
-    return "process " + std::to_string(owner.process) + (owner.host.empty() ? "" : " on " + owner.host);
+    return "process " + std::to_string(owner.process) +
+           (owner.host.empty() ? "" : " on " + owner.host);
 }
 
 enum class Taken { yes, by_other, unknown };
@@ -73,13 +77,15 @@ bool may_live(const Owner& owner) {
 bool is_file(int descriptor, const std::filesystem::path& file) {
     struct ::stat open {};
     struct ::stat named {};
-    return ::fstat(descriptor, &open) == 0 && ::stat(file.c_str(), &named) == 0 && open.st_ino == named.st_ino &&
-           open.st_dev == named.st_dev;
+    return ::fstat(descriptor, &open) == 0 && ::stat(file.c_str(), &named) == 0 &&
+           open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
 [[noreturn]] void busy(const std::filesystem::path& folder, const Owner& owner) {
-    throw UsageError("run.busy", folder.string() + " is in use by the run of " + described(owner) +
-                                     "; nothing in it was changed; wait for the end of that run or name another folder");
+    throw UsageError(
+        "run.busy",
+        folder.string() + " is in use by the run of " + described(owner) +
+            "; nothing in it was changed; wait for the end of that run or name another folder");
 }
 
 }  // namespace
@@ -88,7 +94,8 @@ RunLock::RunLock(const std::filesystem::path& folder) : file_(folder / name) {
     while (true) {
         descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (descriptor_ < 0) {
-            throw IoError("run.folder", folder.string(), "", "cannot be locked: " + std::generic_category().message(errno),
+            throw IoError("run.folder", folder.string(), "",
+                          "cannot be locked: " + std::generic_category().message(errno),
                           "choose another folder with -o or make this one writable");
         }
         const Taken taken = lock(descriptor_);
@@ -104,14 +111,17 @@ RunLock::RunLock(const std::filesystem::path& folder) : file_(folder / name) {
     }
     const std::string text = std::to_string(::getpid()) + " " + this_host() + "\n";
     // The text is only for a message; the lock works without it.
-    if (::ftruncate(descriptor_, 0) == 0) static_cast<void>(::pwrite(descriptor_, text.data(), text.size(), 0));
+    if (::ftruncate(descriptor_, 0) == 0)
+        static_cast<void>(::pwrite(descriptor_, text.data(), text.size(), 0));
 }
 
-RunLock::RunLock(RunLock&& other) noexcept : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+RunLock::RunLock(RunLock&& other) noexcept
+    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 RunLock::~RunLock() {
     if (descriptor_ < 0) return;
-    ::unlink(file_.c_str());  // before the lock is released: no other process may have made it its own lock
+    ::unlink(file_.c_str());  // before the lock is released: no other process may have made it its
+                              // own lock
     ::close(descriptor_);
 }
 
@@ -121,7 +131,9 @@ std::string RunLock::owner(const std::filesystem::path& folder) {
     const Taken taken = lock(descriptor);
     const Owner owner = owner_in(descriptor);
     ::close(descriptor);
-    return taken == Taken::by_other || (taken == Taken::unknown && may_live(owner)) ? described(owner) : std::string();
+    return taken == Taken::by_other || (taken == Taken::unknown && may_live(owner))
+               ? described(owner)
+               : std::string();
 }
 
 }  // namespace dsc::run

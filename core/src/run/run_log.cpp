@@ -15,7 +15,8 @@ RunLog::RunLog(const std::filesystem::path& folder, const cloud::Transform& to_n
     write(events_, events_file_, "");
 }
 
-RunLog::RunLog(const std::filesystem::path& folder, const cloud::Transform& to_normalised, const LogState& from)
+RunLog::RunLog(const std::filesystem::path& folder, const cloud::Transform& to_normalised,
+               const LogState& from)
     : metrics_file_(folder / "metrics.csv"),
       events_file_(folder / "events.jsonl"),
       to_normalised_(to_normalised),
@@ -33,12 +34,15 @@ void RunLog::cut(const std::filesystem::path& file, std::uint64_t bytes) {
     const std::uintmax_t size = std::filesystem::file_size(file, error);
     if (!error && size >= bytes) std::filesystem::resize_file(file, bytes, error);
     if (error || size < bytes)
-        throw IoError("run.resume", file.string(), "", "is shorter than it was at the checkpoint, or cannot be written",
+        throw IoError("run.resume", file.string(), "",
+                      "is shorter than it was at the checkpoint, or cannot be written",
                       "run without --resume to start again");
 }
 
 LogState RunLog::state() {
-    const auto bytes = [](std::ofstream& stream) { return static_cast<std::uint64_t>(stream.tellp()); };
+    const auto bytes = [](std::ofstream& stream) {
+        return static_cast<std::uint64_t>(stream.tellp());
+    };
     return {bytes(metrics_), bytes(events_), columns_.value_or(0)};
 }
 
@@ -71,7 +75,8 @@ void RunLog::close() {
     if (!metrics_ || !events_) write(metrics_, metrics_file_, "");
 }
 
-void RunLog::write(std::ofstream& stream, const std::filesystem::path& file, const std::string& text) {
+void RunLog::write(std::ofstream& stream, const std::filesystem::path& file,
+                   const std::string& text) {
     stream << text << std::flush;
     if (!stream)
         throw IoError("io.write", file.string(), "", "cannot be written",

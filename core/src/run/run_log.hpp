@@ -2,12 +2,13 @@
 // The tables that a run writes during the steps: metrics.csv and events.jsonl.
 
 #include <cstdint>
-#include <dsc/run/figures.hpp>
-#include <dsc/run/metrics.hpp>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
+
+#include <dsc/run/figures.hpp>
+#include <dsc/run/metrics.hpp>
 
 namespace dsc::run {
 
@@ -22,9 +23,10 @@ struct LogState {
 class RunLog {
 public:
     RunLog(const std::filesystem::path& folder, const cloud::Transform& to_normalised);
-    /// Continues after the rows that existed at `from`; later rows are removed. Throws IoError "io.write" if the files are
-    /// shorter.
-    RunLog(const std::filesystem::path& folder, const cloud::Transform& to_normalised, const LogState& from);
+    /// Continues after the rows that existed at `from`; later rows are removed. Throws IoError
+    /// "io.write" if the files are shorter.
+    RunLog(const std::filesystem::path& folder, const cloud::Transform& to_normalised,
+           const LogState& from);
 
     /// Valid after the first step.
     LogState state();
@@ -44,8 +46,8 @@ private:
     std::ofstream metrics_;
     std::ofstream events_;
     cloud::Transform to_normalised_;
-    std::optional<StepMetrics>
-        waiting_;  // row 0, until the first step shows which figures the observers have
+    std::optional<StepMetrics> waiting_;  // row 0, until the first step shows which figures the
+                                          // observers have
     std::optional<std::size_t> columns_;
 };
 

@@ -2,10 +2,11 @@
 #include "running.hpp"
 
 #include <algorithm>
-#include <dsc/run/run_experiment.hpp>
 #include <mutex>
 #include <utility>
 #include <vector>
+
+#include <dsc/run/run_experiment.hpp>
 
 namespace dsc::run {
 namespace {

@@ -1,12 +1,14 @@
 #pragma once
 // The active runs of this process, for the case that the process ends before they do.
 
-#include <dsc/base/error.hpp>
 #include <functional>
+
+#include <dsc/base/error.hpp>
 
 namespace dsc::run {
 
-/// Registers an active run during its lifetime. abandon_runs() calls `abandon`, possibly from any thread. [setup]
+/// Registers an active run during its lifetime. abandon_runs() calls `abandon`, possibly from any
+/// thread. [setup]
 class Running {
 public:
     using Abandon = std::function<void(const Error&)>;

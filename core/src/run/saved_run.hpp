@@ -1,5 +1,6 @@
 #pragma once
-// The part of a checkpoint besides the complex: the place in the schedule, the sums, the states of the strategies.
+// The part of a checkpoint besides the complex: the place in the schedule, the sums, the states of
+// the strategies.
 
 #include <dsc/base/state.hpp>
 #include <dsc/run/simulation.hpp>

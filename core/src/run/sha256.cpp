@@ -1,10 +1,12 @@
 // SHA-256 with OpenSSL.
-#include <openssl/evp.h>
+#include "dsc/run/sha256.hpp"
 
 #include <array>
-#include <dsc/base/error.hpp>
-#include <dsc/run/sha256.hpp>
 #include <memory>
+
+#include <openssl/evp.h>
+
+#include <dsc/base/error.hpp>
 
 namespace dsc::run {
 

@@ -1,10 +1,12 @@
 // Runs the schedule of an experiment: steps, refinements, figures, checkpoints.
+#include "dsc/run/simulation.hpp"
+
 #include <algorithm>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/state.hpp>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/run/repair_policy.hpp>
-#include <dsc/run/simulation.hpp>
 
 #include "initial_complex.hpp"
 #include "nearest_points.hpp"
@@ -16,18 +18,21 @@
 namespace dsc::run {
 namespace {
 
-/// Number of vertices per block of evaluate(). Constant, so that the blocks do not depend on the number of threads.
+/// Number of vertices per block of evaluate(). Constant, so that the blocks do not depend on the
+/// number of threads.
 constexpr std::size_t evaluated_block = 256;
-/// A series stalls if less than this fraction of the wanted motion was made in this many steps in a row.
+/// A series stalls if less than this fraction of the wanted motion was made in this many steps in a
+/// row.
 constexpr unsigned stall_steps = 5;
 constexpr double stall_ratio = 0.01;
-/// Mean speed, in current mean edges, below which vertices count as arrived (as in the kernel), so the series cannot stall.
+/// Mean speed, in current mean edges, below which vertices count as arrived (as in the kernel), so
+/// the series cannot stall.
 constexpr double stall_speed = 1e-4;
 
 class Simulation {
 public:
-    Simulation(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
-               const SimulationOptions& options)
+    Simulation(const Experiment& experiment, Strategies& strategies,
+               const cloud::TargetCloud* cloud, const SimulationOptions& options)
         : experiment_(experiment),
           strategies_(strategies),
           cloud_(cloud),
@@ -36,11 +41,14 @@ public:
           workers_(options.workers != nullptr ? *options.workers : serial_),
           planned_(planned_steps(experiment)),
           resumed_(options.resume),
-          deformer_(options.resume.empty()
-                        ? kernel::Deformer(
-                              initial_complex(experiment, strategies, cloud, options.cancel, workers_, result_.totals), {}, &workers_)
-                        : kernel::Deformer::load(resumed_, {}, &workers_)) {
-        // Every step asks again. Asked here too, an improvement with invalid answers ends the run before its first step.
+          deformer_(
+              options.resume.empty()
+                  ? kernel::Deformer(initial_complex(experiment, strategies, cloud, options.cancel,
+                                                     workers_, result_.totals),
+                                     {}, &workers_)
+                  : kernel::Deformer::load(resumed_, {}, &workers_)) {
+        // Every step asks again. Asked here too, an improvement with invalid answers ends the run
+        // before its first step.
         strategies_.improvement->topology_limits();
         strategies_.improvement->flatness();
         result_.totals.repair_class_names = strategies_.improvement->repair_classes();
@@ -83,7 +91,8 @@ private:
                 .attributes = attributes_};
     }
 
-    /// The nearest points are used by the velocity of the next step and by the figures of this step.
+    /// The nearest points are used by the velocity of the next step and by the figures of this
+    /// step.
     void refresh_view() {
         const Timed timed(result_.totals.seconds.velocity);
         surface::build_view(deformer_.complex(), view_, &workers_, &view_memory_);
@@ -98,12 +107,14 @@ private:
         attributes_ = attributes_at(deformer_, view_.vertex_ids);
     }
 
-    /// The context of the velocity's calls: it includes the faces of the points if the velocity needs them.
+    /// The context of the velocity's calls: it includes the faces of the points if the velocity
+    /// needs them.
     hooks::StepContext make_velocity_context(std::uint64_t step) {
         hooks::StepContext context = make_context(step);
         if (cloud_ == nullptr || !strategies_.velocity->needs_faces_of_points()) return context;
         const Timed timed(result_.totals.seconds.velocity);
-        if (faces_of_points_.empty()) surface::nearest_faces(view_, cloud_->points(), faces_of_points_, &workers_);
+        if (faces_of_points_.empty())
+            surface::nearest_faces(view_, cloud_->points(), faces_of_points_, &workers_);
         context.faces_of_points = faces_of_points_;
         return context;
     }
@@ -115,7 +126,8 @@ private:
         StepMetrics row;
         measure_row(row);
         result_.totals.volume_initial = row.volume;
-        // The columns of the observers are known only after the first step, so row 0 does not contain their figures.
+        // The columns of the observers are known only after the first step, so row 0 does not
+        // contain their figures.
         publish(row);
     }
 
@@ -166,7 +178,9 @@ private:
                 result_.totals.status = Status::converged;
                 break;
             }
-            if (options_.checkpoint_every > 0 && deformer_.step_count() % options_.checkpoint_every == 0) checkpoint();
+            if (options_.checkpoint_every > 0 &&
+                deformer_.step_count() % options_.checkpoint_every == 0)
+                checkpoint();
         }
         next_item();
     }
@@ -181,12 +195,14 @@ private:
     }
 
     std::optional<repair::CreaseRule> creases(const hooks::RefinementPolicy* refinement) const {
-        return stricter(strategies_.velocity->keep_creases(), refinement != nullptr ? refinement->keep_creases() : std::nullopt);
+        return stricter(strategies_.velocity->keep_creases(),
+                        refinement != nullptr ? refinement->keep_creases() : std::nullopt);
     }
 
     void next_item() { place_ = {.item = place_.item + 1}; }
 
-    /// Saves everything on which the run depends: the complex, the strategies' states, and the progress.
+    /// Saves everything on which the run depends: the complex, the strategies' states, and the
+    /// progress.
     void checkpoint() {
         if (!options_.on_checkpoint || deformer_.step_count() == 0) return;
         StateWriter out;
@@ -211,7 +227,8 @@ private:
         StepMetrics row;
         const double asked = velocities(context, row);
         const double mean_edge = view_.mean_edge;
-        const kernel::StepReport report = deformer_.step(view_.vertex_ids, displacements_, policy(context));
+        const kernel::StepReport report =
+            deformer_.step(view_.vertex_ids, displacements_, policy(context));
         const double came_about = distance_gone(deformer_.complex(), view_, displacements_);
         result_.totals.add(report);
         for (const kernel::Event& event : report.events) tell(event);
@@ -225,7 +242,8 @@ private:
         row.dropped_motion = report.dropped_motion;
         row.edit_volume = report.edit_volume;
         row.relabelled_volume = report.relabelled_volume;
-        for (const kernel::OperationCounts& counts : report.operations) row.committed += counts.committed;
+        for (const kernel::OperationCounts& counts : report.operations)
+            row.committed += counts.committed;
         row.events = report.events.size();
         measure_row(row);
         observe(row);
@@ -237,7 +255,8 @@ private:
         return experiment_.stop && row.max_speed < experiment_.stop->speed * mean_edge;
     }
 
-    /// Evaluates all displacements; returns the sum of the wanted lengths over the movable vertices.
+    /// Evaluates all displacements; returns the sum of the wanted lengths over the movable
+    /// vertices.
     double velocities(const hooks::StepContext& context, StepMetrics& row) {
         const Timed timed(result_.totals.seconds.velocity);
         const std::size_t count = view_.vertex_count();
@@ -254,7 +273,8 @@ private:
         return measure_speeds(view_, displacements_, row);
     }
 
-    /// Runs the passes of a refinement, each on a fresh view, until it requests no change of the mesh.
+    /// Runs the passes of a refinement, each on a fresh view, until it requests no change of the
+    /// mesh.
     void refine(hooks::RefinementPolicy& refinement) {
         const Timed timed(result_.totals.seconds.refine);
         const bool sampling = refinement.needs_sampling();
@@ -262,14 +282,17 @@ private:
         ++result_.totals.refinements;
         bool asked = true;
         for (unsigned pass = 0; pass < passes && asked; ++pass) {
-            const hooks::StepContext context =
-                sampling ? make_velocity_context(deformer_.step_count()) : make_context(deformer_.step_count());
+            const hooks::StepContext context = sampling
+                                                   ? make_velocity_context(deformer_.step_count())
+                                                   : make_context(deformer_.step_count());
             if (sampling) strategies_.velocity->prepare(context);
             hooks::RefinementRequests requests;
-            refinement.refine({context, sampling ? strategies_.velocity.get() : nullptr, pass}, requests);
+            refinement.refine({context, sampling ? strategies_.velocity.get() : nullptr, pass},
+                              requests);
             set_fields(deformer_, view_, requests);
             relabel(context, requests);
-            kernel::RefineRequests wanted = kernel_requests(view_, requests, refinement.owns_sizing());
+            kernel::RefineRequests wanted =
+                kernel_requests(view_, requests, refinement.owns_sizing());
             wanted.creases = creases(&refinement);
             const kernel::RefineReport report = deformer_.refine(wanted);
             result_.totals.crease_exceptions += report.crease_exceptions;
@@ -363,7 +386,7 @@ private:
     surface::SurfaceView view_;
     NearestPoints nearest_;
     std::vector<surface::FacePoint> faces_of_points_;  // empty until they are needed
-    std::vector<double> lengths_;   // per vertex of the view; empty if L is the same everywhere
+    std::vector<double> lengths_;  // per vertex of the view; empty if L is the same everywhere
     surface::ViewMemory view_memory_;
     hooks::Attributes attributes_;  // of the view's vertices
     std::vector<Vec3> displacements_;
@@ -382,8 +405,8 @@ std::uint64_t planned_steps(const Experiment& experiment) {
     return steps;
 }
 
-SimulationResult simulate(const Experiment& experiment, Strategies& strategies, const cloud::TargetCloud* cloud,
-                          const SimulationOptions& options) {
+SimulationResult simulate(const Experiment& experiment, Strategies& strategies,
+                          const cloud::TargetCloud* cloud, const SimulationOptions& options) {
     return Simulation(experiment, strategies, cloud, options).execute();
 }
 

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
+
 #include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/parallel_table.hpp>
 #include <dsc/run/simulation.hpp>
-#include <limits>
 
 namespace dsc::run {
 namespace {
@@ -36,14 +37,16 @@ std::optional<std::uint64_t> step_of(const std::string& name, const std::string&
 }
 
 /// A second instance of the estimator that the velocity uses; both give the same answers.
-std::unique_ptr<hooks::CurvatureEstimator> make_curvature(const Experiment& experiment, const plugin::Catalogue& catalogue) {
+std::unique_ptr<hooks::CurvatureEstimator> make_curvature(const Experiment& experiment,
+                                                          const plugin::Catalogue& catalogue) {
     const config::Schema* schema = catalogue.find_schema("velocity", experiment.velocity.type);
     if (schema == nullptr) return nullptr;
     for (const config::Field& field : schema->fields()) {
         if (field.type != config::FieldType::strategy || field.kind != "curvature") continue;
         const config::ConfigNode* node = experiment.velocity.params.find(field.name);
         if (node == nullptr || node->is_null()) return nullptr;
-        return catalogue.create<hooks::CurvatureEstimator>(config::strategy_from(*node), "velocity." + field.name);
+        return catalogue.create<hooks::CurvatureEstimator>(config::strategy_from(*node),
+                                                           "velocity." + field.name);
     }
     return nullptr;
 }
@@ -60,10 +63,12 @@ void to_input(std::vector<Vec3>& points, const cloud::Transform& to_normalised) 
 }
 
 /// The attributes as arrays of the points with the given ids; NaN off the interface.
-void add_attributes(const hooks::StepContext& context, const std::vector<mesh::VertexId>& ids, io::VolumeData& data) {
+void add_attributes(const hooks::StepContext& context, const std::vector<mesh::VertexId>& ids,
+                    io::VolumeData& data) {
     if (context.attributes.empty()) return;
     const std::vector<mesh::VertexId>& on_surface = context.surface.vertex_ids;
-    std::vector<std::uint32_t> view_of(*std::max_element(ids.begin(), ids.end()) + std::size_t{1}, mesh::none);
+    std::vector<std::uint32_t> view_of(*std::max_element(ids.begin(), ids.end()) + std::size_t{1},
+                                       mesh::none);
     for (std::uint32_t i = 0; i < on_surface.size(); ++i) view_of[on_surface[i]] = i;
     for (const hooks::Attribute& a : context.attributes) {
         std::vector<double> values(ids.size(), std::numeric_limits<double>::quiet_NaN());
@@ -74,9 +79,12 @@ void add_attributes(const hooks::StepContext& context, const std::vector<mesh::V
     }
 }
 
-/// Adds the entry, or replaces an entry of the same step: a resumed run computes the same state again.
+/// Adds the entry, or replaces an entry of the same step: a resumed run computes the same state
+/// again.
 void note(std::vector<io::SeriesEntry>& entries, io::SeriesEntry entry) {
-    const auto before = [](const io::SeriesEntry& a, const io::SeriesEntry& b) { return a.step < b.step; };
+    const auto before = [](const io::SeriesEntry& a, const io::SeriesEntry& b) {
+        return a.step < b.step;
+    };
     const auto at = std::lower_bound(entries.begin(), entries.end(), entry, before);
     if (at != entries.end() && at->step == entry.step) return;
     entries.insert(at, std::move(entry));
@@ -88,7 +96,8 @@ std::set<std::uint64_t> report_steps(std::uint64_t planned) {
     std::set<std::uint64_t> steps;
     for (std::size_t i = 0; i + 1 < report_frames; ++i) {
         const double part = static_cast<double>(i) / static_cast<double>(report_frames - 1);
-        steps.insert(static_cast<std::uint64_t>(std::llround(std::pow(part, 1.5) * static_cast<double>(planned))));
+        steps.insert(static_cast<std::uint64_t>(
+            std::llround(std::pow(part, 1.5) * static_cast<double>(planned))));
     }
     return steps;
 }
@@ -103,7 +112,8 @@ std::vector<io::SeriesEntry> kept_states(const fs::path& run_folder, const std::
     return entries;
 }
 
-StateSeries::StateSeries(const Experiment& experiment, const plugin::Catalogue& catalogue, const fs::path& run_folder)
+StateSeries::StateSeries(const Experiment& experiment, const plugin::Catalogue& catalogue,
+                         const fs::path& run_folder)
     : folder_(run_folder / "series") {
     if (experiment.output.series) {
         every_ = experiment.output.series->every;
@@ -122,7 +132,9 @@ StateSeries::StateSeries(const Experiment& experiment, const plugin::Catalogue& 
     volumes_ = kept_states(run_folder, "volume");
 }
 
-bool StateSeries::due(std::uint64_t step) const { return every_ != 0 ? step % every_ == 0 : steps_.count(step) != 0; }
+bool StateSeries::due(std::uint64_t step) const {
+    return every_ != 0 ? step % every_ == 0 : steps_.count(step) != 0;
+}
 
 void StateSeries::add(const hooks::StepContext& context, const mesh::Complex& complex) {
     if (!due(context.step)) return;
@@ -134,28 +146,33 @@ std::vector<double> StateSeries::curvatures(const hooks::StepContext& context) {
     std::vector<double> scalar(context.surface.vertex_count());
     std::vector<Vec3> vectors(scalar.size());
     curvature_->prepare(context);
-    for_blocks(context.workers, scalar.size(), written_block, [&](std::size_t begin, std::size_t end) {
-        curvature_->evaluate({begin, end}, std::span(scalar).subspan(begin, end - begin),
-                             std::span(vectors).subspan(begin, end - begin));
-    });
+    for_blocks(context.workers, scalar.size(), written_block,
+               [&](std::size_t begin, std::size_t end) {
+                   curvature_->evaluate({begin, end}, std::span(scalar).subspan(begin, end - begin),
+                                        std::span(vectors).subspan(begin, end - begin));
+               });
     return scalar;
 }
 
 void StateSeries::write_surface(const hooks::StepContext& context, const mesh::Complex& complex) {
     const surface::SurfaceView& view = context.surface;
     io::SurfaceData data;
-    data.cells.push_back({"label", parallel_table(context.workers, view.face_count(), [&](std::size_t f) {
-                              return static_cast<double>(complex.label(view.face_tets[f]));
-                          })});
-    data.cells.push_back({"quality", parallel_table(context.workers, view.face_count(), [&](std::size_t f) {
-                              const auto& [a, b, c] = view.faces[f];
-                              return triangle_quality(view.face_areas[f], view.positions[a], view.positions[b],
-                                                      view.positions[c]);
-                          })});
+    data.cells.push_back(
+        {"label", parallel_table(context.workers, view.face_count(), [&](std::size_t f) {
+             return static_cast<double>(complex.label(view.face_tets[f]));
+         })});
+    data.cells.push_back(
+        {"quality", parallel_table(context.workers, view.face_count(), [&](std::size_t f) {
+             const auto& [a, b, c] = view.faces[f];
+             return triangle_quality(view.face_areas[f], view.positions[a], view.positions[b],
+                                     view.positions[c]);
+         })});
     const double scale = context.to_normalised.scale;
     if (context.cloud != nullptr) {
-        data.points.push_back({"distance", parallel_table(context.workers, view.vertex_count(),
-                                                 [&](std::size_t i) { return context.nearest[i].distance / scale; })});
+        data.points.push_back(
+            {"distance", parallel_table(context.workers, view.vertex_count(), [&](std::size_t i) {
+                 return context.nearest[i].distance / scale;
+             })});
     }
     if (curvature_ != nullptr) data.points.push_back({"curvature", curvatures(context)});
     for (const hooks::Attribute& a : context.attributes) data.points.push_back({a.name, a.values});
@@ -163,7 +180,8 @@ void StateSeries::write_surface(const hooks::StepContext& context, const mesh::C
     surface::TriangleMesh mesh{view.positions, view.faces};
     to_input(mesh.points, context.to_normalised);
     if (context.cloud != nullptr && !context.cloud->colours().empty()) {
-        for (const auto& nearest : context.nearest) mesh.colours.push_back(context.cloud->colours()[nearest.index]);
+        for (const auto& nearest : context.nearest)
+            mesh.colours.push_back(context.cloud->colours()[nearest.index]);
     }
     const std::string name = file_name("surface", context.step);
     io::write_vtp(folder_ / name, mesh, data);
@@ -177,9 +195,10 @@ void StateSeries::write_volume(const hooks::StepContext& context, const mesh::Co
     io::VolumeData data;
     const double scale = context.to_normalised.scale;
     if (context.cloud != nullptr) {
-        data.points.push_back({"distance", parallel_table(context.workers, mesh.points.size(), [&](std::size_t i) {
-                                   return context.cloud->search().nearest(mesh.points[i]).distance / scale;
-                               })});
+        data.points.push_back(
+            {"distance", parallel_table(context.workers, mesh.points.size(), [&](std::size_t i) {
+                 return context.cloud->search().nearest(mesh.points[i]).distance / scale;
+             })});
     }
     add_attributes(context, ids, data);
     to_input(mesh.points, context.to_normalised);

@@ -2,6 +2,7 @@
 #include "step_figures.hpp"
 
 #include <algorithm>
+
 #include <dsc/base/parallel_table.hpp>
 #include <dsc/surface/distance.hpp>
 
@@ -25,7 +26,9 @@ double enclosed_volume(const mesh::Complex& complex, const surface::SurfaceView&
         unsigned face = 0;
         for (; face < 3; ++face) {
             const mesh::VertexId apex = tet.v[face];
-            if (apex != view.vertex_ids[a] && apex != view.vertex_ids[b] && apex != view.vertex_ids[c]) break;
+            if (apex != view.vertex_ids[a] && apex != view.vertex_ids[b] &&
+                apex != view.vertex_ids[c])
+                break;
         }
         // A face between two labels above 0 is not counted.
         if (std::min(complex.label(t), complex.label_across(t, face)) > 0) continue;
@@ -35,8 +38,8 @@ double enclosed_volume(const mesh::Complex& complex, const surface::SurfaceView&
 }
 
 void measure_state(const mesh::Complex& complex, const surface::SurfaceView& view,
-                   const cloud::TargetCloud* cloud, std::span<const cloud::Neighbour> nearest, Workers& workers,
-                   StepMetrics& row) {
+                   const cloud::TargetCloud* cloud, std::span<const cloud::Neighbour> nearest,
+                   Workers& workers, StepMetrics& row) {
     row.interface_vertices = view.vertex_count();
     row.interface_faces = view.face_count();
     row.junction_vertices = static_cast<std::size_t>(
@@ -63,7 +66,8 @@ void measure_state(const mesh::Complex& complex, const surface::SurfaceView& vie
     }));
 }
 
-double measure_speeds(const surface::SurfaceView& view, std::span<const Vec3> displacements, StepMetrics& row) {
+double measure_speeds(const surface::SurfaceView& view, std::span<const Vec3> displacements,
+                      StepMetrics& row) {
     double sum = 0.0;
     std::size_t movable = 0;
     for (std::size_t i = 0; i < view.vertex_count(); ++i) {
@@ -77,7 +81,8 @@ double measure_speeds(const surface::SurfaceView& view, std::span<const Vec3> di
     return sum;
 }
 
-double distance_gone(const mesh::Complex& complex, const surface::SurfaceView& view, std::span<const Vec3> displacements) {
+double distance_gone(const mesh::Complex& complex, const surface::SurfaceView& view,
+                     std::span<const Vec3> displacements) {
     double sum = 0.0;
     for (std::size_t i = 0; i < view.vertex_count(); ++i) {
         if (view.movable[i] == 0) continue;

@@ -1,29 +1,33 @@
 #pragma once
 // Figures of the state of a run, for a row of metrics.csv.
 
+#include <span>
+
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/target.hpp>
 #include <dsc/mesh/complex.hpp>
 #include <dsc/run/metrics.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <span>
 
 namespace dsc::run {
 
-/// Fills the figures that depend only on the state: sizes, mean edge, distances, volume, quality. `cloud` may be null;
-/// `nearest` contains the nearest cloud point of each view vertex.
+/// Fills the figures that depend only on the state: sizes, mean edge, distances, volume, quality.
+/// `cloud` may be null; `nearest` contains the nearest cloud point of each view vertex.
 void measure_state(const mesh::Complex& complex, const surface::SurfaceView& view,
-                   const cloud::TargetCloud* cloud, std::span<const cloud::Neighbour> nearest, Workers& workers,
-                   StepMetrics& row);
+                   const cloud::TargetCloud* cloud, std::span<const cloud::Neighbour> nearest,
+                   Workers& workers, StepMetrics& row);
 
 /// Fills the speeds of a step, for the movable vertices; returns their sum.
-double measure_speeds(const surface::SurfaceView& view, std::span<const Vec3> displacements, StepMetrics& row);
+double measure_speeds(const surface::SurfaceView& view, std::span<const Vec3> displacements,
+                      StepMetrics& row);
 
-/// Sum of the distances that the movable vertices of the view have moved since it was made; a vertex that an edit removed
-/// counts with its whole displacement.
-double distance_gone(const mesh::Complex& complex, const surface::SurfaceView& view, std::span<const Vec3> displacements);
+/// Sum of the distances that the movable vertices of the view have moved since it was made; a
+/// vertex that an edit removed counts with its whole displacement.
+double distance_gone(const mesh::Complex& complex, const surface::SurfaceView& view,
+                     std::span<const Vec3> displacements);
 
-/// Volume of all labels above 0 by the divergence theorem over the interface; the cost grows only with the interface.
+/// Volume of all labels above 0 by the divergence theorem over the interface; the cost grows only
+/// with the interface.
 double enclosed_volume(const mesh::Complex& complex, const surface::SurfaceView& view);
 
 }  // namespace dsc::run

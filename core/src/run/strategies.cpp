@@ -6,14 +6,15 @@ namespace dsc::run {
 
 Strategies make_strategies(const Experiment& experiment, const plugin::Catalogue& catalogue) {
     Strategies all;
-    all.initial_mesh = catalogue.create<hooks::InitialMesh>(experiment.initial_mesh, "initial_mesh");
+    all.initial_mesh =
+        catalogue.create<hooks::InitialMesh>(experiment.initial_mesh, "initial_mesh");
     all.velocity = catalogue.create<hooks::VelocityField>(experiment.velocity, "velocity");
     all.improvement = catalogue.create<hooks::Improvement>(experiment.improvement, "improvement");
     for (std::size_t i = 0; i < experiment.schedule.size(); ++i) {
         const config::StrategyConfig& refine = experiment.schedule[i].refine;
         const std::string path = "schedule." + std::to_string(i) + ".refine";
-        all.refinements.push_back(refine.empty() ? nullptr
-                                                 : catalogue.create<hooks::RefinementPolicy>(refine, path));
+        all.refinements.push_back(
+            refine.empty() ? nullptr : catalogue.create<hooks::RefinementPolicy>(refine, path));
         if (all.refinements.back() && all.refinements.back()->needs_sampling() &&
             !all.velocity->can_sample()) {
             config::fail("config.no_sampling", refine.params.position(),
@@ -24,8 +25,8 @@ Strategies make_strategies(const Experiment& experiment, const plugin::Catalogue
         }
     }
     for (std::size_t i = 0; i < experiment.observers.size(); ++i) {
-        all.observers.push_back(
-            catalogue.create<hooks::Observer>(experiment.observers[i], "observers." + std::to_string(i)));
+        all.observers.push_back(catalogue.create<hooks::Observer>(
+            experiment.observers[i], "observers." + std::to_string(i)));
     }
     return all;
 }

@@ -14,7 +14,8 @@ ordered_json point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
 ordered_json distances(const std::optional<surface::CloudEvaluation>& figures, bool vertices) {
     if (!figures) return nullptr;
-    const surface::DistanceFigures& f = vertices ? figures->vertex_to_cloud : figures->cloud_to_surface;
+    const surface::DistanceFigures& f =
+        vertices ? figures->vertex_to_cloud : figures->cloud_to_surface;
     ordered_json json = {{"mean", f.mean}};
     if (vertices) json["min"] = f.min;
     json["max"] = f.max;
@@ -35,7 +36,8 @@ ordered_json events(const RunTotals& totals) {
 ordered_json counts_row(const kernel::OperationCounts& counts) {
     ordered_json row = {{"tried", counts.tried}, {"committed", counts.committed}};
     for (std::size_t r = 1; r < counts.refused.size(); ++r) {
-        if (counts.refused[r] > 0) row[std::string(repair::name(static_cast<repair::Refusal>(r)))] = counts.refused[r];
+        if (counts.refused[r] > 0)
+            row[std::string(repair::name(static_cast<repair::Refusal>(r)))] = counts.refused[r];
     }
     return row;
 }
@@ -43,7 +45,8 @@ ordered_json counts_row(const kernel::OperationCounts& counts) {
 ordered_json operations(const RunTotals& totals) {
     ordered_json table = ordered_json::object();
     for (std::size_t i = 0; i < totals.operations.size(); ++i) {
-        table[std::string(repair::name(static_cast<repair::Operation>(i)))] = counts_row(totals.operations[i]);
+        table[std::string(repair::name(static_cast<repair::Operation>(i)))] =
+            counts_row(totals.operations[i]);
     }
     return table;
 }
@@ -62,7 +65,8 @@ ordered_json input(const LoadedInput* loaded) {
     ordered_json filters = ordered_json::array();
     for (const cloud::FilterReport& f : report.filters) {
         ordered_json row = {{"type", f.filter}, {"kept", f.kept}, {"removed", f.removed}};
-        for (const cloud::RemovedPoints& removed : f.reasons) row["reasons"][removed.reason] = removed.count;
+        for (const cloud::RemovedPoints& removed : f.reasons)
+            row["reasons"][removed.reason] = removed.count;
         for (const auto& [figure, value] : f.figures) row["figures"][figure] = value;
         for (const std::string& note : f.notes) row["notes"].push_back(note);
         filters.push_back(std::move(row));
@@ -72,7 +76,8 @@ ordered_json input(const LoadedInput* loaded) {
             {"diagonal", report.diagonal}};
 }
 
-/// Volume of all labels above 0; if there are several, the interface as a whole does not enclose it.
+/// Volume of all labels above 0; if there are several, the interface as a whole does not enclose
+/// it.
 double volume_of(const SummaryParts& parts) {
     if (parts.outcome.label_surfaces.empty()) return parts.outcome.surface.report.volume;
     double sum = 0.0;
@@ -83,7 +88,8 @@ double volume_of(const SummaryParts& parts) {
 ordered_json labels(const SummaryParts& parts) {
     ordered_json all = ordered_json::object();
     for (const auto& [label, tets] : parts.outcome.volume.label_tets) {
-        ordered_json row = {{"tets", tets}, {"volume", parts.outcome.volume.label_volumes.at(label)}};
+        ordered_json row = {{"tets", tets},
+                            {"volume", parts.outcome.volume.label_volumes.at(label)}};
         const auto found = parts.outcome.label_surfaces.find(label);
         if (found != parts.outcome.label_surfaces.end()) {
             const surface::SurfaceReport& s = found->second.report;
@@ -110,14 +116,17 @@ ordered_json initial_mesh(const RunTotals& totals) {
 
 ordered_json warnings(const RunTotals& totals) {
     ordered_json all = ordered_json::array();
-    for (const hooks::Warning& warning : totals.warnings) all.push_back({{"code", warning.code}, {"text", warning.text}});
+    for (const hooks::Warning& warning : totals.warnings)
+        all.push_back({{"code", warning.code}, {"text", warning.text}});
     return all;
 }
 
 /// CPU seconds before the first step.
 ordered_json start_seconds(const SummaryParts& parts) {
-    ordered_json all = {{"filters", parts.input == nullptr ? 0.0 : parts.input->report.filter_seconds}};
-    for (const auto& [part, seconds] : parts.outcome.totals.initial_mesh_seconds) all[part] = seconds;
+    ordered_json all = {
+        {"filters", parts.input == nullptr ? 0.0 : parts.input->report.filter_seconds}};
+    for (const auto& [part, seconds] : parts.outcome.totals.initial_mesh_seconds)
+        all[part] = seconds;
     all["adopt"] = parts.outcome.totals.seconds.adopt;
     return all;
 }
@@ -133,8 +142,10 @@ ordered_json start_wall_seconds(const SummaryParts& parts) {
 ordered_json statistics(const LoadedInput* loaded) {
     if (loaded == nullptr) return nullptr;
     const cloud::Statistics& s = loaded->target.statistics();
-    return {{"point_width", s.width},      {"label_width", s.median_label_width}, {"width_spread", s.spread}, {"regularity", s.regularity}, {"noise", s.noise},
-            {"noise_to_width", s.noise_ratio}, {"area", s.area},                  {"duplicates", s.duplicates}};
+    return {{"point_width", s.width},   {"label_width", s.median_label_width},
+            {"width_spread", s.spread}, {"regularity", s.regularity},
+            {"noise", s.noise},         {"noise_to_width", s.noise_ratio},
+            {"area", s.area},           {"duplicates", s.duplicates}};
 }
 
 /// Coverage, in normalised units.
@@ -144,7 +155,10 @@ ordered_json coverage(const RunOutcome& outcome) {
     ordered_json groups = ordered_json::array();
     for (const PointGroup& group : c.groups) {
         if (groups.size() == most_groups) break;
-        groups.push_back({{"points", group.points}, {"centre", point(group.centre)}, {"diameter", group.diameter}, {"farthest", group.farthest}});
+        groups.push_back({{"points", group.points},
+                          {"centre", point(group.centre)},
+                          {"diameter", group.diameter},
+                          {"farthest", group.farthest}});
     }
     return {{"far_points", c.far_points},
             {"far_share", c.far_share()},
@@ -158,7 +172,9 @@ ordered_json coverage(const RunOutcome& outcome) {
 
 ordered_json trimmed(const RunOutcome& outcome) {
     if (!outcome.trimmed) return nullptr;
-    return {{"faces", outcome.trimmed->faces}, {"area_share", outcome.trimmed->area_share}, {"islands", outcome.trimmed->islands}};
+    return {{"faces", outcome.trimmed->faces},
+            {"area_share", outcome.trimmed->area_share},
+            {"islands", outcome.trimmed->islands}};
 }
 
 ordered_json observers(const RunTotals& totals) {
@@ -214,10 +230,8 @@ std::string summary_json(const SummaryParts& parts) {
           {"box", totals.refused(repair::Refusal::box)}}},
         {"vertex_to_cloud", distances(parts.distances, true)},
         {"cloud_to_surface", distances(parts.distances, false)},
-        {"units",
-         "volume and volume_initial: units of the input, cubed; every other length and volume: normalised "
-         "units, "
-         "(input - centre) * scale"},
+        {"units", "volume and volume_initial: units of the input, cubed; every other length and "
+                  "volume: normalised units, (input - centre) * scale"},
         {"to_normalised", {{"centre", point(parts.to_normalised.centre)}, {"scale", scale}}},
         {"input", input(parts.input)},
         {"cloud", statistics(parts.input)},

@@ -1,14 +1,15 @@
 #pragma once
 // The texts of summary.json and status.json.
 
-#include <dsc/run/simulation.hpp>
+#include <optional>
+#include <string>
+
 #include <dsc/run/input.hpp>
 #include <dsc/run/measure.hpp>
 #include <dsc/run/provenance.hpp>
 #include <dsc/run/run_experiment.hpp>
+#include <dsc/run/simulation.hpp>
 #include <dsc/surface/distance.hpp>
-#include <optional>
-#include <string>
 
 namespace dsc::run {
 

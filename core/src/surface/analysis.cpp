@@ -1,16 +1,17 @@
 // Analyses a triangle mesh: edges, shells, fans, borders, defects.
-#include <dsc/surface/analysis.hpp>
-
-#include <dsc/geometry/quality.hpp>
-#include <dsc/surface/intersections.hpp>
+#include "dsc/surface/analysis.hpp"
 
 #include <algorithm>
 #include <numeric>
 
+#include <dsc/geometry/quality.hpp>
+#include <dsc/surface/intersections.hpp>
+
 namespace dsc::surface {
 namespace {
 
-/// Union-find with the smallest member as representative, so that groups do not depend on the order of the unions.
+/// Union-find with the smallest member as representative, so that groups do not depend on the order
+/// of the unions.
 class Groups {
 public:
     explicit Groups(std::size_t count) : parent_(count) {
@@ -170,12 +171,15 @@ void count_nonmanifold_vertices(std::size_t points, const Connectivity& c, Piece
                                 SurfaceReport& report) {
     std::vector<std::uint32_t> fans(points, 0);
     for (std::size_t corner = 0; corner < 3 * c.faces.size(); ++corner) {
-        if (pieces.fans.is_first(corner) && ++fans[c.point(corner)] == 2) ++report.nonmanifold_vertices;
+        if (pieces.fans.is_first(corner) && ++fans[c.point(corner)] == 2)
+            ++report.nonmanifold_vertices;
     }
 }
 
-/// Joins boundary edges through the fans at their ends; in a manifold shell every piece is one loop.
-void count_boundary_loops(const Connectivity& c, Pieces& pieces, const std::vector<std::size_t>& shell_of,
+/// Joins boundary edges through the fans at their ends; in a manifold shell every piece is one
+/// loop.
+void count_boundary_loops(const Connectivity& c, Pieces& pieces,
+                          const std::vector<std::size_t>& shell_of,
                           std::vector<ShellReport>& shells) {
     Groups loops(3 * c.faces.size());
     std::vector<std::size_t> ends;
@@ -194,7 +198,8 @@ void count_boundary_loops(const Connectivity& c, Pieces& pieces, const std::vect
     }
 }
 
-void report_shells(const TriangleMesh& mesh, const Connectivity& c, Pieces& pieces, SurfaceReport& report) {
+void report_shells(const TriangleMesh& mesh, const Connectivity& c, Pieces& pieces,
+                   SurfaceReport& report) {
     std::vector<std::size_t> shell_of(c.faces.size());
     auto& shells = report.shell_reports;
     const Vec3 centre = report.box.centre();
@@ -228,17 +233,20 @@ void report_shells(const TriangleMesh& mesh, const Connectivity& c, Pieces& piec
 void sum_shells(SurfaceReport& report) {
     report.shells = report.shell_reports.size();
     for (ShellReport& shell : report.shell_reports) {
-        shell.euler = static_cast<long>(shell.vertices + shell.faces) - static_cast<long>(shell.edges);
+        shell.euler =
+            static_cast<long>(shell.vertices + shell.faces) - static_cast<long>(shell.edges);
         if (!shell.manifold) shell.boundary_loops = 0;
         if (!shell.closed) shell.volume = 0.0;
-        if (shell.manifold) shell.genus = (2 - shell.euler - static_cast<long>(shell.boundary_loops)) / 2;
+        if (shell.manifold)
+            shell.genus = (2 - shell.euler - static_cast<long>(shell.boundary_loops)) / 2;
         report.area += shell.area;
         report.volume += shell.volume;
         report.genus += shell.genus;
         if (shell.volume > 0.0) ++report.components;
         if (shell.volume < 0.0) ++report.cavities;
     }
-    report.euler = static_cast<long>(report.vertices + report.faces) - static_cast<long>(report.edges);
+    report.euler =
+        static_cast<long>(report.vertices + report.faces) - static_cast<long>(report.edges);
 }
 
 }  // namespace

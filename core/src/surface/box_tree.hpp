@@ -27,8 +27,8 @@ public:
         std::uint32_t item = 0;
     };
 
-    /// The item with the least squared_distance(item); of equal ones the lowest. The function must not return less than the
-    /// squared distance from p to the item's box, except for rounding.
+    /// The item with the least squared_distance(item); of equal ones the lowest. The function must
+    /// not return less than the squared distance from p to the item's box, except for rounding.
     template <class SquaredDistance>
     Best nearest(const Vec3& p, SquaredDistance&& squared_distance) const {
         Best best;
@@ -48,7 +48,8 @@ public:
             if (node.count > 0) {
                 for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
                     const double squared = squared_distance(items_[k]);
-                    if (squared < best.squared || (squared == best.squared && items_[k] < best.item)) {
+                    if (squared < best.squared ||
+                        (squared == best.squared && items_[k] < best.item)) {
                         best = {squared, items_[k]};
                     }
                 }
@@ -75,7 +76,8 @@ public:
             const Node& node = nodes_[at];
             if (!meets(node.box)) continue;
             if (node.count > 0) {
-                for (std::uint32_t k = node.first; k < node.first + node.count; ++k) item(items_[k]);
+                for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
+                    item(items_[k]);
                 continue;
             }
             stack[size++] = node.first;
@@ -84,14 +86,14 @@ public:
     }
 
 private:
-    static constexpr std::size_t max_depth =
-        80;  // enough for halving 2^32 items with one sibling per level
+    static constexpr std::size_t max_depth = 80;  // enough for halving 2^32 items with one sibling
+                                                  // per level
     static constexpr std::uint32_t leaf_size = 4;
 
     struct Node {
         Box3 box;
-        std::uint32_t first =
-            0;  ///< leaf: its first item; otherwise the second child; the first child follows the node
+        std::uint32_t first = 0;  ///< leaf: its first item; otherwise the second child; the first
+                                  ///< child follows the node
         std::uint32_t count = 0;  ///< number of items of a leaf; 0 for an inner node
         double squared_distance(const Vec3& p) const {
             return (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).squaredNorm();
@@ -122,7 +124,8 @@ private:
                          b = boxes[j].low[axis] + boxes[j].high[axis];
             return a != b ? a < b : i < j;
         };
-        std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end, before);
+        std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,
+                         before);
         build(boxes, begin, middle);
         const std::uint32_t second = build(boxes, middle, end);
         nodes_[index].first = second;

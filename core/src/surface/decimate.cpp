@@ -1,16 +1,16 @@
 // Collapses edges by quadric error [Garland1997], with OpenMesh.
-#include <dsc/surface/decimate.hpp>
+#include "dsc/surface/decimate.hpp"
 
-#include <dsc/base/error.hpp>
-#include <dsc/surface/analysis.hpp>
-#include <dsc/surface/measure.hpp>
+#include <string>
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
-
-#include <string>
 #include <fmt/core.h>
+
+#include <dsc/base/error.hpp>
+#include <dsc/surface/analysis.hpp>
+#include <dsc/surface/measure.hpp>
 
 namespace dsc::surface {
 namespace {
@@ -27,8 +27,13 @@ void require_manifold(const TriangleMesh& mesh) {
     if (r.nonmanifold_edges + r.misoriented_edges + r.nonmanifold_vertices == 0 &&
         r.faces == mesh.faces.size())
         return;
-    throw GeometryError("surface.not_manifold",
-                        fmt::format("decimate: {} non-manifold edges, {} edges used twice in one direction, {} non-manifold vertices, {} faces that use a point twice; repair the surface first", r.nonmanifold_edges, r.misoriented_edges, r.nonmanifold_vertices, mesh.faces.size() - r.faces));
+    throw GeometryError(
+        "surface.not_manifold",
+        fmt::format(
+            "decimate: {} non-manifold edges, {} edges used twice in one direction, {} "
+            "non-manifold vertices, {} faces that use a point twice; repair the surface first",
+            r.nonmanifold_edges, r.misoriented_edges, r.nonmanifold_vertices,
+            mesh.faces.size() - r.faces));
 }
 
 HalfEdgeMesh to_half_edges(const TriangleMesh& mesh, const Vec3& centre) {
@@ -38,7 +43,9 @@ HalfEdgeMesh to_half_edges(const TriangleMesh& mesh, const Vec3& centre) {
         const Vec3 q = p - centre;
         out.add_vertex({q.x(), q.y(), q.z()});
     }
-    const auto vertex = [](std::uint32_t i) { return HalfEdgeMesh::VertexHandle(static_cast<int>(i)); };
+    const auto vertex = [](std::uint32_t i) {
+        return HalfEdgeMesh::VertexHandle(static_cast<int>(i));
+    };
     for (const auto& [a, b, c] : mesh.faces) out.add_face(vertex(a), vertex(b), vertex(c));
     return out;
 }

@@ -1,13 +1,14 @@
 // Nearest points of meshes and clouds.
-#include <dsc/surface/distance.hpp>
+#include "dsc/surface/distance.hpp"
+
+#include <string>
+
+#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/intersections.hpp>
 #include <dsc/surface/measure.hpp>
-
-#include <string>
-#include <fmt/core.h>
 
 #include "surface/box_tree.hpp"
 
@@ -45,7 +46,8 @@ struct StoredTriangle {
 std::vector<StoredTriangle> store(const TriangleMesh& mesh) {
     require_sound(mesh);
     if (mesh.faces.empty()) {
-        throw GeometryError("surface.empty", "surface", "the mesh has no faces", "at least one is needed for a distance");
+        throw GeometryError("surface.empty", "surface", "the mesh has no faces",
+                            "at least one is needed for a distance");
     }
     std::vector<StoredTriangle> out;
     out.reserve(mesh.faces.size());
@@ -58,12 +60,13 @@ std::vector<StoredTriangle> store(const TriangleMesh& mesh) {
 
 std::vector<Vec3> store(std::span<const Vec3> points) {
     if (points.empty()) {
-        throw GeometryError("surface.empty", "points", "the set is empty", "at least one point is needed for a distance");
+        throw GeometryError("surface.empty", "points", "the set is empty",
+                            "at least one point is needed for a distance");
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (points[i].allFinite()) continue;
-        throw GeometryError("surface.not_finite",
-                            "points", fmt::format("point {} is NaN or infinite", i), "remove it");
+        throw GeometryError("surface.not_finite", "points",
+                            fmt::format("point {} is NaN or infinite", i), "remove it");
     }
     return {points.begin(), points.end()};
 }
@@ -113,8 +116,8 @@ PointTree::PointTree(PointTree&&) noexcept = default;
 PointTree& PointTree::operator=(PointTree&&) noexcept = default;
 
 NearestHit PointTree::nearest(const Vec3& p) const {
-    const auto best =
-        data_->tree.nearest(p, [&](std::uint32_t i) { return (data_->points[i] - p).squaredNorm(); });
+    const auto best = data_->tree.nearest(
+        p, [&](std::uint32_t i) { return (data_->points[i] - p).squaredNorm(); });
     const Vec3 point = data_->points[best.item];
     return {point, (point - p).norm(), best.item};
 }

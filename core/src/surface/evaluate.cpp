@@ -1,13 +1,13 @@
 // Compares surfaces with surfaces and clouds.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/distance.hpp>
 #include <dsc/surface/measure.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace dsc::surface {
 namespace {
@@ -17,9 +17,10 @@ template <class Nearest>
 std::vector<NearestHit> all_nearest(std::size_t count, Workers* workers, Nearest&& nearest) {
     std::vector<NearestHit> hits(count);
     Workers alone;
-    (workers != nullptr ? *workers : alone).for_blocks(count, 1024, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) hits[i] = nearest(i);
-    });
+    (workers != nullptr ? *workers : alone)
+        .for_blocks(count, 1024, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) hits[i] = nearest(i);
+        });
     return hits;
 }
 
@@ -69,7 +70,8 @@ OneWay compare(const TriangleMesh& from, const TriangleMesh& to, double diagonal
 }
 
 double f_score(const OneWay& a, const OneWay& b, double limit) {
-    const double precision = share_below(a.distances, limit), recall = share_below(b.distances, limit);
+    const double precision = share_below(a.distances, limit),
+                 recall = share_below(b.distances, limit);
     return precision + recall > 0.0 ? 2.0 * precision * recall / (precision + recall) : 0.0;
 }
 
@@ -96,8 +98,8 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, std::size_t count, Rando
         cumulative.push_back(total);
     }
     if (!(total > 0.0) || !std::isfinite(total)) {
-        throw GeometryError("surface.empty",
-                            "surface: the mesh has no area to sample; provide at least one face that is not degenerate");
+        throw GeometryError("surface.empty", "surface: the mesh has no area to sample; provide at "
+                                             "least one face that is not degenerate");
     }
     const auto last = std::lower_bound(cumulative.begin(), cumulative.end(), total);
     SurfaceSamples out;
@@ -106,8 +108,8 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, std::size_t count, Rando
     for (std::size_t i = 0; i < count; ++i) {
         key.element = i;
         RandomStream random(key);
-        const auto found =
-            std::min(std::upper_bound(cumulative.begin(), cumulative.end(), random.uniform() * total), last);
+        const auto found = std::min(
+            std::upper_bound(cumulative.begin(), cumulative.end(), random.uniform() * total), last);
         const auto face = static_cast<std::size_t>(found - cumulative.begin());
         const Vec3 &a = mesh.points[mesh.faces[face][0]], &b = mesh.points[mesh.faces[face][1]],
                    &c = mesh.points[mesh.faces[face][2]];
@@ -118,7 +120,8 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, std::size_t count, Rando
     return out;
 }
 
-Evaluation evaluate(const TriangleMesh& recon, const TriangleMesh& truth, const EvaluateOptions& options) {
+Evaluation evaluate(const TriangleMesh& recon, const TriangleMesh& truth,
+                    const EvaluateOptions& options) {
     if (options.samples == 0)
         throw UsageError("evaluate.samples", "evaluate: 0 samples; at least 1 is needed");
     require_sound(truth);
@@ -138,7 +141,8 @@ Evaluation evaluate(const TriangleMesh& recon, const TriangleMesh& truth, const 
     return out;
 }
 
-CloudDistances cloud_distances(const TriangleMesh& surface, std::span<const Vec3> cloud, Workers* workers) {
+CloudDistances cloud_distances(const TriangleMesh& surface, std::span<const Vec3> cloud,
+                               Workers* workers) {
     const TriangleTree faces(surface);
     const PointTree points(cloud);
     std::vector<bool> used(surface.points.size(), false);
@@ -149,8 +153,11 @@ CloudDistances cloud_distances(const TriangleMesh& surface, std::span<const Vec3
     for (std::uint32_t v = 0; v < surface.points.size(); ++v) {
         if (used[v]) out.vertices.push_back(v);
     }
-    out.of_vertices = all_nearest(out.vertices.size(), workers, [&](std::size_t i) { return points.nearest(surface.points[out.vertices[i]]); });
-    out.of_points = all_nearest(cloud.size(), workers, [&](std::size_t i) { return faces.nearest(cloud[i]); });
+    out.of_vertices = all_nearest(out.vertices.size(), workers, [&](std::size_t i) {
+        return points.nearest(surface.points[out.vertices[i]]);
+    });
+    out.of_points =
+        all_nearest(cloud.size(), workers, [&](std::size_t i) { return faces.nearest(cloud[i]); });
     return out;
 }
 
@@ -158,7 +165,8 @@ CloudEvaluation evaluate_cloud(const CloudDistances& distances) {
     return {figures_of(distances.of_vertices), figures_of(distances.of_points)};
 }
 
-CloudEvaluation evaluate_cloud(const TriangleMesh& surface, std::span<const Vec3> cloud, Workers* workers) {
+CloudEvaluation evaluate_cloud(const TriangleMesh& surface, std::span<const Vec3> cloud,
+                               Workers* workers) {
     return evaluate_cloud(cloud_distances(surface, cloud, workers));
 }
 

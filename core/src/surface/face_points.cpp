@@ -1,5 +1,5 @@
 // The nearest faces of points, and the barycentric weights there.
-#include <dsc/surface/face_points.hpp>
+#include "dsc/surface/face_points.hpp"
 
 #include <algorithm>
 
@@ -21,7 +21,8 @@ std::array<double, 3> weights_on_side(const std::array<Vec3, 3>& corners, const 
         side = k;
     }
     const Vec3 along = corners[(side + 1) % 3] - corners[side];
-    const double s = longest > 0.0 ? std::clamp((p - corners[side]).dot(along) / longest, 0.0, 1.0) : 0.0;
+    const double s =
+        longest > 0.0 ? std::clamp((p - corners[side]).dot(along) / longest, 0.0, 1.0) : 0.0;
     std::array<double, 3> weights{};
     weights[side] = 1.0 - s;
     weights[(side + 1) % 3] = s;
@@ -33,7 +34,8 @@ std::array<double, 3> weights_of(const std::array<Vec3, 3>& corners, const Vec3&
     const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     const double area2 = normal.squaredNorm();
     double scale = 0.0;
-    for (unsigned k = 0; k < 3; ++k) scale = std::max(scale, (corners[(k + 1) % 3] - corners[k]).squaredNorm());
+    for (unsigned k = 0; k < 3; ++k)
+        scale = std::max(scale, (corners[(k + 1) % 3] - corners[k]).squaredNorm());
     if (!(area2 > 1e-20 * scale * scale)) return weights_on_side(corners, p);
     std::array<double, 3> weights{};
     double sum = 0.0;
@@ -48,7 +50,8 @@ std::array<double, 3> weights_of(const std::array<Vec3, 3>& corners, const Vec3&
 
 }  // namespace
 
-void nearest_faces(const SurfaceView& view, std::span<const Vec3> points, std::vector<FacePoint>& out, Workers* workers) {
+void nearest_faces(const SurfaceView& view, std::span<const Vec3> points,
+                   std::vector<FacePoint>& out, Workers* workers) {
     out.clear();
     if (view.face_count() == 0) return;
     out.resize(points.size());
@@ -57,7 +60,10 @@ void nearest_faces(const SurfaceView& view, std::span<const Vec3> points, std::v
         for (std::size_t i = begin; i < end; ++i) {
             const NearestHit hit = tree.nearest(points[i]);
             const auto& [a, b, c] = view.faces[hit.index];
-            out[i] = {hit.index, weights_of({view.positions[a], view.positions[b], view.positions[c]}, hit.point), hit.distance};
+            out[i] = {
+                hit.index,
+                weights_of({view.positions[a], view.positions[b], view.positions[c]}, hit.point),
+                hit.distance};
         }
     });
 }

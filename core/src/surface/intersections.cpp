@@ -1,5 +1,5 @@
 // Exact search for intersecting faces: an R-tree finds candidates, predicates decide.
-#include <dsc/surface/intersections.hpp>
+#include "dsc/surface/intersections.hpp"
 
 #include <dsc/base/workers.hpp>
 #include <dsc/geometry/predicates.hpp>
@@ -7,13 +7,13 @@
 
 // Boost.Geometry 1.74 includes a header that Boost itself calls deprecated.
 #define BOOST_ALLOW_DEPRECATED_HEADERS
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
-#include <boost/geometry/index/rtree.hpp>
-
 #include <algorithm>
 #include <iterator>
 #include <utility>
+
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
 
 namespace dsc::surface {
 namespace {
@@ -32,7 +32,8 @@ int side(const Vec3& a, const Vec3& b, const Vec3& c, Plane plane) {
     return orient2d(a, b, c, plane.u, plane.v);
 }
 
-/// A projection in which the triangle keeps an area; it exists for every triangle that is not degenerate.
+/// A projection in which the triangle keeps an area; it exists for every triangle that is not
+/// degenerate.
 Plane good_plane(const Triangle& t) {
     for (const Plane plane : planes) {
         if (side(t[0], t[1], t[2], plane) != 0) return plane;
@@ -72,12 +73,13 @@ bool coplanar_segment_meets(const Vec3& a, const Vec3& b, const Triangle& t) {
            segments_meet(a, b, t[1], t[2], plane) || segments_meet(a, b, t[2], t[0], plane);
 }
 
-/// Closed segment against closed triangle; sa and sb say on which side of the triangle's plane its ends lie.
+/// Closed segment against closed triangle; sa and sb say on which side of the triangle's plane its
+/// ends lie.
 bool segment_meets(const Vec3& a, const Vec3& b, int sa, int sb, const Triangle& t) {
     if (sa * sb > 0) return false;
     if (sa == 0 && sb == 0) return coplanar_segment_meets(a, b, t);
-    // The segment meets the plane in one point. This point is in the triangle if the line ab passes the three edges on the same
-    // side.
+    // The segment meets the plane in one point. This point is in the triangle if the line ab passes
+    // the three edges on the same side.
     return same_side_or_zero(orient3d(a, b, t[0], t[1]), orient3d(a, b, t[1], t[2]),
                              orient3d(a, b, t[2], t[0]));
 }
@@ -87,11 +89,14 @@ bool segment_meets(const Vec3& a, const Vec3& b, const Triangle& t) {
 }
 
 std::array<int, 3> sides_of(const Triangle& plane, const Triangle& t) {
-    return {orient3d(plane[0], plane[1], plane[2], t[0]), orient3d(plane[0], plane[1], plane[2], t[1]),
+    return {orient3d(plane[0], plane[1], plane[2], t[0]),
+            orient3d(plane[0], plane[1], plane[2], t[1]),
             orient3d(plane[0], plane[1], plane[2], t[2])};
 }
 
-bool strictly_one_side(const std::array<int, 3>& s) { return s[0] != 0 && s[0] == s[1] && s[1] == s[2]; }
+bool strictly_one_side(const std::array<int, 3>& s) {
+    return s[0] != 0 && s[0] == s[1] && s[1] == s[2];
+}
 
 bool any_edge_meets(const Triangle& p, const std::array<int, 3>& sides, const Triangle& q) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -101,15 +106,16 @@ bool any_edge_meets(const Triangle& p, const std::array<int, 3>& sides, const Tr
     return false;
 }
 
-/// Triangles (v, a, b) and (v, c, d) have a common point besides v exactly if the edge opposite v of one meets the other,
-/// because the ray from v through that point leaves one of the two first.
+/// Triangles (v, a, b) and (v, c, d) have a common point besides v exactly if the edge opposite v
+/// of one meets the other, because the ray from v through that point leaves one of the two first.
 bool meet_beyond_vertex(const Triangle& p, const Triangle& q) {
     const int sc = orient3d(p[0], p[1], p[2], q[1]), sd = orient3d(p[0], p[1], p[2], q[2]);
     if (sc * sd > 0) return false;
     return segment_meets(q[1], q[2], sc, sd, p) || segment_meets(p[1], p[2], q);
 }
 
-/// Triangles (a, b, c) and (a, b, d) overlap beyond ab exactly if they are coplanar and c and d are on the same side of ab.
+/// Triangles (a, b, c) and (a, b, d) overlap beyond ab exactly if they are coplanar and c and d are
+/// on the same side of ab.
 bool meet_beyond_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     if (orient3d(a, b, c, d) != 0) return false;
     const Plane plane = good_plane({a, b, c});
@@ -143,14 +149,10 @@ bool faces_intersect(const std::vector<Vec3>& x, const Face& f, const Face& g) {
     const Turned p = turn(f, g), q = turn(g, f);
     const auto corners = [&](const Face& t) { return Triangle{x[t[0]], x[t[1]], x[t[2]]}; };
     switch (p.shared) {
-        case 0:
-            return triangles_intersect(corners(f), corners(g));
-        case 1:
-            return meet_beyond_vertex(corners(p.face), corners(q.face));
-        case 2:
-            return meet_beyond_edge(x[p.face[0]], x[p.face[1]], x[p.face[2]], x[q.face[2]]);
-        default:
-            return true;
+        case 0: return triangles_intersect(corners(f), corners(g));
+        case 1: return meet_beyond_vertex(corners(p.face), corners(q.face));
+        case 2: return meet_beyond_edge(x[p.face[0]], x[p.face[1]], x[p.face[2]], x[q.face[2]]);
+        default: return true;
     }
 }
 
@@ -171,8 +173,9 @@ struct BlockResult {
     std::vector<std::array<std::uint32_t, 2>> pairs;
 };
 
-BlockResult search_block(const TriangleMesh& mesh, const FaceTree& tree, const std::vector<bool>& flat,
-                         std::size_t begin, std::size_t end, std::size_t keep) {
+BlockResult search_block(const TriangleMesh& mesh, const FaceTree& tree,
+                         const std::vector<bool>& flat, std::size_t begin, std::size_t end,
+                         std::size_t keep) {
     BlockResult out;
     std::vector<Entry> near;
     std::vector<std::uint32_t> partners;
@@ -180,11 +183,13 @@ BlockResult search_block(const TriangleMesh& mesh, const FaceTree& tree, const s
         if (flat[i]) continue;
         const auto f = static_cast<std::uint32_t>(i);
         near.clear();
-        tree.query(bg::index::intersects(box_of(mesh.points, mesh.faces[f])), std::back_inserter(near));
+        tree.query(bg::index::intersects(box_of(mesh.points, mesh.faces[f])),
+                   std::back_inserter(near));
         partners.clear();
         for (const Entry& entry : near) {
             const std::uint32_t g = entry.second;
-            if (g > f && faces_intersect(mesh.points, mesh.faces[f], mesh.faces[g])) partners.push_back(g);
+            if (g > f && faces_intersect(mesh.points, mesh.faces[f], mesh.faces[g]))
+                partners.push_back(g);
         }
         std::sort(partners.begin(), partners.end());
         out.count += partners.size();
@@ -198,7 +203,8 @@ BlockResult search_block(const TriangleMesh& mesh, const FaceTree& tree, const s
 }  // namespace
 
 bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return std::all_of(planes.begin(), planes.end(), [&](Plane plane) { return side(a, b, c, plane) == 0; });
+    return std::all_of(planes.begin(), planes.end(),
+                       [&](Plane plane) { return side(a, b, c, plane) == 0; });
 }
 
 bool triangles_intersect(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q) {
@@ -210,7 +216,8 @@ bool triangles_intersect(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>
     return false;
 }
 
-IntersectionReport self_intersections(const TriangleMesh& mesh, std::size_t keep, Workers* workers) {
+IntersectionReport self_intersections(const TriangleMesh& mesh, std::size_t keep,
+                                      Workers* workers) {
     require_sound(mesh);
     IntersectionReport report;
     std::vector<bool> flat(mesh.faces.size(), false);

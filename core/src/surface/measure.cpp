@@ -1,14 +1,15 @@
 // Sizes, normals and cleaning of triangle meshes.
-#include <dsc/surface/measure.hpp>
-
-#include <dsc/base/error.hpp>
-#include <dsc/geometry/quality.hpp>
+#include "dsc/surface/measure.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
+
 #include <fmt/core.h>
+
+#include <dsc/base/error.hpp>
+#include <dsc/geometry/quality.hpp>
 
 namespace dsc::surface {
 namespace {
@@ -26,12 +27,16 @@ void require_sound(const TriangleMesh& mesh) {
     const std::size_t count = mesh.points.size();
     for (std::size_t i = 0; i < count; ++i) {
         if (mesh.points[i].allFinite()) continue;
-        throw GeometryError("surface.not_finite", "surface", fmt::format("point {} is NaN or infinite", i), "remove it or repair the file");
+        throw GeometryError("surface.not_finite", "surface",
+                            fmt::format("point {} is NaN or infinite", i),
+                            "remove it or repair the file");
     }
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         for (const std::uint32_t v : mesh.faces[f]) {
             if (v < count) continue;
-            throw GeometryError("surface.index", "surface", fmt::format("face {} refers to point {} of {}", f, v, count), "remove the face or add the point");
+            throw GeometryError("surface.index", "surface",
+                                fmt::format("face {} refers to point {} of {}", f, v, count),
+                                "remove the face or add the point");
         }
     }
 }
@@ -50,7 +55,8 @@ double volume(const TriangleMesh& mesh) {
     const Vec3 centre = used_box(mesh).centre();
     double sum = 0.0;
     for (const auto& [a, b, c] : mesh.faces) {
-        const Vec3 p = mesh.points[a] - centre, q = mesh.points[b] - centre, r = mesh.points[c] - centre;
+        const Vec3 p = mesh.points[a] - centre, q = mesh.points[b] - centre,
+                   r = mesh.points[c] - centre;
         sum += p.dot(q.cross(r));
     }
     return sum / 6.0;
@@ -68,7 +74,8 @@ std::vector<Vec3> face_normals(const TriangleMesh& mesh) {
     std::vector<Vec3> normals;
     normals.reserve(mesh.faces.size());
     for (const auto& [a, b, c] : mesh.faces) {
-        normals.push_back(geometry::triangle_normal(mesh.points[a], mesh.points[b], mesh.points[c]));
+        normals.push_back(
+            geometry::triangle_normal(mesh.points[a], mesh.points[b], mesh.points[c]));
     }
     return normals;
 }
@@ -76,7 +83,8 @@ std::vector<Vec3> face_normals(const TriangleMesh& mesh) {
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
     std::vector<Vec3> normals(mesh.points.size(), Vec3::Zero());
     for (const auto& face : mesh.faces) {
-        const std::array<Vec3, 3> p = {mesh.points[face[0]], mesh.points[face[1]], mesh.points[face[2]]};
+        const std::array<Vec3, 3> p = {mesh.points[face[0]], mesh.points[face[1]],
+                                       mesh.points[face[2]]};
         const Vec3 normal = geometry::triangle_normal(p[0], p[1], p[2]);
         for (std::size_t k = 0; k < 3; ++k)
             normals[face[k]] += angle_at(p[k], p[(k + 1) % 3], p[(k + 2) % 3]) * normal;
@@ -89,10 +97,12 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
 }
 
 std::vector<std::uint32_t> first_equal(std::span<const Vec3> points) {
-    // The coordinates are sorted together with the indices; looking them up would cause a cache miss in every comparison.
+    // The coordinates are sorted together with the indices; looking them up would cause a cache
+    // miss in every comparison.
     std::vector<std::pair<std::array<double, 3>, std::uint32_t>> order;
     order.reserve(points.size());
-    for (const Vec3& p : points) order.emplace_back(key_of(p), static_cast<std::uint32_t>(order.size()));
+    for (const Vec3& p : points)
+        order.emplace_back(key_of(p), static_cast<std::uint32_t>(order.size()));
     std::sort(order.begin(), order.end());
     std::vector<std::uint32_t> first(points.size());
     for (std::size_t k = 0; k < order.size(); ++k) {

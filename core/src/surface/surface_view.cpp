@@ -1,5 +1,5 @@
 // Builds the flat view of the interface of a complex.
-#include <dsc/surface/surface_view.hpp>
+#include "dsc/surface/surface_view.hpp"
 
 #include <algorithm>
 
@@ -12,8 +12,10 @@ using RawFace = ViewMemory::Face;
 
 constexpr std::size_t walk_block = 1024;  // vertices
 
-// Interface faces round v in which v has the least birth, each once, oriented out of the larger label.
-void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::TetId>& star, mesh::TetIndex& places, std::vector<RawFace>& out) {
+// Interface faces round v in which v has the least birth, each once, oriented out of the larger
+// label.
+void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::TetId>& star,
+                  mesh::TetIndex& places, std::vector<RawFace>& out) {
     c.star(v, star, places);
     for (const mesh::TetId t : star) {
         const mesh::Tet& tet = c.tet(t);
@@ -28,7 +30,8 @@ void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::Te
                 least = least && c.birth(v) <= c.birth(corners[k]);
             }
             if (!least) continue;
-            while (corners[0] != v) std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+            while (corners[0] != v)
+                std::rotate(corners.begin(), corners.begin() + 1, corners.end());
             out.push_back({corners, t});
         }
     }
@@ -36,7 +39,8 @@ void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::Te
 
 }  // namespace
 
-std::span<const ViewMemory::Face> ViewMemory::faces_led_by(const mesh::Complex& complex, mesh::VertexId v, bool& known) const {
+std::span<const ViewMemory::Face> ViewMemory::faces_led_by(const mesh::Complex& complex,
+                                                           mesh::VertexId v, bool& known) const {
     known = false;
     if (v >= index_.size() || index_[v] >= births_.size()) return {};
     const std::uint32_t i = index_[v];
@@ -46,7 +50,8 @@ std::span<const ViewMemory::Face> ViewMemory::faces_led_by(const mesh::Complex& 
     return std::span(faces_).subspan(starts_[i], starts_[i + 1] - starts_[i]);
 }
 
-void ViewMemory::keep(const mesh::Complex& complex, const SurfaceView& view, std::span<const std::uint32_t> counts) {
+void ViewMemory::keep(const mesh::Complex& complex, const SurfaceView& view,
+                      std::span<const std::uint32_t> counts) {
     clock_ = complex.clock();
     births_ = view.births;
     if (index_.size() < complex.vertex_slots()) index_.resize(complex.vertex_slots());
@@ -59,7 +64,8 @@ void ViewMemory::keep(const mesh::Complex& complex, const SurfaceView& view, std
     faces_.resize(view.faces.size());
     for (std::size_t f = 0; f < faces_.size(); ++f) {
         const auto& [a, b, c] = view.faces[f];
-        faces_[f] = {{view.vertex_ids[a], view.vertex_ids[b], view.vertex_ids[c]}, view.face_tets[f]};
+        faces_[f] = {{view.vertex_ids[a], view.vertex_ids[b], view.vertex_ids[c]},
+                     view.face_tets[f]};
     }
 }
 
@@ -117,7 +123,8 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
     view.face_tets.clear();
     for (std::size_t b = 0; b * walk_block < n; ++b) {
         for (const RawFace& face : blocks[b].faces) {
-            view.faces.push_back({index[face.vertices[0]], index[face.vertices[1]], index[face.vertices[2]]});
+            view.faces.push_back(
+                {index[face.vertices[0]], index[face.vertices[1]], index[face.vertices[2]]});
             view.face_tets.push_back(face.tet);
         }
     }
@@ -128,7 +135,8 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
     view.face_offsets.assign(n + 1, 0);
     double edges = 0.0;
     for (std::size_t f = 0; f < m; ++f) {
-        const Vec3 &p = view.positions[view.faces[f][0]], &q = view.positions[view.faces[f][1]], &r = view.positions[view.faces[f][2]];
+        const Vec3 &p = view.positions[view.faces[f][0]], &q = view.positions[view.faces[f][1]],
+                   &r = view.positions[view.faces[f][2]];
         const Vec3 cross = (q - p).cross(r - p);
         const double length = cross.norm();
         view.face_areas[f] = 0.5 * length;
@@ -140,8 +148,8 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
     for (std::size_t i = 0; i < n; ++i) view.face_offsets[i + 1] += view.face_offsets[i];
     view.vertex_faces.resize(3 * m);
     view.normals.assign(n, Vec3::Zero());
-    // Filling in the order of the faces keeps the faces of each vertex in ascending order; the shift below restores the
-    // offsets.
+    // Filling in the order of the faces keeps the faces of each vertex in ascending order; the
+    // shift below restores the offsets.
     for (std::size_t f = 0; f < m; ++f) {
         for (const auto v : view.faces[f]) {
             view.vertex_faces[view.face_offsets[v]++] = static_cast<std::uint32_t>(f);

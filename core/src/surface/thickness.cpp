@@ -1,5 +1,5 @@
 // Measures the thickness of the solid with rays.
-#include <dsc/surface/thickness.hpp>
+#include "dsc/surface/thickness.hpp"
 
 #include <cmath>
 #include <limits>
@@ -10,7 +10,8 @@ namespace dsc::surface {
 namespace {
 
 constexpr std::size_t ray_block = 256;  // vertices
-constexpr double rounding = 1e-9;       // a ray through an edge must not pass between the two faces of the edge
+constexpr double rounding = 1e-9;  // a ray through an edge must not pass between the two faces of
+                                   // the edge
 constexpr double never = std::numeric_limits<double>::infinity();
 
 struct Ray {
@@ -24,7 +25,8 @@ struct Ray {
                 if (from[k] < box.low[k] || from[k] > box.high[k]) return false;
                 continue;
             }
-            const double a = (box.low[k] - from[k]) / along[k], b = (box.high[k] - from[k]) / along[k];
+            const double a = (box.low[k] - from[k]) / along[k],
+                         b = (box.high[k] - from[k]) / along[k];
             first = std::max(first, std::min(a, b));
             last = std::min(last, std::max(a, b));
         }
@@ -52,7 +54,8 @@ std::vector<Box3> face_boxes(const SurfaceView& view) {
     return boxes;
 }
 
-double thickness_at(const SurfaceView& view, const BoxTree& tree, std::uint32_t v, double most, double opposite) {
+double thickness_at(const SurfaceView& view, const BoxTree& tree, std::uint32_t v, double most,
+                    double opposite) {
     if (view.normals[v].isZero(0.0)) return never;
     const Ray ray{view.positions[v], -view.normals[v]};
     double nearest = most;
@@ -61,7 +64,8 @@ double thickness_at(const SurfaceView& view, const BoxTree& tree, std::uint32_t 
                [&](std::uint32_t f) {
                    const auto& [a, b, c] = view.faces[f];
                    if (a == v || b == v || c == v) return;
-                   const double d = ray.distance(view.positions[a], view.positions[b], view.positions[c]);
+                   const double d =
+                       ray.distance(view.positions[a], view.positions[b], view.positions[c]);
                    if (!(d < nearest)) return;
                    nearest = d;
                    hit = f;
@@ -71,12 +75,14 @@ double thickness_at(const SurfaceView& view, const BoxTree& tree, std::uint32_t 
 
 }  // namespace
 
-void measure_thickness(const SurfaceView& view, double most, double opposite, std::vector<double>& out, Workers* workers) {
+void measure_thickness(const SurfaceView& view, double most, double opposite,
+                       std::vector<double>& out, Workers* workers) {
     out.assign(view.vertex_count(), never);
     if (view.face_count() == 0) return;
     const BoxTree tree(face_boxes(view));
     for_blocks(workers, out.size(), ray_block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) out[v] = thickness_at(view, tree, static_cast<std::uint32_t>(v), most, opposite);
+        for (std::size_t v = begin; v < end; ++v)
+            out[v] = thickness_at(view, tree, static_cast<std::uint32_t>(v), most, opposite);
     });
 }
 

@@ -1,20 +1,23 @@
 // Removes the parts of a surface that no data supports.
-#include <dsc/surface/trim.hpp>
+#include "dsc/surface/trim.hpp"
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <utility>
+
+#include <fmt/core.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/measure.hpp>
-#include <numeric>
-#include <utility>
-#include <fmt/core.h>
 
 namespace dsc::surface {
 namespace {
 
-constexpr double border_part = 0.5;      // of the bound: the border of the removed part is moved back to this
-constexpr double least_island = 0.02;    // of the remaining area
+constexpr double border_part = 0.5;    // of the bound: the border of the removed part is moved back
+                                       // to this
+constexpr double least_island = 0.02;  // of the remaining area
 constexpr std::uint32_t none = 0xffffffffU;
 constexpr int tooth_rounds = 3;
 
@@ -32,7 +35,8 @@ std::vector<std::array<std::uint32_t, 3>> faces_across(const TriangleMesh& mesh)
         }
     }
     std::sort(sides.begin(), sides.end(), [](const Side& l, const Side& r) {
-        return std::array{l.low, l.high, l.face, l.edge} < std::array{r.low, r.high, r.face, r.edge};
+        return std::array{l.low, l.high, l.face, l.edge} <
+               std::array{r.low, r.high, r.face, r.edge};
     });
     std::vector<std::array<std::uint32_t, 3>> across(mesh.faces.size(), {none, none, none});
     for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
@@ -46,7 +50,8 @@ std::vector<std::array<std::uint32_t, 3>> faces_across(const TriangleMesh& mesh)
 
 class Trimmer {
 public:
-    explicit Trimmer(const TriangleMesh& mesh) : mesh_(mesh), across_(faces_across(mesh)), kept_(mesh.faces.size(), 1) {}
+    explicit Trimmer(const TriangleMesh& mesh)
+        : mesh_(mesh), across_(faces_across(mesh)), kept_(mesh.faces.size(), 1) {}
 
     const std::vector<std::uint8_t>& kept() const { return kept_; }
 
@@ -89,16 +94,19 @@ public:
         std::vector<std::uint32_t> piece(kept_.size(), none);
         std::vector<double> areas;
         for (std::uint32_t f = 0; f < kept_.size(); ++f) {
-            if (kept_[f] != 0 && piece[f] == none) areas.push_back(flood(f, static_cast<std::uint32_t>(areas.size()), piece));
+            if (kept_[f] != 0 && piece[f] == none)
+                areas.push_back(flood(f, static_cast<std::uint32_t>(areas.size()), piece));
         }
         const double bound = least_island * std::accumulate(areas.begin(), areas.end(), 0.0);
         for (std::uint32_t f = 0; f < kept_.size(); ++f) {
             if (kept_[f] != 0 && areas[piece[f]] < bound) kept_[f] = 0;
         }
-        return static_cast<std::size_t>(std::count_if(areas.begin(), areas.end(), [&](double area) { return area < bound; }));
+        return static_cast<std::size_t>(
+            std::count_if(areas.begin(), areas.end(), [&](double area) { return area < bound; }));
     }
 
-    /// If the faces round a vertex form several fans, removes all but the largest. Returns whether any face was removed.
+    /// If the faces round a vertex form several fans, removes all but the largest. Returns whether
+    /// any face was removed.
     bool remove_fans() {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> corners;  // vertex, face
         for (std::uint32_t f = 0; f < kept_.size(); ++f) {
@@ -108,7 +116,8 @@ public:
         std::sort(corners.begin(), corners.end());
         std::vector<std::uint32_t> gone;
         for (std::size_t begin = 0, end = 0; begin < corners.size(); begin = end) {
-            for (end = begin; end < corners.size() && corners[end].first == corners[begin].first;) ++end;
+            for (end = begin; end < corners.size() && corners[end].first == corners[begin].first;)
+                ++end;
             smaller_fans(corners, begin, end, gone);
         }
         for (const std::uint32_t f : gone) kept_[f] = 0;
@@ -117,15 +126,19 @@ public:
 
 private:
     int border_edges(std::uint32_t f) const {
-        return static_cast<int>(std::count_if(across_[f].begin(), across_[f].end(), [&](std::uint32_t g) { return g == none || kept_[g] == 0; }));
+        return static_cast<int>(
+            std::count_if(across_[f].begin(), across_[f].end(),
+                          [&](std::uint32_t g) { return g == none || kept_[g] == 0; }));
     }
 
     double area(std::uint32_t f) const {
         const auto& face = mesh_.faces[f];
-        return geometry::triangle_area(mesh_.points[face[0]], mesh_.points[face[1]], mesh_.points[face[2]]);
+        return geometry::triangle_area(mesh_.points[face[0]], mesh_.points[face[1]],
+                                       mesh_.points[face[2]]);
     }
 
-    double flood(std::uint32_t start, std::uint32_t number, std::vector<std::uint32_t>& piece) const {
+    double flood(std::uint32_t start, std::uint32_t number,
+                 std::vector<std::uint32_t>& piece) const {
         std::vector<std::uint32_t> front = {start};
         piece[start] = number;
         double sum = 0.0;
@@ -142,8 +155,8 @@ private:
         return sum;
     }
 
-    void smaller_fans(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& corners, std::size_t begin, std::size_t end,
-                      std::vector<std::uint32_t>& gone) const {
+    void smaller_fans(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& corners,
+                      std::size_t begin, std::size_t end, std::vector<std::uint32_t>& gone) const {
         std::vector<std::vector<std::uint32_t>> fans;
         std::vector<std::uint32_t> left;
         for (std::size_t i = begin; i < end; ++i) left.push_back(corners[i].second);
@@ -160,8 +173,10 @@ private:
             }
         }
         if (fans.size() < 2) return;
-        std::stable_sort(fans.begin(), fans.end(), [](const auto& l, const auto& r) { return l.size() > r.size(); });
-        for (std::size_t n = 1; n < fans.size(); ++n) gone.insert(gone.end(), fans[n].begin(), fans[n].end());
+        std::stable_sort(fans.begin(), fans.end(),
+                         [](const auto& l, const auto& r) { return l.size() > r.size(); });
+        for (std::size_t n = 1; n < fans.size(); ++n)
+            gone.insert(gone.end(), fans[n].begin(), fans[n].end());
     }
 
     const TriangleMesh& mesh_;
@@ -169,7 +184,8 @@ private:
     std::vector<std::uint8_t> kept_;
 };
 
-TriangleMesh picked(const TriangleMesh& mesh, const std::vector<std::uint8_t>& kept, std::vector<std::uint32_t>* points_of) {
+TriangleMesh picked(const TriangleMesh& mesh, const std::vector<std::uint8_t>& kept,
+                    std::vector<std::uint32_t>* points_of) {
     std::vector<std::uint32_t> number(mesh.points.size(), none);
     std::vector<std::uint8_t> used(mesh.points.size(), 0);
     for (std::size_t f = 0; f < kept.size(); ++f) {
@@ -194,19 +210,29 @@ TriangleMesh picked(const TriangleMesh& mesh, const std::vector<std::uint8_t>& k
 
 }  // namespace
 
-TriangleMesh trim(const TriangleMesh& mesh, std::span<const double> gaps, std::span<const double> support, const TrimOptions& options,
+TriangleMesh trim(const TriangleMesh& mesh, std::span<const double> gaps,
+                  std::span<const double> support, const TrimOptions& options,
                   std::vector<std::uint32_t>* points_of, TrimReport* report) {
-    if (gaps.size() != mesh.points.size() || (!support.empty() && support.size() != mesh.points.size())) {
-        throw GeometryError("trim.values", fmt::format("there are {} gaps and {} supports for {} points; provide one per point", gaps.size(), support.size(), mesh.points.size()));
+    if (gaps.size() != mesh.points.size() ||
+        (!support.empty() && support.size() != mesh.points.size())) {
+        throw GeometryError(
+            "trim.values",
+            fmt::format("there are {} gaps and {} supports for {} points; provide one per point",
+                        gaps.size(), support.size(), mesh.points.size()));
     }
-    const auto any = [](const std::array<std::uint32_t, 3>& face, auto&& holds) { return holds(face[0]) || holds(face[1]) || holds(face[2]); };
+    const auto any = [](const std::array<std::uint32_t, 3>& face, auto&& holds) {
+        return holds(face[0]) || holds(face[1]) || holds(face[2]);
+    };
     Trimmer trimmer(mesh);
     trimmer.remove([&](const auto& face) {
         return any(face, [&](std::uint32_t v) {
-            return !(gaps[v] <= options.distance) || (!support.empty() && support[v] < options.support);
+            return !(gaps[v] <= options.distance) ||
+                   (!support.empty() && support[v] < options.support);
         });
     });
-    trimmer.spread([&](const auto& face) { return any(face, [&](std::uint32_t v) { return gaps[v] > border_part * options.distance; }); });
+    trimmer.spread([&](const auto& face) {
+        return any(face, [&](std::uint32_t v) { return gaps[v] > border_part * options.distance; });
+    });
     // The result is final when no faces touch others only in a vertex.
     std::size_t islands = trimmer.remove_islands();
     trimmer.remove_teeth();
@@ -216,7 +242,8 @@ TriangleMesh trim(const TriangleMesh& mesh, std::span<const double> gaps, std::s
     TriangleMesh out = picked(mesh, trimmer.kept(), points_of);
     if (report != nullptr) {
         const double all = area(mesh);
-        *report = {mesh.faces.size() - out.faces.size(), all > 0.0 ? 1.0 - area(out) / all : 0.0, islands};
+        *report = {mesh.faces.size() - out.faces.size(), all > 0.0 ? 1.0 - area(out) / all : 0.0,
+                   islands};
     }
     return out;
 }

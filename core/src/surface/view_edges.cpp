@@ -6,7 +6,8 @@
 namespace dsc::surface {
 
 void build_edges(const SurfaceView& view, std::vector<ViewEdge>& edges) {
-    // Each vertex has few edges to later vertices: they are grouped by the first vertex and then sorted.
+    // Each vertex has few edges to later vertices: they are grouped by the first vertex and then
+    // sorted.
     static thread_local std::vector<std::uint32_t> starts;
     const std::size_t n = view.vertex_count();
     starts.assign(n + 2, 0);
@@ -19,14 +20,18 @@ void build_edges(const SurfaceView& view, std::vector<ViewEdge>& edges) {
         const auto& face = view.faces[f];
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = face[k], b = face[(k + 1) % 3];
-            edges[starts[std::min(a, b) + 1]++] = {{std::min(a, b), std::max(a, b)}, {f, mesh::none}, 1};
+            edges[starts[std::min(a, b) + 1]++] = {
+                {std::min(a, b), std::max(a, b)}, {f, mesh::none}, 1};
         }
     }
     std::size_t kept = 0;
     for (std::size_t v = 0; v < n; ++v) {
-        const auto first = edges.begin() + static_cast<std::ptrdiff_t>(starts[v]), last = edges.begin() + static_cast<std::ptrdiff_t>(starts[v + 1]);
+        const auto first = edges.begin() + static_cast<std::ptrdiff_t>(starts[v]),
+                   last = edges.begin() + static_cast<std::ptrdiff_t>(starts[v + 1]);
         // Grouped in the order of the faces; a stable sort keeps this order among equal edges.
-        std::stable_sort(first, last, [](const ViewEdge& x, const ViewEdge& y) { return x.vertices[1] < y.vertices[1]; });
+        std::stable_sort(first, last, [](const ViewEdge& x, const ViewEdge& y) {
+            return x.vertices[1] < y.vertices[1];
+        });
         const std::size_t own = kept;
         for (auto edge = first; edge != last; ++edge) {
             if (kept == own || edges[kept - 1].vertices != edge->vertices) {

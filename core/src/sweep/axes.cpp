@@ -5,13 +5,14 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
+
 #include <dsc/base/random.hpp>
 #include <dsc/config/params.hpp>
 #include <dsc/config/schema.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/sweep/sweep.hpp>
 #include <dsc/text/numbers.hpp>
-#include <optional>
 
 namespace dsc::sweep {
 namespace {
@@ -31,7 +32,8 @@ struct Range {
     std::uint32_t count = 2;
 
     double at(double part) const {
-        if (scale == Scale::log) return std::exp(std::log(from) + part * (std::log(to) - std::log(from)));
+        if (scale == Scale::log)
+            return std::exp(std::log(from) + part * (std::log(to) - std::log(from)));
         return from + part * (to - from);
     }
 };
@@ -42,7 +44,12 @@ void declare_range(config::ParamSchema<Range>& s, bool counted) {
     s.choice("scale", &Range::scale, {{"linear", Scale::linear}, {"log", Scale::log}})
         .doc("Whether the values or their logarithms are spread evenly.");
     s.boolean("integer", &Range::integer).doc("Whether to round to integers.");
-    if (counted) s.integer("count", &Range::count).range(2, most_sweep_points).required().unit("1").doc("Number of values.");
+    if (counted)
+        s.integer("count", &Range::count)
+            .range(2, most_sweep_points)
+            .required()
+            .unit("1")
+            .doc("Number of values.");
     s.check([](const Range& p) { return p.from < p.to; }, "'to' must be above 'from'");
     s.check([](const Range& p) { return p.scale == Scale::linear || p.from > 0; },
             "'from' must be above 0 on a logarithmic scale");
@@ -53,8 +60,9 @@ std::optional<Range> read_range(const ConfigEntry& entry, bool counted, Diagnost
     config::ParamSchema<Range> schema;
     declare_range(schema, counted);
     const std::size_t before = diagnostics.error_count();
-    const ConfigNode resolved = config::validate(entry.value, schema.schema(), config::NoStrategies(), diagnostics,
-                                                 "the range of '" + entry.key + "'");
+    const ConfigNode resolved =
+        config::validate(entry.value, schema.schema(), config::NoStrategies(), diagnostics,
+                         "the range of '" + entry.key + "'");
     if (diagnostics.error_count() > before) return std::nullopt;
     return schema.read(resolved);
 }
@@ -68,7 +76,9 @@ double rounded(double value) {
 /// A value of a range for the override, at the place of the range.
 ConfigNode value_of(const Range& range, double value, const ConfigNode& place) {
     value = std::clamp(rounded(value), range.from, range.to);
-    const ConfigNode node = range.integer ? ConfigNode(static_cast<std::int64_t>(std::llround(value))) : ConfigNode(value);
+    const ConfigNode node = range.integer
+                                ? ConfigNode(static_cast<std::int64_t>(std::llround(value)))
+                                : ConfigNode(value);
     return node.placed(place.position());
 }
 
@@ -88,7 +98,8 @@ std::vector<ConfigNode> listed(const ConfigEntry& entry, bool ranges, Diagnostic
         return range ? spaced(*range, value) : std::vector<ConfigNode>{};
     }
     if (!value.is_list()) {
-        diagnostics.error("config.wrong_type", value.position().known() ? value.position() : entry.position,
+        diagnostics.error("config.wrong_type",
+                          value.position().known() ? value.position() : entry.position,
                           "the values of '" + entry.key + "' must be a list",
                           ranges ? "write [...] or {from: A, to: B, count: N}" : "write [...]");
         return {};
@@ -110,8 +121,8 @@ bool require_entries(const ConfigNode& map, const char* what, Diagnostics& diagn
 
 }  // namespace
 
-Alternatives product(const std::vector<Alternatives>& axes, std::size_t most, const config::SourcePosition& place,
-                     Diagnostics& diagnostics) {
+Alternatives product(const std::vector<Alternatives>& axes, std::size_t most,
+                     const config::SourcePosition& place, Diagnostics& diagnostics) {
     std::size_t count = 1;
     for (const Alternatives& axis : axes) {
         count *= axis.size();
@@ -158,12 +169,14 @@ Alternatives zip_axis(const ConfigNode& map, Diagnostics& diagnostics) {
         if (values.empty()) continue;  // already reported
         if (!all.empty() && values.size() != all.size()) {
             diagnostics.error("config.list_size", entry.value.position(),
-                              "'" + entry.key + "' has " + std::to_string(values.size()) + " values and '" + first.key +
-                                  "' has " + std::to_string(all.size()),
+                              "'" + entry.key + "' has " + std::to_string(values.size()) +
+                                  " values and '" + first.key + "' has " +
+                                  std::to_string(all.size()),
                               "all lists of a zip must have the same length");
             continue;
         }
-        for (std::size_t i = 0; i < all.size(); ++i) all[i].emplace_back(entry.key, values[i], entry.position);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            all[i].emplace_back(entry.key, values[i], entry.position);
     }
     return all;
 }
@@ -187,7 +200,8 @@ Alternatives random_axis(const ConfigNode& ranges, const Draw& draw, Diagnostics
         if (range->integer && range->scale == Scale::linear) wide.from -= 0.5, wide.to += 0.5;
         for (std::size_t i = 0; i < all.size(); ++i) {
             RandomStream random({draw.seed, stream_id(entry.key), 0, i});
-            all[i].emplace_back(entry.key, value_of(*range, wide.at(random.uniform()), entry.value), entry.position);
+            all[i].emplace_back(entry.key, value_of(*range, wide.at(random.uniform()), entry.value),
+                                entry.position);
         }
     }
     return all;

@@ -1,13 +1,14 @@
 // Validates every point of a sweep as an experiment and reports all faults at once.
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/run/simulation.hpp>
 #include <dsc/sweep/sweep.hpp>
 #include <dsc/text/words.hpp>
-#include <map>
-#include <optional>
-#include <set>
-#include <string_view>
 
 namespace dsc::sweep {
 namespace {
@@ -27,8 +28,10 @@ public:
         if (list_.empty()) return;
         constexpr std::size_t most_shown = 100;
         std::string text;
-        for (std::size_t i = 0; i < list_.size() && i < most_shown; ++i) text += list_[i].text + note(list_[i]);
-        if (list_.size() > most_shown) text += "... and " + std::to_string(list_.size() - most_shown) + " more\n";
+        for (std::size_t i = 0; i < list_.size() && i < most_shown; ++i)
+            text += list_[i].text + note(list_[i]);
+        if (list_.size() > most_shown)
+            text += "... and " + std::to_string(list_.size() - most_shown) + " more\n";
         text += text::counted(list_.size(), "error") + "; nothing was written";
         if (only_files_) throw IoError("io.open", text);
         throw ConfigError("config.invalid", text);
@@ -50,7 +53,8 @@ private:
         }
     }
 
-    /// A diagnostic starts at the left margin and continues in indented lines. The last line contains the number of faults.
+    /// A diagnostic starts at the left margin and continues in indented lines. The last line
+    /// contains the number of faults.
     static std::vector<std::string> parts(std::string_view message) {
         const std::size_t end = message.rfind('\n');
         if (end == std::string_view::npos) return {"error: " + std::string(message) + "\n"};
@@ -91,8 +95,10 @@ private:
     std::map<std::vector<std::string>, const config::StrategyLookup*> loaded_;
 };
 
-/// The tree with all overrides that fit; the others are faults of the point, and the rest is still checked.
-ConfigNode with_all(ConfigNode root, const ConfigNode& overrides, const SweepPoint& point, Faults& faults) {
+/// The tree with all overrides that fit; the others are faults of the point, and the rest is still
+/// checked.
+ConfigNode with_all(ConfigNode root, const ConfigNode& overrides, const SweepPoint& point,
+                    Faults& faults) {
     if (overrides.is_null()) return root;
     for (const config::ConfigEntry& entry : overrides.entries()) {
         try {
@@ -106,25 +112,31 @@ ConfigNode with_all(ConfigNode root, const ConfigNode& overrides, const SweepPoi
 
 }  // namespace
 
-std::vector<std::string> sweep_experiments(const Sweep& sweep, const run::PluginLoader& load_plugins,
-                                           const plugin::Catalogue& catalogue, const config::YamlOptions& options) {
+std::vector<std::string> sweep_experiments(const Sweep& sweep,
+                                           const run::PluginLoader& load_plugins,
+                                           const plugin::Catalogue& catalogue,
+                                           const config::YamlOptions& options) {
     ConfigNode base = config::load_yaml(sweep.base, options);
     if (base.is_map() && base.find("name") == nullptr)
         base = base.with("name", ConfigNode(fs::path(sweep.base).stem().string()));
 
     Loader loader(load_plugins);
-    const run::PluginLoader load_once = [&loader](const auto& paths) -> const config::StrategyLookup& { return loader(paths); };
+    const run::PluginLoader load_once =
+        [&loader](const auto& paths) -> const config::StrategyLookup& { return loader(paths); };
     Faults faults;
-    std::set<std::vector<std::string>> read;  // files that were already hashed, because a cloud may be large
+    std::set<std::vector<std::string>> read;  // files that were already hashed, because a cloud may
+                                              // be large
     std::vector<std::string> texts;
     for (const SweepPoint& point : sweep.points) {
         try {
-            const ConfigNode root = with_all(with_all(base, sweep.set, point, faults), point.overrides, point, faults);
+            const ConfigNode root =
+                with_all(with_all(base, sweep.set, point, faults), point.overrides, point, faults);
             const run::LoadedExperiment loaded = run::resolve_experiment(root, load_once);
             run::make_strategies(loaded.experiment, catalogue);
-            if (read.insert(run::input_files(loaded, catalogue)).second) run::config_hash(loaded, catalogue);
-            texts.push_back("# Point " + point.name + " of a sweep: " + config::flow_text(point.overrides) + "\n" +
-                            run::resolved_text(loaded));
+            if (read.insert(run::input_files(loaded, catalogue)).second)
+                run::config_hash(loaded, catalogue);
+            texts.push_back("# Point " + point.name + " of a sweep: " +
+                            config::flow_text(point.overrides) + "\n" + run::resolved_text(loaded));
         } catch (const ConfigError& error) {
             faults.add(error, point);
         } catch (const IoError& error) {

@@ -1,12 +1,14 @@
 // Collects the results of a sweep in one table.
 #include <algorithm>
 #include <array>
+#include <fstream>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/sweep/sweep.hpp>
-#include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
 
 #include "table.hpp"
 
@@ -16,12 +18,26 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// Names in summary.json, in the order of the columns; the columns of the observers come before the costs.
-constexpr std::array figure_names = {
-    "steps",           "interface_vertices", "interface_faces",      "tets",   "min_tet_quality",
-    "inverted_tets",   "components",         "genus",                "volume", "volume_initial",
-    "boundary_edges",  "nonmanifold_edges",  "nonmanifold_vertices", "self_intersections",
-    "vertex_to_cloud.mean", "vertex_to_cloud.max", "cloud_to_surface.mean", "cloud_to_surface.max"};
+/// Names in summary.json, in the order of the columns; the columns of the observers come before the
+/// costs.
+constexpr std::array figure_names = {"steps",
+                                     "interface_vertices",
+                                     "interface_faces",
+                                     "tets",
+                                     "min_tet_quality",
+                                     "inverted_tets",
+                                     "components",
+                                     "genus",
+                                     "volume",
+                                     "volume_initial",
+                                     "boundary_edges",
+                                     "nonmanifold_edges",
+                                     "nonmanifold_vertices",
+                                     "self_intersections",
+                                     "vertex_to_cloud.mean",
+                                     "vertex_to_cloud.max",
+                                     "cloud_to_surface.mean",
+                                     "cloud_to_surface.max"};
 constexpr std::array cost_names = {"wall_s", "cpu_s", "peak_rss_mb"};
 
 /// A row, before the columns of all rows are known.
@@ -43,7 +59,8 @@ std::string text_at(const json& object, const char* key) {
 }
 
 /// Adds numbers and booleans under dotted names.
-void add_figures(const json& value, const std::string& name, std::map<std::string, std::string>& figures) {
+void add_figures(const json& value, const std::string& name,
+                 std::map<std::string, std::string>& figures) {
     if (value.is_object()) {
         for (const auto& item : value.items())
             add_figures(item.value(), name.empty() ? item.key() : name + "." + item.key(), figures);
@@ -52,7 +69,8 @@ void add_figures(const json& value, const std::string& name, std::map<std::strin
     }
 }
 
-/// status.json of a killed run also says "running": such a run is unfinished, whether or not it is still active.
+/// status.json of a killed run also says "running": such a run is unfinished, whether or not it is
+/// still active.
 Row read_row(const fs::path& folder) {
     const json status = read_point_json(folder / "status.json");
     Row row;
@@ -95,7 +113,8 @@ std::vector<std::string> override_names(const std::vector<SweepJob>& jobs) {
     std::vector<std::string> names;
     for (const SweepJob& job : jobs) {
         for (const config::ConfigEntry& entry : job.overrides.entries()) {
-            if (std::find(names.begin(), names.end(), entry.key) == names.end()) names.push_back(entry.key);
+            if (std::find(names.begin(), names.end(), entry.key) == names.end())
+                names.push_back(entry.key);
         }
     }
     return names;
@@ -132,7 +151,9 @@ void count(const Row& row, SweepStates& states) {
 std::string collect_sweep(const fs::path& folder, SweepStates& states) {
     std::error_code ignored;
     if (!fs::exists(table_file(folder), ignored)) {
-        throw UsageError("sweep.folder", folder.string() + " has no jobs.tsv; use a folder that dsc sweep expand wrote");
+        throw UsageError(
+            "sweep.folder",
+            folder.string() + " has no jobs.tsv; use a folder that dsc sweep expand wrote");
     }
     const std::vector<SweepJob> jobs = read_table(folder);
     std::vector<Row> rows;
@@ -148,9 +169,10 @@ std::string collect_sweep(const fs::path& folder, SweepStates& states) {
     for (const std::string& name : columns) text += "," + cell(name);
     text += "\n";
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-        text += std::to_string(i) + "," + point_folder(jobs[i].name) + "," + cell(rows[i].status) + "," +
-                cell(rows[i].ended) + "," + cell(rows[i].error);
-        for (const std::string& name : overrides) text += "," + value_cell(jobs[i].overrides.find(name));
+        text += std::to_string(i) + "," + point_folder(jobs[i].name) + "," + cell(rows[i].status) +
+                "," + cell(rows[i].ended) + "," + cell(rows[i].error);
+        for (const std::string& name : overrides)
+            text += "," + value_cell(jobs[i].overrides.find(name));
         for (const std::string& name : columns) {
             const auto found = rows[i].figures.find(name);
             text += "," + (found == rows[i].figures.end() ? std::string() : found->second);

@@ -1,11 +1,12 @@
 // Writes the folders of a sweep: the points first, the table with their names last.
+#include <set>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/run/run_folder.hpp>
 #include <dsc/sweep/sweep.hpp>
 #include <dsc/text/words.hpp>
-#include <set>
 
 #include "table.hpp"
 
@@ -23,14 +24,17 @@ void make_folder(const fs::path& folder) {
     }
 }
 
-/// The present table. If there is none, an empty one is written first, so that the folder of an interrupted call is recognised.
+/// The present table. If there is none, an empty one is written first, so that the folder of an
+/// interrupted call is recognised.
 std::vector<SweepJob> open_table(const fs::path& folder) {
     std::error_code error;
     if (fs::exists(table_file(folder), error)) return read_table(folder);
     const bool file = fs::exists(folder, error) && !fs::is_directory(folder, error);
     if (file || (fs::is_directory(folder, error) && !io::nothing_but_leftovers(folder, error))) {
-        throw UsageError("sweep.folder", folder.string() + (file ? " is a file" : " is not empty and does not contain a sweep") +
-                                             "; nothing in it was changed; name another folder with -o or empty it");
+        throw UsageError(
+            "sweep.folder",
+            folder.string() + (file ? " is a file" : " is not empty and does not contain a sweep") +
+                "; nothing in it was changed; name another folder with -o or empty it");
     }
     make_folder(folder);
     io::remove_leftovers(folder);
@@ -48,25 +52,30 @@ Place look(const fs::path& file, const std::string& text) {
 }
 
 /// Experiments of points that were started must not change.
-void require_unchanged(const Sweep& sweep, const std::vector<std::string>& experiments, const fs::path& folder) {
+void require_unchanged(const Sweep& sweep, const std::vector<std::string>& experiments,
+                       const fs::path& folder) {
     std::size_t count = 0;
     std::string first;
     for (std::size_t i = 0; i < sweep.points.size(); ++i) {
         const fs::path point = folder / point_folder(sweep.points[i].name);
-        if (!run::RunFolder::is_ours(point / "run") || look(point / "experiment.yaml", experiments[i]) != Place::other) continue;
+        if (!run::RunFolder::is_ours(point / "run") ||
+            look(point / "experiment.yaml", experiments[i]) != Place::other)
+            continue;
         if (count++ == 0) first = point.string();
     }
     if (count == 0) return;
     throw UsageError("sweep.changed",
                      text::counted(count, "point was", "points were") + " started (" + first +
                          (count == 1 ? "" : ", ...") +
-                         ") and would now be another experiment: the base, 'set' or this dsc has changed; nothing was "
-                         "written; expand into another folder with -o, or remove the folders of these points");
+                         ") and would now be another experiment: the base, 'set' or this dsc has "
+                         "changed; nothing was written; expand into another folder with -o, or "
+                         "remove the folders of these points");
 }
 
 }  // namespace
 
-Expansion expand_sweep(const Sweep& sweep, const std::vector<std::string>& experiments, const fs::path& folder) {
+Expansion expand_sweep(const Sweep& sweep, const std::vector<std::string>& experiments,
+                       const fs::path& folder) {
     std::vector<SweepJob> jobs = open_table(folder);
     require_unchanged(sweep, experiments, folder);
     std::set<std::string> known;

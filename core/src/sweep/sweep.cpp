@@ -1,12 +1,14 @@
 // Reads a sweep file: its schema, and the points that its axes make.
+#include "dsc/sweep/sweep.hpp"
+
 #include <algorithm>
+#include <optional>
+#include <set>
+
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/config/params.hpp>
 #include <dsc/run/sha256.hpp>
-#include <dsc/sweep/sweep.hpp>
-#include <optional>
-#include <set>
 
 #include "axes.hpp"
 
@@ -45,31 +47,55 @@ struct SweepFile {
 };
 
 void declare_random(config::ParamSchema<RandomAxis>& s) {
-    s.integer("n", &RandomAxis::n).range(1, most_sweep_points).unit("points")
+    s.integer("n", &RandomAxis::n)
+        .range(1, most_sweep_points)
+        .unit("points")
         .doc("Number of draws. A larger number only adds points.");
-    s.integer("seed", &RandomAxis::seed).at_least(0).unit("1").doc("Seed of the draws, not of the experiments.");
+    s.integer("seed", &RandomAxis::seed)
+        .at_least(0)
+        .unit("1")
+        .doc("Seed of the draws, not of the experiments.");
     s.object("ranges", &RandomAxis::ranges, declare_paths)
         .doc("Dotted path to {from, to, scale: linear or log, integer}.");
 }
 
 void declare_axis(config::ParamSchema<SweepAxis>& s) {
     s.object("grid", &SweepAxis::grid, declare_paths)
-        .doc("Dotted path to a list of values or {from, to, count, scale, integer}: every combination.");
-    s.object("zip", &SweepAxis::zip, declare_paths).doc("Dotted path to a list of values: the i-th values of all lists together.");
-    s.list("list", &SweepAxis::list, declare_paths).doc("Maps of dotted paths to values, point by point.");
+        .doc("Dotted path to a list of values or {from, to, count, scale, integer}: every "
+             "combination.");
+    s.object("zip", &SweepAxis::zip, declare_paths)
+        .doc("Dotted path to a list of values: the i-th values of all lists together.");
+    s.list("list", &SweepAxis::list, declare_paths)
+        .doc("Maps of dotted paths to values, point by point.");
     s.object("random", &SweepAxis::random, declare_random).doc("Values drawn out of ranges.");
-    s.check([](const SweepAxis& p) { return int(p.grid.has_value()) + int(p.zip.has_value()) + int(!p.list.empty()) +
-                                           int(p.random.has_value()) == 1; },
-            "an axis is exactly one of 'grid', 'zip', 'list' and 'random'");
+    s.check(
+        [](const SweepAxis& p) {
+            return int(p.grid.has_value()) + int(p.zip.has_value()) + int(!p.list.empty()) +
+                       int(p.random.has_value()) ==
+                   1;
+        },
+        "an axis is exactly one of 'grid', 'zip', 'list' and 'random'");
 }
 
 void declare_sweep(config::ParamSchema<SweepFile>& s) {
-    s.integer("sweep", &SweepFile::format).range(1, 1).required().unit("1").doc("Version of the format: 1.");
-    s.file("base", &SweepFile::base).required().doc("The experiment on which all points are based.");
-    s.object("set", &SweepFile::set, declare_paths).doc("Dotted path to value: overrides of all points.");
-    s.list("axes", &SweepFile::axes, declare_axis).doc("The varied values. The points are all combinations of the axes.");
-    s.integers("seeds", &SweepFile::seeds).at_least(0).doc("Repeats every point with each of these seeds.");
-    s.integer("repeat", &SweepFile::repeat).range(1, most_sweep_points).unit("1")
+    s.integer("sweep", &SweepFile::format)
+        .range(1, 1)
+        .required()
+        .unit("1")
+        .doc("Version of the format: 1.");
+    s.file("base", &SweepFile::base)
+        .required()
+        .doc("The experiment on which all points are based.");
+    s.object("set", &SweepFile::set, declare_paths)
+        .doc("Dotted path to value: overrides of all points.");
+    s.list("axes", &SweepFile::axes, declare_axis)
+        .doc("The varied values. The points are all combinations of the axes.");
+    s.integers("seeds", &SweepFile::seeds)
+        .at_least(0)
+        .doc("Repeats every point with each of these seeds.");
+    s.integer("repeat", &SweepFile::repeat)
+        .range(1, most_sweep_points)
+        .unit("1")
         .doc("Number of repetitions of every point, with the seeds 1, 2, ...");
     s.check([](const SweepFile& p) { return p.seeds.empty() || !p.repeat; },
             "'seeds' and 'repeat' must not both be given");
@@ -85,7 +111,8 @@ ConfigNode blank(const ConfigNode& node) {
 
 ConfigNode blank_items(const ConfigNode& list) {
     ConfigNode out = list;
-    for (std::size_t i = 0; list.is_list() && i < list.size(); ++i) out = out.with_item(i, blank(list.items()[i]));
+    for (std::size_t i = 0; list.is_list() && i < list.size(); ++i)
+        out = out.with_item(i, blank(list.items()[i]));
     return out;
 }
 
@@ -100,7 +127,8 @@ ConfigNode blank_axis(const ConfigNode& axis) {
     ConfigNode out = changed(axis, "grid", blank);
     out = changed(out, "zip", blank);
     out = changed(out, "list", blank_items);
-    return changed(out, "random", [](const ConfigNode& random) { return changed(random, "ranges", blank); });
+    return changed(out, "random",
+                   [](const ConfigNode& random) { return changed(random, "ranges", blank); });
 }
 
 ConfigNode without_paths(const ConfigNode& root) {
@@ -127,7 +155,8 @@ Alternatives read_axis(const ConfigNode& node, const SweepAxis& axis, Diagnostic
 Alternatives seed_axis(const ConfigNode& root, const SweepFile& file) {
     Alternatives all;
     const auto add = [&](std::int64_t seed, const ConfigNode& place) {
-        all.push_back({ConfigEntry("seed", ConfigNode(seed).placed(place.position()), place.position())});
+        all.push_back(
+            {ConfigEntry("seed", ConfigNode(seed).placed(place.position()), place.position())});
     };
     for (std::size_t i = 0; i < file.seeds.size(); ++i) add(file.seeds[i], root.at("seeds").at(i));
     for (std::uint32_t i = 1; i <= file.repeat.value_or(0); ++i) add(i, root.at("repeat"));
@@ -157,10 +186,11 @@ private:
         for (const std::string& path : before) {
             if (path != entry.key && path.rfind(entry.key + ".", 0) != 0) continue;
             const bool same = path == entry.key;
-            diagnostics_.error("config.sweep_order", entry.position,
-                               same ? "'" + path + "' is already set by an earlier axis"
-                                    : "'" + entry.key + "' would undo '" + path + "', which is set before it",
-                               same ? "name a key in one axis only" : "set the whole before its part");
+            diagnostics_.error(
+                "config.sweep_order", entry.position,
+                same ? "'" + path + "' is already set by an earlier axis"
+                     : "'" + entry.key + "' would undo '" + path + "', which is set before it",
+                same ? "name a key in one axis only" : "set the whole before its part");
         }
     }
 
@@ -178,8 +208,10 @@ ConfigNode canonical(const ConfigNode& node) {
     }
     if (!node.is_map()) return node;
     std::vector<ConfigEntry> entries;
-    for (const ConfigEntry& entry : node.entries()) entries.emplace_back(entry.key, canonical(entry.value));
-    std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
+    for (const ConfigEntry& entry : node.entries())
+        entries.emplace_back(entry.key, canonical(entry.value));
+    std::sort(entries.begin(), entries.end(),
+              [](const auto& a, const auto& b) { return a.key < b.key; });
     return ConfigNode::map(std::move(entries));
 }
 
@@ -204,8 +236,8 @@ std::shared_ptr<const config::Schema> sweep_schema() {
 Sweep load_sweep(const std::string& file, const config::YamlOptions& options) {
     const ConfigNode root = config::load_yaml(file, options);
     Diagnostics diagnostics;
-    const ConfigNode resolved =
-        config::validate(without_paths(root), *sweep_schema(), config::NoStrategies(), diagnostics, "the sweep");
+    const ConfigNode resolved = config::validate(without_paths(root), *sweep_schema(),
+                                                 config::NoStrategies(), diagnostics, "the sweep");
     diagnostics.throw_if_errors();
     config::ParamSchema<SweepFile> reader;
     declare_sweep(reader);

@@ -2,13 +2,14 @@
 #include "table.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <string_view>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/io/atomic_file.hpp>
-#include <memory>
-#include <string_view>
 
 namespace dsc::sweep {
 namespace {
@@ -42,15 +43,19 @@ config::ConfigNode overrides_of(const fs::path& file, std::size_t number, std::s
     refuse(file, number, "the third column is not a map of overrides");
 }
 
-SweepJob job_of(const fs::path& file, std::size_t number, std::size_t index, std::string_view line) {
+SweepJob job_of(const fs::path& file, std::size_t number, std::size_t index,
+                std::string_view line) {
     const std::size_t first = line.find('\t');
     const std::size_t second = first == std::string_view::npos ? first : line.find('\t', first + 1);
-    if (second == std::string_view::npos) refuse(file, number, "not three columns separated by tabs");
-    if (line.substr(0, first) != std::to_string(index)) refuse(file, number, "its index is not " + std::to_string(index));
+    if (second == std::string_view::npos)
+        refuse(file, number, "not three columns separated by tabs");
+    if (line.substr(0, first) != std::to_string(index))
+        refuse(file, number, "its index is not " + std::to_string(index));
     const std::string_view folder = line.substr(first + 1, second - first - 1);
     if (folder.substr(0, points.size()) != points || !is_point_name(folder.substr(points.size())))
         refuse(file, number, "the second column is not the folder of a point");
-    return {std::string(folder.substr(points.size())), overrides_of(file, number, line.substr(second + 1))};
+    return {std::string(folder.substr(points.size())),
+            overrides_of(file, number, line.substr(second + 1))};
 }
 
 }  // namespace
@@ -62,7 +67,8 @@ std::string point_folder(const std::string& name) { return std::string(points) +
 std::string table_text(const std::vector<SweepJob>& jobs) {
     std::string text = std::string(table_header) + "\n";
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-        text += std::to_string(i) + "\t" + point_folder(jobs[i].name) + "\t" + config::flow_text(jobs[i].overrides) + "\n";
+        text += std::to_string(i) + "\t" + point_folder(jobs[i].name) + "\t" +
+                config::flow_text(jobs[i].overrides) + "\n";
     }
     return text;
 }
@@ -78,7 +84,8 @@ std::vector<SweepJob> read_table(const fs::path& folder) {
         if (end == std::string::npos) refuse(file, number, "the line has no end");
         const std::string_view line = std::string_view(text).substr(begin, end - begin);
         if (number == 1) {
-            if (line != table_header) refuse(file, number, "the header is not index, folder, overrides");
+            if (line != table_header)
+                refuse(file, number, "the header is not index, folder, overrides");
         } else {
             jobs.push_back(job_of(file, number, jobs.size(), line));
         }

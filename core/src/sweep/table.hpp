@@ -2,10 +2,11 @@
 // The job table of a sweep, jobs.tsv, which engines read: one line per point.
 
 #include <cstddef>
-#include <dsc/config/node.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <dsc/config/node.hpp>
 
 namespace dsc::sweep {
 

@@ -1,5 +1,5 @@
 // Numbers as text and back.
-#include <dsc/text/numbers.hpp>
+#include "dsc/text/numbers.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -19,7 +19,8 @@ void append(std::string& out, Value value) {
 
 /// std::from_chars accepts no plus sign, but files use it.
 std::string_view without_plus(std::string_view word) {
-    return word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+' ? word.substr(1) : word;
+    return word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+' ? word.substr(1)
+                                                                                 : word;
 }
 
 template <class Value>
@@ -51,9 +52,11 @@ Number parse_number(std::string_view word, double& value) {
     const auto [stop, error] = std::from_chars(word.data(), end, value);
     if (stop != end || error == std::errc::invalid_argument) return Number::not_a_number;
     if (error == std::errc::result_out_of_range) {
-        // from_chars does not say whether the number is too large or too small; a negative exponent means too small.
+        // from_chars does not say whether the number is too large or too small; a negative exponent
+        // means too small.
         const std::size_t exponent = word.find_first_of("eE");
-        if (exponent == std::string_view::npos || word.find('-', exponent) == std::string_view::npos)
+        if (exponent == std::string_view::npos ||
+            word.find('-', exponent) == std::string_view::npos)
             return Number::too_large;
         value = 0.0;
     }
@@ -62,16 +65,20 @@ Number parse_number(std::string_view word, double& value) {
 
 bool parse_count(std::string_view word, std::size_t& value) { return parse_whole(word, value); }
 
-bool parse_integer(std::string_view word, std::int64_t& value) { return parse_whole(without_plus(word), value); }
+bool parse_integer(std::string_view word, std::int64_t& value) {
+    return parse_whole(without_plus(word), value);
+}
 
 bool has_decimal_comma(std::string_view word) {
-    if (word.find(',') == std::string_view::npos || word.front() == ',' || word.back() == ',') return false;
+    if (word.find(',') == std::string_view::npos || word.front() == ',' || word.back() == ',')
+        return false;
     std::string digits(word);
     const auto commas = std::count(digits.begin(), digits.end(), ',');
     if (commas == 1 && digits.find('.') == std::string::npos) {
         digits[digits.find(',')] = '.';
     } else {  // thousands separators
-        for (std::size_t at = word.find(','); at != std::string_view::npos; at = word.find(',', at + 1)) {
+        for (std::size_t at = word.find(','); at != std::string_view::npos;
+             at = word.find(',', at + 1)) {
             if (word.find_first_of(",.", at + 1) != at + 4 && at + 4 != word.size()) return false;
         }
         digits.erase(std::remove(digits.begin(), digits.end(), ','), digits.end());

@@ -1,10 +1,12 @@
 // UTF-8: its characters, and what of a text can be shown.
-#include <dsc/text/utf8.hpp>
+#include "dsc/text/utf8.hpp"
 
 namespace dsc::text {
 namespace {
 
-unsigned char byte_at(std::string_view text, std::size_t index) { return static_cast<unsigned char>(text[index]); }
+unsigned char byte_at(std::string_view text, std::size_t index) {
+    return static_cast<unsigned char>(text[index]);
+}
 bool starts_character(char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }
 bool is_control(unsigned char byte) { return byte < 0x20U || byte == 0x7fU; }
 bool is_tab_or_line_end(unsigned char byte) { return byte == '\n' || byte == '\t' || byte == '\r'; }

@@ -1,5 +1,5 @@
 // Words of texts and messages.
-#include <dsc/text/words.hpp>
+#include "dsc/text/words.hpp"
 
 #include <algorithm>
 
@@ -32,7 +32,8 @@ std::string_view next_word(std::string_view& rest) {
 std::size_t find_word(std::string_view text, std::string_view word) {
     const auto is_part = [&](std::size_t at) { return at < text.size() && is_word_part(text[at]); };
     std::size_t at = text.find(word);
-    while (at != std::string_view::npos && ((at > 0 && is_part(at - 1)) || is_part(at + word.size())))
+    while (at != std::string_view::npos &&
+           ((at > 0 && is_part(at - 1)) || is_part(at + word.size())))
         at = text.find(word, at + 1);
     return at;
 }
@@ -45,12 +46,17 @@ std::string lower_case(std::string_view text) {
     return out;
 }
 
-std::string lower_case_extension(const std::filesystem::path& file) { return lower_case(file.extension().string()); }
+std::string lower_case_extension(const std::filesystem::path& file) {
+    return lower_case(file.extension().string());
+}
 
-bool is_snake_case(std::string_view name) { return !name.empty() && std::all_of(name.begin(), name.end(), is_snake); }
+bool is_snake_case(std::string_view name) {
+    return !name.empty() && std::all_of(name.begin(), name.end(), is_snake);
+}
 
 bool is_identifier(std::string_view name) {
-    return !name.empty() && !is_digit(name.front()) && std::all_of(name.begin(), name.end(), is_word_part);
+    return !name.empty() && !is_digit(name.front()) &&
+           std::all_of(name.begin(), name.end(), is_word_part);
 }
 
 bool is_id(std::string_view name) { return is_snake_case(name) && is_lower(name.front()); }

@@ -1,9 +1,11 @@
+#include "dsc/conformance/check.hpp"
+
 #include <algorithm>
+#include <sstream>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
-#include <dsc/conformance/check.hpp>
 #include <dsc/plugin/fingerprint.hpp>
-#include <sstream>
 
 #include "process.hpp"
 #include "test_table.hpp"
@@ -17,8 +19,8 @@ std::string described(const StrategyName& strategy) {
     return std::string(plugin::kind_name(strategy.kind)) + " '" + strategy.id + "'";
 }
 
-Verdict run_here(const Test& test, const fs::path& file, const StrategyName* strategy, const Notes& notes,
-                 const CheckOptions& options) {
+Verdict run_here(const Test& test, const fs::path& file, const StrategyName* strategy,
+                 const Notes& notes, const CheckOptions& options) {
     try {
         test.run(Subject(file, strategy, notes, options));
         return {Status::pass, ""};
@@ -38,7 +40,8 @@ public:
     Check(const fs::path& file, const CheckOptions& options)
         : options_(options),
           file_(real(file)),
-          notes_(options.notes.empty() ? notes_beside(file_) : read_notes(fs::absolute(options.notes))) {
+          notes_(options.notes.empty() ? notes_beside(file_)
+                                       : read_notes(fs::absolute(options.notes))) {
         for (const std::string& id : options.only) require_test(id);
         report_.file = file_;
         report_.level = options.level;
@@ -67,7 +70,8 @@ private:
         std::error_code error;
         fs::path path = fs::canonical(file, error);
         if (error)
-            throw PluginError("plugin.open", file.string() + ": cannot be opened (" + error.message() +
+            throw PluginError("plugin.open", file.string() + ": cannot be opened (" +
+                                                 error.message() +
                                                  "); check its name and permissions");
         return path;
     }
@@ -84,7 +88,8 @@ private:
 
     bool wanted(const Test& test) const {
         if (options_.only.empty()) return test.info.level <= options_.level;
-        return std::find(options_.only.begin(), options_.only.end(), test.info.id) != options_.only.end();
+        return std::find(options_.only.begin(), options_.only.end(), test.info.id) !=
+               options_.only.end();
     }
 
     std::chrono::milliseconds limit() const {
@@ -142,12 +147,14 @@ private:
     std::vector<StrategyName> chosen(const std::vector<StrategyName>& found) const {
         if (options_.strategies.empty()) return found;
         for (const StrategyName& wanted : options_.strategies) {
-            const bool there = std::any_of(found.begin(), found.end(), [&](const StrategyName& name) {
-                return name.kind == wanted.kind && name.id == wanted.id;
-            });
+            const bool there =
+                std::any_of(found.begin(), found.end(), [&](const StrategyName& name) {
+                    return name.kind == wanted.kind && name.id == wanted.id;
+                });
             if (!there)
-                throw UsageError("usage.strategy", file_.string() + " does not contain " + described(wanted) +
-                                                       "; dsc plugin list --plugin shows its strategies");
+                throw UsageError("usage.strategy",
+                                 file_.string() + " does not contain " + described(wanted) +
+                                     "; dsc plugin list --plugin shows its strategies");
         }
         return options_.strategies;
     }
@@ -162,12 +169,9 @@ private:
 
 std::string_view name(Level level) {
     switch (level) {
-        case Level::smoke:
-            return "smoke";
-        case Level::standard:
-            return "standard";
-        case Level::strict:
-            return "strict";
+        case Level::smoke: return "smoke";
+        case Level::standard: return "standard";
+        case Level::strict: return "strict";
     }
     return "?";
 }
@@ -181,18 +185,12 @@ std::optional<Level> find_level(std::string_view text) {
 
 std::string_view name(Status status) {
     switch (status) {
-        case Status::pass:
-            return "pass";
-        case Status::warn:
-            return "warn";
-        case Status::skip:
-            return "skip";
-        case Status::fail:
-            return "FAIL";
-        case Status::crash:
-            return "CRASH";
-        case Status::timeout:
-            return "TIMEOUT";
+        case Status::pass: return "pass";
+        case Status::warn: return "warn";
+        case Status::skip: return "skip";
+        case Status::fail: return "FAIL";
+        case Status::crash: return "CRASH";
+        case Status::timeout: return "TIMEOUT";
     }
     return "?";
 }
@@ -207,10 +205,13 @@ bool Report::passed() const {
 }
 
 std::size_t Report::count(Status status) const {
-    return static_cast<std::size_t>(std::count_if(outcomes.begin(), outcomes.end(),
-                                                  [status](const Outcome& o) { return o.status == status; }));
+    return static_cast<std::size_t>(
+        std::count_if(outcomes.begin(), outcomes.end(),
+                      [status](const Outcome& o) { return o.status == status; }));
 }
 
-Report check(const fs::path& file, const CheckOptions& options) { return Check(file, options).run(); }
+Report check(const fs::path& file, const CheckOptions& options) {
+    return Check(file, options).run();
+}
 
 }  // namespace dsc::conformance

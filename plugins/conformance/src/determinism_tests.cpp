@@ -1,15 +1,17 @@
 // det.*, seed.*: the same calls return the same answers, bit by bit.
+#include <algorithm>
+#include <cmath>
+#include <locale>
+#include <memory>
+#include <numeric>
+
 #include <locale.h>
 #include <stdlib.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
-#include <dsc/base/random.hpp>
-#include <locale>
-#include <memory>
-#include <numeric>
 #include <fmt/core.h>
+
+#include <dsc/base/random.hpp>
 
 #include "test_table.hpp"
 
@@ -17,7 +19,8 @@ namespace dsc::conformance {
 namespace {
 
 void require_same(const Trace& a, const Trace& b, const std::string& otherwise) {
-    if (const auto difference = Trace::difference(a, b)) throw Failed(otherwise + ": " + *difference);
+    if (const auto difference = Trace::difference(a, b))
+        throw Failed(otherwise + ": " + *difference);
 }
 
 void repeat(const Subject& subject) {
@@ -29,7 +32,8 @@ void repeat(const Subject& subject) {
         for (std::size_t i = 1; i < 200; ++i) blocks.push_back(std::make_unique<char[]>(37 * i));
         return blocks;
     }();
-    require_same(first, subject.answers(how).trace, "the same calls return different answers the second time");
+    require_same(first, subject.answers(how).trace,
+                 "the same calls return different answers the second time");
 }
 
 void threads(const Subject& subject) {
@@ -41,8 +45,10 @@ void threads(const Subject& subject) {
     };
     for (const Split& split : {Split{2, 64}, Split{7, 17}, Split{1, 1}, Split{3, 100000}}) {
         const Trace other = subject.answers({.threads = split.threads, .block = split.block}).trace;
-        require_same(one, other,
-                     fmt::format("{} threads and blocks of {} vertices against one thread and blocks of 64", split.threads, split.block));
+        require_same(
+            one, other,
+            fmt::format("{} threads and blocks of {} vertices against one thread and blocks of 64",
+                        split.threads, split.block));
     }
 }
 
@@ -67,17 +73,18 @@ void instances(const Subject& subject) {
     Trace second_mixed;
     for (std::uint64_t step = 1; step <= 3; ++step) {
         const Exercise how{.first_step = step, .steps = 1};
-        first_mixed.add(
-            std::span<const double>(exercise(subject.kind(), *a, subject.fixture(), how).trace.values()));
-        second_mixed.add(std::span<const double>(exercise(subject.kind(), *b, other, how).trace.values()));
+        first_mixed.add(std::span<const double>(
+            exercise(subject.kind(), *a, subject.fixture(), how).trace.values()));
+        second_mixed.add(
+            std::span<const double>(exercise(subject.kind(), *b, other, how).trace.values()));
     }
     require_same(first, first_mixed, "two instances disturb each other");
     require_same(second, second_mixed, "two instances disturb each other");
 }
 
 // Compares the values of vertex i of the reordered fixture with those of order[i].
-void require_permuted(const Trace& plain, const Trace& permuted, const std::vector<std::uint32_t>& order,
-                      std::size_t width) {
+void require_permuted(const Trace& plain, const Trace& permuted,
+                      const std::vector<std::uint32_t>& order, std::size_t width) {
     const std::size_t count = order.size() * width;
     require(plain.values().size() == permuted.values().size(),
             "a different order of the vertices changes the number of answers");
@@ -87,7 +94,9 @@ void require_permuted(const Trace& plain, const Trace& permuted, const std::vect
         const double expected = plain.values()[order[i / width] * width + i % width];
         const double found = permuted.values()[i];
         if (std::abs(expected - found) <= 1e-9 * largest) continue;
-        throw Failed(fmt::format("vertex {} gets {:f} instead of {:f} when the vertices have a different order", order[i / width], found, expected));
+        throw Failed(fmt::format(
+            "vertex {} gets {:f} instead of {:f} when the vertices have a different order",
+            order[i / width], found, expected));
     }
 }
 
@@ -128,7 +137,9 @@ void environment(const Subject& subject) {
     if (chdir("/") != 0) throw Skipped("cannot change to another folder");
     const Trace after = subject.answers().trace;
     std::locale::global(locale);
-    require_same(before, after, "a different locale, time zone, home folder or working folder changes the answers");
+    require_same(
+        before, after,
+        "a different locale, time zone, home folder or working folder changes the answers");
 }
 
 void seed(const Subject& subject) {
@@ -137,31 +148,40 @@ void seed(const Subject& subject) {
     const Trace two = subject.answers({.seed = 2}).trace;
     const auto difference = Trace::difference(one, two);
     if (subject.record().traits.stochastic) {
-        require(difference.has_value(), "it is declared stochastic, but two seeds give the same answers");
+        require(difference.has_value(),
+                "it is declared stochastic, but two seeds give the same answers");
     } else if (difference) {
-        throw Failed("two seeds give different answers, but it is not declared stochastic: " + *difference);
+        throw Failed("two seeds give different answers, but it is not declared stochastic: " +
+                     *difference);
     }
 }
 
 }  // namespace
 
 void add_determinism_tests(std::vector<Test>& table) {
-    add(table, {"det.repeat", Level::smoke, false, "The same calls return the same answers each time."}, repeat);
+    add(table,
+        {"det.repeat", Level::smoke, false, "The same calls return the same answers each time."},
+        repeat);
     add(table,
         {"det.threads", Level::standard, false,
          "The number of threads and the split into blocks change no answer."},
         threads);
-    add(table, {"det.instances", Level::standard, false, "Two instances that are called alternately do not disturb each other."},
+    add(table,
+        {"det.instances", Level::standard, false,
+         "Two instances that are called alternately do not disturb each other."},
         instances);
     add(table,
-        {"det.order", Level::strict, false, "Vertices in a different order get the same values, up to rounding."},
+        {"det.order", Level::strict, false,
+         "Vertices in a different order get the same values, up to rounding."},
         order, per_vertex);
     add(table,
-        {"det.env", Level::strict, false, "Locale, time zone, home folder and working folder change no answer."},
+        {"det.env", Level::strict, false,
+         "Locale, time zone, home folder and working folder change no answer."},
         environment);
     add(table,
         {"seed.used", Level::standard, false,
-         "The seed changes the answers of strategies that are declared stochastic, and of no others."},
+         "The seed changes the answers of strategies that are declared stochastic, and of no "
+         "others."},
         seed);
 }
 

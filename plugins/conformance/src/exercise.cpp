@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+
 #include <fmt/core.h>
+
 #include <dsc/run/mesh_files.hpp>
 #include <dsc/surface/surface_view.hpp>
 
@@ -19,7 +21,9 @@ template <class T>
 class Output {
 public:
     Output(std::size_t size, const T& fill) : memory_(size + 2 * margin, fill) {}
-    std::span<T> entries() { return std::span(memory_).subspan(margin, memory_.size() - 2 * margin); }
+    std::span<T> entries() {
+        return std::span(memory_).subspan(margin, memory_.size() - 2 * margin);
+    }
     // "2 entries after its end", or nothing.
     std::string touched() const {
         for (std::size_t i = 0; i < margin; ++i) {
@@ -41,7 +45,8 @@ private:
 
 template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 // The part of the input that differs; empty: none.
@@ -60,12 +65,14 @@ std::string difference(const Fixture& before, const Fixture& after) {
 }
 
 bool same_bytes(const cloud::Cloud& a, const cloud::Cloud& b) {
-    return same_bytes(a.points, b.points) && same_bytes(a.colours, b.colours) && same_bytes(a.normals, b.normals) &&
-           same_bytes(a.areas, b.areas) && same_bytes(a.confidence, b.confidence) &&
+    return same_bytes(a.points, b.points) && same_bytes(a.colours, b.colours) &&
+           same_bytes(a.normals, b.normals) && same_bytes(a.areas, b.areas) &&
+           same_bytes(a.confidence, b.confidence) &&
            same_bytes(a.orientation.samples, b.orientation.samples) && a.source == b.source;
 }
 
-// A velocity along the normals that decreases with the distance from the middle, for refinements to read.
+// A velocity along the normals that decreases with the distance from the middle, for refinements to
+// read.
 class Breathing final : public hooks::VelocityField {
 public:
     void prepare(const hooks::StepContext& context) override { surface_ = &context.surface; }
@@ -126,15 +133,15 @@ private:
             case plugin::Kind::observer:
                 return observer(static_cast<hooks::Observer&>(strategy), context);
             case plugin::Kind::initial_mesh:
-            case plugin::Kind::filter:
-                return;
+            case plugin::Kind::filter: return;
         }
     }
 
     template <class T>
     void judge(const Output<T>& output, const std::string& what) {
         const std::string touched = output.touched();
-        if (!touched.empty() && answers_.outside.empty()) answers_.outside = what + at_ + ": " + touched;
+        if (!touched.empty() && answers_.outside.empty())
+            answers_.outside = what + at_ + ": " + touched;
     }
 
     void velocity(hooks::VelocityField& field, const hooks::StepContext& given) {
@@ -168,8 +175,10 @@ private:
     }
 
     void record(const hooks::Attributes& attributes, const hooks::StepContext& context) {
-        if (answers_.unfit.empty()) answers_.unfit = unfit(attributes, context.surface.vertex_count());
-        for (const hooks::Attribute& a : attributes) record("attribute " + a.name, std::span<const double>(a.values), 1);
+        if (answers_.unfit.empty())
+            answers_.unfit = unfit(attributes, context.surface.vertex_count());
+        for (const hooks::Attribute& a : attributes)
+            record("attribute " + a.name, std::span<const double>(a.values), 1);
     }
 
     void sample(hooks::VelocityField& field, const hooks::StepContext& context) {
@@ -206,7 +215,8 @@ private:
     void note_touched(const std::vector<std::string>& blocks, const std::string& what) {
         for (std::size_t i = 0; i < blocks.size(); ++i) {
             if (blocks[i].empty() || !answers_.outside.empty()) continue;
-            answers_.outside = fmt::format("{} of the block that begins with vertex {}{}: {}", what, i * how_.block, at_, blocks[i]);
+            answers_.outside = fmt::format("{} of the block that begins with vertex {}{}: {}", what,
+                                           i * how_.block, at_, blocks[i]);
         }
     }
 
@@ -215,13 +225,15 @@ private:
         velocity.prepare(context);
         hooks::RefinementRequests requests;
         policy.refine({context, policy.needs_sampling() ? &velocity : nullptr, 0}, requests);
-        if (answers_.unfit_lengths.empty()) answers_.unfit_lengths = unfit_lengths(requests, context.surface.vertex_count());
+        if (answers_.unfit_lengths.empty())
+            answers_.unfit_lengths = unfit_lengths(requests, context.surface.vertex_count());
         add_requests(requests, at_, answers_.trace);
         record(requests.attributes, context);
     }
 
     // One repair round on a mesh whose worst tets are marked as dirty.
-    void improvement(hooks::Improvement& policy, const Fixture& now, const hooks::StepContext& context) {
+    void improvement(hooks::Improvement& policy, const Fixture& now,
+                     const hooks::StepContext& context) {
         if (!now.complex) return;
         const mesh::Complex& complex = *now.complex;
         std::vector<mesh::TetId> dirty;
@@ -231,10 +243,12 @@ private:
         std::sort(dirty.begin(), dirty.end(), [&](mesh::TetId a, mesh::TetId b) {
             return std::pair(complex.quality(a), a) < std::pair(complex.quality(b), b);
         });
-        std::vector<mesh::VertexId> blocked(now.view.vertex_ids.begin(), now.view.vertex_ids.begin() + 8);
+        std::vector<mesh::VertexId> blocked(now.view.vertex_ids.begin(),
+                                            now.view.vertex_ids.begin() + 8);
         std::vector<repair::Request> requests;
-        const repair::RepairRound round{complex,           dirty, blocked,        {}, {}, context.target_length,
-                                      policy.flatness(), 0,     how_.steps == 1};
+        const repair::RepairRound round{
+            complex,           dirty, blocked,        {}, {}, context.target_length,
+            policy.flatness(), 0,     how_.steps == 1};
         policy.propose(context, round, requests);
         part("requests", 10);
         for (const repair::Request& r : requests) add(r);
@@ -321,7 +335,8 @@ private:
         record("confidences", std::span<const double>(result.cloud.confidence), 1);
         part("orientation", 1);
         for (const cloud::SurfaceSample& sample : result.cloud.orientation.samples) {
-            for (const Vec3& v : {sample.position, sample.area}) answers_.trace.add(std::span<const double>(v.data(), 3));
+            for (const Vec3& v : {sample.position, sample.area})
+                answers_.trace.add(std::span<const double>(v.data(), 3));
             answers_.trace.add(sample.width);
         }
         add(result.report);
@@ -335,11 +350,14 @@ private:
             answers_.trace.add(static_cast<double>(stream_id(removed.reason) >> 12U));
             answers_.trace.add(static_cast<double>(removed.count));
         }
-        for (const std::string& note : report.notes) answers_.trace.add(static_cast<double>(stream_id(note) >> 12U));
+        for (const std::string& note : report.notes)
+            answers_.trace.add(static_cast<double>(stream_id(note) >> 12U));
         add("figures", report.figures);
     }
 
-    void part(const std::string& name, std::size_t width) { answers_.trace.part(name + at_, width); }
+    void part(const std::string& name, std::size_t width) {
+        answers_.trace.part(name + at_, width);
+    }
     template <class T>
     void record(const std::string& name, std::span<const T> values, std::size_t width) {
         part(name, width);
@@ -363,8 +381,10 @@ cloud::Cloud cloud_of(const Fixture& fixture) {
     const Vec3 middle = bounding_box(cloud.points).centre();
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
         const Vec3 outwards = cloud.points[i] - middle;
-        cloud.colours.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i >> 8U), 0});
-        cloud.normals.push_back(outwards.norm() > 0.0 ? Vec3(outwards.normalized()) : Vec3(Vec3::UnitZ()));
+        cloud.colours.push_back(
+            {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i >> 8U), 0});
+        cloud.normals.push_back(outwards.norm() > 0.0 ? Vec3(outwards.normalized())
+                                                      : Vec3(Vec3::UnitZ()));
         cloud.areas.push_back(0.01 * cloud.normals.back());
         cloud.confidence.push_back(0.25 * static_cast<double>(i % 5));
     }
@@ -394,7 +414,8 @@ hooks::StepContext context_of(const Fixture& fixture, std::uint64_t step, const 
             .workers = workers};
 }
 
-Answers exercise(plugin::Kind kind, hooks::Strategy& strategy, const Fixture& fixture, const Exercise& how) {
+Answers exercise(plugin::Kind kind, hooks::Strategy& strategy, const Fixture& fixture,
+                 const Exercise& how) {
     return Trial(fixture, how).run(kind, strategy);
 }
 

@@ -25,19 +25,20 @@ struct Exercise {
 /// The recorded answers and faults.
 struct Answers {
     Trace trace;
-    std::string outside;  ///< where it wrote outside an output; empty: nowhere
-    std::string changed;  ///< which input it changed; empty: none
-    std::string unfit;    ///< which attribute does not fit the surface; empty: none
+    std::string outside;        ///< where it wrote outside an output; empty: nowhere
+    std::string changed;        ///< which input it changed; empty: none
+    std::string unfit;          ///< which attribute does not fit the surface; empty: none
     std::string unfit_lengths;  ///< which target lengths do not fit the surface; empty: none
 };
 
-/// Runs the steps first_step, first_step + 1, ... on the fixture. `strategy` is the plugin's own object without checks:
-/// its exceptions are passed on. A strategy whose first step is not 1 continues a run (observers get no begin()).
+/// Runs the steps first_step, first_step + 1, ... on the fixture. `strategy` is the plugin's own
+/// object without checks: its exceptions are passed on. A strategy whose first step is not 1
+/// continues a run (observers get no begin()).
 Answers exercise(plugin::Kind kind, hooks::Strategy& strategy, const Fixture& fixture,
                  const Exercise& how = {});
 
-/// The cloud of the fixture as filters get it: each point has a colour, a normal, an area and a confidence; there is no
-/// orientation. The cloud has no points if the fixture has no cloud.
+/// The cloud of the fixture as filters get it: each point has a colour, a normal, an area and a
+/// confidence; there is no orientation. The cloud has no points if the fixture has no cloud.
 cloud::Cloud cloud_of(const Fixture& fixture);
 /// The context of a filter.
 hooks::FilterContext filter_context(const Exercise& how, Workers* workers);

@@ -1,11 +1,13 @@
 #include "fixtures.hpp"
 
 #include <cmath>
-#include <dsc/mesh/adopt.hpp>
-#include <dsc/generate/shape_mesh.hpp>
-#include <dsc/sdk/surfaces.hpp>
 #include <numbers>
+
 #include <fmt/core.h>
+
+#include <dsc/generate/shape_mesh.hpp>
+#include <dsc/mesh/adopt.hpp>
+#include <dsc/sdk/surfaces.hpp>
 
 namespace dsc::conformance {
 namespace {
@@ -26,7 +28,9 @@ std::vector<Vec3> ellipsoid(std::size_t count) {
     return points;
 }
 
-cloud::TargetCloud target(std::vector<Vec3> points) { return cloud::TargetCloud({std::move(points), {}}); }
+cloud::TargetCloud target(std::vector<Vec3> points) {
+    return cloud::TargetCloud({std::move(points), {}});
+}
 
 mesh::Complex sphere_complex() {
     generate::Shape sphere;
@@ -60,7 +64,8 @@ surface::TriangleMesh pieces(int count) {
             tetrahedron(Vec3(0.1 * (i % 10) - 0.5, 0.1 * (i / 10) - 0.5, 0.3), 0.02);
         const auto first = static_cast<std::uint32_t>(all.points.size());
         all.points.insert(all.points.end(), piece.points.begin(), piece.points.end());
-        for (const auto& [a, b, c] : piece.faces) all.faces.push_back({first + a, first + b, first + c});
+        for (const auto& [a, b, c] : piece.faces)
+            all.faces.push_back({first + a, first + b, first + c});
     }
     return all;
 }
@@ -107,8 +112,8 @@ std::vector<Fixture> hostile_surfaces() {
     all.push_back(of_triangles("faces without area", with_flat_faces()));
     all.push_back(of_triangles("all vertices in one place", stretched(Vec3::Zero())));
     all.push_back(of_triangles("a tiny sphere", stretched(Vec3::Constant(1e-9))));
-    all.push_back(
-        of_triangles("a tiny sphere in a corner", stretched(Vec3::Constant(1e-9), Vec3::Constant(1.4))));
+    all.push_back(of_triangles("a tiny sphere in a corner",
+                               stretched(Vec3::Constant(1e-9), Vec3::Constant(1.4))));
     all.push_back(of_triangles("100 pieces", pieces(100)));
     all.push_back(of_triangles("an open surface", sdk::square(4, 0.5)));
     all.push_back(of_triangles("no movable vertex", sdk::icosphere(1, 1.0)));
@@ -127,9 +132,12 @@ std::vector<Fixture> hostile_clouds() {
     std::vector<Fixture> all;
     all.push_back(with("no cloud", std::nullopt));
     all.push_back(with("a cloud of one point", target({Vec3(0.1, 0.2, 0.3)})));
-    all.push_back(with("three points on a line", target({Vec3(-1, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0)})));
-    all.push_back(with("1,000 points in one place", target(std::vector<Vec3>(1000, Vec3(0.5, 0, 0)))));
-    all.push_back(with("two points in the corners", target({Vec3::Constant(-1.5), Vec3::Constant(1.5)})));
+    all.push_back(
+        with("three points on a line", target({Vec3(-1, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0)})));
+    all.push_back(
+        with("1,000 points in one place", target(std::vector<Vec3>(1000, Vec3(0.5, 0, 0)))));
+    all.push_back(
+        with("two points in the corners", target({Vec3::Constant(-1.5), Vec3::Constant(1.5)})));
     all.push_back(with("the surface's own vertices", target(base.view.positions)));
     return all;
 }

@@ -1,13 +1,14 @@
 #pragma once
 // Fixtures for the tests: ordinary surfaces and clouds, and hostile ones.
 
-#include <dsc/cloud/target.hpp>
-#include <dsc/mesh/complex.hpp>
-#include <dsc/surface/surface_view.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <dsc/cloud/target.hpp>
+#include <dsc/mesh/complex.hpp>
+#include <dsc/surface/surface_view.hpp>
 
 namespace dsc::conformance {
 
@@ -15,8 +16,8 @@ namespace dsc::conformance {
 struct Fixture {
     std::string name;
     surface::SurfaceView view;
-    std::shared_ptr<const mesh::Complex>
-        complex;  ///< complex of the view; null if there are only triangles
+    std::shared_ptr<const mesh::Complex> complex;  ///< complex of the view; null if there are only
+                                                   ///< triangles
     std::optional<cloud::TargetCloud> cloud;
 };
 
@@ -25,10 +26,11 @@ Fixture ordinary();
 /// The unit sphere as 20 * 4^level triangles with an ellipsoid of points, without tets.
 Fixture triangles(unsigned level);
 
-/// Surfaces that a bad run may have: an empty one, one tet, slivers, faces without area, coinciding points, tiny and distant
-/// surfaces, many pieces, vertices that may not move.
+/// Surfaces that a bad run may have: an empty one, one tet, slivers, faces without area, coinciding
+/// points, tiny and distant surfaces, many pieces, vertices that may not move.
 std::vector<Fixture> hostile_surfaces();
-/// The ordinary surface with no cloud, one point, points on a line, all points in one place, few distant points.
+/// The ordinary surface with no cloud, one point, points on a line, all points in one place, few
+/// distant points.
 std::vector<Fixture> hostile_clouds();
 
 /// The fixture at a step: the surface is moved a little towards its centroid.

@@ -1,6 +1,7 @@
 // geo.*: the answers do not depend on the coordinate system.
 #include <algorithm>
 #include <cmath>
+
 #include <fmt/core.h>
 
 #include "test_table.hpp"
@@ -9,19 +10,23 @@ namespace dsc::conformance {
 namespace {
 
 Motion some_motion() {
-    return {Eigen::AngleAxisd(0.7, Vec3(1, -2, 3).normalized()).toRotationMatrix(), Vec3(0.11, -0.07, 0.05)};
+    return {Eigen::AngleAxisd(0.7, Vec3(1, -2, 3).normalized()).toRotationMatrix(),
+            Vec3(0.11, -0.07, 0.05)};
 }
 
 double largest_of(const std::vector<double>& values, const Trace::Stretch& part) {
     double largest = 0;
-    for (std::size_t i = part.begin; i < part.end; ++i) largest = std::max(largest, std::abs(values[i]));
+    for (std::size_t i = part.begin; i < part.end; ++i)
+        largest = std::max(largest, std::abs(values[i]));
     return largest;
 }
 
-// Scalars stay the same, vectors rotate. Vectors are compared relative to the longest vector, scalars relative to the largest
-// value of their part, which has its own unit, or to the longest vector, since a part may be zero up to rounding.
+// Scalars stay the same, vectors rotate. Vectors are compared relative to the longest vector,
+// scalars relative to the largest value of their part, which has its own unit, or to the longest
+// vector, since a part may be zero up to rounding.
 void rigid(const Subject& subject) {
-    if (!subject.record().traits.rigid) throw Skipped("it declares that it depends on a place or a direction");
+    if (!subject.record().traits.rigid)
+        throw Skipped("it declares that it depends on a place or a direction");
     if (subject.record().traits.stochastic) throw Skipped("it is declared stochastic");
     subject.require_repeatable();
     subject.require_finite();
@@ -37,8 +42,8 @@ void rigid(const Subject& subject) {
     for (const Trace::Stretch& part : parts) {
         if (part.width == 3) longest = std::max(longest, largest_of(plain, part));
     }
-    const std::string remedy = " when everything is moved and rotated; a strategy that depends on a place or a direction "
-                               "declares traits = {.rigid = false}";
+    const std::string remedy = " when everything is moved and rotated; a strategy that depends on "
+                               "a place or a direction declares traits = {.rigid = false}";
     for (const Trace::Stretch& part : parts) {
         if (part.width == 3) {
             for (std::size_t i = part.begin; i + 2 < part.end; i += 3) {
@@ -52,7 +57,8 @@ void rigid(const Subject& subject) {
         const double tolerance = relative * std::max(longest, largest_of(plain, part));
         for (std::size_t i = part.begin; i < part.end; ++i) {
             require(std::abs(plain[i] - there[i]) <= tolerance,
-                    fmt::format("{} is {:f} instead of {:f}{}", trace.place(i), there[i], plain[i], remedy));
+                    fmt::format("{} is {:f} instead of {:f}{}", trace.place(i), there[i], plain[i],
+                                remedy));
         }
     }
 }

@@ -6,7 +6,8 @@
 namespace dsc::conformance {
 namespace {
 
-// The strategy must return finite answers or throw. A crash or an endless loop ends the process and the test.
+// The strategy must return finite answers or throw. A crash or an endless loop ends the process and
+// the test.
 void survive(const Subject& subject, const std::vector<Fixture>& fixtures) {
     for (const Fixture& fixture : fixtures) {
         const auto strategy = subject.make();
@@ -16,10 +17,12 @@ void survive(const Subject& subject, const std::vector<Fixture>& fixtures) {
         } catch (const std::exception&) {
             continue;
         } catch (...) {
-            throw Failed("on " + fixture.name + " it throws something that is not a std::exception");
+            throw Failed("on " + fixture.name +
+                         " it throws something that is not a std::exception");
         }
         if (const auto bad = answers.trace.first_not_finite())
-            throw Failed(fmt::format("on {} it returns {:f} as {}", fixture.name, answers.trace.values()[*bad], answers.trace.place(*bad)));
+            throw Failed(fmt::format("on {} it returns {:f} as {}", fixture.name,
+                                     answers.trace.values()[*bad], answers.trace.place(*bad)));
     }
 }
 
@@ -61,14 +64,17 @@ void add_hostile_tests(std::vector<Test>& table) {
         {"mesh.hostile", Level::standard, false,
          "Empty, flat, tiny and open surfaces give finite answers or an exception."},
         surfaces,
-        {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement, plugin::Kind::observer});
+        {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement,
+         plugin::Kind::observer});
     add(table,
         {"cloud.hostile", Level::standard, false,
-         "No cloud, one point, and points on a line or in one place give finite answers or an exception."},
+         "No cloud, one point, and points on a line or in one place give finite answers or an "
+         "exception."},
         clouds,
-        {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement, plugin::Kind::observer,
-         plugin::Kind::initial_mesh, plugin::Kind::filter});
-    add(table, {"err.throw", Level::standard, false, "After an exception it works like a new one."}, throws);
+        {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement,
+         plugin::Kind::observer, plugin::Kind::initial_mesh, plugin::Kind::filter});
+    add(table, {"err.throw", Level::standard, false, "After an exception it works like a new one."},
+        throws);
 }
 
 }  // namespace dsc::conformance

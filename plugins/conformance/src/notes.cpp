@@ -40,7 +40,8 @@ StrategyNotes strategy(const ConfigNode& node) {
     StrategyNotes notes;
     const auto kind = plugin::find_kind(node.at("kind").as_string());
     if (!kind)
-        refuse(node.at("kind"), "there is no kind of strategy '" + node.at("kind").as_string() + "'");
+        refuse(node.at("kind"),
+               "there is no kind of strategy '" + node.at("kind").as_string() + "'");
     notes.kind = *kind;
     notes.id = node.at("id").as_string();
     if (const ConfigNode* parameters = node.find("parameters")) notes.parameters = *parameters;

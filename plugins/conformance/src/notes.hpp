@@ -1,5 +1,6 @@
 #pragma once
-// The notes on a plugin, libdsc_NAME.check.yaml beside it or a given file: values that the tests cannot guess, and waived tests.
+// The notes on a plugin, libdsc_NAME.check.yaml beside it or a given file: values that the tests
+// cannot guess, and waived tests.
 //
 //     strategies:
 //       - kind: initial_mesh
@@ -7,12 +8,13 @@
 //         parameters: {file: cube.dsc}             # file names are relative to the notes
 //         waive: {param.fuzz: any other file is refused}
 
-#include <dsc/config/node.hpp>
-#include <dsc/plugin/kind.hpp>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
+
+#include <dsc/config/node.hpp>
+#include <dsc/plugin/kind.hpp>
 
 namespace dsc::conformance {
 

@@ -12,7 +12,8 @@ namespace {
 void finite(const Subject& subject) {
     const Answers answers = subject.answers();
     if (const auto bad = answers.trace.first_not_finite())
-        throw Failed(fmt::format("{:f} as {}", answers.trace.values()[*bad], answers.trace.place(*bad)));
+        throw Failed(
+            fmt::format("{:f} as {}", answers.trace.values()[*bad], answers.trace.place(*bad)));
 }
 
 void complete(const Subject& subject) {
@@ -51,11 +52,12 @@ void quiet(const Subject& subject) {
 
 void add_output_tests(std::vector<Test>& table) {
     add(table, {"out.finite", Level::smoke, false, "No answer is NaN or infinite."}, finite);
-    add(table, {"out.complete", Level::smoke, false, "Every entry of an output is written."}, complete,
-        per_vertex);
-    add(table, {"out.bounds", Level::standard, false, "Nothing outside an output is written."}, output_bounds,
-        per_vertex);
-    add(table, {"out.const", Level::standard, false, "The input does not change, bit by bit."}, inputs);
+    add(table, {"out.complete", Level::smoke, false, "Every entry of an output is written."},
+        complete, per_vertex);
+    add(table, {"out.bounds", Level::standard, false, "Nothing outside an output is written."},
+        output_bounds, per_vertex);
+    add(table, {"out.const", Level::standard, false, "The input does not change, bit by bit."},
+        inputs);
     add(table,
         {"out.attributes", Level::standard, false,
          "Published attributes have one value per vertex, and valid names that differ."},

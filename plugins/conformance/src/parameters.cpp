@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include <fmt/core.h>
+
 #include <dsc/base/random.hpp>
 #include <dsc/config/yaml.hpp>
-#include <limits>
-#include <fmt/core.h>
 
 namespace dsc::conformance {
 namespace {
@@ -22,7 +24,8 @@ std::string text(const ConfigNode& value) {
     return yaml;
 }
 
-Variation vary(const ConfigNode& base, const Field& field, const ConfigNode& value, const std::string& what) {
+Variation vary(const ConfigNode& base, const Field& field, const ConfigNode& value,
+               const std::string& what) {
     return {field.name + " =" + text(value) + "(" + what + ")", base.with(field.name, value)};
 }
 
@@ -40,7 +43,8 @@ double inside(const Field& field, const Bound& bound, bool lower) {
 
 double outside(const Field& field, const Bound& bound, bool lower) {
     if (bound.open) return bound.value;
-    const double step = field.type == FieldType::integer ? 1.0 : std::max(std::abs(bound.value), 1.0) * 1e-3;
+    const double step =
+        field.type == FieldType::integer ? 1.0 : std::max(std::abs(bound.value), 1.0) * 1e-3;
     return lower ? bound.value - step : bound.value + step;
 }
 
@@ -56,12 +60,15 @@ double base_value(const Field& field, const ConfigNode& base) {
 
 void add_number(const Field& field, const ConfigNode& base, std::vector<Variation>& out) {
     if (field.minimum)
-        out.push_back(vary(base, field, number(field, inside(field, *field.minimum, true)), "least"));
+        out.push_back(
+            vary(base, field, number(field, inside(field, *field.minimum, true)), "least"));
     if (field.maximum && !field.has_tag("costly"))
-        out.push_back(vary(base, field, number(field, inside(field, *field.maximum, false)), "greatest"));
+        out.push_back(
+            vary(base, field, number(field, inside(field, *field.maximum, false)), "greatest"));
 }
 
-// If a range has only one end, values up to ten times the usual one; powers of two if the ends are far apart.
+// If a range has only one end, values up to ten times the usual one; powers of two if the ends are
+// far apart.
 double draw(const Field& field, double usual, RandomStream& random) {
     const double reach = 10.0 * std::max(std::abs(usual), 1e-3);
     const double low = field.minimum ? inside(field, *field.minimum, true) : -reach;
@@ -74,12 +81,10 @@ double draw(const Field& field, double usual, RandomStream& random) {
 ConfigNode random_value(const Field& field, const ConfigNode& base, RandomStream& random) {
     const double usual = base_value(field, base);
     switch (field.type) {
-        case FieldType::boolean:
-            return ConfigNode(random.index(2) == 1);
+        case FieldType::boolean: return ConfigNode(random.index(2) == 1);
         case FieldType::integer:
             return ConfigNode(static_cast<std::int64_t>(std::round(draw(field, usual, random))));
-        case FieldType::real:
-            return ConfigNode(draw(field, usual, random));
+        case FieldType::real: return ConfigNode(draw(field, usual, random));
         case FieldType::choice:
             return ConfigNode(field.choices[random.index(field.choices.size())]);
         case FieldType::vec3:
@@ -96,14 +101,11 @@ ConfigNode other_type(const Field& field) {
     switch (field.type) {
         case FieldType::boolean:
         case FieldType::integer:
-        case FieldType::real:
-            return ConfigNode("a word");
+        case FieldType::real: return ConfigNode("a word");
         case FieldType::string:
         case FieldType::choice:
-        case FieldType::file:
-            return ConfigNode::list({1, 2});
-        default:
-            return ConfigNode(true);
+        case FieldType::file: return ConfigNode::list({1, 2});
+        default: return ConfigNode(true);
     }
 }
 
@@ -114,7 +116,8 @@ std::vector<Variation> extremes(const config::Schema& schema, const ConfigNode& 
     for (const Field& field : schema.fields()) {
         if (is_number(field)) add_number(field, base, out);
         if (field.type == FieldType::boolean) {
-            for (const bool value : {false, true}) out.push_back(vary(base, field, value, "a truth value"));
+            for (const bool value : {false, true})
+                out.push_back(vary(base, field, value, "a truth value"));
         }
         if (field.type == FieldType::choice) {
             for (const std::string& choice : field.choices)
@@ -125,7 +128,8 @@ std::vector<Variation> extremes(const config::Schema& schema, const ConfigNode& 
     return out;
 }
 
-Variation random_variation(const config::Schema& schema, const ConfigNode& base, std::uint64_t seed) {
+Variation random_variation(const config::Schema& schema, const ConfigNode& base,
+                           std::uint64_t seed) {
     RandomStream random(RandomKey{seed, stream_id("fuzz"), 0, 0});
     ConfigNode parameters = base;
     std::string name = fmt::format("seed {}:", seed);
@@ -147,7 +151,8 @@ std::vector<Variation> wrong(const config::Schema& schema, const ConfigNode& bas
                 out.push_back(vary(base, field, number(field, outside(field, *field.minimum, true)),
                                    "below its range"));
             if (field.maximum)
-                out.push_back(vary(base, field, number(field, outside(field, *field.maximum, false)),
+                out.push_back(vary(base, field,
+                                   number(field, outside(field, *field.maximum, false)),
                                    "above its range"));
         }
         if (field.type == FieldType::choice)

@@ -1,12 +1,14 @@
 // mesh.topology, policy.*, cloud.attributes: tests of initial meshes, requests and filtered clouds.
 #include <algorithm>
 #include <cstring>
+#include <map>
+
+#include <fmt/core.h>
+
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/validate.hpp>
 #include <dsc/run/mesh_files.hpp>
-#include <map>
-#include <fmt/core.h>
 
 #include "test_table.hpp"
 
@@ -28,12 +30,15 @@ void topology(const Subject& subject) {
     const mesh::Complex complex = mesh::adopt(mesh, "the mesh", nullptr);
     const mesh::ComplexReport report = mesh::validate(complex);
     require(report.valid(), report.faults.empty() ? "" : report.faults.front());
-    require(report.irregular_vertices == 0,
-            fmt::format("the interface is not a 2-manifold at {} vertices", report.irregular_vertices));
-    require(std::any_of(mesh.labels.begin(), mesh.labels.end(), [](mesh::Label l) { return l > 0; }),
-            "no tet has a label above 0, so there is nothing to deform");
-    require(std::any_of(mesh.labels.begin(), mesh.labels.end(), [](mesh::Label l) { return l == 0; }),
-            "no tet has the label 0, so the body fills the box");
+    require(
+        report.irregular_vertices == 0,
+        fmt::format("the interface is not a 2-manifold at {} vertices", report.irregular_vertices));
+    require(
+        std::any_of(mesh.labels.begin(), mesh.labels.end(), [](mesh::Label l) { return l > 0; }),
+        "no tet has a label above 0, so there is nothing to deform");
+    require(
+        std::any_of(mesh.labels.begin(), mesh.labels.end(), [](mesh::Label l) { return l == 0; }),
+        "no tet has the label 0, so the body fills the box");
 }
 
 // A velocity along x, for refinements to read.
@@ -49,7 +54,8 @@ public:
     }
 };
 
-hooks::RefinementRequests ask(hooks::RefinementPolicy& policy, const Fixture& fixture, std::uint64_t step) {
+hooks::RefinementRequests ask(hooks::RefinementPolicy& policy, const Fixture& fixture,
+                              std::uint64_t step) {
     Drift velocity;
     const hooks::StepContext context = context_of(fixture, step, {}, nullptr);
     hooks::RefinementRequests requests;
@@ -58,7 +64,8 @@ hooks::RefinementRequests ask(hooks::RefinementPolicy& policy, const Fixture& fi
     return requests;
 }
 
-// Requests name each simplex once, a second call on the same mesh requests nothing more, and a few rounds end.
+// Requests name each simplex once, a second call on the same mesh requests nothing more, and a few
+// rounds end.
 void refinement(const Subject& subject) {
     const auto strategy = subject.make();
     auto& policy = static_cast<hooks::RefinementPolicy&>(*strategy);
@@ -74,14 +81,17 @@ void refinement(const Subject& subject) {
         const hooks::RefinementRequests again = ask(policy, fixture, round + 1);
         require(again.split_faces.size() <= requests.split_faces.size() &&
                     again.split_edges.size() <= requests.split_edges.size(),
-                fmt::format("a second call on the same mesh requests more: {} faces and {} edges after {} and {}", again.split_faces.size(), again.split_edges.size(), requests.split_faces.size(), requests.split_edges.size()));
+                fmt::format("a second call on the same mesh requests more: {} faces and {} edges "
+                            "after {} and {}",
+                            again.split_faces.size(), again.split_edges.size(),
+                            requests.split_faces.size(), requests.split_edges.size()));
         std::vector<std::array<mesh::VertexId, 3>> faces;
         for (const std::uint32_t f : requests.split_faces) {
             require(f < fixture.view.face_count(),
                     fmt::format("it requests face {}, which does not exist", f));
             const auto& [a, b, c] = fixture.view.faces[f];
-            faces.push_back(
-                {fixture.view.vertex_ids[a], fixture.view.vertex_ids[b], fixture.view.vertex_ids[c]});
+            faces.push_back({fixture.view.vertex_ids[a], fixture.view.vertex_ids[b],
+                             fixture.view.vertex_ids[c]});
         }
         deformer.refine(faces, {});
     }
@@ -106,7 +116,8 @@ void improvement(const Subject& subject) {
     repair.propose = [&](const repair::RepairRound& round, std::vector<repair::Request>& out) {
         policy.propose(*current, round, out);
     };
-    repair.select = [&](std::span<const repair::TopologyCandidate> candidates, std::span<std::uint8_t> accept) {
+    repair.select = [&](std::span<const repair::TopologyCandidate> candidates,
+                        std::span<std::uint8_t> accept) {
         policy.select(*current, candidates, accept);
     };
     repair.topology = policy.topology_limits();
@@ -117,7 +128,8 @@ void improvement(const Subject& subject) {
         current = &context;
         deformer.step(fixture.view.vertex_ids, twist(fixture.view), repair);
         const mesh::ComplexReport report = mesh::validate(deformer.complex());
-        require(report.valid(), fmt::format("step {} left an invalid mesh: {}", step, report.faults.empty() ? "" : report.faults.front()));
+        require(report.valid(), fmt::format("step {} left an invalid mesh: {}", step,
+                                            report.faults.empty() ? "" : report.faults.front()));
     }
 }
 
@@ -132,27 +144,34 @@ void require_size(std::size_t size, std::size_t points, const char* what) {
             fmt::format("it returns {} {} for {} points", size, what, points));
 }
 
-// The attributes match the points, a point that stays keeps its colour, and the numbers in the report add up.
+// The attributes match the points, a point that stays keeps its colour, and the numbers in the
+// report add up.
 void filter_attributes(const Subject& subject) {
     const auto strategy = subject.make();
     const cloud::Cloud given = cloud_of(subject.fixture());
-    const cloud::Filtered result = static_cast<hooks::CloudFilter&>(*strategy).apply(given, filter_context({}, nullptr));
+    const cloud::Filtered result =
+        static_cast<hooks::CloudFilter&>(*strategy).apply(given, filter_context({}, nullptr));
     const std::size_t points = result.cloud.points.size();
     require(points > 0, "it leaves no point of an ordinary cloud");
     require_size(result.cloud.normals.size(), points, "normals");
     require_size(result.cloud.areas.size(), points, "areas");
     require_size(result.cloud.confidence.size(), points, "confidences");
     require(result.cloud.colours.size() == points,
-            fmt::format("the cloud has a colour for each of its points, but the filter returns {} colours for {} points", result.cloud.colours.size(), points));
+            fmt::format("the cloud has a colour for each of its points, but the filter returns {} "
+                        "colours for {} points",
+                        result.cloud.colours.size(), points));
     std::map<std::string, cloud::Colour> colours;
-    for (std::size_t i = 0; i < given.points.size(); ++i) colours[bits_of(given.points[i])] = given.colours[i];
+    for (std::size_t i = 0; i < given.points.size(); ++i)
+        colours[bits_of(given.points[i])] = given.colours[i];
     for (std::size_t i = 0; i < points; ++i) {
         const auto found = colours.find(bits_of(result.cloud.points[i]));
         require(found == colours.end() || found->second == result.cloud.colours[i],
                 fmt::format("point {} has the colour of another point", i));
     }
-    require(result.report.kept == points && result.report.kept + result.report.removed == given.points.size(),
-            fmt::format("its report counts {} points kept and {} removed, of {} given and {} left", result.report.kept, result.report.removed, given.points.size(), points));
+    require(result.report.kept == points &&
+                result.report.kept + result.report.removed == given.points.size(),
+            fmt::format("its report counts {} points kept and {} removed, of {} given and {} left",
+                        result.report.kept, result.report.removed, given.points.size(), points));
 }
 
 void progress(const Subject& subject) {
@@ -169,7 +188,8 @@ void sizing(const Subject& subject) {
     const auto strategy = subject.make();
     const unsigned passes = static_cast<hooks::RefinementPolicy&>(*strategy).passes();
     require(passes >= 1 && passes <= hooks::refinement_passes,
-            fmt::format("it asks for {} passes, but only 1 to {} are possible", passes, hooks::refinement_passes));
+            fmt::format("it asks for {} passes, but only 1 to {} are possible", passes,
+                        hooks::refinement_passes));
 }
 
 }  // namespace
@@ -181,11 +201,13 @@ void add_policy_tests(std::vector<Test>& table) {
         topology, {plugin::Kind::initial_mesh});
     add(table,
         {"policy.progress", Level::standard, false,
-         "Requests come to an end: refinements request nothing twice, improvements leave valid meshes."},
+         "Requests come to an end: refinements request nothing twice, improvements leave valid "
+         "meshes."},
         progress, {plugin::Kind::refinement, plugin::Kind::improvement});
     add(table,
         {"policy.sizing", Level::standard, false,
-         "Target lengths are above 0, one for all vertices or one per vertex, and the number of passes is allowed."},
+         "Target lengths are above 0, one for all vertices or one per vertex, and the number of "
+         "passes is allowed."},
         sizing, {plugin::Kind::refinement});
     add(table,
         {"cloud.attributes", Level::standard, false,

@@ -1,5 +1,11 @@
 #include "process.hpp"
 
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
 #include <fcntl.h>
 #include <signal.h>
 #include <string.h>
@@ -8,14 +14,10 @@
 #include <time.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
-#include <cstdio>
+#include <fmt/core.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/host/child_process.hpp>
-#include <filesystem>
-#include <iostream>
-#include <fmt/core.h>
 
 namespace dsc::conformance {
 namespace {
@@ -59,7 +61,8 @@ private:
     fs::path path_;
 };
 
-[[noreturn]] void live(const std::function<Verdict()>& body, int to, int output, const fs::path& folder) {
+[[noreturn]] void live(const std::function<Verdict()>& body, int to, int output,
+                       const fs::path& folder) {
     setpgid(0, 0);
     host::keep_to_itself(output);
     printed = output;
@@ -81,12 +84,13 @@ std::string last_line(const std::string& text) {
 
 // The line of a sanitizer's report that names the error; empty if there is none.
 std::string sanitizer_report(const std::string& output) {
-    for (const char* sign :
-         {"ERROR: AddressSanitizer", "ERROR: LeakSanitizer", "WARNING: ThreadSanitizer", "runtime error:"}) {
+    for (const char* sign : {"ERROR: AddressSanitizer", "ERROR: LeakSanitizer",
+                             "WARNING: ThreadSanitizer", "runtime error:"}) {
         const std::size_t at = output.find(sign);
         if (at == std::string::npos) continue;
         const std::size_t begin = output.rfind('\n', at);
-        return output.substr(begin == std::string::npos ? 0 : begin + 1, output.find('\n', at) - at + 1);
+        return output.substr(begin == std::string::npos ? 0 : begin + 1,
+                             output.find('\n', at) - at + 1);
     }
     return {};
 }
@@ -95,13 +99,13 @@ Verdict judge(int status, bool in_time, const std::string& bytes, const std::str
               std::chrono::milliseconds limit) {
     if (!in_time)
         return {Status::timeout, fmt::format("it did not end within {} s", limit.count() / 1000)};
-    if (const std::string report = sanitizer_report(output); !report.empty()) return {Status::fail, report};
+    if (const std::string report = sanitizer_report(output); !report.empty())
+        return {Status::fail, report};
     const std::string said = last_line(output);
     const std::string last_words = said.empty() ? "" : "; it printed: " + said;
     if (WIFSIGNALED(status)) return {Status::crash, host::end_text(status) + last_words};
     if (bytes.empty() || WEXITSTATUS(status) != 0)
-        return {Status::crash,
-                "it ended the process with " + host::end_text(status) + last_words};
+        return {Status::crash, "it ended the process with " + host::end_text(status) + last_words};
     return {static_cast<Status>(bytes[0]), bytes.substr(1)};
 }
 
@@ -130,8 +134,8 @@ Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::millisec
     std::array<int, 2> ends{};
     const int output = memfd_create("output", MFD_CLOEXEC);
     if (output < 0 || pipe2(ends.data(), O_CLOEXEC) != 0)
-        throw PluginError("check.process", std::string("cannot create a pipe for a test (") + strerror(errno) +
-                                               "); close other programs");
+        throw PluginError("check.process", std::string("cannot create a pipe for a test (") +
+                                               strerror(errno) + "); close other programs");
     std::cout.flush();
     std::fflush(nullptr);
     const pid_t child = fork();
@@ -141,7 +145,8 @@ Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::millisec
     }
     close(ends[1]);
     std::string bytes;
-    const bool in_time = child > 0 && host::read_to_end(ends[0], bytes, Clock::now() + limit) == host::ReadEnd::closed;
+    const bool in_time = child > 0 && host::read_to_end(ends[0], bytes, Clock::now() + limit) ==
+                                          host::ReadEnd::closed;
     int status = 0;
     if (child > 0) {
         if (!in_time) kill(child, SIGKILL);

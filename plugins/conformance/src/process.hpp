@@ -2,13 +2,15 @@
 // The process in which a test runs: its output, its CPU time and its end.
 
 #include <chrono>
-#include <dsc/conformance/check.hpp>
 #include <functional>
 #include <string>
 
+#include <dsc/conformance/check.hpp>
+
 namespace dsc::conformance {
 
-/// Number of bytes printed by this process: a file receives its standard output and error while it runs a test; 0 otherwise.
+/// Number of bytes printed by this process: a file receives its standard output and error while it
+/// runs a test; 0 otherwise.
 std::size_t printed_so_far();
 /// The first 200 characters printed after that position.
 std::string printed_since(std::size_t begin);
@@ -22,8 +24,8 @@ struct Verdict {
     std::string message;
 };
 
-/// Runs `body` in a child process, in its own empty folder, for at most `limit`. Output with a sanitizer's report is a
-/// failure, whatever the body returns. [setup]
+/// Runs `body` in a child process, in its own empty folder, for at most `limit`. Output with a
+/// sanitizer's report is a failure, whatever the body returns. [setup]
 Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::milliseconds limit);
 
 }  // namespace dsc::conformance

@@ -1,9 +1,10 @@
-#include <fmt/core.h>
-
 #include <array>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
 #include <dsc/conformance/check.hpp>
 #include <dsc/text/words.hpp>
-#include <nlohmann/json.hpp>
 
 namespace dsc::conformance {
 namespace {
@@ -15,18 +16,10 @@ std::string xml(std::string_view text) {
     std::string out;
     for (const char c : text) {
         switch (c) {
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '&':
-                out += "&amp;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
+            case '<': out += "&lt;"; break;
+            case '>': out += "&gt;"; break;
+            case '&': out += "&amp;"; break;
+            case '"': out += "&quot;"; break;
             default:
                 // XML 1.0 has no other control characters.
                 out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? '?' : c;
@@ -36,9 +29,10 @@ std::string xml(std::string_view text) {
 }
 
 std::string junit_case(const Report& report, const Outcome& o) {
-    const std::string owner = o.strategy.empty() ? report.plugin : report.plugin + ": " + o.strategy;
-    std::string out = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", xml(owner),
-                                  o.test, o.seconds);
+    const std::string owner =
+        o.strategy.empty() ? report.plugin : report.plugin + ": " + o.strategy;
+    std::string out = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"",
+                                  xml(owner), o.test, o.seconds);
     if (o.status == Status::pass) return out + "/>\n";
     out += ">\n";
     if (o.status == Status::skip) {
@@ -70,10 +64,12 @@ std::string text(const Report& report) {
 }
 
 std::string sums(const Report& report) {
-    std::string out = fmt::format("{} {} at level {}, seed {}:", report.file.filename().string(),
-                                  report.passed() ? "passes" : "FAILS", name(report.level), report.seed);
+    std::string out =
+        fmt::format("{} {} at level {}, seed {}:", report.file.filename().string(),
+                    report.passed() ? "passes" : "FAILS", name(report.level), report.seed);
     for (const Status status : all_statuses) {
-        if (report.count(status) > 0) out += fmt::format(" {} {}", report.count(status), text::lower_case(name(status)));
+        if (report.count(status) > 0)
+            out += fmt::format(" {} {}", report.count(status), text::lower_case(name(status)));
     }
     return out + "\n";
 }
@@ -101,11 +97,12 @@ std::string junit(const Report& report) {
     double seconds = 0;
     for (const Outcome& o : report.outcomes) seconds += o.seconds;
     std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-    out += fmt::format(
-        "<testsuite name=\"dsc plugin check {}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" "
-        "time=\"{:.3f}\">\n",
-        xml(report.file.filename().string()), report.outcomes.size(), report.count(Status::fail),
-        report.count(Status::crash) + report.count(Status::timeout), report.count(Status::skip), seconds);
+    out += fmt::format("<testsuite name=\"dsc plugin check {}\" tests=\"{}\" failures=\"{}\" "
+                       "errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n",
+                       xml(report.file.filename().string()), report.outcomes.size(),
+                       report.count(Status::fail),
+                       report.count(Status::crash) + report.count(Status::timeout),
+                       report.count(Status::skip), seconds);
     for (const Outcome& o : report.outcomes) out += junit_case(report, o);
     return out + "</testsuite>\n";
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <fmt/core.h>
 
 namespace dsc::conformance {
@@ -9,13 +10,16 @@ namespace dsc::conformance {
 std::string unfit(const hooks::Attributes& attributes, std::size_t vertices) {
     for (std::size_t i = 0; i < attributes.size(); ++i) {
         const hooks::Attribute& a = attributes[i];
-        if (!hooks::may_name_attribute(a.name)) return "'" + a.name + "' is not a valid name for an attribute";
+        if (!hooks::may_name_attribute(a.name))
+            return "'" + a.name + "' is not a valid name for an attribute";
         const auto before = attributes.begin() + static_cast<std::ptrdiff_t>(i);
-        if (std::any_of(attributes.begin(), before, [&a](const hooks::Attribute& other) { return other.name == a.name; })) {
+        if (std::any_of(attributes.begin(), before,
+                        [&a](const hooks::Attribute& other) { return other.name == a.name; })) {
             return "attribute '" + a.name + "' is published twice";
         }
         if (a.values.size() != vertices) {
-            return fmt::format("attribute '{}' has {} values for {} vertices", a.name, a.values.size(), vertices);
+            return fmt::format("attribute '{}' has {} values for {} vertices", a.name,
+                               a.values.size(), vertices);
         }
     }
     return {};
@@ -25,9 +29,11 @@ std::string unfit_lengths(const hooks::RefinementRequests& requests, std::size_t
     const auto bad = [](double length) { return std::isfinite(length) && length <= 0.0; };
     for (const std::vector<double>* lengths : {&requests.sizing, &requests.target_lengths}) {
         if (!lengths->empty() && lengths->size() != vertices) {
-            return fmt::format("there are {} target lengths for {} vertices", lengths->size(), vertices);
+            return fmt::format("there are {} target lengths for {} vertices", lengths->size(),
+                               vertices);
         }
-        if (std::any_of(lengths->begin(), lengths->end(), bad)) return "a target length is not above 0";
+        if (std::any_of(lengths->begin(), lengths->end(), bad))
+            return "a target length is not above 0";
     }
     if (requests.target_length < 0.0) return "the target length is below 0";
     if (requests.target_length > 0.0 && !requests.target_lengths.empty())

@@ -1,5 +1,6 @@
 // cancel, leak, thr.*, perf.*: the resources that a strategy uses.
 #include <malloc.h>
+
 #include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
@@ -44,9 +45,11 @@ void use_once(const Subject& subject, const Fixture& fixture) {
     }
 }
 
-// A strategy that is created, used and destroyed many times keeps no more memory than after a few times.
+// A strategy that is created, used and destroyed many times keeps no more memory than after a few
+// times.
 void leak(const Subject& subject) {
-    const bool costly = subject.kind() == plugin::Kind::initial_mesh || subject.kind() == plugin::Kind::improvement ||
+    const bool costly = subject.kind() == plugin::Kind::initial_mesh ||
+                        subject.kind() == plugin::Kind::improvement ||
                         subject.kind() == plugin::Kind::filter;
     const unsigned repeats = costly ? 5 : 100;
     const Fixture small = costly ? subject.fixture() : triangles(2);
@@ -57,7 +60,8 @@ void leak(const Subject& subject) {
         return;
     }
     if (sanitized("thread")) throw Skipped("memory is not counted under ThreadSanitizer");
-    // The allocator counts its cache as used memory, which sometimes grows by some hundred bytes: a leak shows in every round.
+    // The allocator counts its cache as used memory, which sometimes grows by some hundred bytes: a
+    // leak shows in every round.
     constexpr std::size_t much = 256;
     std::size_t lost = much;
     for (unsigned round = 0; round < 3 && lost >= much; ++round) {
@@ -66,7 +70,8 @@ void leak(const Subject& subject) {
         const std::size_t after = mallinfo2().uordblks + mallinfo2().hblkhd;
         lost = after > before ? (after - before) / repeats : 0;
     }
-    require(lost < much, std::to_string(lost) + " bytes are lost each time it is created, used and destroyed");
+    require(lost < much,
+            std::to_string(lost) + " bytes are lost each time it is created, used and destroyed");
 }
 
 // The sanitizer's report decides; the process that runs the test reads it.
@@ -92,21 +97,26 @@ void scale(const Subject& subject) {
     const double large = time(5);
     const double ratio = large / std::max(small, 1e-6);
     if (large > 0.02 && ratio > 9)
-        throw Warned(fmt::format("a surface four times as large takes {:f} times as long; the time grows faster than the surface", ratio));
+        throw Warned(fmt::format("a surface four times as large takes {:f} times as long; the time "
+                                 "grows faster than the surface",
+                                 ratio));
 }
 
 }  // namespace
 
 void add_resource_tests(std::vector<Test>& table) {
-    add(table, {"cancel", Level::standard, false, "It returns within 2 s after it is cancelled."}, cancel);
-    add(table, {"leak", Level::standard, false, "It loses no memory when it is created, used and destroyed."},
+    add(table, {"cancel", Level::standard, false, "It returns within 2 s after it is cancelled."},
+        cancel);
+    add(table,
+        {"leak", Level::standard, false,
+         "It loses no memory when it is created, used and destroyed."},
         leak);
     add(table,
         {"thr.race", Level::strict, false,
          "Concurrent calls have no data race (in a build with ThreadSanitizer)."},
         race);
-    add(table, {"perf.scale", Level::strict, false, "The time grows no faster than the surface."}, scale,
-        {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement});
+    add(table, {"perf.scale", Level::strict, false, "The time grows no faster than the surface."},
+        scale, {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement});
 }
 
 }  // namespace dsc::conformance

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/config/yaml.hpp>
@@ -18,11 +19,36 @@ using config::FieldType;
 
 // The words of units; / or ^ joins them.
 constexpr std::array unit_words = {
-    "1",      "length",  "curvature",    "time",       "radians", "degrees",         "mean edges",
-    "target lengths (L)", "current mean edges",
-    "steps",  "seconds", "vertices",     "faces",      "tets",    "points",          "diagonals",
-    "radius", "cells",   "finest cells", "directions", "levels",  "point distances", "point spacings",
-    "2",      "3",       "threads",      "rounds",     "point widths", "budgets", "sweeps",
+    "1",
+    "length",
+    "curvature",
+    "time",
+    "radians",
+    "degrees",
+    "mean edges",
+    "target lengths (L)",
+    "current mean edges",
+    "steps",
+    "seconds",
+    "vertices",
+    "faces",
+    "tets",
+    "points",
+    "diagonals",
+    "radius",
+    "cells",
+    "finest cells",
+    "directions",
+    "levels",
+    "point distances",
+    "point spacings",
+    "2",
+    "3",
+    "threads",
+    "rounds",
+    "point widths",
+    "budgets",
+    "sweeps",
 };
 
 bool is_unit(const std::string& unit) {
@@ -47,13 +73,14 @@ bool is_unit(const std::string& unit) {
 
 void lint_field(const Field& field, std::vector<std::string>& problems) {
     const std::string subject = "parameter '" + field.name + "' ";
-    if (!text::is_snake_case(field.name)) problems.push_back(subject + "is not named in snake_case");
+    if (!text::is_snake_case(field.name))
+        problems.push_back(subject + "is not named in snake_case");
     if (field.doc.empty() || field.doc.back() != '.')
         problems.push_back(subject + "has a doc that is not a sentence");
     if (!field.unit.empty() && !is_unit(field.unit))
         problems.push_back(subject + "has the unknown unit '" + field.unit + "'");
-    const bool number =
-        field.type == FieldType::real || field.type == FieldType::real_list || field.type == FieldType::vec3;
+    const bool number = field.type == FieldType::real || field.type == FieldType::real_list ||
+                        field.type == FieldType::vec3;
     if (number && field.unit.empty())
         problems.push_back(subject + "is a real number without a unit (\"1\" for a pure number)");
     if (!field.object) return;
@@ -85,8 +112,10 @@ void parameters_roundtrip(const Subject& subject) {
     } catch (const Failed& failed) {
         throw Failed(std::string("its own defaults are refused: ") + failed.what());
     }
-    const ConfigNode again = subject.resolve(config::parse_yaml(config::to_yaml(resolved), "defaults"));
-    require(again == resolved, "the defaults change when they are written and read back:\n" + config::to_yaml(again));
+    const ConfigNode again =
+        subject.resolve(config::parse_yaml(config::to_yaml(resolved), "defaults"));
+    require(again == resolved,
+            "the defaults change when they are written and read back:\n" + config::to_yaml(again));
     for (const Field& field : subject.schema().fields()) {
         std::vector<std::string> choices = field.choices;
         std::sort(choices.begin(), choices.end());
@@ -95,7 +124,8 @@ void parameters_roundtrip(const Subject& subject) {
     }
 }
 
-// The schema decides clearly what is accepted: a bound is inside or outside, and validation throws nothing else.
+// The schema decides clearly what is accepted: a bound is inside or outside, and validation throws
+// nothing else.
 void reject(const Subject& subject) {
     const ConfigNode& base = subject.defaults();
     for (const Variation& v : wrong(subject.schema(), base)) {
@@ -123,15 +153,18 @@ void reject(const Subject& subject) {
 void add_schema_tests(std::vector<Test>& table) {
     add(table,
         {"schema.lint", Level::smoke, false,
-         "Parameters have names in snake_case and docs that are sentences, and numbers have known units."},
+         "Parameters have names in snake_case and docs that are sentences, and numbers have known "
+         "units."},
         lint);
     add(table,
         {"schema.roundtrip", Level::smoke, false,
-         "The defaults are accepted, and stay the same when they are written as YAML and read back."},
+         "The defaults are accepted, and stay the same when they are written as YAML and read "
+         "back."},
         parameters_roundtrip);
     add(table,
         {"schema.reject", Level::standard, false,
-         "Values outside a range, values of another type and unknown keys are refused; validation never throws."},
+         "Values outside a range, values of another type and unknown keys are refused; validation "
+         "never throws."},
         reject);
 }
 

@@ -1,6 +1,7 @@
 // state.*: the state of a strategy in a checkpoint.
-#include <dsc/base/random.hpp>
 #include <sstream>
+
+#include <dsc/base/random.hpp>
 
 #include "test_table.hpp"
 
@@ -13,7 +14,8 @@ std::string saved(const hooks::Strategy& strategy) {
     return out.str();
 }
 
-// After two steps the state is saved and read by another instance: both then give the same answers, and store the same state.
+// After two steps the state is saved and read by another instance: both then give the same answers,
+// and store the same state.
 void state_roundtrip(const Subject& subject) {
     subject.require_repeatable();
     const auto original = subject.make();
@@ -51,11 +53,13 @@ void damaged(const Subject& subject) {
         return false;
     };
     require(refuses(""), "it accepts an empty state");
-    for (std::size_t part = 1; part < 16; ++part) refuses(state.substr(0, state.size() * part / 16));
+    for (std::size_t part = 1; part < 16; ++part)
+        refuses(state.substr(0, state.size() * part / 16));
     RandomStream random(RandomKey{subject.seed(), stream_id("state"), 0, 0});
     for (int i = 0; i < 50; ++i) {
         std::string bytes = state;
-        for (int k = 0; k < 4; ++k) bytes[random.index(bytes.size())] = static_cast<char>(random.index(256));
+        for (int k = 0; k < 4; ++k)
+            bytes[random.index(bytes.size())] = static_cast<char>(random.index(256));
         refuses(bytes);
     }
 }
@@ -66,7 +70,9 @@ void prepare_again(const Subject& subject) {
     const Trace once = subject.answers({.steps = 3}).trace;
     const Trace often = subject.answers({.steps = 3, .prepares = 3}).trace;
     if (const auto difference = Trace::difference(once, often)) {
-        throw Failed("a second call of prepare() changes its answers; only advance() may change the state: " + *difference);
+        throw Failed("a second call of prepare() changes its answers; only advance() may change "
+                     "the state: " +
+                     *difference);
     }
 }
 
@@ -75,12 +81,16 @@ void prepare_again(const Subject& subject) {
 void add_state_tests(std::vector<Test>& table) {
     add(table,
         {"state.roundtrip", Level::standard, false,
-         "After another instance has read its saved state, the run continues with the same answers."},
+         "After another instance has read its saved state, the run continues with the same "
+         "answers."},
         state_roundtrip);
     add(table,
-        {"state.prepare", Level::standard, false, "prepare() may be called more than once per step and changes no answer."}, prepare_again,
-        per_vertex);
-    add(table, {"state.bad", Level::standard, false, "Damaged states lead to an exception, never to a crash."},
+        {"state.prepare", Level::standard, false,
+         "prepare() may be called more than once per step and changes no answer."},
+        prepare_again, per_vertex);
+    add(table,
+        {"state.bad", Level::standard, false,
+         "Damaged states lead to an exception, never to a crash."},
         damaged);
 }
 

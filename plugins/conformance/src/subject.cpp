@@ -1,6 +1,7 @@
 #include "subject.hpp"
 
 #include <algorithm>
+
 #include <dsc/base/error.hpp>
 
 namespace dsc::conformance {
@@ -26,13 +27,15 @@ Subject::Subject(std::filesystem::path file, const StrategyName* strategy, const
 
 const plugin::StrategyRecord& Subject::record() const {
     if (!strategy_)
-        throw Failed("the strategy is missing: the plugin registers a different set of strategies each time");
+        throw Failed("the strategy is missing: the plugin registers a different set of strategies "
+                     "each time");
     return *strategy_->strategy;
 }
 
 config::ConfigNode Subject::resolve(const config::ConfigNode& given) const {
     config::Diagnostics diagnostics;
-    config::ConfigNode resolved = config::validate(given, schema(), host_, diagnostics, "the strategy");
+    config::ConfigNode resolved =
+        config::validate(given, schema(), host_, diagnostics, "the strategy");
     try {
         diagnostics.throw_if_errors();
     } catch (const ConfigError& error) {
@@ -43,8 +46,9 @@ config::ConfigNode Subject::resolve(const config::ConfigNode& given) const {
 
 const config::ConfigNode& Subject::defaults() const {
     if (defaults_) return *defaults_;
-    const config::ConfigNode given =
-        notes_ != nullptr && notes_->parameters.is_map() ? notes_->parameters : config::ConfigNode::map();
+    const config::ConfigNode given = notes_ != nullptr && notes_->parameters.is_map()
+                                         ? notes_->parameters
+                                         : config::ConfigNode::map();
     for (const config::Field& field : schema().fields()) {
         if (field.required && given.find(field.name) == nullptr) {
             throw Skipped("parameter '" + field.name + "' has no default; set its value in " +

@@ -1,9 +1,10 @@
 #pragma once
 // The subject of a test: a library that is loaded into this process, and one of its strategies.
 
+#include <memory>
+
 #include <dsc/conformance/check.hpp>
 #include <dsc/host/host.hpp>
-#include <memory>
 
 #include "exercise.hpp"
 #include "fixtures.hpp"
@@ -29,21 +30,22 @@ public:
     const plugin::StrategyRecord& record() const;
     const config::Schema& schema() const { return *record().schema; }
 
-    /// The parameters as the schema resolves them. Throws Failed if the schema refuses them, StrategyError if the validation
-    /// throws.
+    /// The parameters as the schema resolves them. Throws Failed if the schema refuses them,
+    /// StrategyError if the validation throws.
     config::ConfigNode resolve(const config::ConfigNode& given) const;
-    /// The defaults, with the values of the notes where there is no default. Skips if a parameter has no value, or if they are
-    /// refused, which schema.roundtrip reports.
+    /// The defaults, with the values of the notes where there is no default. Skips if a parameter
+    /// has no value, or if they are refused, which schema.roundtrip reports.
     const config::ConfigNode& defaults() const;
     /// The plugin's own object, without the wrapper that checks it.
     std::unique_ptr<hooks::Strategy> make(const config::ConfigNode& resolved) const;
     std::unique_ptr<hooks::Strategy> make() const { return make(defaults()); }
 
-    /// Answers of a new instance with the default parameters on the ordinary fixture. Skips if it throws, which param.default
-    /// reports.
+    /// Answers of a new instance with the default parameters on the ordinary fixture. Skips if it
+    /// throws, which param.default reports.
     Answers answers(const Exercise& how = {}) const;
     Answers answers_on(const Fixture& fixture, const Exercise& how = {}) const;
-    /// Skips unless two instances give the same answers one after the other, which det.repeat tests.
+    /// Skips unless two instances give the same answers one after the other, which det.repeat
+    /// tests.
     void require_repeatable() const;
     /// Skips unless all answers are written and finite, which out.* test.
     void require_finite() const;

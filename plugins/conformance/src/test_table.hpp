@@ -8,7 +8,8 @@
 
 namespace dsc::conformance {
 
-/// Returns if the test passes; otherwise throws Failed, Skipped or Warned. Any other exception is also a failure.
+/// Returns if the test passes; otherwise throws Failed, Skipped or Warned. Any other exception is
+/// also a failure.
 struct Test {
     TestInfo info;
     void (*run)(const Subject&) = nullptr;
@@ -23,7 +24,8 @@ void add(std::vector<Test>& table, TestInfo info, void (*run)(const Subject&),
          std::vector<plugin::Kind> kinds = {});
 
 /// Kinds that return a value per vertex.
-inline const std::vector<plugin::Kind> per_vertex = {plugin::Kind::velocity, plugin::Kind::curvature};
+inline const std::vector<plugin::Kind> per_vertex = {plugin::Kind::velocity,
+                                                     plugin::Kind::curvature};
 
 void add_library_tests(std::vector<Test>& table);
 void add_schema_tests(std::vector<Test>& table);

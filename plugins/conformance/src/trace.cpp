@@ -1,15 +1,16 @@
 #include "trace.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
+#include <fmt/core.h>
+
 namespace dsc::conformance {
 namespace {
 
-constexpr std::uint64_t unwritten_bits = 0x7ff4dead0000beefULL;  // a signalling NaN with a special payload
+constexpr std::uint64_t unwritten_bits = 0x7ff4dead0000beefULL;  // a signalling NaN with a special
+                                                                 // payload
 
 }  // namespace
 
@@ -35,8 +36,8 @@ std::vector<Trace::Stretch> Trace::stretches() const {
 }
 
 std::string Trace::place(std::size_t index) const {
-    const auto behind =
-        std::find_if(parts_.begin(), parts_.end(), [index](const Part& p) { return p.begin > index; });
+    const auto behind = std::find_if(parts_.begin(), parts_.end(),
+                                     [index](const Part& p) { return p.begin > index; });
     if (behind == parts_.begin()) return "value " + std::to_string(index);
     const Part& part = *(behind - 1);
     return fmt::format("entry {} of {}", (index - part.begin) / part.width, part.name);
@@ -45,7 +46,8 @@ std::string Trace::place(std::size_t index) const {
 std::optional<std::string> Trace::difference(const Trace& a, const Trace& b) {
     const std::size_t count = std::min(a.values_.size(), b.values_.size());
     for (std::size_t i = 0; i < count; ++i) {
-        if (std::bit_cast<std::uint64_t>(a.values_[i]) == std::bit_cast<std::uint64_t>(b.values_[i]))
+        if (std::bit_cast<std::uint64_t>(a.values_[i]) ==
+            std::bit_cast<std::uint64_t>(b.values_[i]))
             continue;
         return fmt::format("{}: {:.17g} against {:.17g}", a.place(i), a.values_[i], b.values_[i]);
     }
@@ -58,14 +60,16 @@ std::optional<std::size_t> Trace::first_not_finite() const {
     const auto found = std::find_if(values_.begin(), values_.end(), [](double value) {
         return !std::isfinite(value) && !is_unwritten(value);
     });
-    return found == values_.end() ? std::nullopt
-                                  : std::optional(static_cast<std::size_t>(found - values_.begin()));
+    return found == values_.end()
+               ? std::nullopt
+               : std::optional(static_cast<std::size_t>(found - values_.begin()));
 }
 
 std::optional<std::size_t> Trace::first_unwritten() const {
     const auto found = std::find_if(values_.begin(), values_.end(), is_unwritten);
-    return found == values_.end() ? std::nullopt
-                                  : std::optional(static_cast<std::size_t>(found - values_.begin()));
+    return found == values_.end()
+               ? std::nullopt
+               : std::optional(static_cast<std::size_t>(found - values_.begin()));
 }
 
 }  // namespace dsc::conformance

@@ -2,11 +2,12 @@
 // Trace: all answers of a strategy in an exercise, for a comparison bit by bit.
 
 #include <cstdint>
-#include <dsc/geometry/vec.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <dsc/geometry/vec.hpp>
 
 namespace dsc::conformance {
 

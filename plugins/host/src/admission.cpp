@@ -9,19 +9,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Loading a library runs it, so nobody else may be able to put one there. A sticky folder (like /tmp)
-// protects a file that the user names, but not the files that a scan of the folder would find.
+// Loading a library runs it, so nobody else may be able to put one there. A sticky folder (like
+// /tmp) protects a file that the user names, but not the files that a scan of the folder would
+// find.
 void require_unwritable(const fs::path& path, bool sticky_will_do) {
     std::error_code error;
     const fs::perms permissions = fs::status(path, error).permissions();
     if (error || (permissions & fs::perms::others_write) == fs::perms::none) return;
     if (sticky_will_do && (permissions & fs::perms::sticky_bit) != fs::perms::none) return;
-    refuse(path, "plugin.writable", "can be written by everyone, and loading a plugin runs its code",
+    refuse(path, "plugin.writable",
+           "can be written by everyone, and loading a plugin runs its code",
            "remove this permission (chmod o-w) or move the plugin to your own folder");
 }
 
-// The folder beside the core library: a user who may write there may also replace the program, so a check
-// of it would only refuse builds made with a permissive umask.
+// The folder beside the core library: a user who may write there may also replace the program, so a
+// check of it would only refuse builds made with a permissive umask.
 bool as_trusted_as_the_program(const fs::path& folder) {
     std::error_code error;
     return fs::equivalent(folder, installed_folder(), error);

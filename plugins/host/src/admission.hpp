@@ -13,7 +13,8 @@ void require_safe_folder(const std::filesystem::path& folder);
 /// The same for one file that the user named, and for its folder.
 void require_safe_file(const std::filesystem::path& real);
 
-/// Requires a safe library with an entry that fits this dsc. Throws as the functions above, read_entry() and require_fitting().
+/// Requires a safe library with an entry that fits this dsc. Throws as the functions above,
+/// read_entry() and require_fitting().
 void require_admissible(const std::filesystem::path& real);
 
 }  // namespace dsc::host

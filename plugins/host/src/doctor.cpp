@@ -1,9 +1,11 @@
+#include "dsc/host/doctor.hpp"
+
 #include <algorithm>
 #include <array>
-#include <dsc/base/error.hpp>
-#include <dsc/host/doctor.hpp>
-#include <dsc/host/host.hpp>
 #include <functional>
+
+#include <dsc/base/error.hpp>
+#include <dsc/host/host.hpp>
 
 #include "admission.hpp"
 #include "entry_file.hpp"
@@ -16,7 +18,8 @@ using Result = Examination::Result;
 
 class Doctor {
 public:
-    Doctor(const fs::path& file, std::span<const SearchEntry> search) : file_(file), search_(search) {}
+    Doctor(const fs::path& file, std::span<const SearchEntry> search)
+        : file_(file), search_(search) {}
 
     std::vector<Examination> examine() {
         step("file", [this] {
@@ -60,7 +63,9 @@ private:
         all_.push_back(std::move(examination));
     }
 
-    [[noreturn]] static void raise(const Fault& fault) { throw PluginError(fault.code, fault.message); }
+    [[noreturn]] static void raise(const Fault& fault) {
+        throw PluginError(fault.code, fault.message);
+    }
 
     std::string judge_build() const {
         require_fitting(entry_, real_);
@@ -72,11 +77,11 @@ private:
 
     void note_soft_differences() {
         if (failed_) return;
-        for (const auto& d :
-             plugin::compare_fingerprints(text_of(entry_.entry.fingerprint), plugin::core_fingerprint())) {
-            all_.push_back(
-                {"build", Result::note,
-                 d.key + " is '" + d.plugin + "', that of dsc is '" + d.host + "'; this is harmless"});
+        for (const auto& d : plugin::compare_fingerprints(text_of(entry_.entry.fingerprint),
+                                                          plugin::core_fingerprint())) {
+            all_.push_back({"build", Result::note,
+                            d.key + " is '" + d.plugin + "', that of dsc is '" + d.host +
+                                "'; this is harmless"});
         }
     }
 
@@ -87,12 +92,14 @@ private:
         std::string text;
         for (const plugin::StrategyInfo& info : alone.list()) {
             text += text.empty() ? "" : ", ";
-            text += std::string(plugin::kind_name(info.strategy->kind)) + " '" + info.strategy->id + "'";
+            text += std::string(plugin::kind_name(info.strategy->kind)) + " '" + info.strategy->id +
+                    "'";
         }
         return text;
     }
 
-    // The plugins that a run would also find. One of them may be this same file, or an older build of it.
+    // The plugins that a run would also find. One of them may be this same file, or an older build
+    // of it.
     std::string judge_names() const {
         Host together;
         together.load(real_);
@@ -121,9 +128,11 @@ std::vector<Examination> examine(const fs::path& file, std::span<const SearchEnt
 }
 
 bool healthy(const std::vector<Examination>& examinations) {
-    return std::none_of(examinations.begin(), examinations.end(), [](const Examination& examination) {
-        return examination.result == Result::failed || examination.result == Result::not_reached;
-    });
+    return std::none_of(examinations.begin(), examinations.end(),
+                        [](const Examination& examination) {
+                            return examination.result == Result::failed ||
+                                   examination.result == Result::not_reached;
+                        });
 }
 
 }  // namespace dsc::host

@@ -1,16 +1,17 @@
 #include "entry_file.hpp"
 
-#include <elf.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <dsc/base/error.hpp>
 #include <fstream>
 #include <optional>
 #include <string_view>
 #include <type_traits>
 #include <vector>
+
+#include <elf.h>
+
+#include <dsc/base/error.hpp>
 
 namespace dsc::host {
 namespace {
@@ -58,7 +59,8 @@ private:
 Bytes load_bytes(const std::filesystem::path& file) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error)) {
-        refuse(file, "plugin.open", "is a folder, not a library", "give the file libdsc_NAME.so in it");
+        refuse(file, "plugin.open", "is a folder, not a library",
+               "give the file libdsc_NAME.so in it");
     }
     std::ifstream in(file, std::ios::binary);
     if (!in) {
@@ -78,25 +80,30 @@ Bytes load_bytes(const std::filesystem::path& file) {
 }
 
 [[noreturn]] void damaged(const std::filesystem::path& file) {
-    refuse(file, "plugin.not_elf", "is a damaged or truncated shared library", "build or copy it again");
+    refuse(file, "plugin.not_elf", "is a damaged or truncated shared library",
+           "build or copy it again");
 }
 
 Elf64_Ehdr require_library(const Bytes& bytes, const std::filesystem::path& file) {
     const auto header = bytes.read<Elf64_Ehdr>(0);
     if (!header || std::memcmp(header->e_ident, ELFMAG, SELFMAG) != 0) {
-        refuse(file, "plugin.not_elf", "is not a shared library", "give the file of a plugin, libdsc_NAME.so");
+        refuse(file, "plugin.not_elf", "is not a shared library",
+               "give the file of a plugin, libdsc_NAME.so");
     }
     if (header->e_ident[EI_CLASS] != ELFCLASS64 || header->e_ident[EI_DATA] != ELFDATA2LSB ||
         header->e_type != ET_DYN) {
         refuse(file, "plugin.not_elf", "is not a shared library for this machine",
                "build it on this machine");
     }
-    // The dynamic linker maps the segments without checking that the file is long enough, and would crash.
-    bool whole = header->e_shentsize == sizeof(Elf64_Shdr) && header->e_phentsize == sizeof(Elf64_Phdr) &&
+    // The dynamic linker maps the segments without checking that the file is long enough, and would
+    // crash.
+    bool whole = header->e_shentsize == sizeof(Elf64_Shdr) &&
+                 header->e_phentsize == sizeof(Elf64_Phdr) &&
                  bytes.holds(header->e_shoff, std::uint64_t{header->e_shnum} * sizeof(Elf64_Shdr));
     for (std::uint64_t i = 0; whole && i < header->e_phnum; ++i) {
         const auto segment = bytes.read<Elf64_Phdr>(header->e_phoff + i * sizeof(Elf64_Phdr));
-        whole = segment && (segment->p_type != PT_LOAD || bytes.holds(segment->p_offset, segment->p_filesz));
+        whole = segment &&
+                (segment->p_type != PT_LOAD || bytes.holds(segment->p_offset, segment->p_filesz));
     }
     if (!whole) damaged(file);
     return *header;
@@ -115,20 +122,22 @@ std::optional<std::uint64_t> file_offset(const Bytes& bytes, const Elf64_Ehdr& h
     return std::nullopt;
 }
 
-// Finds the symbol in the table of dynamic symbols; empty if there is none. Fails if the table extends beyond the
-// file.
-std::optional<Elf64_Sym> find_symbol(const Bytes& bytes, const Elf64_Ehdr& header, std::string_view name,
-                                     const std::filesystem::path& file) {
+// Finds the symbol in the table of dynamic symbols; empty if there is none. Fails if the table
+// extends beyond the file.
+std::optional<Elf64_Sym> find_symbol(const Bytes& bytes, const Elf64_Ehdr& header,
+                                     std::string_view name, const std::filesystem::path& file) {
     for (std::uint64_t i = 0; i < header.e_shnum; ++i) {
         const auto section = bytes.read<Elf64_Shdr>(header.e_shoff + i * sizeof(Elf64_Shdr));
         if (!section) damaged(file);
         if (section->sh_type != SHT_DYNSYM) continue;
-        const auto names = bytes.read<Elf64_Shdr>(header.e_shoff + section->sh_link * sizeof(Elf64_Shdr));
+        const auto names =
+            bytes.read<Elf64_Shdr>(header.e_shoff + section->sh_link * sizeof(Elf64_Shdr));
         if (!names) damaged(file);
         for (std::uint64_t k = 0; k < section->sh_size / sizeof(Elf64_Sym); ++k) {
             const auto symbol = bytes.read<Elf64_Sym>(section->sh_offset + k * sizeof(Elf64_Sym));
             if (!symbol) damaged(file);
-            if (symbol->st_shndx != SHN_UNDEF && bytes.text_equals(names->sh_offset + symbol->st_name, name))
+            if (symbol->st_shndx != SHN_UNDEF &&
+                bytes.text_equals(names->sh_offset + symbol->st_name, name))
                 return symbol;
         }
     }
@@ -146,14 +155,15 @@ void require_same_build(const plugin::PluginEntry& entry, const std::filesystem:
     for (const auto& difference : plugin::compare_fingerprints(theirs, ours)) {
         if (!difference.hard) continue;
         cause += cause.empty() ? "was built differently from this dsc: " : ", ";
-        cause += difference.key + " is '" + difference.plugin + "' in the plugin and '" + difference.host + "' in dsc";
+        cause += difference.key + " is '" + difference.plugin + "' in the plugin and '" +
+                 difference.host + "' in dsc";
     }
     if (cause.empty()) return;
-    refuse(
-        file, "plugin.fingerprint", cause,
-        "build it with dsc_add_plugin and the compiler options of this dsc (-march and -mavx change align)\n"
-        "  plugin: " +
-            theirs + "\n  dsc:    " + ours);
+    refuse(file, "plugin.fingerprint", cause,
+           "build it with dsc_add_plugin and the compiler options of this dsc (-march and -mavx "
+           "change align)\n"
+           "  plugin: " +
+               theirs + "\n  dsc:    " + ours);
 }
 
 }  // namespace
@@ -183,28 +193,32 @@ EntryBytes read_entry(const std::filesystem::path& file) {
 
 void require_fitting(const EntryBytes& bytes, const std::filesystem::path& file) {
     const plugin::PluginEntry& entry = bytes.entry;
-    if (bytes.available < offsetof(plugin::PluginEntry, fingerprint) || entry.magic != plugin::entry_magic) {
+    if (bytes.available < offsetof(plugin::PluginEntry, fingerprint) ||
+        entry.magic != plugin::entry_magic) {
         refuse(file, "plugin.magic",
-               std::string("has a symbol ") + plugin::entry_symbol + " that is not a valid plugin entry",
+               std::string("has a symbol ") + plugin::entry_symbol +
+                   " that is not a valid plugin entry",
                "write the entry with DSC_PLUGIN(...) { ... }, never by hand");
     }
     const std::string rebuild = "rebuild it with the headers of this dsc";
     if (entry.abi_major != DSC_ABI_MAJOR) {
         refuse(file, "plugin.abi",
-               "was built for ABI " + version_text(entry.abi_major, entry.abi_minor) + ", this dsc has ABI " +
-                   version_text(DSC_ABI_MAJOR, DSC_ABI_MINOR),
+               "was built for ABI " + version_text(entry.abi_major, entry.abi_minor) +
+                   ", this dsc has ABI " + version_text(DSC_ABI_MAJOR, DSC_ABI_MINOR),
                rebuild);
     }
-    if (entry.struct_size != sizeof(plugin::PluginEntry) || bytes.available != sizeof(plugin::PluginEntry)) {
+    if (entry.struct_size != sizeof(plugin::PluginEntry) ||
+        bytes.available != sizeof(plugin::PluginEntry)) {
         refuse(file, "plugin.size",
-               "has an entry of " + std::to_string(entry.struct_size) + " bytes instead of the expected " +
-                   std::to_string(sizeof(plugin::PluginEntry)) + " bytes",
+               "has an entry of " + std::to_string(entry.struct_size) +
+                   " bytes instead of the expected " + std::to_string(sizeof(plugin::PluginEntry)) +
+                   " bytes",
                rebuild);
     }
     if (entry.abi_minor > DSC_ABI_MINOR) {
         refuse(file, "plugin.abi",
-               "needs ABI " + version_text(entry.abi_major, entry.abi_minor) + ", this dsc has ABI " +
-                   version_text(DSC_ABI_MAJOR, DSC_ABI_MINOR),
+               "needs ABI " + version_text(entry.abi_major, entry.abi_minor) +
+                   ", this dsc has ABI " + version_text(DSC_ABI_MAJOR, DSC_ABI_MINOR),
                "install a newer dsc, or rebuild the plugin with the headers of this one");
     }
     require_same_build(entry, file);

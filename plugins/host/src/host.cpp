@@ -1,8 +1,10 @@
+#include "dsc/host/host.hpp"
+
 #include <algorithm>
+#include <set>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
-#include <dsc/host/host.hpp>
-#include <set>
 
 #include "admission.hpp"
 #include "entry_file.hpp"
@@ -31,9 +33,10 @@ plugin::PluginInfo info_of(const plugin::PluginEntry& entry, const fs::path& fil
 }
 
 void log_soft_differences(const plugin::PluginInfo& info) {
-    for (const auto& d : plugin::compare_fingerprints(info.fingerprint, plugin::core_fingerprint())) {
-        log(LogLevel::debug,
-            info.file.string() + ": " + d.key + " is '" + d.plugin + "', that of dsc is '" + d.host + "'");
+    for (const auto& d :
+         plugin::compare_fingerprints(info.fingerprint, plugin::core_fingerprint())) {
+        log(LogLevel::debug, info.file.string() + ": " + d.key + " is '" + d.plugin +
+                                 "', that of dsc is '" + d.host + "'");
     }
 }
 
@@ -52,7 +55,8 @@ void Host::rehearse(std::span<const fs::path> files) {
     for (std::size_t i = 0; i < files.size(); ++i) rehearsed_[files[i]] = faults[i];
 }
 
-// One child process for a whole folder. Libraries that do not pass the gate here are refused and reported later, in their order.
+// One child process for a whole folder. Libraries that do not pass the gate here are refused and
+// reported later, in their order.
 void Host::rehearse_folder(const std::set<fs::path>& files) {
     std::vector<fs::path> admissible;
     for (const fs::path& file : files) {
@@ -89,8 +93,8 @@ void Host::load(const fs::path& file) {
         const auto taken = strategies_.find({record.kind, record.id});
         if (taken == strategies_.end()) continue;
         refuse(real, "plugin.duplicate",
-               std::string(plugin::kind_name(record.kind)) + " '" + record.id + "' already exists, from " +
-                   taken->second.plugin->file.string(),
+               std::string(plugin::kind_name(record.kind)) + " '" + record.id +
+                   "' already exists, from " + taken->second.plugin->file.string(),
                "load only one of the two files, or give one strategy a different id");
     }
     for (const plugin::StrategyRecord& record : loaded->strategies) {
@@ -114,7 +118,8 @@ void Host::attempt(const SearchEntry& entry, const fs::path& file, OnFault on_fa
                                        [&file](const Fault& fault) { return fault.file == file; });
         if (known) return;
         faults_.push_back({file, error.code(), error.what()});
-        if (on_fault == OnFault::stop_if_required) log(LogLevel::warning, entry.origin + ": " + error.what());
+        if (on_fault == OnFault::stop_if_required)
+            log(LogLevel::warning, entry.origin + ": " + error.what());
     }
 }
 
@@ -134,9 +139,10 @@ void Host::load_folder(const SearchEntry& entry, OnFault on_fault) {
     rehearse_folder(files);
     std::error_code error;
     for (const fs::path& file : files) {
-        const auto earlier = std::find_if(loaded_.begin(), loaded_.end(), [&file](const auto& loaded) {
-            return loaded->info.file.filename() == file.filename();
-        });
+        const auto earlier =
+            std::find_if(loaded_.begin(), loaded_.end(), [&file](const auto& loaded) {
+                return loaded->info.file.filename() == file.filename();
+            });
         if (earlier != loaded_.end()) {
             const fs::path& front = (*earlier)->info.file;
             if (!fs::equivalent(front, file, error)) {

@@ -1,12 +1,13 @@
 #include "library.hpp"
 
-#include <dlfcn.h>
-
 #include <algorithm>
-#include <dsc/base/error.hpp>
-#include <dsc/text/words.hpp>
 #include <string>
 #include <string_view>
+
+#include <dlfcn.h>
+
+#include <dsc/base/error.hpp>
+#include <dsc/text/words.hpp>
 
 #include "entry_file.hpp"
 
@@ -20,14 +21,17 @@ public:
 
 protected:
     void enroll(plugin::StrategyRecord record) override {
-        const std::string name = std::string(plugin::kind_name(record.kind)) + " '" + record.id + "'";
+        const std::string name =
+            std::string(plugin::kind_name(record.kind)) + " '" + record.id + "'";
         if (!text::is_id(record.id)) {
-            throw PluginError("plugin.enroll", "the id of " + name + " is not of the form [a-z][a-z0-9_]*");
+            throw PluginError("plugin.enroll",
+                              "the id of " + name + " is not of the form [a-z][a-z0-9_]*");
         }
         if (record.summary.empty()) throw PluginError("plugin.enroll", name + " has no summary");
-        const bool repeated = std::any_of(records.begin(), records.end(), [&record](const auto& other) {
-            return other.kind == record.kind && other.id == record.id;
-        });
+        const bool repeated =
+            std::any_of(records.begin(), records.end(), [&record](const auto& other) {
+                return other.kind == record.kind && other.id == record.id;
+            });
         if (repeated) throw PluginError("plugin.enroll", name + " is registered twice");
         records.push_back(std::move(record));
     }
@@ -41,7 +45,8 @@ const plugin::PluginEntry& open_library(const std::filesystem::path& file) {
     if (library == nullptr) {
         refuse(file, "plugin.load",
                std::string("does not load: ") + (reason == nullptr ? "no reason given" : reason),
-               "a symbol or library that it needs is missing; link with -Wl,-z,defs to find it at build time");
+               "a symbol or library that it needs is missing; link with -Wl,-z,defs to find it at "
+               "build time");
     }
     const void* entry = dlsym(library, plugin::entry_symbol);
     if (entry == nullptr)
@@ -54,17 +59,20 @@ std::vector<plugin::StrategyRecord> enroll(const plugin::PluginEntry& entry,
     const std::string remedy = "report this to the plugin's authors";
     const std::string name = text_of(entry.name);
     if (!text::is_id(name)) {
-        refuse(file, "plugin.enroll", "has the name '" + name + "', which is not of the form [a-z][a-z0-9_]*",
-               remedy);
+        refuse(file, "plugin.enroll",
+               "has the name '" + name + "', which is not of the form [a-z][a-z0-9_]*", remedy);
     }
     if (entry.enroll == nullptr) refuse(file, "plugin.enroll", "has no enroll function", remedy);
     Staging staging;
     try {
         entry.enroll(staging);
     } catch (const std::exception& error) {
-        refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: " + error.what(), remedy);
+        refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: " + error.what(),
+               remedy);
     } catch (...) {
-        refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: it threw something that is not a std::exception",
+        refuse(file, "plugin.enroll",
+               "plugin '" + name +
+                   "' failed to register: it threw something that is not a std::exception",
                remedy);
     }
     if (staging.records.empty())

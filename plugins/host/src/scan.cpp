@@ -1,16 +1,18 @@
+#include "dsc/host/scan.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <utility>
+
 #include <fcntl.h>
 #include <signal.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
-#include <cstdint>
 #include <dsc/base/error.hpp>
 #include <dsc/host/child_process.hpp>
-#include <dsc/host/scan.hpp>
-#include <utility>
 
 #include "entry_file.hpp"
 #include "library.hpp"
@@ -82,11 +84,15 @@ public:
     // The next message, unless the child ends or the time limit is reached first.
     ReadEnd next(Answer& answer, Clock::time_point until) const {
         std::array<std::uint32_t, 2> head{};
-        if (const ReadEnd end = read_all(from_, head.data(), sizeof(head), until); end != ReadEnd::all) return end;
+        if (const ReadEnd end = read_all(from_, head.data(), sizeof(head), until);
+            end != ReadEnd::all)
+            return end;
         answer.code.resize(head[0]);
         answer.message.resize(head[1]);
         const ReadEnd end = read_all(from_, answer.code.data(), answer.code.size(), until);
-        return end == ReadEnd::all ? read_all(from_, answer.message.data(), answer.message.size(), until) : end;
+        return end == ReadEnd::all
+                   ? read_all(from_, answer.message.data(), answer.message.size(), until)
+                   : end;
     }
 
     // How it ended: "was ended by signal 11 (Segmentation fault)".
@@ -98,7 +104,8 @@ public:
 
 private:
     [[noreturn]] static void throw_system(const std::string& what) {
-        throw PluginError("plugin.scan", "cannot create " + what + " for the trial load of plugins (" + strerror(errno) +
+        throw PluginError("plugin.scan", "cannot create " + what +
+                                             " for the trial load of plugins (" + strerror(errno) +
                                              "); close other programs");
     }
 
@@ -108,30 +115,33 @@ private:
 };
 
 Fault fault_of(const fs::path& file, std::string code, const std::string& cause) {
-    return {file, std::move(code), file.string() + ": " + cause + "; report this to the plugin's authors"};
+    return {file, std::move(code),
+            file.string() + ": " + cause + "; report this to the plugin's authors"};
 }
 
 }  // namespace
 
-std::vector<std::optional<Fault>> scan(std::span<const fs::path> libraries, std::chrono::milliseconds limit) {
+std::vector<std::optional<Fault>> scan(std::span<const fs::path> libraries,
+                                       std::chrono::milliseconds limit) {
     std::vector<std::optional<Fault>> faults(libraries.size());
     std::size_t next = 0;
     while (next < libraries.size()) {
         Child child(libraries.subspan(next));
-        // One child process handles all libraries; if it ends, a new child continues with the next library.
-        for (ReadEnd end = ReadEnd::all; end == ReadEnd::all && next < libraries.size();
-             ++next) {
+        // One child process handles all libraries; if it ends, a new child continues with the next
+        // library.
+        for (ReadEnd end = ReadEnd::all; end == ReadEnd::all && next < libraries.size(); ++next) {
             Answer answer;
             end = child.next(answer, Clock::now() + limit);
             const fs::path& file = libraries[next];
             if (end == ReadEnd::late) {
-                faults[next] = fault_of(file, "plugin.hang",
-                                        "did not load within " + std::to_string(limit.count() / 1000) +
-                                            " s in a child process");
-            } else if (end == ReadEnd::closed) {
                 faults[next] =
-                    fault_of(file, "plugin.crash",
-                             "crashes when it is loaded: the child process " + child.exit_description());
+                    fault_of(file, "plugin.hang",
+                             "did not load within " + std::to_string(limit.count() / 1000) +
+                                 " s in a child process");
+            } else if (end == ReadEnd::closed) {
+                faults[next] = fault_of(
+                    file, "plugin.crash",
+                    "crashes when it is loaded: the child process " + child.exit_description());
             } else if (!answer.code.empty()) {
                 faults[next] = Fault{file, answer.code, answer.message};
             }

@@ -1,7 +1,8 @@
+#include "dsc/host/search_path.hpp"
+
 #include <dlfcn.h>
 
 #include <dsc/base/error.hpp>
-#include <dsc/host/search_path.hpp>
 #include <dsc/plugin/fingerprint.hpp>
 
 namespace dsc::host {
@@ -17,9 +18,10 @@ void add_variable(std::vector<SearchEntry>& entries, const std::string& list) {
         begin = end + 1;
         if (path.empty()) continue;
         if (path.is_relative()) {
-            throw PluginError("plugin.search_path", "DSC_PLUGIN_PATH: '" + path.string() +
-                                                        "' is relative, so its meaning would depend on "
-                                                        "the current folder; write an absolute path");
+            throw PluginError("plugin.search_path",
+                              "DSC_PLUGIN_PATH: '" + path.string() +
+                                  "' is relative, so its meaning would depend on the current "
+                                  "folder; write an absolute path");
         }
         entries.push_back({path, "DSC_PLUGIN_PATH", true});
     }
@@ -51,7 +53,8 @@ std::vector<SearchEntry> search_path(const SearchOptions& options) {
     std::error_code error;
     for (const auto& [path, origin] : {std::pair{user_folder(options.environment), "user folder"},
                                        std::pair{installed_folder(), "installed folder"}}) {
-        if (!path.empty() && fs::is_directory(path, error)) entries.push_back({path, origin, false});
+        if (!path.empty() && fs::is_directory(path, error))
+            entries.push_back({path, origin, false});
     }
     return entries;
 }

@@ -1,10 +1,11 @@
-#include <dsc/sdk/filters.hpp>
+#include "dsc/sdk/filters.hpp"
 
 #include <dsc/host/host.hpp>
 
 namespace dsc::sdk {
 
-cloud::Filtered filtered(const std::string& library, const std::string& id, const cloud::Cloud& cloud, const config::ConfigNode& params) {
+cloud::Filtered filtered(const std::string& library, const std::string& id,
+                         const cloud::Cloud& cloud, const config::ConfigNode& params) {
     host::Host host;
     host.load(library);
     return host.create<hooks::CloudFilter>({id, params}, "input.cloud.filters.0")->apply(cloud, {});

@@ -1,5 +1,6 @@
+#include "dsc/sdk/steps.hpp"
+
 #include <dsc/base/workers.hpp>
-#include <dsc/sdk/steps.hpp>
 
 namespace dsc::sdk {
 

@@ -1,8 +1,10 @@
+#include "dsc/sdk/surfaces.hpp"
+
 #include <cmath>
-#include <dsc/geometry/quality.hpp>
-#include <dsc/sdk/surfaces.hpp>
 #include <map>
 #include <utility>
+
+#include <dsc/geometry/quality.hpp>
 
 namespace dsc::sdk {
 namespace {
@@ -14,9 +16,10 @@ surface::TriangleMesh icosahedron() {
     surface::TriangleMesh mesh;
     mesh.points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                    {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-    mesh.faces = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                  {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                  {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+    mesh.faces = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                  {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                  {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                  {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
     for (Vec3& p : mesh.points) p.normalize();
     return mesh;
 }
@@ -52,7 +55,8 @@ void fill_faces(const surface::TriangleMesh& mesh, surface::SurfaceView& view) {
         view.face_areas.push_back(geometry::triangle_area(p, q, r));
         edges += (q - p).norm() + (r - q).norm() + (p - r).norm();
     }
-    view.mean_edge = mesh.faces.empty() ? 0.0 : edges / (3.0 * static_cast<double>(mesh.faces.size()));
+    view.mean_edge =
+        mesh.faces.empty() ? 0.0 : edges / (3.0 * static_cast<double>(mesh.faces.size()));
 }
 
 void fill_vertex_faces(surface::SurfaceView& view) {
@@ -109,7 +113,8 @@ surface::SurfaceView view_of(const surface::TriangleMesh& mesh) {
     return view;
 }
 
-surface::TriangleMesh moved(surface::TriangleMesh mesh, const std::function<Vec3(const Vec3&)>& move) {
+surface::TriangleMesh moved(surface::TriangleMesh mesh,
+                            const std::function<Vec3(const Vec3&)>& move) {
     for (Vec3& p : mesh.points) p = move(p);
     return mesh;
 }

@@ -1,10 +1,11 @@
 // Tests of the curvature on surfaces with known values; the plugin is loaded as in a run.
+#include <cmath>
+#include <numbers>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/surfaces.hpp>
-#include <numbers>
 
 namespace {
 
@@ -75,6 +76,7 @@ TEST_CASE("degenerate faces give finite values") {
     fan.points = {Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0)};
     fan.faces = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}};
     for (const bool per_area : {false, true}) {
-        for (const double k : evaluate(dsc::sdk::view_of(fan), per_area).scalar) CHECK(std::isfinite(k));
+        for (const double k : evaluate(dsc::sdk::view_of(fan), per_area).scalar)
+            CHECK(std::isfinite(k));
     }
 }

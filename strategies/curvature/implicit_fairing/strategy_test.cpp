@@ -1,7 +1,8 @@
 // Tests of the curvature on surfaces with known values; the plugin is loaded as in a run.
+#include <cmath>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/surfaces.hpp>
 
@@ -56,7 +57,8 @@ TEST_CASE("over the whole ring it is a third of that") {
         CHECK(k == doctest::Approx(1.0 / 3).epsilon(0.12));
         sum += k;
     }
-    CHECK(sum / static_cast<double>(values.scalar.size()) == doctest::Approx(1.0 / 3).epsilon(0.01));
+    CHECK(sum / static_cast<double>(values.scalar.size()) ==
+          doctest::Approx(1.0 / 3).epsilon(0.01));
 }
 
 TEST_CASE("inside out the sign changes, the vector does not") {

@@ -36,7 +36,10 @@ TEST_CASE("of points that crowd together the first stays, evenly spread ones all
 
 TEST_CASE("the wider the distance that counts as close, the more go") {
     CHECK(filtered(crowded(), ConfigNode::map({{"closer", 0.01}})).report.removed == 0);
-    // In the grid the 24th neighbour is 2 sqrt 2 away: 24 evenly spread points would be 1.02 apart. They are 1 apart.
-    CHECK(filtered(dsc::sdk::square_grid(12), ConfigNode::map({{"closer", 0.5}})).report.removed == 0);
-    CHECK(filtered(dsc::sdk::square_grid(12), ConfigNode::map({{"closer", 0.99}})).report.removed > 0);
+    // In the grid the 24th neighbour is 2 sqrt 2 away: 24 evenly spread points would be 1.02 apart.
+    // They are 1 apart.
+    CHECK(filtered(dsc::sdk::square_grid(12), ConfigNode::map({{"closer", 0.5}})).report.removed ==
+          0);
+    CHECK(filtered(dsc::sdk::square_grid(12), ConfigNode::map({{"closer", 0.99}})).report.removed >
+          0);
 }

@@ -15,16 +15,20 @@ Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map
     return dsc::sdk::filtered(DSC_TEST_PLUGIN, "duplicates", cloud, params);
 }
 
-/// Points of a small lattice in an order that depends on the seed, many of them repeated, with all attributes.
+/// Points of a small lattice in an order that depends on the seed, many of them repeated, with all
+/// attributes.
 Cloud shuffled(std::uint64_t seed) {
     dsc::RandomStream values(dsc::RandomKey{7, 0, 0, 0});
     Cloud cloud;
     for (int i = 0; i < 400; ++i) {
-        Vec3 p(static_cast<double>(values.index(5)), static_cast<double>(values.index(5)), static_cast<double>(values.index(4)));
+        Vec3 p(static_cast<double>(values.index(5)), static_cast<double>(values.index(5)),
+               static_cast<double>(values.index(4)));
         if (values.index(2) == 0) p = p.cwiseProduct(Vec3(-1, 1, 1));  // this also makes -0
         cloud.points.push_back(p);
-        cloud.colours.push_back({static_cast<std::uint8_t>(values.index(3)), 0, static_cast<std::uint8_t>(values.index(3))});
-        cloud.normals.push_back(Vec3(values.normal(), values.normal(), values.normal()).normalized());
+        cloud.colours.push_back({static_cast<std::uint8_t>(values.index(3)), 0,
+                                 static_cast<std::uint8_t>(values.index(3))});
+        cloud.normals.push_back(
+            Vec3(values.normal(), values.normal(), values.normal()).normalized());
         cloud.areas.push_back(0.1 * cloud.normals.back());
         cloud.confidence.push_back(0.25 * static_cast<double>(values.index(4)));
     }
@@ -46,10 +50,13 @@ std::string bytes(const std::vector<T>& values) {
 }
 
 std::string bytes(const Cloud& cloud) {
-    return bytes(cloud.points) + bytes(cloud.colours) + bytes(cloud.normals) + bytes(cloud.areas) + bytes(cloud.confidence);
+    return bytes(cloud.points) + bytes(cloud.colours) + bytes(cloud.normals) + bytes(cloud.areas) +
+           bytes(cloud.confidence);
 }
 
-ConfigNode sorted(double tolerance = 0.0) { return ConfigNode::map({{"sort", true}, {"tolerance", tolerance}}); }
+ConfigNode sorted(double tolerance = 0.0) {
+    return ConfigNode::map({{"sort", true}, {"tolerance", tolerance}});
+}
 
 }  // namespace
 
@@ -70,11 +77,13 @@ TEST_CASE("sorted, the points ascend by x, y and z, and of equal ones the least 
     cloud.points = {Vec3(2, 0, 0), Vec3(1, 5, 1), Vec3(2, 0, 0), Vec3(1, 5, 0), Vec3(1, 4, 9)};
     cloud.confidence = {0.5, 0.4, 0.3, 0.2, 0.1};
     const Filtered result = filtered(cloud, sorted());
-    CHECK(result.cloud.points == std::vector<Vec3>{Vec3(1, 4, 9), Vec3(1, 5, 0), Vec3(1, 5, 1), Vec3(2, 0, 0)});
+    CHECK(result.cloud.points ==
+          std::vector<Vec3>{Vec3(1, 4, 9), Vec3(1, 5, 0), Vec3(1, 5, 1), Vec3(2, 0, 0)});
     CHECK(result.cloud.confidence == std::vector<double>{0.1, 0.2, 0.4, 0.3});
 }
 
-TEST_CASE("sorted, the order of the file changes not a bit, whatever attributes hang on the points") {
+TEST_CASE(
+    "sorted, the order of the file changes not a bit, whatever attributes hang on the points") {
     const Cloud first = shuffled(1);
     for (const double tolerance : {0.0, 0.15}) {
         const Filtered expected = filtered(first, sorted(tolerance));
@@ -85,7 +94,8 @@ TEST_CASE("sorted, the order of the file changes not a bit, whatever attributes 
             REQUIRE(bytes(other) != bytes(first));
             CHECK(bytes(filtered(other, sorted(tolerance)).cloud) == bytes(expected.cloud));
             // Without sorting the order has an effect, so the test can fail.
-            CHECK(bytes(filtered(other, ConfigNode::map({{"tolerance", tolerance}})).cloud) != bytes(expected.cloud));
+            CHECK(bytes(filtered(other, ConfigNode::map({{"tolerance", tolerance}})).cloud) !=
+                  bytes(expected.cloud));
         }
     }
 }

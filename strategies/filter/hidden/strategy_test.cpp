@@ -1,7 +1,8 @@
 // Tests of the filter on clouds with a known result; the plugin is loaded as in a run.
+#include <cmath>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/filters.hpp>
@@ -17,7 +18,8 @@ Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map
     return dsc::sdk::filtered(DSC_TEST_PLUGIN, "hidden", cloud, params);
 }
 
-/// Points evenly spread over a sphere, along a spiral; their confidence is the number of the sphere.
+/// Points evenly spread over a sphere, along a spiral; their confidence is the number of the
+/// sphere.
 void add_sphere(Cloud& cloud, int count, double radius, double confidence) {
     const double turn = std::acos(-1.0) * (3.0 - std::sqrt(5.0));
     for (int i = 0; i < count; ++i) {
@@ -51,6 +53,7 @@ TEST_CASE("a cancelled filter ends") {
     token.cancel();
     dsc::hooks::FilterContext context;
     context.cancel = &token;
-    const auto filter = host.create<dsc::hooks::CloudFilter>({"hidden", ConfigNode::map()}, "input.cloud.filters.0");
+    const auto filter = host.create<dsc::hooks::CloudFilter>({"hidden", ConfigNode::map()},
+                                                             "input.cloud.filters.0");
     CHECK_THROWS_AS(filter->apply(nested(), context), dsc::CancelledError);
 }

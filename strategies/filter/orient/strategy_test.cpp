@@ -21,7 +21,8 @@ Cloud sphere() {
     dsc::RandomStream random(dsc::RandomKey{1, 0, 0, 0});
     Cloud cloud;
     for (int i = 0; i < 1500; ++i) {
-        cloud.points.push_back(2.0 * Vec3(random.normal(), random.normal(), random.normal()).normalized());
+        cloud.points.push_back(
+            2.0 * Vec3(random.normal(), random.normal(), random.normal()).normalized());
         cloud.colours.push_back({static_cast<std::uint8_t>(i % 256), 0, 0});
     }
     cloud.source = "sphere.xyz";
@@ -107,7 +108,8 @@ TEST_CASE("the viewpoint is used if there are no usable normals") {
     view.sensor = dsc::cloud::Sensor{Vec3(0, 0, 9), true};
     const Filtered result = filtered(view);
     CHECK(figure(result, "estimated") == 0.0);
-    std::size_t upright = 0;  // all except some at the border, where the walls to the copy behind begin
+    std::size_t upright = 0;  // all except some at the border, where the walls to the copy behind
+                              // begin
     for (std::size_t i = 0; i < view.points.size(); ++i) {
         const double along = result.cloud.normals[i].dot(view.points[i]) / 2.0;
         CHECK(along > 0.5);
@@ -130,12 +132,15 @@ TEST_CASE("from: file is refused without normals") {
 }
 
 TEST_CASE("parameters have an effect") {
-    CHECK(filtered(sphere(), ConfigNode::map({{"iterations", 1}})).report.figures != filtered(sphere()).report.figures);
+    CHECK(filtered(sphere(), ConfigNode::map({{"iterations", 1}})).report.figures !=
+          filtered(sphere()).report.figures);
     CHECK_THROWS_AS(filtered(sphere(), from("nowhere")), dsc::ConfigError);
     Cloud many = sphere();
     for (std::size_t i = 0; many.points.size() < 11000; ++i)
-        many.points.push_back(2.0 * (many.points[i] + 0.37 * many.points[i + 1] + Vec3(0.01, 0, 0)).normalized());
+        many.points.push_back(
+            2.0 * (many.points[i] + 0.37 * many.points[i + 1] + Vec3(0.01, 0, 0)).normalized());
     many.colours.clear();
     CHECK_FALSE(filtered(many, ConfigNode::map({{"iterations", 2}})).cloud.orientation.all_points);
-    CHECK(filtered(many, ConfigNode::map({{"iterations", 2}, {"all_points", true}})).cloud.orientation.all_points);
+    CHECK(filtered(many, ConfigNode::map({{"iterations", 2}, {"all_points", true}}))
+              .cloud.orientation.all_points);
 }

@@ -22,7 +22,8 @@ Cloud sphere() {
     Cloud cloud;
     for (int i = 0; i < 1000; ++i) {
         cloud.confidence.push_back(0.001 * i);
-        cloud.points.push_back(Vec3(random.normal(), random.normal(), random.normal()).normalized());
+        cloud.points.push_back(
+            Vec3(random.normal(), random.normal(), random.normal()).normalized());
     }
     return cloud;
 }
@@ -49,13 +50,17 @@ TEST_CASE("parameters have an effect") {
     cloud.confidence.push_back(1.0);
     CHECK(filtered(sphere()).report.removed == 0);
     CHECK(filtered(cloud, ConfigNode::map({{"most", 0.0}})).report.removed == 0);
-    CHECK(filtered(cloud, ConfigNode::map({{"isolated", 900.0}, {"far", 900.0}})).report.removed == 0);
-    CHECK(filtered(cloud, ConfigNode::map({{"isolated", 900.0}, {"far", 8.0}})).report.removed == 1);
+    CHECK(filtered(cloud, ConfigNode::map({{"isolated", 900.0}, {"far", 900.0}})).report.removed ==
+          0);
+    CHECK(filtered(cloud, ConfigNode::map({{"isolated", 900.0}, {"far", 8.0}})).report.removed ==
+          1);
     CHECK_THROWS_AS(filtered(cloud, ConfigNode::map({{"isolated", 0.5}})), dsc::ConfigError);
     dsc::RandomStream random(dsc::RandomKey{2, 0, 0, 0});
     Cloud dirty = sphere();
     for (int i = 0; i < 100; ++i)
-        dirty.points.emplace_back(6.0 * random.uniform() - 3.0, 6.0 * random.uniform() - 3.0, 6.0 * random.uniform() - 3.0);
+        dirty.points.emplace_back(6.0 * random.uniform() - 3.0, 6.0 * random.uniform() - 3.0,
+                                  6.0 * random.uniform() - 3.0);
     dirty.confidence.resize(dirty.points.size(), 1.0);
-    CHECK(filtered(dirty).report.removed > filtered(dirty, ConfigNode::map({{"dirty", 1.0}})).report.removed);
+    CHECK(filtered(dirty).report.removed >
+          filtered(dirty, ConfigNode::map({{"dirty", 1.0}})).report.removed);
 }

@@ -1,7 +1,8 @@
 // Tests of the filter on clouds with a known result; the plugin is loaded as in a run.
+#include <cmath>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/sdk/filters.hpp>
 
 namespace {
@@ -28,7 +29,8 @@ Cloud with_outliers() {
 }  // namespace
 
 TEST_CASE("points far from all others go, the rest keep their attributes") {
-    const Filtered result = filtered(with_outliers(), ConfigNode::map({{"radius", 0.05}, {"neighbours", 2}}));
+    const Filtered result =
+        filtered(with_outliers(), ConfigNode::map({{"radius", 0.05}, {"neighbours", 2}}));
     CHECK(result.report.filter == "radius_outliers");
     CHECK(result.report.removed == 2);
     CHECK(result.cloud.points == dsc::sdk::square_grid(12).points);
@@ -39,7 +41,9 @@ TEST_CASE("parameters have an effect") {
     // In the grid a corner has two neighbours at distance 1, an edge point three, any other four.
     const double radius = 1.2 / (11.0 * std::sqrt(2.0));
     const auto kept = [&](int neighbours) {
-        return filtered(dsc::sdk::square_grid(12), ConfigNode::map({{"radius", radius}, {"neighbours", neighbours}})).report.kept;
+        return filtered(dsc::sdk::square_grid(12),
+                        ConfigNode::map({{"radius", radius}, {"neighbours", neighbours}}))
+            .report.kept;
     };
     CHECK(kept(2) == 144);
     CHECK(kept(3) == 140);

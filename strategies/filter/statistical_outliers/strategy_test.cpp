@@ -36,7 +36,9 @@ TEST_CASE("points far from all others go, the rest keep their attributes") {
 
 TEST_CASE("parameters have an effect") {
     const auto kept = [&](double deviations) {
-        return filtered(with_outliers(), ConfigNode::map({{"neighbours", 8}, {"deviations", deviations}})).report.kept;
+        return filtered(with_outliers(),
+                        ConfigNode::map({{"neighbours", 8}, {"deviations", deviations}}))
+            .report.kept;
     };
     CHECK(kept(2.0) == 144);
     CHECK(kept(1000.0) == 146);

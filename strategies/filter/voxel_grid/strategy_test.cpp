@@ -1,7 +1,8 @@
 // Tests of the filter on clouds with a known result; the plugin is loaded as in a run.
+#include <cmath>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/sdk/filters.hpp>
 
 namespace {

@@ -14,7 +14,8 @@ using repair::CollapseMode;
 using repair::Operation;
 using repair::Request;
 
-Request on_tet(const mesh::Complex& c, mesh::TetId t, Operation operation, double only_below, double accept_above) {
+Request on_tet(const mesh::Complex& c, mesh::TetId t, Operation operation, double only_below,
+               double accept_above) {
     Request request;
     request.operation = operation;
     request.tet = t;
@@ -24,14 +25,17 @@ Request on_tet(const mesh::Complex& c, mesh::TetId t, Operation operation, doubl
     return request;
 }
 
-bool edge_is_flat(const mesh::Complex& c, const mesh::EdgeRing& ring, mesh::VertexId a, mesh::VertexId b, double flatness) {
+bool edge_is_flat(const mesh::Complex& c, const mesh::EdgeRing& ring, mesh::VertexId a,
+                  mesh::VertexId b, double flatness) {
     std::array<Vec3, 2> normals;
     std::size_t count = 0;
     const std::size_t n = ring.tets.size();
     for (std::size_t i = 0; i < n; ++i) {
-        const mesh::Label before = c.label(ring.tets[(i + n - 1) % n]), after = c.label(ring.tets[i]);
+        const mesh::Label before = c.label(ring.tets[(i + n - 1) % n]),
+                          after = c.label(ring.tets[i]);
         if (before == after) continue;
-        const Vec3 normal = geometry::triangle_normal(c.position(a), c.position(b), c.position(ring.link[i]));
+        const Vec3 normal =
+            geometry::triangle_normal(c.position(a), c.position(b), c.position(ring.link[i]));
         if (count < 2) normals[count] = after > before ? normal : Vec3(-normal);
         ++count;
     }
@@ -56,18 +60,22 @@ double Proposals::small_volume_of(const repair::RepairRound& round, mesh::TetId 
 bool Proposals::may_thin_out(const repair::RepairRound& round, mesh::TetId t) {
     if (round.size_edits) return true;
     const auto& v = round.complex.tet(t).v;
-    return std::count_if(v.begin(), v.end(), [&](mesh::VertexId x) { return round.complex.on_interface(x); }) < 2;
+    return std::count_if(v.begin(), v.end(),
+                         [&](mesh::VertexId x) { return round.complex.on_interface(x); }) < 2;
 }
 
 // The target length of an edge from the interface into a phase is that of its end on the interface.
-double Proposals::free_length(const repair::RepairRound& round, mesh::VertexId a, mesh::VertexId b) {
+double Proposals::free_length(const repair::RepairRound& round, mesh::VertexId a,
+                              mesh::VertexId b) {
     return round.length_at(round.complex.on_interface(a) ? a : b);
 }
 
 // Finds the repairs that a tet needs; it only reads, so threads may call it together.
 std::uint8_t Proposals::look(const repair::RepairRound& round, mesh::TetId t) const {
     const mesh::Complex& c = round.complex;
-    const auto length2 = [&c](mesh::VertexId a, mesh::VertexId b) { return (c.position(a) - c.position(b)).squaredNorm(); };
+    const auto length2 = [&c](mesh::VertexId a, mesh::VertexId b) {
+        return (c.position(a) - c.position(b)).squaredNorm();
+    };
     const auto square = [](double x) { return x * x; };
     const auto& v = c.tet(t).v;
     std::uint8_t found = 0;
@@ -78,7 +86,8 @@ std::uint8_t Proposals::look(const repair::RepairRound& round, mesh::TetId t) co
     for (unsigned f = 0; f < 4 && round.size_edits; ++f) {
         if (c.label(t) <= c.label_across(t, f)) continue;
         for (unsigned k = 0; k < 3; ++k) {
-            const mesh::VertexId a = v[mesh::face_vertices[f][k]], b = v[mesh::face_vertices[f][(k + 1) % 3]];
+            const mesh::VertexId a = v[mesh::face_vertices[f][k]],
+                                 b = v[mesh::face_vertices[f][(k + 1) % 3]];
             const double target = round.length_at(a, b), l2 = length2(a, b);
             // Slightly wider than the wanted range; note_edges() decides.
             const double shortest2 = square(limits_.min_edge_length * target) * (1.0 + 1e-9);
@@ -90,7 +99,8 @@ std::uint8_t Proposals::look(const repair::RepairRound& round, mesh::TetId t) co
     for (const auto& ends : mesh::edge_vertices) {
         const mesh::VertexId a = v[ends[0]], b = v[ends[1]];
         if (c.on_interface(a) == c.on_interface(b)) continue;
-        if (length2(a, b) > square(limits_.max_free_edge * free_length(round, a, b)) * (1.0 - 1e-9)) found |= free_edges;
+        if (length2(a, b) > square(limits_.max_free_edge * free_length(round, a, b)) * (1.0 - 1e-9))
+            found |= free_edges;
     }
     return found;
 }
@@ -101,14 +111,16 @@ void Proposals::note_edges(const repair::RepairRound& round, mesh::TetId t) {
         // Of the two tets at an interface face, the one with the larger label handles its edges.
         if (c.label(t) <= c.label_across(t, f)) continue;
         for (unsigned k = 0; k < 3; ++k) {
-            mesh::VertexId a = c.tet(t).v[mesh::face_vertices[f][k]], b = c.tet(t).v[mesh::face_vertices[f][(k + 1) % 3]];
+            mesh::VertexId a = c.tet(t).v[mesh::face_vertices[f][k]],
+                           b = c.tet(t).v[mesh::face_vertices[f][(k + 1) % 3]];
             const double length = (c.position(a) - c.position(b)).norm();
             const double target = round.length_at(a, b);
             const double shortest = limits_.min_edge_length * target;
             if (length >= shortest && length <= limits_.max_edge_length * target) continue;
             if (c.birth(a) > c.birth(b)) std::swap(a, b);
             auto& edges = length < shortest ? short_ : long_;
-            edges.push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / target), static_cast<std::uint32_t>(edges.size())});
+            edges.push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / target),
+                             static_cast<std::uint32_t>(edges.size())});
         }
     }
 }
@@ -122,8 +134,8 @@ void Proposals::note_free_edges(const repair::RepairRound& round, mesh::TetId t)
         const double target = free_length(round, a, b);
         if (length <= limits_.max_free_edge * target) continue;
         if (c.birth(a) > c.birth(b)) std::swap(a, b);
-        free_long_.push_back(
-            {c.birth(a), c.birth(b), a, b, t, quantised(length / target), static_cast<std::uint32_t>(free_long_.size())});
+        free_long_.push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / target),
+                              static_cast<std::uint32_t>(free_long_.size())});
     }
 }
 
@@ -143,12 +155,15 @@ void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
         const repair::RepairRound& round;
     } const job{*this, round};
     for_blocks(workers, round.dirty.size(), look_block, [&job](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) job.proposals.looks_[i] = job.proposals.look(job.round, job.round.dirty[i]);
+        for (std::size_t i = begin; i < end; ++i)
+            job.proposals.looks_[i] = job.proposals.look(job.round, job.round.dirty[i]);
     });
     for (std::size_t i = 0; i < round.dirty.size(); ++i) {
         const mesh::TetId t = round.dirty[i];
         const std::uint8_t found = looks_[i];
-        if ((found & low_quality) != 0) low_.push_back({quantised(static_cast<double>(c.quality(t))), t, static_cast<std::uint32_t>(low_.size())});
+        if ((found & low_quality) != 0)
+            low_.push_back({quantised(static_cast<double>(c.quality(t))), t,
+                            static_cast<std::uint32_t>(low_.size())});
         if ((found & to_smooth) != 0) {
             for (const mesh::VertexId v : c.tet(t).v) {
                 if (c.on_interface(v) || c.on_box(v) || !first_visit(v)) continue;
@@ -156,20 +171,29 @@ void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
                 free_tets_.push_back(t);
             }
         }
-        if ((found & small_volume) != 0) small_.push_back({quantised(c.volume(t) / small_volume_of(round, t)), t, static_cast<std::uint32_t>(small_.size())});
+        if ((found & small_volume) != 0)
+            small_.push_back({quantised(c.volume(t) / small_volume_of(round, t)), t,
+                              static_cast<std::uint32_t>(small_.size())});
         if ((found & interface_edges) != 0) note_edges(round, t);
         if ((found & free_edges) != 0) note_free_edges(round, t);
     }
     // Total orders, so that a stable sort with its buffer is not needed.
-    const auto by_key = [](const Entry& x, const Entry& y) { return x.key != y.key ? x.key < y.key : x.order < y.order; };
+    const auto by_key = [](const Entry& x, const Entry& y) {
+        return x.key != y.key ? x.key < y.key : x.order < y.order;
+    };
     std::sort(low_.begin(), low_.end(), by_key);
     std::sort(small_.begin(), small_.end(), by_key);
     const auto by_births = [](const EdgeEntry& x, const EdgeEntry& y) {
-        return x.low != y.low ? x.low < y.low : x.high != y.high ? x.high < y.high : x.order < y.order;
+        return x.low != y.low     ? x.low < y.low
+               : x.high != y.high ? x.high < y.high
+                                  : x.order < y.order;
     };
     for (auto* edges : {&short_, &long_, &free_long_}) {
         std::sort(edges->begin(), edges->end(), by_births);
-        edges->erase(std::unique(edges->begin(), edges->end(), [](const EdgeEntry& x, const EdgeEntry& y) { return x.low == y.low && x.high == y.high; }),
+        edges->erase(std::unique(edges->begin(), edges->end(),
+                                 [](const EdgeEntry& x, const EdgeEntry& y) {
+                                     return x.low == y.low && x.high == y.high;
+                                 }),
                      edges->end());
         const bool ascending = edges == &short_;
         std::sort(edges->begin(), edges->end(), [&](const EdgeEntry& x, const EdgeEntry& y) {
@@ -179,7 +203,8 @@ void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
     }
 }
 
-void Proposals::write(const repair::RepairRound& round, Workers* workers, std::vector<repair::Request>& out) {
+void Proposals::write(const repair::RepairRound& round, Workers* workers,
+                      std::vector<repair::Request>& out) {
     const mesh::Complex& c = round.complex;
     sort_out(round, workers);
     const double low = limits_.min_tet_quality, degenerate = limits_.degenerate_tet_quality;
@@ -195,7 +220,8 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers, std::v
         request.vertices[0] = free_[i];
         out.push_back(request);
     }
-    // 2. Bad tets, worst first: edges, interface diagonals, faces, then their free vertices one by one.
+    // 2. Bad tets, worst first: edges, interface diagonals, faces, then their free vertices one by
+    // one.
     for (const Entry& entry : low_) {
         out.push_back(on_tet(c, entry.tet, Operation::edge_removal, low, 2.0));
         out.push_back(on_tet(c, entry.tet, Operation::interface_flip, low, 2.0));
@@ -207,7 +233,8 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers, std::v
             out.push_back(request);
         }
     }
-    // 3. Tets that are still degenerate: collapse without loss, by shape, within the bounds; split long edges.
+    // 3. Tets that are still degenerate: collapse without loss, by shape, within the bounds; split
+    // long edges.
     for (const Entry& entry : low_) {
         if (static_cast<double>(c.quality(entry.tet)) >= degenerate) break;
         out.push_back(on_tet(c, entry.tet, Operation::edge_collapse, degenerate, low));
@@ -231,7 +258,8 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers, std::v
         request.vertices = {edge.a, edge.b, mesh::none};
         out.push_back(request);
     }
-    for (const Entry& entry : small_) out.push_back(on_tet(c, entry.tet, Operation::edge_collapse, 2.0, low));
+    for (const Entry& entry : small_)
+        out.push_back(on_tet(c, entry.tet, Operation::edge_collapse, 2.0, low));
     // 5. Shapes and sizes of single edges, faces and tets, if their thresholds are set.
     shapes_.write(round, {static_cast<float>(degenerate), static_cast<float>(low)}, out);
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Selects the repairs of a round: the quality-driven pipeline of the deformable simplicial complex [Misztal2012].
+// Selects the repairs of a round: the quality-driven pipeline of the deformable simplicial complex
+// [Misztal2012].
 
 #include <cstdint>
 #include <vector>
@@ -11,8 +12,8 @@
 
 namespace dsc::improvement {
 
-/// Thresholds of the pipeline; the strategy's parameters of the same names. Lengths are in target lengths L, volumes in regular
-/// tets of edge L, qualities are volume-length measures.
+/// Thresholds of the pipeline; the strategy's parameters of the same names. Lengths are in target
+/// lengths L, volumes in regular tets of edge L, qualities are volume-length measures.
 struct Thresholds : ShapeLimits {
     double min_tet_quality = 0.2;
     double degenerate_tet_quality = 0.03;
@@ -23,12 +24,14 @@ struct Thresholds : ShapeLimits {
     double max_free_edge = 0.0;  ///< of edges from the interface into a phase; 0: no limit
 };
 
-/// Writes the requests of a round. It keeps only scratch memory: the result depends on the round alone.
+/// Writes the requests of a round. It keeps only scratch memory: the result depends on the round
+/// alone.
 class Proposals {
 public:
     explicit Proposals(const Thresholds& thresholds) : limits_(thresholds), shapes_(thresholds) {}
     /// `workers` (null for one thread) examine the dirty tets together.
-    void write(const repair::RepairRound& round, Workers* workers, std::vector<repair::Request>& out);
+    void write(const repair::RepairRound& round, Workers* workers,
+               std::vector<repair::Request>& out);
 
 private:
     struct Entry {
@@ -44,7 +47,8 @@ private:
         std::uint32_t order;  // of discovery
     };
     // The findings of look().
-    static constexpr std::uint8_t small_volume = 1, interface_edges = 2, free_edges = 4, low_quality = 8, to_smooth = 16;
+    static constexpr std::uint8_t small_volume = 1, interface_edges = 2, free_edges = 4,
+                                  low_quality = 8, to_smooth = 16;
     static constexpr std::size_t look_block = 8192;  // tets
 
     void sort_out(const repair::RepairRound& round, Workers* workers);

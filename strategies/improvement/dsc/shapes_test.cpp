@@ -1,21 +1,22 @@
 // The thresholds of edges, faces and large tets: the requests, counted again from positions.
 #include "shapes.hpp"
 
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include <doctest/doctest.h>
+
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <vector>
 
 namespace {
 
 using namespace dsc;
 using repair::Operation;
 
-// Two tets of two labels: their common face, the given triangle, is the interface. They do not fill a box, which
-// the code under test does not need.
+// Two tets of two labels: their common face, the given triangle, is the interface. They do not fill
+// a box, which the code under test does not need.
 mesh::Complex two_tets(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 middle = (a + b + c) / 3.0, up = (b - a).cross(c - a).normalized();
     // The face that two tets share lies opposite corner 3 of both.
@@ -23,12 +24,15 @@ mesh::Complex two_tets(const Vec3& a, const Vec3& b, const Vec3& c) {
     const mesh::Tet above{{0, 2, 1, 4}, {mesh::none, mesh::none, mesh::none, 0U << 2U | 3U}};
     const std::vector<mesh::Tet> tets = {below, above};
     const std::array<mesh::Label, 2> labels = {1, 0};
-    const mesh::Complex complex = mesh::Complex::assemble({a, b, c, middle + up, middle - up}, tets, labels);
+    const mesh::Complex complex =
+        mesh::Complex::assemble({a, b, c, middle + up, middle - up}, tets, labels);
     REQUIRE(complex.volume(0) > 0.0);
     return complex;
 }
 
-std::vector<repair::Request> proposals(const mesh::Complex& c, const improvement::ShapeLimits& limits, double target_length = 1.0) {
+std::vector<repair::Request> proposals(const mesh::Complex& c,
+                                       const improvement::ShapeLimits& limits,
+                                       double target_length = 1.0) {
     std::vector<mesh::TetId> dirty;
     for (mesh::TetId t = 0; t < c.tet_slots(); ++t) dirty.push_back(t);
     const repair::RepairRound round{c, dirty, {}, {}, {}, target_length, 0.995, 0, true};
@@ -37,7 +41,9 @@ std::vector<repair::Request> proposals(const mesh::Complex& c, const improvement
     return out;
 }
 
-double length(const mesh::Complex& c, const repair::Request& r) { return (c.position(r.vertices[0]) - c.position(r.vertices[1])).norm(); }
+double length(const mesh::Complex& c, const repair::Request& r) {
+    return (c.position(r.vertices[0]) - c.position(r.vertices[1])).norm();
+}
 
 const Vec3 left(0, 0, 0), right(1, 0, 0), top(0.5, std::sqrt(0.75), 0);
 
@@ -48,7 +54,8 @@ TEST_CASE("without thresholds nothing is requested") {
     CHECK(proposals(two_tets(left, Vec3(1e-3, 0, 0), top), {}).empty());
 }
 
-TEST_CASE("short edges are collapsed, shortest first, each once, the degenerate ones within the bounds") {
+TEST_CASE(
+    "short edges are collapsed, shortest first, each once, the degenerate ones within the bounds") {
     const mesh::Complex c = two_tets(left, Vec3(0.05, 0, 0), Vec3(0.0, 0.3, 0));
     improvement::ShapeLimits limits;
     limits.degenerate_edge_quality = 0.1;
@@ -87,7 +94,8 @@ TEST_CASE("a needle loses its shortest edge, a cap its longest") {
     // 1 - cos of the sharpest angle, 0.5 for a regular triangle.
     limits.degenerate_face_quality = 0.0;
     limits.min_face_quality = 0.499;
-    CHECK(proposals(two_tets(left, right, top), limits).size() == 6);  // the faces at the apexes are not regular
+    CHECK(proposals(two_tets(left, right, top), limits).size() == 6);  // the faces at the apexes
+                                                                       // are not regular
     limits.degenerate_face_quality = 0.4999;
     CHECK(proposals(two_tets(left, right, top), limits).size() == 6);
     limits.degenerate_face_quality = 0.5;
@@ -100,13 +108,16 @@ TEST_CASE("a needle loses its shortest edge, a cap its longest") {
 }
 
 TEST_CASE("interface faces are kept between two areas") {
-    // The faces of the tet with label 1, in regular triangles of edge `unit`: faces at the hull count as interface.
+    // The faces of the tet with label 1, in regular triangles of edge `unit`: faces at the hull
+    // count as interface.
     const auto beyond = [](const mesh::Complex& c, double least, double most, double unit) {
         std::ptrdiff_t count = 0;
         for (const auto& f : mesh::face_vertices) {
             const auto& v = c.tet(0).v;
             const Vec3 a = c.position(v[f[0]]);
-            const double area = 0.5 * (c.position(v[f[1]]) - a).cross(c.position(v[f[2]]) - a).norm() / (std::sqrt(3.0) / 4.0 * unit * unit);
+            const double area = 0.5 *
+                                (c.position(v[f[1]]) - a).cross(c.position(v[f[2]]) - a).norm() /
+                                (std::sqrt(3.0) / 4.0 * unit * unit);
             count += area < least || area > most ? 1 : 0;
         }
         return count;
@@ -126,7 +137,8 @@ TEST_CASE("interface faces are kept between two areas") {
             if (size > 1.0) CHECK(length(c, r) <= last + 1e-3);
             last = length(c, r);
         }
-        CHECK(static_cast<std::ptrdiff_t>(proposals(c, limits, 0.5).size()) == beyond(c, 0.5, 2.0, 0.5));
+        CHECK(static_cast<std::ptrdiff_t>(proposals(c, limits, 0.5).size()) ==
+              beyond(c, 0.5, 2.0, 0.5));
     }
 }
 

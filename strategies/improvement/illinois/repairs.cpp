@@ -7,10 +7,10 @@
 namespace dsc::improvement {
 namespace {
 
+using mesh::VertexId;
 using repair::CollapseMode;
 using repair::Operation;
 using repair::Request;
-using mesh::VertexId;
 
 // Altitudes are compared in steps of 1e-6, so that rounding does not decide the order.
 std::int64_t quantised(double value) { return std::llround(value * 1e6); }
@@ -20,7 +20,8 @@ std::array<Vec3, 4> corners(const mesh::Complex& c, mesh::TetId t) {
     return {c.position(v[0]), c.position(v[1]), c.position(v[2]), c.position(v[3])};
 }
 
-Request on_tet(const mesh::Complex& c, mesh::TetId t, Operation operation, RepairClass repair_class) {
+Request on_tet(const mesh::Complex& c, mesh::TetId t, Operation operation,
+               RepairClass repair_class) {
     Request request;
     request.operation = operation;
     request.tet = t;
@@ -34,7 +35,8 @@ bool free_vertex(const mesh::Complex& c, VertexId v) { return !c.on_interface(v)
 }  // namespace
 
 std::vector<std::string> repair_class_names() {
-    return {"wedge", "tee", "cap", "sliver", "edge_removal", "face_removal", "smoothing", "collapse", "spoke"};
+    return {"wedge",        "tee",       "cap",      "sliver", "edge_removal",
+            "face_removal", "smoothing", "collapse", "spoke"};
 }
 
 bool Repairs::Visits::first(std::uint32_t slot) {
@@ -48,14 +50,17 @@ bool Repairs::interface_edge(const mesh::Complex& c, mesh::TetId t, VertexId a, 
     if (!c.on_interface(a) || !c.on_interface(b)) return false;
     c.ring(t, a, b, ring_);
     const mesh::Label label = c.label(t);
-    return std::any_of(ring_.tets.begin(), ring_.tets.end(), [&](mesh::TetId r) { return c.label(r) != label; });
+    return std::any_of(ring_.tets.begin(), ring_.tets.end(),
+                       [&](mesh::TetId r) { return c.label(r) != label; });
 }
 
 // The two edges of a sliver that cross; an edge of the interface comes first.
-std::array<std::array<VertexId, 2>, 2> Repairs::crossing_edges(const mesh::Complex& c, const Entry& entry) {
+std::array<std::array<VertexId, 2>, 2> Repairs::crossing_edges(const mesh::Complex& c,
+                                                               const Entry& entry) {
     const auto& v = c.tet(entry.tet).v;
     const TetShape& shape = entry.shape;
-    std::array<std::array<VertexId, 2>, 2> edges = {{{v[shape.edge[0]], v[shape.edge[1]]}, {v[shape.vertex], v[shape.opposite]}}};
+    std::array<std::array<VertexId, 2>, 2> edges = {
+        {{v[shape.edge[0]], v[shape.edge[1]]}, {v[shape.vertex], v[shape.opposite]}}};
     if (interface_edge(c, entry.tet, edges[1][0], edges[1][1])) std::swap(edges[0], edges[1]);
     return edges;
 }
@@ -68,15 +73,17 @@ bool Repairs::inserts_on_interface(const mesh::Complex& c, const Entry& entry) {
 
 void Repairs::begin_step(const repair::RepairRound& round) {
     std::fill(searched_.begin(), searched_.end(), 0);
-    const double budget = limits_.insertions * static_cast<double>(round.complex.interface_vertices().size());
+    const double budget =
+        limits_.insertions * static_cast<double>(round.complex.interface_vertices().size());
     insertions_left_ = static_cast<std::size_t>(budget);
 }
 
 void Repairs::count_insertions(const repair::RepairRound& round) {
     for (std::size_t i = 0; i < round.last_outcomes.size(); ++i) {
         const Request& request = round.last_requests[i];
-        const bool inserted = !round.last_outcomes[i].refused() && request.operation == Operation::compound &&
-                              request.repair_class == static_cast<std::uint8_t>(RepairClass::sliver);
+        const bool inserted =
+            !round.last_outcomes[i].refused() && request.operation == Operation::compound &&
+            request.repair_class == static_cast<std::uint8_t>(RepairClass::sliver);
         if (inserted && insertions_left_ > 0) --insertions_left_;
     }
 }
@@ -94,7 +101,8 @@ void Repairs::note(const repair::RepairRound& round, mesh::TetId t, bool blockin
     }
     if (!by_class && !(limits_.fallbacks && shape.altitude < limits_.flip_below)) return;
     if (!tets_seen_.first(t)) return;
-    queue_.push_back({quantised(shape.altitude), t, static_cast<std::uint32_t>(queue_.size()), by_class, shape});
+    queue_.push_back(
+        {quantised(shape.altitude), t, static_cast<std::uint32_t>(queue_.size()), by_class, shape});
 }
 
 // The tet of lowest quality in the star of a vertex stops the vertex, whether it is flat or not.
@@ -130,7 +138,8 @@ void Repairs::note_spokes(const repair::RepairRound& round, mesh::TetId t) {
     for (const auto& ends : mesh::edge_vertices) {
         VertexId a = c.tet(t).v[ends[0]], b = c.tet(t).v[ends[1]];
         if (c.on_interface(a) == c.on_interface(b)) continue;
-        const double length = (c.position(a) - c.position(b)).norm() / round.length_at(c.on_interface(a) ? a : b);
+        const double length =
+            (c.position(a) - c.position(b)).norm() / round.length_at(c.on_interface(a) ? a : b);
         if (length <= limits_.longest_spoke) continue;
         if (c.birth(a) > c.birth(b)) std::swap(a, b);
         spokes_.push_back({-quantised(length), c.birth(a), c.birth(b), {a, b, mesh::none}});
@@ -140,7 +149,8 @@ void Repairs::note_spokes(const repair::RepairRound& round, mesh::TetId t) {
 // Longest first, each once, so that edges that share tets are split at the same rate.
 void Repairs::split_spokes(std::vector<Request>& out) {
     const auto key = [](const Spoke& s) { return std::tie(s.length, s.low, s.high); };
-    std::sort(spokes_.begin(), spokes_.end(), [&](const Spoke& x, const Spoke& y) { return key(x) < key(y); });
+    std::sort(spokes_.begin(), spokes_.end(),
+              [&](const Spoke& x, const Spoke& y) { return key(x) < key(y); });
     for (std::size_t i = 0; i < spokes_.size(); ++i) {
         if (i > 0 && key(spokes_[i - 1]) == key(spokes_[i])) continue;
         Request request;
@@ -153,17 +163,20 @@ void Repairs::split_spokes(std::vector<Request>& out) {
 
 void Repairs::smooth(const repair::RepairRound& round, std::vector<Request>& out) const {
     for (std::size_t i = 0; i < free_.size(); ++i) {
-        Request request = on_tet(round.complex, free_tets_[i], Operation::smooth_laplacian, RepairClass::smoothing);
+        Request request = on_tet(round.complex, free_tets_[i], Operation::smooth_laplacian,
+                                 RepairClass::smoothing);
         request.vertices[0] = free_[i];
         out.push_back(request);
     }
 }
 
-void Repairs::repair_by_class(const repair::RepairRound& round, const Entry& entry, std::vector<Request>& out) {
+void Repairs::repair_by_class(const repair::RepairRound& round, const Entry& entry,
+                              std::vector<Request>& out) {
     const mesh::Complex& c = round.complex;
     const auto& v = c.tet(entry.tet).v;
     const TetShape& shape = entry.shape;
-    const VertexId a = v[shape.edge[0]], b = v[shape.edge[1]], apex = v[shape.vertex], opposite = v[shape.opposite];
+    const VertexId a = v[shape.edge[0]], b = v[shape.edge[1]], apex = v[shape.vertex],
+                   opposite = v[shape.opposite];
     const double least_edge = limits_.least_edge * round.length_of(entry.tet);
     const auto compound = [&](RepairClass repair_class, std::array<VertexId, 3> vertices) {
         Request request = on_tet(c, entry.tet, Operation::compound, repair_class);
@@ -172,7 +185,9 @@ void Repairs::repair_by_class(const repair::RepairRound& round, const Entry& ent
         request.least_edge = static_cast<float>(least_edge);
         out.push_back(request);
     };
-    const auto splittable = [&](VertexId x, VertexId y) { return (c.position(x) - c.position(y)).norm() > 2.0 * least_edge; };
+    const auto splittable = [&](VertexId x, VertexId y) {
+        return (c.position(x) - c.position(y)).norm() > 2.0 * least_edge;
+    };
     switch (shape.flat_class) {
         case FlatClass::wedge: {
             Request request = on_tet(c, entry.tet, Operation::edge_collapse, RepairClass::wedge);
@@ -183,7 +198,8 @@ void Repairs::repair_by_class(const repair::RepairRound& round, const Entry& ent
             return;
         }
         case FlatClass::tee: {
-            if (free_vertex(c, apex) && splittable(a, b)) compound(RepairClass::tee, {apex, mesh::none, mesh::none});
+            if (free_vertex(c, apex) && splittable(a, b))
+                compound(RepairClass::tee, {apex, mesh::none, mesh::none});
             const bool on_interface = c.on_interface(a) && c.on_interface(b);
             for (const Operation operation : {Operation::edge_removal, Operation::interface_flip}) {
                 if (operation == Operation::interface_flip && !on_interface) continue;
@@ -194,8 +210,10 @@ void Repairs::repair_by_class(const repair::RepairRound& round, const Entry& ent
             return;
         }
         case FlatClass::cap: {
-            const bool large = splittable(a, b) && splittable(b, opposite) && splittable(opposite, a);
-            if (free_vertex(c, apex) && large) compound(RepairClass::cap, {apex, mesh::none, mesh::none});
+            const bool large =
+                splittable(a, b) && splittable(b, opposite) && splittable(opposite, a);
+            if (free_vertex(c, apex) && large)
+                compound(RepairClass::cap, {apex, mesh::none, mesh::none});
             Request request = on_tet(c, entry.tet, Operation::face_removal, RepairClass::cap);
             request.vertices = {a, b, opposite};
             out.push_back(request);
@@ -203,7 +221,9 @@ void Repairs::repair_by_class(const repair::RepairRound& round, const Entry& ent
         }
         case FlatClass::sliver: {
             const auto edges = crossing_edges(c, entry);
-            if (insertions_open_ == 0 || !splittable(edges[0][0], edges[0][1]) || !splittable(edges[1][0], edges[1][1])) return;
+            if (insertions_open_ == 0 || !splittable(edges[0][0], edges[0][1]) ||
+                !splittable(edges[1][0], edges[1][1]))
+                return;
             --insertions_open_;
             compound(RepairClass::sliver, {edges[0][0], edges[0][1], mesh::none});
             return;
@@ -211,7 +231,8 @@ void Repairs::repair_by_class(const repair::RepairRound& round, const Entry& ent
     }
 }
 
-void Repairs::flip_or_smooth(const repair::RepairRound& round, const Entry& entry, std::vector<Request>& out) const {
+void Repairs::flip_or_smooth(const repair::RepairRound& round, const Entry& entry,
+                             std::vector<Request>& out) const {
     const mesh::Complex& c = round.complex;
     out.push_back(on_tet(c, entry.tet, Operation::edge_removal, RepairClass::edge_removal));
     out.push_back(on_tet(c, entry.tet, Operation::interface_flip, RepairClass::edge_removal));
@@ -225,7 +246,8 @@ void Repairs::flip_or_smooth(const repair::RepairRound& round, const Entry& entr
 }
 
 // The shortest edge with an end inside a phase; edges of the interface are handled as wedges.
-void Repairs::collapse(const repair::RepairRound& round, const Entry& entry, std::vector<Request>& out) const {
+void Repairs::collapse(const repair::RepairRound& round, const Entry& entry,
+                       std::vector<Request>& out) const {
     const mesh::Complex& c = round.complex;
     const auto& v = c.tet(entry.tet).v;
     std::array<VertexId, 2> shortest = {mesh::none, mesh::none};
@@ -253,7 +275,8 @@ void Repairs::write(const repair::RepairRound& round, std::vector<Request>& out)
     split_spokes(out);
     smooth(round, out);
     for (const Entry& entry : queue_) {
-        // Nothing removes an additional vertex on the interface: these slivers come after the flips.
+        // Nothing removes an additional vertex on the interface: these slivers come after the
+        // flips.
         const bool last = limits_.fallbacks && inserts_on_interface(round.complex, entry);
         if (entry.by_class && !last) repair_by_class(round, entry, out);
         if (!limits_.fallbacks) continue;

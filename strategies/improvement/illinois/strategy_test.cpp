@@ -1,19 +1,20 @@
 // The requests of the strategy, on small complexes with a flat tet of each class.
+#include <algorithm>
+#include <map>
+
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <map>
 
 namespace {
 
 using namespace dsc;
 using config::ConfigNode;
-using repair::Operation;
-using repair::Request;
 using mesh::TetId;
 using mesh::VertexId;
+using repair::Operation;
+using repair::Request;
 
 constexpr double length = 1.0;
 
@@ -29,8 +30,12 @@ mesh::Complex cells() {
     for (int cell = 0; cell < n * n * n; ++cell) {
         const int i = cell % n, j = cell / n % n, k = cell / (n * n);
         const int flip = (i + j + k) & 1;
-        const auto at = [&](int x, int y, int z) { return static_cast<std::uint32_t>(i + (x ^ flip) + (n + 1) * (j + y + (n + 1) * (k + z))); };
-        const std::array<std::uint32_t, 4> in = {at(0, 0, 0), at(1, 1, 0), at(1, 0, 1), at(0, 1, 1)};
+        const auto at = [&](int x, int y, int z) {
+            return static_cast<std::uint32_t>(i + (x ^ flip) +
+                                              (n + 1) * (j + y + (n + 1) * (k + z)));
+        };
+        const std::array<std::uint32_t, 4> in = {at(0, 0, 0), at(1, 1, 0), at(1, 0, 1),
+                                                 at(0, 1, 1)};
         m.tets.push_back(in);
         m.tets.push_back({in[0], in[1], in[2], at(1, 0, 0)});
         m.tets.push_back({in[0], in[1], in[3], at(0, 1, 0)});
@@ -56,7 +61,9 @@ VertexId vertex_at(const mesh::Complex& c, const Vec3& place) {
 }
 TetId tet_of(const mesh::Complex& c, std::initializer_list<VertexId> vertices) {
     for (TetId t = 0; t < c.tet_slots(); ++t) {
-        if (std::all_of(vertices.begin(), vertices.end(), [&](VertexId v) { return mesh::has_vertex(c.tet(t), v); })) return t;
+        if (std::all_of(vertices.begin(), vertices.end(),
+                        [&](VertexId v) { return mesh::has_vertex(c.tet(t), v); }))
+            return t;
     }
     return mesh::none;
 }
@@ -77,7 +84,10 @@ struct Bench {
         const surface::SurfaceView view;
         const hooks::StepContext step{.surface = view, .box = {}, .to_normalised = {}};
         std::vector<Request> out;
-        strategy->propose(step, {c, round.dirty, round.blocked, round.last, round.outcomes, length, strategy->flatness(), round.number, true}, out);
+        strategy->propose(step,
+                          {c, round.dirty, round.blocked, round.last, round.outcomes, length,
+                           strategy->flatness(), round.number, true},
+                          out);
         return out;
     }
     std::vector<Request> propose_all(const mesh::Complex& c) {
@@ -85,12 +95,15 @@ struct Bench {
         for (TetId t = 0; t < c.tet_slots(); ++t) round.dirty.push_back(t);
         return propose(c, round);
     }
-    std::string class_of(const Request& request) const { return strategy->repair_classes().at(request.repair_class); }
+    std::string class_of(const Request& request) const {
+        return strategy->repair_classes().at(request.repair_class);
+    }
     host::Host host;
     std::unique_ptr<hooks::Improvement> strategy;
 };
 
-std::map<std::string, std::size_t> counts(const Bench& bench, const std::vector<Request>& requests) {
+std::map<std::string, std::size_t> counts(const Bench& bench,
+                                          const std::vector<Request>& requests) {
     std::map<std::string, std::size_t> out;
     for (const Request& r : requests) ++out[bench.class_of(r)];
     return out;
@@ -104,9 +117,12 @@ struct Corner {
     std::array<VertexId, 3> face;
     TetId tet;
 };
-// The tet between (1,1,1) and its neighbours along the axes: (1,1,1) has an odd sum, so it is the corner of eight small tets.
+// The tet between (1,1,1) and its neighbours along the axes: (1,1,1) has an odd sum, so it is the
+// corner of eight small tets.
 Corner free_corner(const mesh::Complex& c) {
-    Corner out{vertex_at(c, {1, 1, 1}), {vertex_at(c, {2, 1, 1}), vertex_at(c, {1, 2, 1}), vertex_at(c, {1, 1, 2})}, mesh::none};
+    Corner out{vertex_at(c, {1, 1, 1}),
+               {vertex_at(c, {2, 1, 1}), vertex_at(c, {1, 2, 1}), vertex_at(c, {1, 1, 2})},
+               mesh::none};
     out.tet = tet_of(c, {out.apex, out.face[0], out.face[1], out.face[2]});
     return out;
 }
@@ -119,7 +135,11 @@ TEST_CASE("cap: its vertex moves into the face, or the face is removed") {
     mesh::Complex c = cells();
     const Corner corner = free_corner(c);
     REQUIRE(corner.tet != mesh::none);
-    move_towards(c, corner.apex, (c.position(corner.face[0]) + c.position(corner.face[1]) + c.position(corner.face[2])) / 3.0, 0.97);
+    move_towards(
+        c, corner.apex,
+        (c.position(corner.face[0]) + c.position(corner.face[1]) + c.position(corner.face[2])) /
+            3.0,
+        0.97);
     Bench bench(classes_only);
     const auto requests = bench.propose_all(c);
     REQUIRE(requests.size() == 2);
@@ -139,7 +159,8 @@ TEST_CASE("cap: its vertex moves into the face, or the face is removed") {
     CHECK(named == face);
 }
 
-TEST_CASE("tee: the vertex moves onto the edge, or the edge is removed; every flat tet of the edge requests this") {
+TEST_CASE("tee: the vertex moves onto the edge, or the edge is removed; every flat tet of the edge "
+          "requests this") {
     mesh::Complex c = cells();
     const Corner corner = free_corner(c);
     const VertexId a = corner.face[0], b = corner.face[1];
@@ -181,7 +202,8 @@ TEST_CASE("wedge: the short edge is collapsed within the bounds") {
 
 namespace {
 
-// The regular tet of the cell at (i, j, k), its two pairs of vertices with equal z pressed together.
+// The regular tet of the cell at (i, j, k), its two pairs of vertices with equal z pressed
+// together.
 TetId press(mesh::Complex& c, double i, double j, double k) {
     std::array<VertexId, 4> v{};
     std::size_t n = 0;
@@ -195,7 +217,8 @@ TetId press(mesh::Complex& c, double i, double j, double k) {
     }
     for (const VertexId w : c.tet(t).v) v[n++] = w;
     for (const VertexId w : v) sum += c.position(w).z();
-    for (const VertexId w : v) move_towards(c, w, Vec3(c.position(w).x(), c.position(w).y(), sum / 4), 0.98);
+    for (const VertexId w : v)
+        move_towards(c, w, Vec3(c.position(w).x(), c.position(w).y(), sum / 4), 0.98);
     return t;
 }
 
@@ -207,7 +230,10 @@ TEST_CASE("sliver: its two diagonals are named, as long as the step's budget las
     const auto slivers = [&](ConfigNode params, const Bench::Round& round) {
         Bench bench(std::move(params));
         auto requests = bench.propose(c, round);
-        requests.erase(std::remove_if(requests.begin(), requests.end(), [&](const Request& r) { return bench.class_of(r) != "sliver"; }), requests.end());
+        requests.erase(
+            std::remove_if(requests.begin(), requests.end(),
+                           [&](const Request& r) { return bench.class_of(r) != "sliver"; }),
+            requests.end());
         return requests;
     };
     const Bench::Round round{.dirty = {t}};
@@ -240,10 +266,15 @@ TEST_CASE("the budget counts what was committed, and a new step has a new one") 
     CHECK(bench.propose(c, round).size() == 1);
 }
 
-TEST_CASE("fall-backs follow the repair of the class, in their order, and only if they are switched on") {
+TEST_CASE(
+    "fall-backs follow the repair of the class, in their order, and only if they are switched on") {
     mesh::Complex c = cells();
     const Corner corner = free_corner(c);
-    move_towards(c, corner.apex, (c.position(corner.face[0]) + c.position(corner.face[1]) + c.position(corner.face[2])) / 3.0, 0.97);
+    move_towards(
+        c, corner.apex,
+        (c.position(corner.face[0]) + c.position(corner.face[1]) + c.position(corner.face[2])) /
+            3.0,
+        0.97);
     Bench bench;
     const auto requests = bench.propose(c, {.dirty = {corner.tet}});
     std::vector<std::string> order;
@@ -251,21 +282,28 @@ TEST_CASE("fall-backs follow the repair of the class, in their order, and only i
         if (order.empty() || order.back() != bench.class_of(r)) order.push_back(bench.class_of(r));
     }
     // Smoothing to the mean comes before all tets; smoothing by quality comes with its tet.
-    CHECK(order == std::vector<std::string>{"smoothing", "cap", "edge_removal", "face_removal", "smoothing", "collapse"});
+    CHECK(order == std::vector<std::string>{"smoothing", "cap", "edge_removal", "face_removal",
+                                            "smoothing", "collapse"});
     CHECK(requests.front().operation == Operation::smooth_laplacian);
     for (const Request& r : requests) {
-        if (r.operation != Operation::smooth_laplacian && r.operation != Operation::smooth_optimise) continue;
+        if (r.operation != Operation::smooth_laplacian && r.operation != Operation::smooth_optimise)
+            continue;
         CHECK_FALSE(c.on_interface(r.vertices[0]));
         CHECK_FALSE(c.on_box(r.vertices[0]));
     }
-    for (const Request& r : Bench(classes_only).propose(c, {.dirty = {corner.tet}})) CHECK(r.repair_class < 4);
+    for (const Request& r : Bench(classes_only).propose(c, {.dirty = {corner.tet}}))
+        CHECK(r.repair_class < 4);
 }
 
 TEST_CASE("less flat tets are flipped and smoothed, still less flat ones smoothed only") {
     const auto asked = [](double part) {
         mesh::Complex c = cells();
         const Corner corner = free_corner(c);
-        move_towards(c, corner.apex, (c.position(corner.face[0]) + c.position(corner.face[1]) + c.position(corner.face[2])) / 3.0, part);
+        move_towards(
+            c, corner.apex,
+            (c.position(corner.face[0]) + c.position(corner.face[1]) + c.position(corner.face[2])) /
+                3.0,
+            part);
         Bench bench;
         return counts(bench, bench.propose(c, {.dirty = {corner.tet}}));
     };
@@ -281,7 +319,8 @@ TEST_CASE("less flat tets are flipped and smoothed, still less flat ones smoothe
     CHECK(asked(0.95).count("cap") == 1);
 }
 
-TEST_CASE("a blocked vertex: the worst tet of its star is repaired though it is not flat, once until something changes") {
+TEST_CASE("a blocked vertex: the worst tet of its star is repaired though it is not flat, once "
+          "until something changes") {
     mesh::Complex c = cells();
     const VertexId v = vertex_at(c, {2, 2, 2});
     REQUIRE(c.on_interface(v));
@@ -291,7 +330,8 @@ TEST_CASE("a blocked vertex: the worst tet of its star is repaired though it is 
     REQUIRE_FALSE(first.empty());
     std::vector<TetId> star;
     c.star(v, star);
-    const float worst = c.quality(*std::min_element(star.begin(), star.end(), [&](TetId a, TetId b) { return c.quality(a) < c.quality(b); }));
+    const float worst = c.quality(*std::min_element(
+        star.begin(), star.end(), [&](TetId a, TetId b) { return c.quality(a) < c.quality(b); }));
     for (const Request& r : first) CHECK(c.quality(r.tet) == worst);
     round.number = 1;
     CHECK(bench.propose(c, round).empty());
@@ -302,7 +342,8 @@ TEST_CASE("a blocked vertex: the worst tet of its star is repaired though it is 
     CHECK_FALSE(bench.propose(c, round).empty());
 }
 
-TEST_CASE("spokes: long edges from the interface into a phase are split on request, longest first, each once") {
+TEST_CASE("spokes: long edges from the interface into a phase are split on request, longest first, "
+          "each once") {
     const mesh::Complex c = cells();
     const auto splits = [&](double longest) {
         Bench bench(ConfigNode::map({{"longest_spoke", longest}}));
@@ -313,8 +354,10 @@ TEST_CASE("spokes: long edges from the interface into a phase are split on reque
     std::map<std::array<VertexId, 2>, double> expected;
     for (TetId t = 0; t < c.tet_slots(); ++t) {
         for (const auto& e : mesh::edge_vertices) {
-            const VertexId a = std::min(c.tet(t).v[e[0]], c.tet(t).v[e[1]]), b = std::max(c.tet(t).v[e[0]], c.tet(t).v[e[1]]);
-            if (c.on_interface(a) != c.on_interface(b)) expected[{a, b}] = (c.position(a) - c.position(b)).norm();
+            const VertexId a = std::min(c.tet(t).v[e[0]], c.tet(t).v[e[1]]),
+                           b = std::max(c.tet(t).v[e[0]], c.tet(t).v[e[1]]);
+            if (c.on_interface(a) != c.on_interface(b))
+                expected[{a, b}] = (c.position(a) - c.position(b)).norm();
         }
     }
     const auto all = splits(0.9);
@@ -322,16 +365,20 @@ TEST_CASE("spokes: long edges from the interface into a phase are split on reque
     double last = 10.0;
     for (const Request& r : all) {
         CHECK(r.operation == Operation::edge_split);
-        const double own = expected.at({std::min(r.vertices[0], r.vertices[1]), std::max(r.vertices[0], r.vertices[1])});
+        const double own = expected.at(
+            {std::min(r.vertices[0], r.vertices[1]), std::max(r.vertices[0], r.vertices[1])});
         CHECK(own <= last + 1e-6);
         last = own;
     }
     const auto diagonals = splits(1.2);
-    CHECK(diagonals.size() == static_cast<std::size_t>(std::count_if(expected.begin(), expected.end(), [](const auto& e) { return e.second > 1.2; })));
+    CHECK(diagonals.size() ==
+          static_cast<std::size_t>(std::count_if(expected.begin(), expected.end(),
+                                                 [](const auto& e) { return e.second > 1.2; })));
     CHECK(diagonals.size() > 0);
 }
 
-TEST_CASE("no topology changes; the order of proposals does not depend on the order of the dirty tets except for ties") {
+TEST_CASE("no topology changes; the order of proposals does not depend on the order of the dirty "
+          "tets except for ties") {
     Bench bench;
     CHECK(bench.strategy->topology_limits().thickness == 0.0);
     CHECK(bench.strategy->topology_limits().min_component == 0.0);
@@ -342,11 +389,13 @@ TEST_CASE("no topology changes; the order of proposals does not depend on the or
     move_towards(c, other.apex, Vec3(4, 3, 1), 0.98);
     std::vector<TetId> star;
     c.star(other.apex, star);
-    const auto flattest = *std::min_element(star.begin(), star.end(), [&](TetId a, TetId b) { return c.quality(a) < c.quality(b); });
+    const auto flattest = *std::min_element(
+        star.begin(), star.end(), [&](TetId a, TetId b) { return c.quality(a) < c.quality(b); });
     const auto tets = [&](std::vector<TetId> dirty) {
         Bench fresh(classes_only);
         std::vector<TetId> order;
-        for (const Request& r : fresh.propose(c, {.dirty = std::move(dirty)})) order.push_back(r.tet);
+        for (const Request& r : fresh.propose(c, {.dirty = std::move(dirty)}))
+            order.push_back(r.tet);
         return order;
     };
     const auto forward = tets({sliver, flattest});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <dsc/geometry/quality.hpp>
 
 namespace dsc::improvement {
@@ -42,7 +43,8 @@ Face face_opposite(const std::array<Vec3, 4>& p, std::uint8_t apex) {
 }
 
 // Barycentric coordinates of a point's projection on the face, times twice the face's area squared.
-std::array<double, 3> projection(const std::array<Vec3, 4>& p, const Face& face, const Vec3& point) {
+std::array<double, 3> projection(const std::array<Vec3, 4>& p, const Face& face,
+                                 const Vec3& point) {
     const Vec3 &a = p[face.corner[0]], &b = p[face.corner[1]], &c = p[face.corner[2]];
     const Vec3 normal = (b - a).cross(c - a);
     return {(b - point).cross(c - point).dot(normal), (c - point).cross(a - point).dot(normal),
@@ -91,7 +93,8 @@ TetShape classify(const std::array<Vec3, 4>& p, double length, const ShapeLimits
     if (nearest < limits.tee * scale) return shape;
 
     const std::array<double, 3> weight = projection(p, base, p[apex]);
-    const std::size_t least = static_cast<std::size_t>(std::min_element(weight.begin(), weight.end()) - weight.begin());
+    const std::size_t least =
+        static_cast<std::size_t>(std::min_element(weight.begin(), weight.end()) - weight.begin());
     shape.flat_class = weight[least] < 0.0 ? FlatClass::sliver : FlatClass::cap;
     shape.vertex = apex;
     shape.opposite = base.corner[least];

@@ -1,10 +1,11 @@
 // The classes on single tets, in any position and numbering.
 #include "tet_shape.hpp"
 
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <doctest/doctest.h>
+
 #include <dsc/base/random.hpp>
 
 using dsc::RandomStream;
@@ -19,7 +20,9 @@ namespace {
 using Points = std::array<Vec3, 4>;
 constexpr double huge_length = 1e9;  // L does not matter: the tet is smaller
 
-RandomStream stream(std::uint64_t n) { return RandomStream(dsc::RandomKey{7, dsc::stream_id("tet shapes"), 0, n}); }
+RandomStream stream(std::uint64_t n) {
+    return RandomStream(dsc::RandomKey{7, dsc::stream_id("tet shapes"), 0, n});
+}
 
 Eigen::Matrix3d rotation(RandomStream& random) {
     Eigen::Vector4d q;
@@ -42,11 +45,17 @@ Disguise disguise(const Points& p, RandomStream& random, double scale) {
     return out;
 }
 
-std::array<std::uint8_t, 2> sorted(std::uint8_t a, std::uint8_t b) { return {std::min(a, b), std::max(a, b)}; }
-std::array<std::uint8_t, 2> sorted(const std::array<std::uint8_t, 2>& e) { return sorted(e[0], e[1]); }
+std::array<std::uint8_t, 2> sorted(std::uint8_t a, std::uint8_t b) {
+    return {std::min(a, b), std::max(a, b)};
+}
+std::array<std::uint8_t, 2> sorted(const std::array<std::uint8_t, 2>& e) {
+    return sorted(e[0], e[1]);
+}
 
 // A flat tet in the plane z = 0 except its vertex 3, which is `height` above the plane.
-Points flat(double x, double y, double height) { return {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.4, 0.8, 0), Vec3(x, y, height)}; }
+Points flat(double x, double y, double height) {
+    return {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.4, 0.8, 0), Vec3(x, y, height)};
+}
 
 template <class Check>
 void in_every_disguise(const Points& p, Check check) {
@@ -98,7 +107,8 @@ TEST_CASE("sliver: the two edges that cross are found") {
 
 TEST_CASE("a kite's diagonals are found though they are not its two longest edges") {
     // The diagonals are 2 and 0.6 long, two of the sides 1.65.
-    const Points kite = {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(-0.6, 0.3, 0.02), Vec3(-0.6, -0.3, 0.02)};
+    const Points kite = {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(-0.6, 0.3, 0.02),
+                         Vec3(-0.6, -0.3, 0.02)};
     in_every_disguise(kite, [](const TetShape& shape, const auto& order) {
         REQUIRE(shape.flat_class == FlatClass::sliver);
         const auto one = sorted(shape.edge), other = sorted(shape.vertex, shape.opposite);
@@ -120,17 +130,22 @@ TEST_CASE("the borders are at the limits") {
 }
 
 TEST_CASE("a tet that extends far is classified by L, not by its length") {
-    // Three vertices of a fine interface, and the fourth at a corner of the box, ten edges away; L is 0.1.
-    const Points spike = {Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0.05, 0.087, 0), Vec3(0.05, 0.03, 1)};
+    // Three vertices of a fine interface, and the fourth at a corner of the box, ten edges away; L
+    // is 0.1.
+    const Points spike = {Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0.05, 0.087, 0),
+                          Vec3(0.05, 0.03, 1)};
     const TetShape shape = classify(spike, 0.1, {});
     CHECK(shape.flat_class != FlatClass::wedge);
     CHECK(shape.altitude > 0.7);
     CHECK(classify(spike, huge_length, {}).flat_class == FlatClass::wedge);
-    // Pressed flat, its class follows from its shape in the plane: the far vertex sees one edge or two.
-    const Points quad = {Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0.05, 0.087, 0.001), Vec3(0.05, -1, 0)};
+    // Pressed flat, its class follows from its shape in the plane: the far vertex sees one edge or
+    // two.
+    const Points quad = {Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0.05, 0.087, 0.001),
+                         Vec3(0.05, -1, 0)};
     CHECK(classify(quad, 0.1, {}).flat_class == FlatClass::sliver);
     CHECK(classify(quad, 0.1, {}).altitude < 0.05);
-    const Points triangle = {Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0.05, 0.087, 0.001), Vec3(0.05, 1, 0)};
+    const Points triangle = {Vec3(0, 0, 0), Vec3(0.1, 0, 0), Vec3(0.05, 0.087, 0.001),
+                             Vec3(0.05, 1, 0)};
     CHECK(classify(triangle, 0.1, {}).flat_class == FlatClass::cap);
 }
 
@@ -154,11 +169,14 @@ TEST_CASE("random flat tets: the class agrees with the shape in the plane") {
         if (shape.flat_class != FlatClass::cap && shape.flat_class != FlatClass::sliver) continue;
         // Convex position: a segment between two of the points crosses the one between the others.
         const auto side = [&](std::size_t a, std::size_t b, std::size_t c) {
-            return (p[b] - p[a]).head<2>().x() * (p[c] - p[a]).y() - (p[b] - p[a]).y() * (p[c] - p[a]).x();
+            return (p[b] - p[a]).head<2>().x() * (p[c] - p[a]).y() -
+                   (p[b] - p[a]).y() * (p[c] - p[a]).x();
         };
         bool crossing = false;
-        for (const auto& [a, b, c, d] : {std::array<std::size_t, 4>{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}}) {
-            crossing = crossing || (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0);
+        for (const auto& [a, b, c, d] :
+             {std::array<std::size_t, 4>{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}}) {
+            crossing = crossing ||
+                       (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0);
         }
         REQUIRE(crossing == (shape.flat_class == FlatClass::sliver));
     }

@@ -1,10 +1,11 @@
 #include "solid.hpp"
 
 #include <cmath>
-#include <dsc/mesh/complex.hpp>
-#include <dsc/mesh/face_groups.hpp>
 #include <functional>
 #include <map>
+
+#include <dsc/mesh/complex.hpp>
+#include <dsc/mesh/face_groups.hpp>
 
 namespace dsc::corner_box {
 namespace {
@@ -21,7 +22,8 @@ public:
     explicit Builder(std::function<Vec3(const Node&)> place) : place_(std::move(place)) {}
 
     std::uint32_t point(const Node& node) {
-        const auto [entry, is_new] = index_.try_emplace(node, static_cast<std::uint32_t>(solid_.points.size()));
+        const auto [entry, is_new] =
+            index_.try_emplace(node, static_cast<std::uint32_t>(solid_.points.size()));
         if (is_new) {
             solid_.points.push_back(place_(node));
             nodes_.push_back(node);
@@ -45,7 +47,8 @@ public:
         const auto corners = [this](std::size_t t) { return &solid_.tets[t]; };
         mesh::for_each_face(solid_.points.size(), solid_.tets.size(), corners,
                             [this](const mesh::FaceKey& key, std::span<const mesh::FaceUse> uses) {
-                                if (uses.size() == 1) solid_.faces.push_back({{key[0], key[1], key[2]}, octant(key)});
+                                if (uses.size() == 1)
+                                    solid_.faces.push_back({{key[0], key[1], key[2]}, octant(key)});
                             });
         return std::move(solid_);
     }
@@ -55,7 +58,8 @@ private:
     Octant octant(const mesh::FaceKey& key) const {
         unsigned bits = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (nodes_[key[0]][axis] + nodes_[key[1]][axis] + nodes_[key[2]][axis] > 0) bits |= 1U << axis;
+            if (nodes_[key[0]][axis] + nodes_[key[1]][axis] + nodes_[key[2]][axis] > 0)
+                bits |= 1U << axis;
         }
         return static_cast<Octant>(bits);
     }
@@ -66,8 +70,9 @@ private:
     std::map<Node, std::uint32_t> index_;
 };
 
-// The nodes of one octant with at most `divisions` levels, cut as a tet is cut into smaller tets: each cube of nodes gives an
-// upright tet, an octahedron and an inverted tet, as far as they are inside.
+// The nodes of one octant with at most `divisions` levels, cut as a tet is cut into smaller tets:
+// each cube of nodes gives an upright tet, an octahedron and an inverted tet, as far as they are
+// inside.
 void fill_octant(Builder& builder, const Node& signs, int divisions) {
     const Node x = {signs[0], 0, 0}, y = {0, signs[1], 0}, z = {0, 0, signs[2]};
     for (int k = 0; k < divisions; ++k) {
@@ -79,7 +84,8 @@ void fill_octant(Builder& builder, const Node& signs, int divisions) {
                 const int room = divisions - (i + j + k);
                 if (room < 2) continue;
                 const Node pxy = plus(px, y), pyz = plus(py, z), pzx = plus(pz, x);
-                // Four tets around the shortest of the octahedron's three diagonals; ring[m] is opposite ring[m + 2].
+                // Four tets around the shortest of the octahedron's three diagonals; ring[m] is
+                // opposite ring[m + 2].
                 struct Diagonal {
                     Node from, to;
                     std::array<Node, 4> ring;
@@ -88,12 +94,15 @@ void fill_octant(Builder& builder, const Node& signs, int divisions) {
                                                             {py, pzx, {pz, px, pxy, pyz}},
                                                             {pz, pxy, {px, py, pyz, pzx}}}};
                 const Diagonal* shortest = &diagonals[0];
-                const auto length = [&](const Diagonal& d) { return (builder.at(d.from) - builder.at(d.to)).norm(); };
+                const auto length = [&](const Diagonal& d) {
+                    return (builder.at(d.from) - builder.at(d.to)).norm();
+                };
                 for (const Diagonal& d : diagonals) {
                     if (length(d) < length(*shortest) * (1 - 1e-9)) shortest = &d;
                 }
                 for (std::size_t m = 0; m < 4; ++m) {
-                    builder.add(shortest->from, shortest->to, shortest->ring[m], shortest->ring[(m + 1) % 4]);
+                    builder.add(shortest->from, shortest->to, shortest->ring[m],
+                                shortest->ring[(m + 1) % 4]);
                 }
                 if (room >= 3) builder.add(pxy, pyz, pzx, plus(pxy, z));
             }
@@ -111,7 +120,8 @@ Solid sphere(const Vec3& centre, double radius, unsigned divisions) {
         // Sines make the arcs along the borders of the octants equal.
         Vec3 direction;
         for (std::size_t a = 0; a < 3; ++a) {
-            direction[static_cast<Eigen::Index>(a)] = std::sin(quarter_turn * static_cast<double>(node[a]) / level);
+            direction[static_cast<Eigen::Index>(a)] =
+                std::sin(quarter_turn * static_cast<double>(node[a]) / level);
         }
         return centre + radius * static_cast<double>(level) / n * direction.normalized();
     });
@@ -124,12 +134,14 @@ Solid sphere(const Vec3& centre, double radius, unsigned divisions) {
 Solid box(const Vec3& centre, const Vec3& half_size, unsigned divisions) {
     const int n = static_cast<int>(divisions);
     Builder builder([&](const Node& node) -> Vec3 {
-        return centre + Vec3(half_size.x() * node[0], half_size.y() * node[1], half_size.z() * node[2]) / n;
+        return centre +
+               Vec3(half_size.x() * node[0], half_size.y() * node[1], half_size.z() * node[2]) / n;
     });
     for (int k = -n; k < n; ++k) {
         for (int j = -n; j < n; ++j) {
             for (int i = -n; i < n; ++i) {
-                // The corners of the cell whose coordinates have an even sum form the tet in the middle.
+                // The corners of the cell whose coordinates have an even sum form the tet in the
+                // middle.
                 const auto corner = [&](int x, int y, int z) { return Node{i + x, j + y, k + z}; };
                 const int flip = (i + j + k) & 1;
                 const auto at = [&](int x, int y, int z) { return corner(x ^ flip, y, z); };

@@ -1,14 +1,15 @@
 // Tests of the mesh; the plugin is loaded as in a run.
+#include <cmath>
+#include <set>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/validate.hpp>
-#include <set>
 
 namespace {
 
@@ -29,15 +30,19 @@ double volume(const TetMesh& m, dsc::mesh::Label label) {
     double sum = 0;
     for (std::size_t t = 0; t < m.tets.size(); ++t) {
         const auto& v = m.tets[t];
-        if (m.labels[t] == label) sum += dsc::geometry::tet_volume(m.points[v[0]], m.points[v[1]], m.points[v[2]], m.points[v[3]]);
+        if (m.labels[t] == label)
+            sum += dsc::geometry::tet_volume(m.points[v[0]], m.points[v[1]], m.points[v[2]],
+                                             m.points[v[3]]);
     }
     return sum;
 }
 
-// Requires that every tet is positive and that the mesh is adopted as a conforming mesh of the whole box with one sphere as its
-// interface.
+// Requires that every tet is positive and that the mesh is adopted as a conforming mesh of the
+// whole box with one sphere as its interface.
 void check_sound(const TetMesh& m, double half) {
-    for (const auto& v : m.tets) REQUIRE(dsc::geometry::orient3d(m.points[v[0]], m.points[v[1]], m.points[v[2]], m.points[v[3]]) == 1);
+    for (const auto& v : m.tets)
+        REQUIRE(dsc::geometry::orient3d(m.points[v[0]], m.points[v[1]], m.points[v[2]],
+                                        m.points[v[3]]) == 1);
     dsc::mesh::AdoptReport report;
     const Complex complex = dsc::mesh::adopt(m, "corner_box", &report, 0.0);
     CHECK(report.reoriented_tets == 0);
@@ -51,7 +56,8 @@ void check_sound(const TetMesh& m, double half) {
     CHECK(counts.genus() == 0);
     CHECK(volume(m, 0) + volume(m, 1) == doctest::Approx(8 * half * half * half).epsilon(1e-12));
     std::size_t outside = 0;
-    for (dsc::mesh::VertexId v = 0; v < complex.vertex_slots(); ++v) outside += complex.on_box(v) ? 1 : 0;
+    for (dsc::mesh::VertexId v = 0; v < complex.vertex_slots(); ++v)
+        outside += complex.on_box(v) ? 1 : 0;
     CHECK(outside == 8);
 }
 
@@ -65,7 +71,8 @@ TEST_CASE("sphere: counts, volume, every vertex of the interface on the radius")
         const Complex complex = dsc::mesh::adopt(m, "corner_box", nullptr, 0.0);
         const auto on_surface = complex.interface_vertices();
         CHECK(on_surface.size() == static_cast<std::size_t>(4 * n * n + 2));
-        for (const auto v : on_surface) REQUIRE(complex.position(v).norm() == doctest::Approx(0.9).epsilon(1e-14));
+        for (const auto v : on_surface)
+            REQUIRE(complex.position(v).norm() == doctest::Approx(0.9).epsilon(1e-14));
         std::size_t inside = 0;
         for (const auto label : m.labels) inside += label == 1 ? 1 : 0;
         CHECK(inside == static_cast<std::size_t>(8 * n * n * n));
@@ -84,7 +91,9 @@ TEST_CASE("sphere: the inside is well shaped, the outside has no vertex of its o
     for (std::size_t t = 0; t < m.tets.size(); ++t) {
         const auto& v = m.tets[t];
         (m.labels[t] == 0 ? outside : inside).insert(v.begin(), v.end());
-        if (m.labels[t] == 1) least = std::min(least, dsc::geometry::tet_quality(m.points[v[0]], m.points[v[1]], m.points[v[2]], m.points[v[3]]));
+        if (m.labels[t] == 1)
+            least = std::min(least, dsc::geometry::tet_quality(m.points[v[0]], m.points[v[1]],
+                                                               m.points[v[2]], m.points[v[3]]));
     }
     CHECK(least > 0.3);
     std::size_t only_outside = 0;
@@ -119,7 +128,10 @@ TEST_CASE("sphere: each vertex is joined to its nearest corner") {
 TEST_CASE("box: counts and exact volume, also off centre and not a cube") {
     for (const int n : {1, 2, 5}) {
         CAPTURE(n);
-        const TetMesh m = build(ConfigNode::map({{"shape", "box"}, {"divisions", n}, {"half_size", vector(0.5, 0.7, 0.9)}, {"centre", vector(0.4, -0.3, 0.1)}}));
+        const TetMesh m = build(ConfigNode::map({{"shape", "box"},
+                                                 {"divisions", n},
+                                                 {"half_size", vector(0.5, 0.7, 0.9)},
+                                                 {"centre", vector(0.4, -0.3, 0.1)}}));
         check_sound(m, 1.5);
         CHECK(volume(m, 1) == doctest::Approx(8 * 0.5 * 0.7 * 0.9).epsilon(1e-12));
         const Complex complex = dsc::mesh::adopt(m, "corner_box", nullptr, 0.0);
@@ -129,10 +141,16 @@ TEST_CASE("box: counts and exact volume, also off centre and not a cube") {
 
 TEST_CASE("any solid that fits is joined correctly: near the walls, small, large, in another box") {
     check_sound(build(ConfigNode::map({{"radius", 1.49}, {"divisions", 5}})), 1.5);
-    check_sound(build(ConfigNode::map({{"radius", 0.01}, {"divisions", 4}, {"centre", vector(-1.4, 1.3, 1.45)}})), 1.5);
-    check_sound(build(ConfigNode::map({{"radius", 0.6}, {"divisions", 7}, {"centre", vector(0.8, 0.2, -0.85)}})), 1.5);
+    check_sound(build(ConfigNode::map(
+                    {{"radius", 0.01}, {"divisions", 4}, {"centre", vector(-1.4, 1.3, 1.45)}})),
+                1.5);
+    check_sound(build(ConfigNode::map(
+                    {{"radius", 0.6}, {"divisions", 7}, {"centre", vector(0.8, 0.2, -0.85)}})),
+                1.5);
     check_sound(build(ConfigNode::map({{"radius", 2.0}, {"box", 3.0}, {"divisions", 9}})), 3.0);
-    check_sound(build(ConfigNode::map({{"shape", "box"}, {"half_size", vector(1.4, 0.1, 0.02)}, {"divisions", 3}})), 1.5);
+    check_sound(build(ConfigNode::map(
+                    {{"shape", "box"}, {"half_size", vector(1.4, 0.1, 0.02)}, {"divisions", 3}})),
+                1.5);
 }
 
 TEST_CASE("a solid that does not fit is refused") {
@@ -140,7 +158,10 @@ TEST_CASE("a solid that does not fit is refused") {
         CHECK_THROWS_WITH_AS(build(params), doctest::Contains(text), dsc::ConfigError);
     };
     refused(ConfigNode::map({{"radius", 1.5}}), "must lie inside the box");
-    refused(ConfigNode::map({{"radius", 0.9}, {"centre", vector(0, 0, 0.7)}}), "must lie inside the box");
-    refused(ConfigNode::map({{"shape", "box"}, {"half_size", vector(1, 1, 1.6)}}), "must lie inside the box");
-    refused(ConfigNode::map({{"shape", "box"}, {"half_size", vector(1, 0, 1)}}), "half_size must be above 0");
+    refused(ConfigNode::map({{"radius", 0.9}, {"centre", vector(0, 0, 0.7)}}),
+            "must lie inside the box");
+    refused(ConfigNode::map({{"shape", "box"}, {"half_size", vector(1, 1, 1.6)}}),
+            "must lie inside the box");
+    refused(ConfigNode::map({{"shape", "box"}, {"half_size", vector(1, 0, 1)}}),
+            "half_size must be above 0");
 }

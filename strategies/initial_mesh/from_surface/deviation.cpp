@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <dsc/base/workers.hpp>
 #include <vector>
+
+#include <dsc/base/workers.hpp>
 
 namespace dsc::strategies::from_surface {
 namespace {
@@ -19,16 +20,19 @@ struct Farthest {
     }
 };
 
-/// The point of a triangle that is farthest from `tree`, among the points of a grid with the corners and the middles of the
-/// sides.
+/// The point of a triangle that is farthest from `tree`, among the points of a grid with the
+/// corners and the middles of the sides.
 template <class Tree>
-Farthest of_triangle(const Vec3& a, const Vec3& b, const Vec3& c, double spacing, const Tree& tree) {
+Farthest of_triangle(const Vec3& a, const Vec3& b, const Vec3& c, double spacing,
+                     const Tree& tree) {
     const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    const int n = 2 * static_cast<int>(std::clamp(std::ceil(0.5 * longest / spacing), 1.0, most_halves));
+    const int n =
+        2 * static_cast<int>(std::clamp(std::ceil(0.5 * longest / spacing), 1.0, most_halves));
     Farthest farthest;
     for (int i = 0; i <= n; ++i) {
         for (int j = 0; i + j <= n; ++j) {
-            const Vec3 p = a + (b - a) * (static_cast<double>(i) / n) + (c - a) * (static_cast<double>(j) / n);
+            const Vec3 p =
+                a + (b - a) * (static_cast<double>(i) / n) + (c - a) * (static_cast<double>(j) / n);
             farthest.meet(p, tree.nearest(p).distance);
         }
     }
@@ -36,7 +40,8 @@ Farthest of_triangle(const Vec3& a, const Vec3& b, const Vec3& c, double spacing
 }
 
 template <class Tree>
-Farthest farthest_from(const Tree& tree, const surface::TriangleMesh& mesh, double spacing, Workers* workers) {
+Farthest farthest_from(const Tree& tree, const surface::TriangleMesh& mesh, double spacing,
+                       Workers* workers) {
     std::vector<Farthest> of_face(mesh.faces.size());
     for_blocks(workers, mesh.faces.size(), block, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
@@ -51,11 +56,14 @@ Farthest farthest_from(const Tree& tree, const surface::TriangleMesh& mesh, doub
 
 }  // namespace
 
-Deviation deviation(const surface::TriangleMesh& interface, const Solid& solid, double spacing, Workers* workers) {
+Deviation deviation(const surface::TriangleMesh& interface, const Solid& solid, double spacing,
+                    Workers* workers) {
     Deviation out;
-    for (const Vec3& p : interface.points) out.of_vertices = std::max(out.of_vertices, solid.nearest(p).distance);
+    for (const Vec3& p : interface.points)
+        out.of_vertices = std::max(out.of_vertices, solid.nearest(p).distance);
     const Farthest there = farthest_from(solid, interface, spacing, workers);
-    const Farthest back = farthest_from(surface::TriangleTree(interface), solid.surface(), spacing, workers);
+    const Farthest back =
+        farthest_from(surface::TriangleTree(interface), solid.surface(), spacing, workers);
     out.of_interface = there.distance;
     out.of_surface = back.distance;
     out.farthest = back.distance > there.distance ? back.point : there.point;

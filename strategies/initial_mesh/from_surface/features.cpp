@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <dsc/surface/measure.hpp>
 
 namespace dsc::strategies::from_surface {
@@ -24,8 +25,9 @@ std::vector<Edge> sharp_edges(const surface::TriangleMesh& mesh, double angle) {
             sides.push_back({{std::min(a, b), std::max(a, b)}, f});
         }
     }
-    std::sort(sides.begin(), sides.end(),
-              [](const FaceSide& x, const FaceSide& y) { return x.edge != y.edge ? x.edge < y.edge : x.face < y.face; });
+    std::sort(sides.begin(), sides.end(), [](const FaceSide& x, const FaceSide& y) {
+        return x.edge != y.edge ? x.edge < y.edge : x.face < y.face;
+    });
     std::vector<Edge> edges;
     for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
         const Vec3 &m = normals[sides[i].face], &n = normals[sides[i + 1].face];
@@ -49,13 +51,18 @@ Features::Features(const surface::TriangleMesh& mesh, double angle) {
     for (std::size_t v = 0; v < ends.size(); ++v) {
         if (ends[v].empty()) continue;
         const Vec3& p = mesh.points[v];
-        const bool straight = ends[v].size() == 2 && (mesh.points[ends[v][0]] - p).normalized().dot(
-                                                         (p - mesh.points[ends[v][1]]).normalized()) >= std::cos(angle);
+        const bool straight =
+            ends[v].size() == 2 &&
+            (mesh.points[ends[v][0]] - p)
+                    .normalized()
+                    .dot((p - mesh.points[ends[v][1]]).normalized()) >= std::cos(angle);
         if (!straight) corners_.push_back(p);
     }
     edges_.emplace(lines);
 }
 
-bool Features::corner(const Vec3& p) const { return std::find(corners_.begin(), corners_.end(), p) != corners_.end(); }
+bool Features::corner(const Vec3& p) const {
+    return std::find(corners_.begin(), corners_.end(), p) != corners_.end();
+}
 
 }  // namespace dsc::strategies::from_surface

@@ -1,15 +1,16 @@
 #pragma once
 // Sharp edges and corners of a surface.
 
-#include <dsc/surface/distance.hpp>
-#include <dsc/surface/triangle_mesh.hpp>
 #include <optional>
 #include <vector>
 
+#include <dsc/surface/distance.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
+
 namespace dsc::strategies::from_surface {
 
-/// Edges whose two faces differ by more than an angle, and corners: points where not exactly two such edges meet, or two at an
-/// angle.
+/// Edges whose two faces differ by more than an angle, and corners: points where not exactly two
+/// such edges meet, or two at an angle.
 class Features {
 public:
     /// `mesh` must be closed and manifold; the angle in radians. [setup]

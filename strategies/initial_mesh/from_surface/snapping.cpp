@@ -1,24 +1,27 @@
 #include "snapping.hpp"
 
 #include <algorithm>
+
 #include <dsc/mesh/star_quality.hpp>
 
 namespace dsc::strategies::from_surface {
 namespace {
 
-/// After about forty rounds, vertices that are stuck begin to slide and stretch the triangles around them.
+/// After about forty rounds, vertices that are stuck begin to slide and stretch the triangles
+/// around them.
 constexpr unsigned rounds = 40;
 /// Further rounds, in which the vertices that have not arrived continue at the cost of shape.
 constexpr unsigned last_rounds = 20;
 constexpr double last_quality = 0.08;
-/// In finest cells: vertices nearer than this to a sharp edge move onto it; each corner takes the nearest vertex within its
-/// reach.
+/// In finest cells: vertices nearer than this to a sharp edge move onto it; each corner takes the
+/// nearest vertex within its reach.
 constexpr double edge_reach = 0.35, corner_reach = 1.5;
 constexpr double least_quality = 0.05;
 
-/// The movable interface vertex within reach of the corner whose tets keep the best shape when it moves there; none if the tets
-/// of all would be bad.
-mesh::VertexId best_for(const mesh::Complex& c, const Vec3& corner, double reach, std::vector<mesh::TetId>& star) {
+/// The movable interface vertex within reach of the corner whose tets keep the best shape when it
+/// moves there; none if the tets of all would be bad.
+mesh::VertexId best_for(const mesh::Complex& c, const Vec3& corner, double reach,
+                        std::vector<mesh::TetId>& star) {
     mesh::VertexId best = mesh::none;
     double best_quality = least_quality;
     for (const mesh::VertexId v : c.interface_vertices()) {
@@ -34,7 +37,8 @@ mesh::VertexId best_for(const mesh::Complex& c, const Vec3& corner, double reach
 }
 
 /// Moves a vertex to each corner that a vertex can reach; returns these vertices.
-std::vector<mesh::VertexId> take_corners(mesh::Complex& c, const std::vector<Vec3>& corners, double reach) {
+std::vector<mesh::VertexId> take_corners(mesh::Complex& c, const std::vector<Vec3>& corners,
+                                         double reach) {
     std::vector<mesh::VertexId> taken;
     std::vector<mesh::TetId> star;
     for (const Vec3& corner : corners) {
@@ -49,7 +53,8 @@ std::vector<mesh::VertexId> take_corners(mesh::Complex& c, const std::vector<Vec
 
 }  // namespace
 
-generate::ProjectReport snap(mesh::Complex& complex, const Solid& solid, const Features& features, double cell) {
+generate::ProjectReport snap(mesh::Complex& complex, const Solid& solid, const Features& features,
+                             double cell) {
     const auto nearest = [&](const Vec3& p) {
         if (!features.empty()) {
             const surface::NearestHit edge = features.nearest(p);

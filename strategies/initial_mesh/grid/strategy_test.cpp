@@ -1,15 +1,16 @@
 // Tests of the mesh; the plugin is loaded as in a run.
-#include <doctest/doctest.h>
-
 #include <array>
 #include <cmath>
+#include <map>
+#include <set>
+
+#include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <map>
-#include <set>
 
 namespace {
 
@@ -44,7 +45,8 @@ Census count(const dsc::mesh::TetMesh& mesh) {
         auto v = mesh.tets[t];
         const auto& p = mesh.points;
         const double volume = dsc::geometry::tet_volume(p[v[0]], p[v[1]], p[v[2]], p[v[3]]);
-        census.positive = census.positive && dsc::geometry::orient3d(p[v[0]], p[v[1]], p[v[2]], p[v[3]]) == 1;
+        census.positive =
+            census.positive && dsc::geometry::orient3d(p[v[0]], p[v[1]], p[v[2]], p[v[3]]) == 1;
         census.box_volume += volume;
         if (mesh.labels[t] != 0) {
             census.object_volume += volume;
@@ -156,14 +158,15 @@ TEST_CASE("shapes add and cut in their order") {
             edges.insert({std::min(f[k], f[(k + 1) % 3]), std::max(f[k], f[(k + 1) % 3])});
         }
     }
-    CHECK(static_cast<long>(surface.points.size() + surface.faces.size()) - static_cast<long>(edges.size()) ==
+    CHECK(static_cast<long>(surface.points.size() + surface.faces.size()) -
+              static_cast<long>(edges.size()) ==
           0);
     const double expected = 8.0 - 2 * 3.14159265 * 0.45 * 0.45;
     CHECK(count(mesh).object_volume == doctest::Approx(expected).epsilon(0.02));
 
     // The later shape wins: added after the cut, a box of label 2 fills the middle of the tunnel.
-    const ConfigNode plug =
-        ConfigNode::map({{"shape", "box"}, {"half_size", ConfigNode::list({0.6, 0.6, 0.2})}, {"label", 2}});
+    const ConfigNode plug = ConfigNode::map(
+        {{"shape", "box"}, {"half_size", ConfigNode::list({0.6, 0.6, 0.2})}, {"label", 2}});
     const auto plugged = build(ConfigNode::map({{"shapes", ConfigNode::list({tunnel, plug})}}));
     double plug_volume = 0;
     for (std::size_t t = 0; t < plugged.tets.size(); ++t) {
@@ -177,8 +180,10 @@ TEST_CASE("shapes add and cut in their order") {
 
 TEST_CASE("the rule decides about tets that a shape crosses") {
     const auto sphere = [](const char* rule) {
-        const ConfigNode shape = ConfigNode::map({{"shape", "sphere"}, {"radius", 1.0}, {"rule", rule}});
-        return count(build(ConfigNode::map({{"shape", "none"}, {"shapes", ConfigNode::list({shape})}})))
+        const ConfigNode shape =
+            ConfigNode::map({{"shape", "sphere"}, {"radius", 1.0}, {"rule", rule}});
+        return count(build(ConfigNode::map(
+                         {{"shape", "none"}, {"shapes", ConfigNode::list({shape})}})))
             .object_volume;
     };
     const double exact = 4.0 / 3.0 * 3.14159265;
@@ -189,7 +194,8 @@ TEST_CASE("the rule decides about tets that a shape crosses") {
 TEST_CASE("a cancelled run gets no mesh") {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
-    const auto grid = host.create<dsc::hooks::InitialMesh>({"grid", ConfigNode::map()}, "initial_mesh");
+    const auto grid =
+        host.create<dsc::hooks::InitialMesh>({"grid", ConfigNode::map()}, "initial_mesh");
     dsc::CancelToken token;
     token.cancel();
     dsc::hooks::InitialMeshContext context;
@@ -218,7 +224,8 @@ TEST_CASE("the box may lie anywhere") {
 }
 
 TEST_CASE("projected, the sphere's vertices are on the radius and the box is as before") {
-    const ConfigNode shape = ConfigNode::map({{"shape", "sphere"}, {"radius", 0.9}, {"rule", "barycentre"}});
+    const ConfigNode shape =
+        ConfigNode::map({{"shape", "sphere"}, {"radius", 0.9}, {"rule", "barycentre"}});
     for (const ConfigNode& params :
          {ConfigNode::map({{"cells", 16}, {"shape", "sphere"}, {"radius", 0.9}, {"project", true}}),
           ConfigNode::map({{"cells", 16},

@@ -1,10 +1,12 @@
 // Tests of the labels and the start; the plugin is loaded as in a run.
 
+#include <cmath>
+#include <map>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <dsc/base/random.hpp>
 #include <dsc/base/error.hpp>
+#include <dsc/base/random.hpp>
 #include <dsc/cloud/orientation.hpp>
 #include <dsc/cloud/shapes.hpp>
 #include <dsc/host/host.hpp>
@@ -12,7 +14,6 @@
 #include <dsc/mesh/validate.hpp>
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <map>
 
 #include "confidence.hpp"
 
@@ -21,7 +22,9 @@ namespace {
 using dsc::Vec3;
 using dsc::config::ConfigNode;
 
-dsc::cloud::TargetCloud target(const dsc::cloud::Cloud& cloud) { return dsc::cloud::TargetCloud(dsc::cloud::normalize(cloud)); }
+dsc::cloud::TargetCloud target(const dsc::cloud::Cloud& cloud) {
+    return dsc::cloud::TargetCloud(dsc::cloud::normalize(cloud));
+}
 
 struct Built {
     dsc::mesh::TetMesh mesh;
@@ -31,11 +34,14 @@ struct Built {
     dsc::mesh::AdoptReport adopted;
 };
 
-/// Builds and adopts the mesh and examines the interface; requirements for every initial mesh are checked here.
-Built build(const dsc::cloud::TargetCloud& cloud, const ConfigNode& params = ConfigNode::map(), dsc::Workers* workers = nullptr) {
+/// Builds and adopts the mesh and examines the interface; requirements for every initial mesh are
+/// checked here.
+Built build(const dsc::cloud::TargetCloud& cloud, const ConfigNode& params = ConfigNode::map(),
+            dsc::Workers* workers = nullptr) {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
-    const auto strategy = host.create<dsc::hooks::InitialMesh>({"indicator", params}, "initial_mesh");
+    const auto strategy =
+        host.create<dsc::hooks::InitialMesh>({"indicator", params}, "initial_mesh");
     dsc::hooks::InitialMeshContext context;
     context.cloud = &cloud;
     context.workers = workers;
@@ -59,14 +65,17 @@ Built build(const dsc::cloud::TargetCloud& cloud, const ConfigNode& params = Con
 }
 
 /// Spheres sampled at random, evenly by area.
-dsc::cloud::Cloud spheres(const std::vector<std::pair<Vec3, double>>& all, double per_area, double noise = 0.0) {
+dsc::cloud::Cloud spheres(const std::vector<std::pair<Vec3, double>>& all, double per_area,
+                          double noise = 0.0) {
     dsc::cloud::Cloud cloud;
     std::uint64_t seed = 1;
     for (const auto& [centre, radius] : all) {
         const auto count = static_cast<std::size_t>(per_area * radius * radius);
         dsc::cloud::Cloud part = dsc::cloud::sample_shape("sphere", count, ++seed, noise);
         const dsc::Box3 box = dsc::bounding_box(part.points);
-        for (const Vec3& p : part.points) cloud.points.push_back(centre + radius * (p - box.centre()) / (0.5 * box.size().maxCoeff()));
+        for (const Vec3& p : part.points)
+            cloud.points.push_back(centre +
+                                   radius * (p - box.centre()) / (0.5 * box.size().maxCoeff()));
     }
     return cloud;
 }
@@ -103,7 +112,8 @@ TEST_CASE("a handle two spacings thick stays, because the samples round it confi
     CHECK(right >= 9);
 }
 
-TEST_CASE("several bodies stay separate, and a hollow ball keeps its cavity unless it is to be filled") {
+TEST_CASE(
+    "several bodies stay separate, and a hollow ball keeps its cavity unless it is to be filled") {
     const Built two = build(target(spheres({{Vec3(0, 0, 0), 1.0}, {Vec3(2.5, 0, 0), 1.0}}, 2000)));
     CHECK(two.surface.components == 2);
     CHECK(two.surface.genus == 0);
@@ -180,22 +190,26 @@ TEST_CASE("refused vertices and residuals beyond the limits are doubtful") {
     labels.components.front().kept = false;
     labels.components.front().vertices = 2;
     CHECK(dsc::indicator::doubtful(labels, orientation));
-    CHECK(dsc::indicator::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "topology.doubtful");
+    CHECK(dsc::indicator::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code ==
+          "topology.doubtful");
     labels.filter.refused = 0;
     labels.components.clear();
     orientation.residual = 0.14;
     CHECK(dsc::indicator::doubtful(labels, orientation));
     CHECK(dsc::indicator::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).empty());
     orientation.residual = 0.16;
-    CHECK(dsc::indicator::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "topology.doubtful");
+    CHECK(dsc::indicator::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code ==
+          "topology.doubtful");
     orientation.residual = 0.2;
-    CHECK(dsc::indicator::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code == "cloud.open");
+    CHECK(dsc::indicator::warnings_of(labels, orientation, {1.0, 1.0, 0.0}).front().code ==
+          "cloud.open");
 }
 
 TEST_CASE("an experiment without a cloud is refused") {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
-    const auto strategy = host.create<dsc::hooks::InitialMesh>({"indicator", ConfigNode::map()}, "initial_mesh");
+    const auto strategy =
+        host.create<dsc::hooks::InitialMesh>({"indicator", ConfigNode::map()}, "initial_mesh");
     try {
         strategy->build({});
         FAIL("accepted");

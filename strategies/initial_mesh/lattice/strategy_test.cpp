@@ -1,15 +1,16 @@
 // Tests of the mesh; the plugin is loaded as in a run.
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <map>
+
+#include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/validate.hpp>
-#include <map>
 
 namespace {
 
@@ -42,7 +43,8 @@ ConfigNode only(const ConfigNode& shape, int cells, double growth = 2.0, int lay
 
 double quality(const TetMesh& m, std::size_t t) {
     const auto& v = m.tets[t];
-    return dsc::geometry::tet_quality(m.points[v[0]], m.points[v[1]], m.points[v[2]], m.points[v[3]]);
+    return dsc::geometry::tet_quality(m.points[v[0]], m.points[v[1]], m.points[v[2]],
+                                      m.points[v[3]]);
 }
 double longest_edge(const TetMesh& m, std::size_t t) {
     double longest = 0;
@@ -58,8 +60,9 @@ struct Adopted {
     dsc::mesh::InterfaceCounts interface;
 };
 
-// Requires positive tets that are conforming and fill the box; every vertex of the interface is regular, none is on the box.
-// The stairs of a slanting wall may pinch, in any lattice: adopt() makes these vertices regular; `smooth`: there are none.
+// Requires positive tets that are conforming and fill the box; every vertex of the interface is
+// regular, none is on the box. The stairs of a slanting wall may pinch, in any lattice: adopt()
+// makes these vertices regular; `smooth`: there are none.
 Adopted check_sound(const TetMesh& m, bool smooth = true) {
     Adopted out;
     out.complex = dsc::mesh::adopt(m, "lattice", &out.report);
@@ -106,8 +109,8 @@ TEST_CASE("valid for every pattern, shape, growth and number of layers") {
                 CAPTURE(finest);
                 CAPTURE(growth);
                 CAPTURE(layers);
-                const Adopted ball = check_sound(
-                    build(only(sphere(0.83, "barycentre", {0.1, 0.2, 0.05}), 24, growth, layers, finest)));
+                const Adopted ball = check_sound(build(only(
+                    sphere(0.83, "barycentre", {0.1, 0.2, 0.05}), 24, growth, layers, finest)));
                 CHECK(ball.interface.genus() == 0);
                 CHECK(ball.interface.shells == 1);
                 const Adopted ring =
@@ -131,7 +134,8 @@ TEST_CASE("tets are of the stated kinds and no others") {
         const TetMesh m = build(only(sphere(1.0), 48, 2.0, 2, finest));
         for (std::size_t t = 0; t < m.tets.size(); ++t) ++kinds[std::lround(1e4 * quality(m, t))];
     }
-    // Quarter of a bcc tet, half a pyramid, half a bcc tet, corner of a cell, bcc tet, middle of a cell.
+    // Quarter of a bcc tet, half a pyramid, half a bcc tet, corner of a cell, bcc tet, middle of a
+    // cell.
     const std::vector<long> known = {6573, 6651, 7155, 7698, 9295, 10000};
     for (const long kind : known) CHECK(kinds[kind] > 0);
     CHECK(kinds.size() == known.size());
@@ -155,9 +159,10 @@ TEST_CASE("tets at the interface are of the finest cells, all that touch it") {
             CAPTURE(finest);
             CAPTURE(layers);
             const int cells = 48;
-            const TetMesh m = build(
-                only(sphere(0.97, "barycentre", {0.02, 0.01, 0.03}), cells, 2.0, layers, finest.c_str()));
-            // The diagonal of a face in cells of five tets, the edge of a cell in the others; twice that in larger cells.
+            const TetMesh m = build(only(sphere(0.97, "barycentre", {0.02, 0.01, 0.03}), cells, 2.0,
+                                         layers, finest.c_str()));
+            // The diagonal of a face in cells of five tets, the edge of a cell in the others; twice
+            // that in larger cells.
             const double largest = 3.0 / cells * (finest == "bcc" ? 1.001 : 1.415);
             const dsc::mesh::Complex c = dsc::mesh::adopt(m, "lattice");
             REQUIRE(c.vertex_slots() == m.points.size());
@@ -169,7 +174,8 @@ TEST_CASE("tets at the interface are of the finest cells, all that touch it") {
                 coarse.push_back(0);
                 for (std::size_t t = 0; t < m.tets.size(); ++t) {
                     const auto& tet = m.tets[t];
-                    if (std::none_of(tet.begin(), tet.end(), [&](auto v) { return near[v] != 0; })) continue;
+                    if (std::none_of(tet.begin(), tet.end(), [&](auto v) { return near[v] != 0; }))
+                        continue;
                     for (const auto v : tet) next[v] = 1;
                     if (longest_edge(m, t) > largest) ++coarse.back();
                 }
@@ -204,8 +210,8 @@ TEST_CASE("sizes grow with the distance as set") {
             if (size > 7.9) nearest = std::min(nearest, least);
         }
         CHECK(fastest < (per_size == 1 ? 0.45 : 0.28));
-        // Between the finest cells and cells of size 8 there are this many layers of sizes 2 and 4; along a diagonal they are
-        // thinner by the square root of two.
+        // Between the finest cells and cells of size 8 there are this many layers of sizes 2 and 4;
+        // along a diagonal they are thinner by the square root of two.
         CHECK(nearest > 1 + per_size * (2 + 4) / std::sqrt(2.0));
         if (per_size < 3) CHECK(nearest > last_nearest + 4);
         CHECK(m.tets.size() > tets);
@@ -218,8 +224,8 @@ TEST_CASE("growth 1 is a uniform grid") {
     const TetMesh m = build(ConfigNode::map({{"growth", 1.0}, {"cells", 12}}));
     CHECK(m.tets.size() == 5 * 12 * 12 * 12);
     CHECK(m.points.size() == 13 * 13 * 13);
-    const TetMesh bcc =
-        build(ConfigNode::map({{"growth", 1.0}, {"cells", 12}, {"half_width", 0.5}, {"finest", "bcc"}}));
+    const TetMesh bcc = build(
+        ConfigNode::map({{"growth", 1.0}, {"cells", 12}, {"half_width", 0.5}, {"finest", "bcc"}}));
     CHECK(bcc.tets.size() == 4 * (3 * 11 * 12 * 12 + 6 * 12 * 12));
 }
 
@@ -228,13 +234,15 @@ TEST_CASE("the labelled volume is the shape's, up to the tets that its surface c
     for (const char* finest : {"parity", "bcc"}) {
         for (const int cells : {30, 60, 120}) {
             CAPTURE(cells);
-            const auto complex = dsc::mesh::adopt(build(only(sphere(1.0), cells, 2.0, 2, finest)), "lattice");
-            // The errors of barycentres cancel: a hundredth of the surface's layer of cells remains.
+            const auto complex =
+                dsc::mesh::adopt(build(only(sphere(1.0), cells, 2.0, 2, finest)), "lattice");
+            // The errors of barycentres cancel: a hundredth of the surface's layer of cells
+            // remains.
             const double layer = 4 * pi * 3.0 / cells;
             CHECK(std::abs(dsc::mesh::labelled_volume(complex) - exact) < 0.03 * layer);
             // With whole tets inside, the solid loses about half a cell everywhere.
-            const auto inner =
-                dsc::mesh::adopt(build(only(sphere(1.0, "vertices"), cells, 2.0, 2, finest)), "lattice");
+            const auto inner = dsc::mesh::adopt(
+                build(only(sphere(1.0, "vertices"), cells, 2.0, 2, finest)), "lattice");
             const double lost = exact - dsc::mesh::labelled_volume(inner);
             CHECK(lost > 0.3 * layer);
             CHECK(lost < 0.8 * layer);
@@ -247,8 +255,8 @@ TEST_CASE("tets per interface vertex stay bounded") {
         CAPTURE(cells);
         const TetMesh m = build(only(sphere(1.0), cells));
         const auto complex = dsc::mesh::adopt(m, "lattice");
-        const double per_vertex =
-            static_cast<double>(m.tets.size()) / static_cast<double>(complex.interface_vertices().size());
+        const double per_vertex = static_cast<double>(m.tets.size()) /
+                                  static_cast<double>(complex.interface_vertices().size());
         CHECK(per_vertex < 45);
         CHECK(per_vertex > 25);
     }
@@ -256,15 +264,18 @@ TEST_CASE("tets per interface vertex stay bounded") {
 
 TEST_CASE("surfaces that change no label are not refined") {
     const ConfigNode inner = ConfigNode::map({{"shape", "sphere"}, {"radius", 0.4}});
-    const ConfigNode outer = ConfigNode::map({{"shape", "sphere"}, {"radius", 1.3}, {"action", "cut"}});
+    const ConfigNode outer =
+        ConfigNode::map({{"shape", "sphere"}, {"radius", 1.3}, {"action", "cut"}});
     const auto with = [](const std::vector<ConfigNode>& list, const char* first) {
-        return build(ConfigNode::map({{"shape", first}, {"cells", 48}, {"shapes", ConfigNode::list(list)}}))
+        return build(ConfigNode::map(
+                         {{"shape", first}, {"cells", 48}, {"shapes", ConfigNode::list(list)}}))
             .tets.size();
     };
     const std::size_t cube = with({}, "cube");
     CHECK(with({inner}, "cube") == cube);
     CHECK(with({inner, outer}, "none") == with({}, "none"));
-    const ConfigNode hole = ConfigNode::map({{"shape", "sphere"}, {"radius", 0.4}, {"action", "cut"}});
+    const ConfigNode hole =
+        ConfigNode::map({{"shape", "sphere"}, {"radius", 0.4}, {"action", "cut"}});
     CHECK(with({hole}, "cube") > cube);
 }
 
@@ -280,9 +291,11 @@ TEST_CASE("coordinates are the grid's, symmetric to the last bit") {
     const TetMesh m = build(ConfigNode::map({{"cells", 30}, {"half_width", 0.5}}));
     std::map<std::array<double, 3>, int> points;
     for (const Vec3& p : m.points) points[{p.x(), p.y(), p.z()}] = 1;
-    for (const Vec3& p : m.points) REQUIRE(points.count({-p.x() + 0.0, -p.y() + 0.0, -p.z() + 0.0}) == 1);
+    for (const Vec3& p : m.points)
+        REQUIRE(points.count({-p.x() + 0.0, -p.y() + 0.0, -p.z() + 0.0}) == 1);
     // On the surface x = 1/2 the numbers are those of the grid: half * (2 i - N) / N.
-    for (int i = 10; i <= 20; ++i) CHECK(points.count({0.5, 1.5 * (2.0 * i - 30.0) / 30.0, 0.5}) == 1);
+    for (int i = 10; i <= 20; ++i)
+        CHECK(points.count({0.5, 1.5 * (2.0 * i - 30.0) / 30.0, 0.5}) == 1);
 }
 
 TEST_CASE("a cell's edge may be given instead of the number of cells") {
@@ -311,13 +324,15 @@ TEST_CASE("bad parameters are refused with their cause") {
             "64000000 cells, but the limit is 12000000");
     const ConfigNode flat =
         ConfigNode::map({{"shape", "cylinder"}, {"axis", ConfigNode::list({0.0, 0.0, 0.0})}});
-    refused(ConfigNode::map({{"shapes", ConfigNode::list({flat})}}), "axis must not be the zero vector");
+    refused(ConfigNode::map({{"shapes", ConfigNode::list({flat})}}),
+            "axis must not be the zero vector");
 }
 
 TEST_CASE("a cancelled run gets no mesh") {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
-    const auto lattice = host.create<dsc::hooks::InitialMesh>({"lattice", ConfigNode::map()}, "initial_mesh");
+    const auto lattice =
+        host.create<dsc::hooks::InitialMesh>({"lattice", ConfigNode::map()}, "initial_mesh");
     dsc::CancelToken token;
     token.cancel();
     dsc::hooks::InitialMeshContext context;

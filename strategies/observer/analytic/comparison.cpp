@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/distance.hpp>
 
 namespace dsc::strategies {
 namespace {
 
-/// Every face is split into the square of this number of equal parts, which are represented by their centroids.
+/// Every face is split into the square of this number of equal parts, which are represented by
+/// their centroids.
 constexpr int parts_an_edge = 3;
 
 using Corners = std::array<Vec3, 3>;
@@ -53,7 +55,8 @@ double mean_to(const surface::TriangleMesh& from, const surface::TriangleMesh& t
 
 }  // namespace
 
-SphereComparison compare_with_sphere(const surface::TriangleMesh& mesh, const Vec3& centre, double radius) {
+SphereComparison compare_with_sphere(const surface::TriangleMesh& mesh, const Vec3& centre,
+                                     double radius) {
     SphereComparison out;
     double weighted = 0.0;
     double area = 0.0;

@@ -1,13 +1,14 @@
 // Tests of the comparison and of the figures; the plugin is loaded as in a run.
+#include <cmath>
+#include <map>
+#include <sstream>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/steps.hpp>
 #include <dsc/sdk/surfaces.hpp>
-#include <map>
-#include <sstream>
 
 #include "comparison.hpp"
 
@@ -31,11 +32,13 @@ void begin(dsc::hooks::Observer& observer, const dsc::surface::TriangleMesh& mes
     const auto view = dsc::sdk::view_of(mesh);
     observer.begin(dsc::sdk::step_context(view, 0));
 }
-Table step(dsc::hooks::Observer& observer, const dsc::surface::TriangleMesh& mesh, std::uint64_t number) {
+Table step(dsc::hooks::Observer& observer, const dsc::surface::TriangleMesh& mesh,
+           std::uint64_t number) {
     const auto view = dsc::sdk::view_of(mesh);
     return table(observer.step(dsc::sdk::step_context(view, number), {}));
 }
-Table end(dsc::hooks::Observer& observer, const dsc::surface::TriangleMesh& mesh, std::uint64_t number) {
+Table end(dsc::hooks::Observer& observer, const dsc::surface::TriangleMesh& mesh,
+          std::uint64_t number) {
     const auto view = dsc::sdk::view_of(mesh);
     return table(observer.end(dsc::sdk::step_context(view, number)));
 }
@@ -47,7 +50,8 @@ dsc::surface::TriangleMesh scaled(dsc::surface::TriangleMesh mesh, double factor
 // A square prism with two triangles per side, corners at +-1, faces outwards.
 dsc::surface::TriangleMesh cube() {
     dsc::surface::TriangleMesh mesh;
-    for (int i = 0; i < 8; ++i) mesh.points.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    for (int i = 0; i < 8; ++i)
+        mesh.points.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
     mesh.faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
     return mesh;
@@ -55,12 +59,15 @@ dsc::surface::TriangleMesh cube() {
 
 }  // namespace
 
-TEST_CASE("the distance of a cube from a sphere is that of its faces' middles, not of its corners") {
-    // The corners are on the sphere of radius sqrt(3), with distance 0; the middles of the faces are sqrt(3) - 1 away.
+TEST_CASE(
+    "the distance of a cube from a sphere is that of its faces' middles, not of its corners") {
+    // The corners are on the sphere of radius sqrt(3), with distance 0; the middles of the faces
+    // are sqrt(3) - 1 away.
     const auto found = dsc::strategies::compare_with_sphere(cube(), Vec3::Zero(), std::sqrt(3.0));
     CHECK(found.radius == doctest::Approx(std::sqrt(3.0)));
     CHECK(found.largest_distance == doctest::Approx(std::sqrt(3.0) - 1).epsilon(1e-12));
-    // Mean of sqrt(3) - sqrt(1 + x^2 + y^2) over the unit square; the integral of the root is 1.280789.
+    // Mean of sqrt(3) - sqrt(1 + x^2 + y^2) over the unit square; the integral of the root
+    // is 1.280789.
     CHECK(found.mean_distance == doctest::Approx(std::sqrt(3.0) - 1.280789).epsilon(0.02));
 }
 
@@ -101,16 +108,20 @@ TEST_CASE("sphere: each figure shows the error that it is for") {
     CHECK(shrunk.at("volume_drift") == doctest::Approx(0.029701).epsilon(1e-9));
     CHECK(shrunk.at("distance_ratio") > 2.0);
 
-    // One vertex out of place: the sphere's volume and radius hardly change, the largest distance does.
+    // One vertex out of place: the sphere's volume and radius hardly change, the largest distance
+    // does.
     auto spiked = mesh;
     spiked.points[5] *= 1.1;
     const Table spike = step(*observer, spiked, 3);
-    const double start = dsc::strategies::compare_with_sphere(mesh, Vec3::Zero(), 0.8).largest_distance;
+    const double start =
+        dsc::strategies::compare_with_sphere(mesh, Vec3::Zero(), 0.8).largest_distance;
     CHECK(spike.at("distance_ratio") == doctest::Approx(0.08 / start).epsilon(1e-6));
     CHECK(spike.at("radius_error") < 0.001);
 
-    CHECK(step(*observer, dsc::sdk::icosphere(2, 0.8), 4).at("vertex_ratio") == doctest::Approx(162.0 / 642));
-    // In the summary the radius error is the largest of the run, the other figures are those of the end.
+    CHECK(step(*observer, dsc::sdk::icosphere(2, 0.8), 4).at("vertex_ratio") ==
+          doctest::Approx(162.0 / 642));
+    // In the summary the radius error is the largest of the run, the other figures are those of the
+    // end.
     const Table summary = end(*observer, mesh, 4);
     CHECK(summary.at("radius_error") == doctest::Approx(0.01).epsilon(1e-6));
     CHECK(summary.at("volume_drift") < 1e-14);
@@ -118,8 +129,8 @@ TEST_CASE("sphere: each figure shows the error that it is for") {
 
 TEST_CASE("shrinking_sphere: sqrt(r^2 - 4 t), measured down to half the radius") {
     const Bench bench;
-    const auto observer =
-        bench.make(ConfigNode::map({{"solution", "shrinking_sphere"}, {"radius", 1.0}, {"time_step", 0.01}}));
+    const auto observer = bench.make(
+        ConfigNode::map({{"solution", "shrinking_sphere"}, {"radius", 1.0}, {"time_step", 0.01}}));
     const auto mesh = dsc::sdk::icosphere(3, 1.0);
     begin(*observer, mesh);
     for (std::uint64_t n = 1; n <= 18; ++n) {
@@ -129,15 +140,16 @@ TEST_CASE("shrinking_sphere: sqrt(r^2 - 4 t), measured down to half the radius")
         CHECK(row.at("volume_drift") < 1e-13);
     }
     // Below half the radius (step 18.75) a wrong radius no longer counts, and nothing divides by 0.
-    CHECK(step(*observer, scaled(mesh, 0.4), 24).at("radius_error") == doctest::Approx(0.4).epsilon(1e-6));
+    CHECK(step(*observer, scaled(mesh, 0.4), 24).at("radius_error") ==
+          doctest::Approx(0.4).epsilon(1e-6));
     CHECK(step(*observer, {}, 25).at("radius_error") == 0.0);
     CHECK(end(*observer, {}, 26).at("radius_error") < 1e-13);
 }
 
 TEST_CASE("growing_sphere: the radius grows by the same length in every step") {
     const Bench bench;
-    const auto observer =
-        bench.make(ConfigNode::map({{"solution", "growing_sphere"}, {"radius", 0.5}, {"growth", 0.05}}));
+    const auto observer = bench.make(
+        ConfigNode::map({{"solution", "growing_sphere"}, {"radius", 0.5}, {"growth", 0.05}}));
     const auto mesh = dsc::sdk::icosphere(3, 0.5);
     begin(*observer, mesh);
     const Table row = step(*observer, scaled(mesh, 1.4), 4);
@@ -149,8 +161,8 @@ TEST_CASE("growing_sphere: the radius grows by the same length in every step") {
 
 TEST_CASE("shrinking_sphere: an interface that vanished too early is wrong") {
     const Bench bench;
-    const auto observer =
-        bench.make(ConfigNode::map({{"solution", "shrinking_sphere"}, {"radius", 1.0}, {"time_step", 0.01}}));
+    const auto observer = bench.make(
+        ConfigNode::map({{"solution", "shrinking_sphere"}, {"radius", 1.0}, {"time_step", 0.01}}));
     begin(*observer, dsc::sdk::icosphere(3, 1.0));
     const Table row = step(*observer, {}, 3);
     CHECK(row.at("radius_error") == 1.0);
@@ -200,7 +212,8 @@ TEST_CASE("a damaged state is refused") {
     std::stringstream state;
     observer->save(state);
     const std::string text = state.str();
-    for (const std::size_t length : {std::size_t{0}, std::size_t{5}, text.size() / 2, text.size() - 4}) {
+    for (const std::size_t length :
+         {std::size_t{0}, std::size_t{5}, text.size() / 2, text.size() - 4}) {
         std::stringstream cut(text.substr(0, length));
         CHECK_THROWS_AS(bench.make(ConfigNode::map({}))->load(cut), dsc::StrategyError);
     }

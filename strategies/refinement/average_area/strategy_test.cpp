@@ -8,7 +8,8 @@ namespace {
 
 using dsc::config::ConfigNode;
 
-std::vector<std::uint32_t> split_faces(const dsc::surface::SurfaceView& view, const ConfigNode& params) {
+std::vector<std::uint32_t> split_faces(const dsc::surface::SurfaceView& view,
+                                       const ConfigNode& params) {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
     const auto policy =
@@ -23,7 +24,8 @@ std::vector<std::uint32_t> split_faces(const dsc::surface::SurfaceView& view, co
     return requests.split_faces;
 }
 
-// Squares of 2 x 2 cells whose right half is stretched: four small faces and four three times as large.
+// Squares of 2 x 2 cells whose right half is stretched: four small faces and four three times as
+// large.
 dsc::surface::SurfaceView uneven() {
     return dsc::sdk::view_of(dsc::sdk::moved(dsc::sdk::square(2, 1.0), [](const dsc::Vec3& p) {
         return dsc::Vec3(p.x() > 0 ? 3 * p.x() : p.x(), p.y(), 0.0);

@@ -20,7 +20,10 @@ void EdgeMesh::build(const surface::SurfaceView& from, Workers* workers) {
         for (std::size_t e = begin; e < end; ++e) {
             const surface::ViewEdge& edge = edges[e];
             lengths[e] = (place(edge.vertices[0]) - place(edge.vertices[1])).norm();
-            cosines[e] = edge.face_count == 2 ? view->face_normals[edge.faces[0]].dot(view->face_normals[edge.faces[1]]) : no_angle;
+            cosines[e] =
+                edge.face_count == 2
+                    ? view->face_normals[edge.faces[0]].dot(view->face_normals[edge.faces[1]])
+                    : no_angle;
         }
     });
     creases.assign(from.vertex_count(), 0);

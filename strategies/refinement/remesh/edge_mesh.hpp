@@ -9,7 +9,8 @@
 
 namespace dsc::remesh {
 
-/// Angle between the normals of the two faces of an edge, in radians, above which the edge is a crease.
+/// Angle between the normals of the two faces of an edge, in radians, above which the edge is a
+/// crease.
 inline constexpr double crease_angle = 0.6;
 
 /// One length per vertex, or one length for all vertices.
@@ -26,9 +27,11 @@ struct EdgeMesh {
     const surface::SurfaceView* view = nullptr;
     std::vector<surface::ViewEdge> edges;  ///< in ascending order of their vertices
     std::vector<double> lengths;           ///< of each edge
-    std::vector<double> cosines;           ///< between the normals of the edge's two faces; 2 if it does not have exactly two
-    std::vector<std::uint8_t> creases;     ///< per vertex: number of its edges above crease_angle
-    std::vector<std::uint8_t> fixed;       ///< per vertex: whether it may not move and takes part in no collapse or flip
+    std::vector<double> cosines;  ///< between the normals of the edge's two faces; 2 if it does not
+                                  ///< have exactly two
+    std::vector<std::uint8_t> creases;  ///< per vertex: number of its edges above crease_angle
+    std::vector<std::uint8_t> fixed;  ///< per vertex: whether it may not move and takes part in no
+                                      ///< collapse or flip
 
     /// Fills it from a view and reuses its memory. [step]
     void build(const surface::SurfaceView& from, Workers* workers = nullptr);

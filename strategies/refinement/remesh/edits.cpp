@@ -9,8 +9,9 @@ namespace dsc::remesh {
 namespace {
 
 constexpr unsigned collapse_attempts = 3, flip_attempts = 2;  // within one refinement
-constexpr double least_move = 0.02;     // of the target length
-constexpr double least_overlap = 1e-6;  // flip only if the sum of cotangents is below minus this: the edge of a square stays
+constexpr double least_move = 0.02;                           // of the target length
+constexpr double least_overlap = 1e-6;  // flip only if the sum of cotangents is below minus this:
+                                        // the edge of a square stays
 
 double cotangent(const Vec3& at, const Vec3& p, const Vec3& q) {
     const Vec3 u = p - at, v = q - at;
@@ -30,7 +31,8 @@ void Edits::start_pass(const EdgeMesh& mesh) {
 }
 
 std::uint64_t Edits::births_of(const EdgeMesh& mesh, std::uint32_t edge) {
-    const auto& [a, b] = mesh.edges[edge].vertices;  // in the order of their births, as all vertices of a view
+    const auto& [a, b] = mesh.edges[edge].vertices;  // in the order of their births, as all
+                                                     // vertices of a view
     return std::uint64_t{mesh.view->births[a]} << 32U | mesh.view->births[b];
 }
 
@@ -53,15 +55,17 @@ void Edits::note_asked(std::vector<Tried>& tried) const {
     std::sort(tried.begin(), tried.end());
 }
 
-void Edits::split(const EdgeMesh& mesh, const Lengths& lengths, std::vector<std::array<std::uint32_t, 2>>& out) {
+void Edits::split(const EdgeMesh& mesh, const Lengths& lengths,
+                  std::vector<std::array<std::uint32_t, 2>>& out) {
     candidates_.clear();
     for (std::uint32_t e = 0; e < mesh.edges.size(); ++e) {
         const auto& [a, b] = mesh.edges[e].vertices;
         const double ratio = mesh.lengths[e] / lengths.along(a, b);
         if (ratio > split_above) candidates_.push_back({ratio, e});
     }
-    std::sort(candidates_.begin(), candidates_.end(),
-              [](const Candidate& x, const Candidate& y) { return x.key != y.key ? x.key > y.key : x.edge < y.edge; });
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& x, const Candidate& y) {
+        return x.key != y.key ? x.key > y.key : x.edge < y.edge;
+    });
     for (const Candidate& c : candidates_) {
         const surface::ViewEdge& edge = mesh.edges[c.edge];
         out.push_back(edge.vertices);
@@ -73,7 +77,8 @@ void Edits::split(const EdgeMesh& mesh, const Lengths& lengths, std::vector<std:
     }
 }
 
-void Edits::ring_of(const EdgeMesh& mesh, std::uint32_t vertex, std::vector<std::uint32_t>& out) const {
+void Edits::ring_of(const EdgeMesh& mesh, std::uint32_t vertex,
+                    std::vector<std::uint32_t>& out) const {
     out.clear();
     for (const std::uint32_t f : mesh.view->faces_of(vertex)) {
         for (const std::uint32_t v : mesh.view->faces[f]) {
@@ -92,7 +97,8 @@ void Edits::block_ring(const EdgeMesh& mesh, std::uint32_t vertex) {
 }
 
 // Chooses the end that stays and its place; false if creases forbid the collapse.
-bool Edits::place_of(const EdgeMesh& mesh, std::size_t edge, unsigned attempt, bool keep_creases, hooks::CollapseRequest& request) const {
+bool Edits::place_of(const EdgeMesh& mesh, std::size_t edge, unsigned attempt, bool keep_creases,
+                     hooks::CollapseRequest& request) const {
     const auto& [a, b] = mesh.edges[edge].vertices;
     const bool crease_a = mesh.creases[a] > 0, crease_b = mesh.creases[b] > 0;
     const auto stays_at = [&](std::uint32_t kept, std::uint32_t removed) {
@@ -101,7 +107,8 @@ bool Edits::place_of(const EdgeMesh& mesh, std::size_t edge, unsigned attempt, b
     };
     if (crease_a != crease_b) return crease_a ? stays_at(a, b) : stays_at(b, a);
     if (keep_creases && crease_a) {
-        // Both ends are on a crease: only a collapse along it is allowed, and a vertex where the crease ends or bends stays.
+        // Both ends are on a crease: only a collapse along it is allowed, and a vertex where the
+        // crease ends or bends stays.
         if (!mesh.is_crease(edge)) return false;
         const bool corner_a = mesh.creases[a] != 2, corner_b = mesh.creases[b] != 2;
         if (corner_a && corner_b) return false;
@@ -113,7 +120,8 @@ bool Edits::place_of(const EdgeMesh& mesh, std::size_t edge, unsigned attempt, b
 }
 
 // Whether a face of `vertex` that remains after the collapse with `other` turns too far.
-bool Edits::turns(const EdgeMesh& mesh, std::uint32_t vertex, std::uint32_t other, const Vec3& place) const {
+bool Edits::turns(const EdgeMesh& mesh, std::uint32_t vertex, std::uint32_t other,
+                  const Vec3& place) const {
     const surface::SurfaceView& view = *mesh.view;
     for (const std::uint32_t f : view.faces_of(vertex)) {
         const auto& face = view.faces[f];
@@ -124,12 +132,14 @@ bool Edits::turns(const EdgeMesh& mesh, std::uint32_t vertex, std::uint32_t othe
             stays = stays && face[k] != other;
         }
         if (!stays) continue;
-        if (geometry::triangle_normal(*x[0], *x[1], *x[2]).dot(view.face_normals[f]) < turn_cosine) return true;
+        if (geometry::triangle_normal(*x[0], *x[1], *x[2]).dot(view.face_normals[f]) < turn_cosine)
+            return true;
     }
     return false;
 }
 
-// Requires the link condition [Dey1999], no new edge that would be split again, and no face that turns too far.
+// Requires the link condition [Dey1999], no new edge that would be split again, and no face that
+// turns too far.
 bool Edits::fits(const EdgeMesh& mesh, const Lengths& lengths, const hooks::CollapseRequest& r) {
     ring_of(mesh, r.kept, near_a_);
     ring_of(mesh, r.removed, near_b_);
@@ -145,21 +155,26 @@ bool Edits::fits(const EdgeMesh& mesh, const Lengths& lengths, const hooks::Coll
     for (const auto* ring : {&near_a_, &near_b_}) {
         for (const std::uint32_t v : *ring) {
             if (v == r.kept || v == r.removed) continue;
-            if ((mesh.place(v) - r.place).norm() > split_above * 0.5 * (kept_length + lengths.at(v))) return false;
+            if ((mesh.place(v) - r.place).norm() >
+                split_above * 0.5 * (kept_length + lengths.at(v)))
+                return false;
         }
     }
     return !turns(mesh, r.kept, r.removed, r.place) && !turns(mesh, r.removed, r.kept, r.place);
 }
 
-void Edits::collapse(const EdgeMesh& mesh, const Lengths& lengths, bool keep_creases, std::vector<hooks::CollapseRequest>& out) {
+void Edits::collapse(const EdgeMesh& mesh, const Lengths& lengths, bool keep_creases,
+                     std::vector<hooks::CollapseRequest>& out) {
     candidates_.clear();
     for (std::uint32_t e = 0; e < mesh.edges.size(); ++e) {
         const auto& [a, b] = mesh.edges[e].vertices;
         const double ratio = mesh.lengths[e] / lengths.along(a, b);
-        if (ratio < collapse_below && mesh.fixed[a] == 0 && mesh.fixed[b] == 0) candidates_.push_back({ratio, e});
+        if (ratio < collapse_below && mesh.fixed[a] == 0 && mesh.fixed[b] == 0)
+            candidates_.push_back({ratio, e});
     }
-    std::sort(candidates_.begin(), candidates_.end(),
-              [](const Candidate& x, const Candidate& y) { return x.key != y.key ? x.key < y.key : x.edge < y.edge; });
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& x, const Candidate& y) {
+        return x.key != y.key ? x.key < y.key : x.edge < y.edge;
+    });
     asked_.clear();
     for (const Candidate& c : candidates_) {
         const auto& [a, b] = mesh.edges[c.edge].vertices;
@@ -170,7 +185,8 @@ void Edits::collapse(const EdgeMesh& mesh, const Lengths& lengths, bool keep_cre
         const std::uint64_t births = births_of(mesh, c.edge);
         unsigned attempt = attempts_at(tried_collapses_, births);
         for (; attempt < collapse_attempts && !found; ++attempt) {
-            found = place_of(mesh, c.edge, attempt, keep_creases, request) && fits(mesh, lengths, request);
+            found = place_of(mesh, c.edge, attempt, keep_creases, request) &&
+                    fits(mesh, lengths, request);
         }
         if (!found) continue;
         out.push_back(request);
@@ -188,11 +204,13 @@ void Edits::flip(const EdgeMesh& mesh, double flatness, std::vector<hooks::FlipR
         if (edge.face_count != 2 || mesh.cosines[e] < flatness) continue;
         const Vec3 &a = mesh.place(edge.vertices[0]), &b = mesh.place(edge.vertices[1]);
         // The sum of two angles is above pi if the sum of their cotangents is below 0.
-        const double sum = cotangent(mesh.place(mesh.opposite(e, 0)), a, b) + cotangent(mesh.place(mesh.opposite(e, 1)), a, b);
+        const double sum = cotangent(mesh.place(mesh.opposite(e, 0)), a, b) +
+                           cotangent(mesh.place(mesh.opposite(e, 1)), a, b);
         if (sum < -least_overlap) candidates_.push_back({sum, e});
     }
-    std::sort(candidates_.begin(), candidates_.end(),
-              [](const Candidate& x, const Candidate& y) { return x.key != y.key ? x.key < y.key : x.edge < y.edge; });
+    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& x, const Candidate& y) {
+        return x.key != y.key ? x.key < y.key : x.edge < y.edge;
+    });
     asked_.clear();
     for (const Candidate& c : candidates_) {
         if (!may_flip(mesh, c.edge)) continue;
@@ -222,7 +240,8 @@ bool Edits::may_flip(const EdgeMesh& mesh, std::uint32_t e) {
     return first.dot(normal) * second.dot(normal) > 0.0;
 }
 
-void Edits::move(const EdgeMesh& mesh, const Lengths& lengths, std::vector<hooks::MoveRequest>& out) {
+void Edits::move(const EdgeMesh& mesh, const Lengths& lengths,
+                 std::vector<hooks::MoveRequest>& out) {
     const surface::SurfaceView& view = *mesh.view;
     for (std::uint32_t v = 0; v < view.vertex_count(); ++v) {
         if (mesh.fixed[v] != 0 || mesh.creases[v] > 0) continue;
@@ -230,7 +249,8 @@ void Edits::move(const EdgeMesh& mesh, const Lengths& lengths, std::vector<hooks
         double area = 0.0;
         for (const std::uint32_t f : view.faces_of(v)) {
             const auto& [a, b, c] = view.faces[f];
-            sum += view.face_areas[f] / 3.0 * (view.positions[a] + view.positions[b] + view.positions[c]);
+            sum += view.face_areas[f] / 3.0 *
+                   (view.positions[a] + view.positions[b] + view.positions[c]);
             normal += view.face_areas[f] * view.face_normals[f];
             area += view.face_areas[f];
         }

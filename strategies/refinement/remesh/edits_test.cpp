@@ -1,9 +1,10 @@
 #include "edits.hpp"
 
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <doctest/doctest.h>
+
 #include <dsc/base/random.hpp>
 #include <dsc/sdk/surfaces.hpp>
 
@@ -14,30 +15,36 @@ using namespace dsc::remesh;
 
 // A view and its edges, with the same lifetime.
 struct Start {
-    explicit Start(const dsc::surface::TriangleMesh& triangles) : view(dsc::sdk::view_of(triangles)) {
+    explicit Start(const dsc::surface::TriangleMesh& triangles)
+        : view(dsc::sdk::view_of(triangles)) {
         mesh.build(view);
         edits.start_refinement();
         edits.start_pass(mesh);
     }
     Start(const Start&) = delete;
     Start& operator=(const Start&) = delete;
-    double length(std::uint32_t a, std::uint32_t b) const { return (view.positions[a] - view.positions[b]).norm(); }
+    double length(std::uint32_t a, std::uint32_t b) const {
+        return (view.positions[a] - view.positions[b]).norm();
+    }
 
     dsc::surface::SurfaceView view;
     EdgeMesh mesh;
     Edits edits;
 };
 
-dsc::surface::TriangleMesh shaken(dsc::surface::TriangleMesh mesh, double most, std::uint64_t seed) {
+dsc::surface::TriangleMesh shaken(dsc::surface::TriangleMesh mesh, double most,
+                                  std::uint64_t seed) {
     dsc::RandomStream random(dsc::RandomKey{seed, 0, 0, 0});
     return dsc::sdk::moved(std::move(mesh), [&](const Vec3& p) {
-        return Vec3(p + most * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+        return Vec3(
+            p + most * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
     });
 }
 
 // Two half planes that meet at x = 0 at a right angle.
 dsc::surface::TriangleMesh roof(unsigned n) {
-    return dsc::sdk::moved(dsc::sdk::square(n, 1.0), [](const Vec3& p) { return Vec3(p.x(), p.y(), -std::abs(p.x())); });
+    return dsc::sdk::moved(dsc::sdk::square(n, 1.0),
+                           [](const Vec3& p) { return Vec3(p.x(), p.y(), -std::abs(p.x())); });
 }
 
 bool ridge(const Vec3& p) { return std::abs(p.x()) < 1e-12; }
@@ -50,7 +57,8 @@ TEST_CASE("edges above 4/3 of the target length are split, the longest first, an
     std::vector<std::array<std::uint32_t, 2>> splits;
     s.edits.split(s.mesh, lengths, splits);
     REQUIRE(splits.size() > 100);
-    for (std::size_t i = 1; i < splits.size(); ++i) CHECK(s.length(splits[i - 1][0], splits[i - 1][1]) >= s.length(splits[i][0], splits[i][1]));
+    for (std::size_t i = 1; i < splits.size(); ++i)
+        CHECK(s.length(splits[i - 1][0], splits[i - 1][1]) >= s.length(splits[i][0], splits[i][1]));
     std::size_t wanted = 0;
     for (const double length : s.mesh.lengths) wanted += length > 0.16 ? 1 : 0;
     CHECK(splits.size() == wanted);
@@ -67,7 +75,8 @@ TEST_CASE("edges above 4/3 of the target length are split, the longest first, an
     CHECK(splits.size() == 2 * s.view.faces_of(7).size());
 }
 
-TEST_CASE("short edges collapse to their midpoints, independently, and make no long edge and no sharp turn") {
+TEST_CASE("short edges collapse to their midpoints, independently, and make no long edge and no "
+          "sharp turn") {
     Start s(shaken(dsc::sdk::icosphere(4, 1.0), 0.004, 5));
     const Lengths lengths{0.12};
     std::vector<dsc::hooks::CollapseRequest> collapses;
@@ -79,7 +88,8 @@ TEST_CASE("short edges collapse to their midpoints, independently, and make no l
         CHECK(s.length(r.kept, r.removed) < 0.8 * 0.12);
         const Vec3 middle = 0.5 * (s.view.positions[r.kept] + s.view.positions[r.removed]);
         in_the_middle += (r.place - middle).norm() < 1e-15 ? 1 : 0;
-        CHECK(std::min({(r.place - middle).norm(), (r.place - s.view.positions[r.kept]).norm(), (r.place - s.view.positions[r.removed]).norm()}) < 1e-15);
+        CHECK(std::min({(r.place - middle).norm(), (r.place - s.view.positions[r.kept]).norm(),
+                        (r.place - s.view.positions[r.removed]).norm()}) < 1e-15);
         // No end is next to another collapse.
         CHECK(taken[r.kept] == 0);
         CHECK(taken[r.removed] == 0);
@@ -87,13 +97,15 @@ TEST_CASE("short edges collapse to their midpoints, independently, and make no l
             for (const std::uint32_t f : s.view.faces_of(end)) {
                 for (const std::uint32_t v : s.view.faces[f]) {
                     taken[v] = 1;
-                    if (v != r.kept && v != r.removed) CHECK((s.view.positions[v] - r.place).norm() <= 4.0 / 3.0 * 0.12);
+                    if (v != r.kept && v != r.removed)
+                        CHECK((s.view.positions[v] - r.place).norm() <= 4.0 / 3.0 * 0.12);
                 }
             }
         }
     }
     CHECK(in_the_middle > 0.9 * static_cast<double>(collapses.size()));
-    // If every new edge would be too long, nothing is collapsed; the border of an open mesh is not collapsed either.
+    // If every new edge would be too long, nothing is collapsed; the border of an open mesh is not
+    // collapsed either.
     Start plane(dsc::sdk::square(8, 1.0));
     collapses.clear();
     plane.edits.collapse(plane.mesh, {0.26 / 0.8}, false, collapses);
@@ -116,7 +128,8 @@ TEST_CASE("a refused collapse is requested again with the ends as places, then n
     std::vector<std::array<Vec3, 3>> seen;
     for (const auto& pass : asked) {
         for (const auto& r : pass) {
-            const Vec3 &a = s.view.positions[std::min(r.kept, r.removed)], &b = s.view.positions[std::max(r.kept, r.removed)];
+            const Vec3 &a = s.view.positions[std::min(r.kept, r.removed)],
+                       &b = s.view.positions[std::max(r.kept, r.removed)];
             seen.push_back({a, b, r.place});
         }
     }
@@ -148,7 +161,8 @@ TEST_CASE("a crease becomes shorter only along itself") {
         REQUIRE(all.size() > 20);
         std::size_t along = 0, beside = 0;
         for (const auto& r : all) {
-            const bool kept = ridge(s.view.positions[r.kept]), removed = ridge(s.view.positions[r.removed]);
+            const bool kept = ridge(s.view.positions[r.kept]),
+                       removed = ridge(s.view.positions[r.removed]);
             if (kept || removed) CHECK(ridge(r.place));
             along += kept && removed ? 1 : 0;
             beside += kept != removed ? 1 : 0;
@@ -161,7 +175,9 @@ TEST_CASE("a crease becomes shorter only along itself") {
 
 TEST_CASE("flips make a plane's triangulation Delaunay, and leave creases") {
     // Columns that are shifted against each other: many diagonals have opposite angles above pi.
-    const auto slanted = dsc::sdk::moved(dsc::sdk::square(10, 1.0), [](const Vec3& p) { return Vec3(p.x(), p.y() + 0.8 * p.x(), 0.0); });
+    const auto slanted = dsc::sdk::moved(dsc::sdk::square(10, 1.0), [](const Vec3& p) {
+        return Vec3(p.x(), p.y() + 0.8 * p.x(), 0.0);
+    });
     Start s(slanted);
     std::vector<dsc::hooks::FlipRequest> flips;
     s.edits.flip(s.mesh, -1.0, flips);
@@ -187,10 +203,13 @@ TEST_CASE("flips make a plane's triangulation Delaunay, and leave creases") {
     square.edits.flip(square.mesh, -1.0, flips);
     CHECK(flips.empty());
     // A ridge between needles on both sides: a flip would improve it, but is not allowed.
-    Start crease(dsc::sdk::moved(roof(10), [](const Vec3& p) { return Vec3(0.2 * p.x(), p.y(), 0.2 * p.z()); }));
+    Start crease(dsc::sdk::moved(
+        roof(10), [](const Vec3& p) { return Vec3(0.2 * p.x(), p.y(), 0.2 * p.z()); }));
     flips.clear();
     crease.edits.flip(crease.mesh, -1.0, flips);
-    const auto on_ridge = [&](const auto& r) { return ridge(crease.view.positions[r.edge[0]]) && ridge(crease.view.positions[r.edge[1]]); };
+    const auto on_ridge = [&](const auto& r) {
+        return ridge(crease.view.positions[r.edge[0]]) && ridge(crease.view.positions[r.edge[1]]);
+    };
     const auto free = std::count_if(flips.begin(), flips.end(), on_ridge);
     flips.clear();
     crease.edits.start_refinement();
@@ -207,7 +226,8 @@ TEST_CASE("vertices move along the surface, half the way, and not off creases") 
     auto pulled = dsc::sdk::moved(roof(12), [&](const Vec3& p) {
         if (std::abs(p.x()) < 0.1 || p.cwiseAbs().maxCoeff() > 0.99) return p;
         const double side = p.x() > 0 ? 1.0 : -1.0;
-        return Vec3(p + 0.05 * random.uniform(-1, 1) * Vec3(1, 0, -side) + 0.05 * random.uniform(-1, 1) * Vec3(0, 1, 0));
+        return Vec3(p + 0.05 * random.uniform(-1, 1) * Vec3(1, 0, -side) +
+                    0.05 * random.uniform(-1, 1) * Vec3(0, 1, 0));
     });
     Start p(pulled);
     std::vector<dsc::hooks::MoveRequest> moves;
@@ -220,7 +240,8 @@ TEST_CASE("vertices move along the surface, half the way, and not off creases") 
         double area = 0.0;
         for (const std::uint32_t f : p.view.faces_of(r.vertex)) {
             const auto& [a, b, c] = p.view.faces[f];
-            sum += p.view.face_areas[f] * (p.view.positions[a] + p.view.positions[b] + p.view.positions[c]) / 3.0;
+            sum += p.view.face_areas[f] *
+                   (p.view.positions[a] + p.view.positions[b] + p.view.positions[c]) / 3.0;
             area += p.view.face_areas[f];
         }
         CHECK((r.place - 0.5 * (p.view.positions[r.vertex] + sum / area)).norm() < 1e-12);

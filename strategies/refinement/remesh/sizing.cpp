@@ -8,16 +8,19 @@
 namespace dsc::remesh {
 namespace {
 
-constexpr double faces_of_budget = 1.1547;  // 2 / sqrt 3: squared edge times vertices over area, for regular triangles
+constexpr double faces_of_budget = 1.1547;  // 2 / sqrt 3: squared edge times vertices over area,
+                                            // for regular triangles
 constexpr double filled_part = 0.95;        // fraction of the budget that is used
-constexpr double widest = 4.0;              // local point widths are limited to the median times this and the median over this
-constexpr double slope = 0.3;               // growth of lengths along an edge
+constexpr double widest = 4.0;  // local point widths are limited to the median times this and the
+                                // median over this
+constexpr double slope = 0.3;   // growth of lengths along an edge
 constexpr unsigned smoothing_rounds = 3;
 constexpr std::size_t vertex_block = 512;
-constexpr double edges_across = 2.0;        // least thickness over edge length, for a thin part
-constexpr double shortest = 0.5;            // point widths: edges in thin parts are not shorter than this
-constexpr double most_for_thin = 1.5;       // times the budget, because of thin parts
-constexpr double opposite_cosine = 0.7;     // faces whose normals differ by more are not the two sides of a thin part
+constexpr double edges_across = 2.0;  // least thickness over edge length, for a thin part
+constexpr double shortest = 0.5;      // point widths: edges in thin parts are not shorter than this
+constexpr double most_for_thin = 1.5;    // times the budget, because of thin parts
+constexpr double opposite_cosine = 0.7;  // faces whose normals differ by more are not the two sides
+                                         // of a thin part
 constexpr unsigned median_rounds = 3;
 
 double area_of(const surface::SurfaceView& view) {
@@ -29,7 +32,8 @@ double area_of(const surface::SurfaceView& view) {
 }  // namespace
 
 double noise_factor(const cloud::Statistics& statistics) {
-    const double s = statistics.even() ? cloud::certain_noise(statistics.noise_ratio) : statistics.noise_ratio;
+    const double s =
+        statistics.even() ? cloud::certain_noise(statistics.noise_ratio) : statistics.noise_ratio;
     return std::min(2.0, 1.0 + 1.5 * s);
 }
 
@@ -43,7 +47,8 @@ double Sizing::count(const EdgeMesh& mesh) const {
     const surface::SurfaceView& view = *mesh.view;
     double sum = 0.0;
     for (std::size_t f = 0; f < view.face_count(); ++f) {
-        for (const std::uint32_t v : view.faces[f]) sum += view.face_areas[f] / 3.0 / (each_[v] * each_[v]);
+        for (const std::uint32_t v : view.faces[f])
+            sum += view.face_areas[f] / 3.0 / (each_[v] * each_[v]);
     }
     return faces_of_budget * sum;
 }
@@ -90,18 +95,22 @@ void Sizing::grade(const EdgeMesh& mesh) {
     }
 }
 
-void Sizing::follow_widths(const hooks::StepContext& context, const EdgeMesh& mesh, double vertices, double scale) {
+void Sizing::follow_widths(const hooks::StepContext& context, const EdgeMesh& mesh, double vertices,
+                           double scale) {
     const surface::SurfaceView& view = *mesh.view;
     const cloud::Statistics& statistics = context.cloud->statistics(context.workers);
     const double low = statistics.width / widest, high = statistics.width * widest;
     each_.resize(view.vertex_count());
-    for_blocks(context.workers, each_.size(), vertex_block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) {
-            each_[v] = std::clamp(statistics.point_width[context.nearest_point(v).index], low, high);
-        }
-    });
+    for_blocks(
+        context.workers, each_.size(), vertex_block, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v) {
+                each_[v] =
+                    std::clamp(statistics.point_width[context.nearest_point(v).index], low, high);
+            }
+        });
     smooth(mesh);
-    // The slope limit needs the scale of the lengths, which changes afterwards: two repetitions are enough.
+    // The slope limit needs the scale of the lengths, which changes afterwards: two repetitions are
+    // enough.
     for (int turn = 0; turn < 2; ++turn) {
         const double wanted = std::sqrt(count(mesh) / vertices);
         for (double& x : each_) x *= wanted;
@@ -118,7 +127,8 @@ void Sizing::median_of_rings(const EdgeMesh& mesh, std::vector<double>& values) 
         for (std::uint32_t v = 0; v < values.size(); ++v) {
             ring_.assign(1, values[v]);
             for (const std::uint32_t f : mesh.view->faces_of(v)) {
-                // The corner after v in each face: on a closed surface, this gives every neighbour once.
+                // The corner after v in each face: on a closed surface, this gives every neighbour
+                // once.
                 const auto& face = mesh.view->faces[f];
                 for (std::size_t k = 0; k < 3; ++k) {
                     if (face[k] == v) ring_.push_back(values[face[(k + 1) % 3]]);
@@ -132,10 +142,12 @@ void Sizing::median_of_rings(const EdgeMesh& mesh, std::vector<double>& values) 
     }
 }
 
-// Reduces lengths to half of the thickness; less if this would need too many vertices. False if nothing is thin.
+// Reduces lengths to half of the thickness; less if this would need too many vertices. False if
+// nothing is thin.
 bool Sizing::shorten_thin_parts(const hooks::StepContext& context, const EdgeMesh& mesh) {
     const double longest = *std::max_element(each_.begin(), each_.end());
-    surface::measure_thickness(*mesh.view, edges_across * longest, opposite_cosine, thickness_, context.workers);
+    surface::measure_thickness(*mesh.view, edges_across * longest, opposite_cosine, thickness_,
+                               context.workers);
     median_of_rings(mesh, thickness_);
     const double least = shortest * context.cloud->statistics().width;
     usual_ = each_;
@@ -162,20 +174,25 @@ bool Sizing::shorten_thin_parts(const hooks::StepContext& context, const EdgeMes
     return shorten(high);
 }
 
-void Sizing::even_lengths(const hooks::StepContext& context, const EdgeMesh& mesh, double vertices, double scale) {
-    each_.assign(mesh.view->vertex_count(), scale * std::sqrt(faces_of_budget * context.cloud->statistics().area / vertices));
+void Sizing::even_lengths(const hooks::StepContext& context, const EdgeMesh& mesh, double vertices,
+                          double scale) {
+    each_.assign(mesh.view->vertex_count(),
+                 scale * std::sqrt(faces_of_budget * context.cloud->statistics().area / vertices));
 }
 
-Lengths Sizing::lengths(const hooks::StepContext& context, const EdgeMesh& mesh, const Wish& wish, double factor) {
+Lengths Sizing::lengths(const hooks::StepContext& context, const EdgeMesh& mesh, const Wish& wish,
+                        double factor) {
     allowance_ = 1.0;
     if (wish.edge_length > 0.0) return {wish.edge_length};
     const double vertices = filled_part * budget(wish, context.cloud);
     if (!(vertices > 0.0)) return {context.target_length};
-    if (context.cloud == nullptr) return {factor * std::sqrt(faces_of_budget * area_of(*mesh.view) / vertices)};
+    if (context.cloud == nullptr)
+        return {factor * std::sqrt(faces_of_budget * area_of(*mesh.view) / vertices)};
     const cloud::Statistics& statistics = context.cloud->statistics(context.workers);
     const double scale = factor * noise_factor(statistics);
     const bool even = statistics.even();
-    even ? even_lengths(context, mesh, vertices, scale) : follow_widths(context, mesh, vertices, scale);
+    even ? even_lengths(context, mesh, vertices, scale)
+         : follow_widths(context, mesh, vertices, scale);
     const bool thin = wish.thin_parts && !each_.empty() && shorten_thin_parts(context, mesh);
     if (even && !thin && !each_.empty()) return {each_.front()};
     return {0.0, each_};

@@ -11,12 +11,12 @@ namespace {
 using dsc::Vec3;
 using dsc::config::ConfigNode;
 
-std::vector<Vec3> displacements(const dsc::surface::SurfaceView& view, double part, unsigned threads = 1,
-                                std::size_t block = 64) {
+std::vector<Vec3> displacements(const dsc::surface::SurfaceView& view, double part,
+                                unsigned threads = 1, std::size_t block = 64) {
     dsc::host::Host host;
     host.load(DSC_TEST_PLUGIN);
-    const auto field =
-        host.create<dsc::hooks::VelocityField>({"average", ConfigNode::map({{"part", part}})}, "velocity");
+    const auto field = host.create<dsc::hooks::VelocityField>(
+        {"average", ConfigNode::map({{"part", part}})}, "velocity");
     return dsc::sdk::displacements(*field, dsc::sdk::step_context(view), threads, block);
 }
 

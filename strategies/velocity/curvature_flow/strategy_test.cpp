@@ -1,7 +1,8 @@
 // Tests of the velocity on surfaces with known values; the plugin is loaded as in a run.
+#include <cmath>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/steps.hpp>
 #include <dsc/sdk/surfaces.hpp>
@@ -14,7 +15,8 @@ using dsc::config::ConfigNode;
 struct Bench {
     Bench() {
         host.load(DSC_TEST_PLUGIN);
-        host.load(std::filesystem::path(DSC_TEST_PLUGIN).parent_path() / "libdsc_implicit_fairing.so");
+        host.load(std::filesystem::path(DSC_TEST_PLUGIN).parent_path() /
+                  "libdsc_implicit_fairing.so");
     }
     std::unique_ptr<dsc::hooks::VelocityField> make(const ConfigNode& params) const {
         return host.create<dsc::hooks::VelocityField>({"curvature_flow", params}, "velocity");

@@ -28,16 +28,12 @@ Vec3 enright(const Vec3& p, double phase) {
 Vec3 velocity(const Field& field, const Vec3& point, double time) {
     const Vec3 r = point - field.centre;
     switch (field.kind) {
-        case FieldKind::translate:
-            return field.speed * field.axis.normalized();
-        case FieldKind::rotate:
-            return field.speed * field.axis.normalized().cross(r);
+        case FieldKind::translate: return field.speed * field.axis.normalized();
+        case FieldKind::rotate: return field.speed * field.axis.normalized().cross(r);
         case FieldKind::shear:
             return field.speed * r.dot(field.across.normalized()) * field.axis.normalized();
-        case FieldKind::part:
-            return part(field, r, field.axis.normalized());
-        case FieldKind::enright:
-            return enright(point, time / field.period);
+        case FieldKind::part: return part(field, r, field.axis.normalized());
+        case FieldKind::enright: return enright(point, time / field.period);
     }
     return Vec3::Zero();
 }

@@ -7,13 +7,15 @@ namespace dsc::strategies {
 
 enum class FieldKind { translate, rotate, shear, part, enright };
 
-/// The kind decides which members are used; r = x - centre, a is the unit vector along `axis`. All fields are divergence-free.
+/// The kind decides which members are used; r = x - centre, a is the unit vector along `axis`. All
+/// fields are divergence-free.
 struct Field {
     FieldKind kind = FieldKind::translate;
     Vec3 centre = Vec3::Zero();
-    Vec3 axis = Vec3(1, 0, 0);    ///< direction of translate and shear, axis of rotate, line of part
+    Vec3 axis = Vec3(1, 0, 0);  ///< direction of translate and shear, axis of rotate, line of part
     Vec3 across = Vec3(0, 1, 0);  ///< the direction in which the speed of shear grows
-    double speed = 1.0;  ///< of translate and part, length/time; of shear and rotate per length, radians/time
+    double speed = 1.0;   ///< of translate and part, length/time; of shear and rotate per length,
+                          ///< radians/time
     double width = 0.25;  ///< of the layer between the two sides of part
     double period = 3.0;  ///< of enright
 };
@@ -29,8 +31,8 @@ struct Field {
 ///             cos(pi t / period): it brings everything back at t = period
 Vec3 velocity(const Field& field, const Vec3& point, double time);
 
-/// Displacement during `step` of a point that moves with the field from `time` on: `parts` steps of the
-/// classical Runge-Kutta method of order 4.
+/// Displacement during `step` of a point that moves with the field from `time` on: `parts` steps of
+/// the classical Runge-Kutta method of order 4.
 Vec3 displacement(const Field& field, const Vec3& point, double time, double step, int parts);
 
 }  // namespace dsc::strategies

@@ -1,12 +1,13 @@
 // Tests of the fields and of the velocity; the plugin is loaded as in a run.
+#include <cmath>
+#include <sstream>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/steps.hpp>
 #include <dsc/sdk/surfaces.hpp>
-#include <sstream>
 
 #include "fields.hpp"
 
@@ -19,8 +20,8 @@ using dsc::strategies::Field;
 using dsc::strategies::FieldKind;
 using dsc::strategies::velocity;
 
-const FieldKind all_kinds[] = {FieldKind::translate, FieldKind::rotate, FieldKind::shear, FieldKind::part,
-                               FieldKind::enright};
+const FieldKind all_kinds[] = {FieldKind::translate, FieldKind::rotate, FieldKind::shear,
+                               FieldKind::part, FieldKind::enright};
 
 Field field_of(FieldKind kind) {
     Field field;
@@ -50,7 +51,8 @@ TEST_CASE("no field has a divergence") {
             double divergence = 0;
             for (Eigen::Index k = 0; k < 3; ++k) {
                 const Vec3 e = h * Vec3::Unit(k);
-                divergence += (velocity(field, p + e, 0.4)[k] - velocity(field, p - e, 0.4)[k]) / (2 * h);
+                divergence +=
+                    (velocity(field, p + e, 0.4)[k] - velocity(field, p - e, 0.4)[k]) / (2 * h);
             }
             CHECK(std::abs(divergence) < 1e-8);
         }
@@ -68,7 +70,8 @@ TEST_CASE("fields with a solution in closed form reach it") {
     field.axis = Vec3(0, 0, 5);
     field.speed = 1.5707963267948966;
     CHECK((displacement(field, x, 0, 1, 64) - (Vec3(0.3, 0.6, 0.8) - x)).norm() < 1e-8);
-    // part: on the axis sinh(s/w) grows by exp(speed t / w); the cross-section shrinks so that the volume stays constant.
+    // part: on the axis sinh(s/w) grows by exp(speed t / w); the cross-section shrinks so that the
+    // volume stays constant.
     field.kind = FieldKind::part;
     field.axis = Vec3(1, 0, 0);
     field.speed = 0.4;
@@ -76,7 +79,8 @@ TEST_CASE("fields with a solution in closed form reach it") {
     const Vec3 end = x + displacement(field, x, 0, 0.9, 64);
     const double s = 0.5 * std::asinh(std::exp(0.4 * 0.9 / 0.5) * std::sinh(0.6 / 0.5));
     CHECK(end.x() == doctest::Approx(s).epsilon(1e-9));
-    const double stretch = std::tanh(s / 0.5) / std::tanh(0.6 / 0.5);  // ds/ds0, velocities on one streamline
+    const double stretch = std::tanh(s / 0.5) / std::tanh(0.6 / 0.5);  // ds/ds0, velocities on one
+                                                                       // streamline
     CHECK(end.y() == doctest::Approx(-0.3 / std::sqrt(stretch)).epsilon(1e-8));
 }
 
@@ -94,11 +98,12 @@ TEST_CASE("enright: nothing crosses the cube's walls, and at t = T everything is
     const Field field = field_of(FieldKind::enright);
     CHECK(std::abs(velocity(field, Vec3(1, 0.3, 0.4), 0.1).x()) < 1e-15);
     CHECK(std::abs(velocity(field, Vec3(0.3, 0, 0.4), 0.1).y()) < 1e-15);
-    CHECK(velocity(field, Vec3(0.25, 0.25, 0.25), 0.0).isApprox(Vec3(2 * 0.5 * 1 * 1, -0.5, -0.5), 1e-14));
+    CHECK(velocity(field, Vec3(0.25, 0.25, 0.25), 0.0)
+              .isApprox(Vec3(2 * 0.5 * 1 * 1, -0.5, -0.5), 1e-14));
     const Bench bench;
     const auto flow = bench.make(ConfigNode::map({{"field", "enright"}, {"time_step", 0.05}}));
-    const auto start = dsc::sdk::moved(dsc::sdk::icosphere(2, 0.15),
-                                       [](const Vec3& p) { return Vec3(p + Vec3::Constant(0.35)); });
+    const auto start = dsc::sdk::moved(
+        dsc::sdk::icosphere(2, 0.15), [](const Vec3& p) { return Vec3(p + Vec3::Constant(0.35)); });
     auto mesh = start;
     double farthest = 0;
     for (std::uint64_t step = 1; step <= 60; ++step) {
@@ -114,7 +119,8 @@ TEST_CASE("enright: nothing crosses the cube's walls, and at t = T everything is
         CHECK((mesh.points[i] - start.points[i]).norm() < 2e-4);
 }
 
-TEST_CASE("time follows from the number of the step: a loaded velocity continues at the right time") {
+TEST_CASE(
+    "time follows from the number of the step: a loaded velocity continues at the right time") {
     const Bench bench;
     const auto params = ConfigNode::map({{"field", "enright"}, {"time_step", 0.1}});
     const auto view = dsc::sdk::view_of(dsc::sdk::icosphere(1, 0.3));
@@ -128,7 +134,8 @@ TEST_CASE("time follows from the number of the step: a loaded velocity continues
     const auto out = dsc::sdk::displacements(*second, dsc::sdk::step_context(view, 9));
     CHECK(out == dsc::sdk::displacements(*first, dsc::sdk::step_context(view, 9)));
     for (std::size_t i = 0; i < out.size(); ++i)
-        CHECK(out[i] == displacement(field_of(FieldKind::enright), view.positions[i], 8 * 0.1, 0.1, 1));
+        CHECK(out[i] ==
+              displacement(field_of(FieldKind::enright), view.positions[i], 8 * 0.1, 0.1, 1));
     CHECK(out != dsc::sdk::displacements(*second, dsc::sdk::step_context(view, 1)));
 }
 
@@ -150,6 +157,7 @@ TEST_CASE("directions that do not define a field are refused") {
     CHECK_THROWS_WITH_AS(bench.make(ConfigNode::map({{"axis", ConfigNode::list({0.0, 0.0, 0.0})}})),
                          doctest::Contains("axis must not be the zero vector"), dsc::ConfigError);
     CHECK_THROWS_WITH_AS(
-        bench.make(ConfigNode::map({{"field", "shear"}, {"across", ConfigNode::list({1.0, 1.0, 0.0})}})),
+        bench.make(
+            ConfigNode::map({{"field", "shear"}, {"across", ConfigNode::list({1.0, 1.0, 0.0})}})),
         doctest::Contains("across must be perpendicular to axis"), dsc::ConfigError);
 }

@@ -13,8 +13,8 @@ using dsc::config::ConfigNode;
 struct Bench {
     Bench() { host.load(DSC_TEST_PLUGIN); }
     std::unique_ptr<dsc::hooks::VelocityField> make(double speed) const {
-        return host.create<dsc::hooks::VelocityField>({"normal", ConfigNode::map({{"speed", speed}})},
-                                                      "velocity");
+        return host.create<dsc::hooks::VelocityField>(
+            {"normal", ConfigNode::map({{"speed", speed}})}, "velocity");
     }
     dsc::host::Host host;
 };
@@ -28,7 +28,8 @@ TEST_CASE("a sphere grows by the speed and shrinks by a negative one") {
         const auto out = dsc::sdk::displacements(*bench.make(speed), dsc::sdk::step_context(view));
         for (std::size_t i = 0; i < out.size(); ++i) {
             CHECK(out[i].norm() == doctest::Approx(std::abs(speed)).epsilon(1e-12));
-            CHECK((view.positions[i] + out[i]).norm() == doctest::Approx(0.8 + speed).epsilon(1e-4));
+            CHECK((view.positions[i] + out[i]).norm() ==
+                  doctest::Approx(0.8 + speed).epsilon(1e-4));
         }
     }
 }

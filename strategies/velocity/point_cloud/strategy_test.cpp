@@ -1,8 +1,9 @@
 // Tests of the velocity on surfaces beside known clouds; the plugin is loaded as in a run.
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/host/host.hpp>
@@ -18,7 +19,8 @@ dsc::cloud::TargetCloud plane_cloud(double height, double half, int n) {
     dsc::cloud::Normalized normalized;
     for (int j = 0; j <= n; ++j) {
         for (int i = 0; i <= n; ++i) {
-            normalized.points.emplace_back(half * (2.0 * i / n - 1), half * (2.0 * j / n - 1), height);
+            normalized.points.emplace_back(half * (2.0 * i / n - 1), half * (2.0 * j / n - 1),
+                                           height);
         }
     }
     return dsc::cloud::TargetCloud(normalized);
@@ -27,17 +29,23 @@ dsc::cloud::TargetCloud plane_cloud(double height, double half, int n) {
 struct Bench {
     explicit Bench(const dsc::surface::TriangleMesh& mesh) : view(dsc::sdk::view_of(mesh)) {
         host.load(DSC_TEST_PLUGIN);
-        host.load(std::filesystem::path(DSC_TEST_PLUGIN).parent_path() / "libdsc_implicit_fairing.so");
+        host.load(std::filesystem::path(DSC_TEST_PLUGIN).parent_path() /
+                  "libdsc_implicit_fairing.so");
     }
     std::unique_ptr<dsc::hooks::VelocityField> make(const ConfigNode& params) const {
         return host.create<dsc::hooks::VelocityField>({"point_cloud", params}, "velocity");
     }
     dsc::hooks::StepContext context(const dsc::cloud::TargetCloud* cloud) const {
-        return {
-            .step = 3, .surface = view, .cloud = cloud, .target_length = 0.1, .box = {}, .to_normalised = {}};
+        return {.step = 3,
+                .surface = view,
+                .cloud = cloud,
+                .target_length = 0.1,
+                .box = {},
+                .to_normalised = {}};
     }
-    std::vector<Vec3> displacements(dsc::hooks::VelocityField& field, const dsc::cloud::TargetCloud* cloud,
-                                    unsigned threads = 1, std::size_t block = 64,
+    std::vector<Vec3> displacements(dsc::hooks::VelocityField& field,
+                                    const dsc::cloud::TargetCloud* cloud, unsigned threads = 1,
+                                    std::size_t block = 64,
                                     std::span<const dsc::cloud::Neighbour> nearest = {}) const {
         dsc::hooks::StepContext step = context(cloud);
         step.nearest = nearest;
@@ -89,7 +97,8 @@ TEST_CASE("only the part along the normal counts") {
     one.points = {Vec3(0.7, 0.1, -0.4)};
     const dsc::cloud::TargetCloud cloud(one);
     const auto field = bench.make(ConfigNode::map({{"alpha", 0.25}}));
-    for (const Vec3& d : bench.displacements(*field, &cloud)) CHECK((d - Vec3(0, 0, -0.1)).norm() < 1e-15);
+    for (const Vec3& d : bench.displacements(*field, &cloud))
+        CHECK((d - Vec3(0, 0, -0.1)).norm() < 1e-15);
 }
 
 TEST_CASE("curvature pulls a sphere inwards by beta / r more") {
@@ -159,19 +168,22 @@ TEST_CASE("threads and blocks do not change a bit") {
             CHECK(bench.displacements(*field, &cloud, threads, block) == reference);
         }
     }
-    const auto full = bench.make(ConfigNode::map({{"beta", 0.01},
-                                                  {"curvature", fairing},
-                                                  {"curvature_at", "unsupported"},
-                                                  {"target", ConfigNode::map({{"neighbours", 8}})},
-                                                  {"unsupported", ConfigNode::map({{"beyond", 2.0}})}}));
+    const auto full =
+        bench.make(ConfigNode::map({{"beta", 0.01},
+                                    {"curvature", fairing},
+                                    {"curvature_at", "unsupported"},
+                                    {"target", ConfigNode::map({{"neighbours", 8}})},
+                                    {"unsupported", ConfigNode::map({{"beyond", 2.0}})}}));
     const auto all = bench.displacements(*full, &cloud, 1, 100000);
     CHECK(all != reference);
-    for (const std::size_t block : {1U, 37U, 129U}) CHECK(bench.displacements(*full, &cloud, 3, block) == all);
+    for (const std::size_t block : {1U, 37U, 129U})
+        CHECK(bench.displacements(*full, &cloud, 3, block) == all);
 }
 
 namespace {
 
-// Points on a ring of the given radius in the plane z = height; neighbours are about 2 pi radius / n apart.
+// Points on a ring of the given radius in the plane z = height; neighbours are about 2 pi radius /
+// n apart.
 dsc::cloud::TargetCloud ring_cloud(double radius, double height, int n) {
     dsc::cloud::Normalized ring;
     for (int i = 0; i < n; ++i) {
@@ -182,17 +194,23 @@ dsc::cloud::TargetCloud ring_cloud(double radius, double height, int n) {
 }
 
 ConfigNode carving(double beyond, double carve) {
-    return ConfigNode::map({{"unsupported", ConfigNode::map({{"beyond", beyond}, {"carve", carve}})}});
+    return ConfigNode::map(
+        {{"unsupported", ConfigNode::map({{"beyond", beyond}, {"carve", carve}})}});
 }
 
 }  // namespace
 
-TEST_CASE("a lid whose nearest points lie in its plane does not move, and is carved in where no point supports it") {
+TEST_CASE("a lid whose nearest points lie in its plane does not move, and is carved in where no "
+          "point supports it") {
     const Bench bench(dsc::sdk::square(8, 0.5));
     const auto rim = ring_cloud(0.8, 0.0, 100);
     const double spacing = rim.spacing(0);
-    CHECK(spacing == doctest::Approx(2 * 0.8 * std::sin(3 * 3.14159265358979323846 / 100)));  // the third point on each side
-    for (const Vec3& d : bench.displacements(*bench.make(ConfigNode::map()), &rim)) CHECK(d == Vec3::Zero());
+    CHECK(spacing ==
+          doctest::Approx(2 * 0.8 * std::sin(3 * 3.14159265358979323846 / 100)));  // the third
+                                                                                   // point on each
+                                                                                   // side
+    for (const Vec3& d : bench.displacements(*bench.make(ConfigNode::map()), &rim))
+        CHECK(d == Vec3::Zero());
     const auto field = bench.make(carving(3.0, 0.2));
     const auto out = bench.displacements(*field, &rim);
     std::size_t carved = 0;
@@ -209,19 +227,22 @@ TEST_CASE("surface that moves towards points ahead of it is not carved, at any d
     const Bench bench(dsc::sdk::square(8, 0.5));
     const auto ahead = plane_cloud(0.9, 1.0, 40);
     const auto field = bench.make(carving(1.0, 0.2));
-    for (const Vec3& d : bench.displacements(*field, &ahead)) CHECK((d - Vec3(0, 0, 0.2 * 0.9)).norm() < 1e-12);
+    for (const Vec3& d : bench.displacements(*field, &ahead))
+        CHECK((d - Vec3(0, 0, 0.2 * 0.9)).norm() < 1e-12);
     // Points behind it: the data term already leads inwards, faster than carving would.
     const auto behind = plane_cloud(-0.9, 1.0, 40);
-    for (const Vec3& d : bench.displacements(*field, &behind)) CHECK((d - Vec3(0, 0, -0.2 * 0.9)).norm() < 1e-12);
+    for (const Vec3& d : bench.displacements(*field, &behind))
+        CHECK((d - Vec3(0, 0, -0.2 * 0.9)).norm() < 1e-12);
 }
 
 namespace {
 
 ConfigNode selective(double beyond, double carve, double beta) {
-    return ConfigNode::map({{"beta", beta},
-                            {"curvature", ConfigNode::map({{"type", "implicit_fairing"}})},
-                            {"curvature_at", "unsupported"},
-                            {"unsupported", ConfigNode::map({{"beyond", beyond}, {"carve", carve}})}});
+    return ConfigNode::map(
+        {{"beta", beta},
+         {"curvature", ConfigNode::map({{"type", "implicit_fairing"}})},
+         {"curvature_at", "unsupported"},
+         {"unsupported", ConfigNode::map({{"beyond", beyond}, {"carve", carve}})}});
 }
 
 }  // namespace
@@ -245,16 +266,23 @@ TEST_CASE("a curvature at unsupported places does not change supported ones, to 
             continue;
         }
         ++curved;
-        const double speed = std::min(plain[i].dot(bench.view.normals[i]), -0.1 * 0.1);  // carving, target length 0.1
-        CHECK(out[i].dot(bench.view.normals[i]) == doctest::Approx(speed - beta / radius).epsilon(0.01));
+        const double speed = std::min(plain[i].dot(bench.view.normals[i]), -0.1 * 0.1);  // carving,
+                                                                                         // target
+                                                                                         // length
+                                                                                         // 0.1
+        CHECK(out[i].dot(bench.view.normals[i]) ==
+              doctest::Approx(speed - beta / radius).epsilon(0.01));
     }
     CHECK(curved > out.size() / 4);
     CHECK(curved < out.size() / 2);
 }
 
-TEST_CASE("surface tension holds a lid over a hole narrower than beta / carving, a wider one is entered") {
-    // A dent of radius r: the wall of a ball seen from inside, with mean curvature -1 / r. The rim of the hole is a ring.
-    const double beta = 2e-3, carving = 0.2 * 0.1;  // the target length is 0.1: they balance at r = 0.1
+TEST_CASE("surface tension holds a lid over a hole narrower than beta / carving, a wider one is "
+          "entered") {
+    // A dent of radius r: the wall of a ball seen from inside, with mean curvature -1 / r. The rim
+    // of the hole is a ring.
+    const double beta = 2e-3, carving = 0.2 * 0.1;  // the target length is 0.1: they balance at r =
+                                                    // 0.1
     for (const double radius : {0.07, 0.09, 0.11, 0.2}) {
         dsc::surface::TriangleMesh dent = dsc::sdk::icosphere(4, radius);
         for (auto& face : dent.faces) std::swap(face[1], face[2]);
@@ -264,7 +292,8 @@ TEST_CASE("surface tension holds a lid over a hole narrower than beta / carving,
         std::size_t lid = 0;
         for (std::size_t i = 0; i < out.size(); ++i) {
             const double height = bench.view.positions[i].z() / radius;
-            if (height < 0.3 || height > 0.8) continue;  // near the rim there is support, at the pole the rim is ahead
+            if (height < 0.3 || height > 0.8)
+                continue;  // near the rim there is support, at the pole the rim is ahead
             ++lid;
             const double speed = out[i].dot(bench.view.normals[i]);
             CHECK(speed == doctest::Approx(beta / radius - carving).epsilon(0.02));
@@ -280,7 +309,8 @@ TEST_CASE("several near points are weighted by a Gaussian of their distances") {
     two.points = {Vec3(0.5, 0.5, 0.3), Vec3(0.5, 0.5, 0.7)};  // spacing 0.4
     const dsc::cloud::TargetCloud cloud(two);
     const auto params = [](unsigned neighbours, double width) {
-        const ConfigNode target = ConfigNode::map({{"neighbours", static_cast<int>(neighbours)}, {"width", width}});
+        const ConfigNode target =
+            ConfigNode::map({{"neighbours", static_cast<int>(neighbours)}, {"width", width}});
         return ConfigNode::map({{"alpha", 1.0}, {"target", target}});
     };
     const auto height = [&](unsigned neighbours, double width) {
@@ -297,20 +327,26 @@ TEST_CASE("several near points are weighted by a Gaussian of their distances") {
     CHECK(height(5, 0.5) == height(2, 0.5));  // more points than there are
 }
 
-TEST_CASE("the mean of near points follows a noisy plane more closely than the nearest point does") {
+TEST_CASE(
+    "the mean of near points follows a noisy plane more closely than the nearest point does") {
     dsc::cloud::Normalized noisy;
     for (int j = -30; j <= 30; ++j) {
-        for (int i = -30; i <= 30; ++i) noisy.points.emplace_back(0.05 * i, 0.05 * j, (i + j) % 2 == 0 ? 0.02 : -0.02);
+        for (int i = -30; i <= 30; ++i)
+            noisy.points.emplace_back(0.05 * i, 0.05 * j, (i + j) % 2 == 0 ? 0.02 : -0.02);
     }
     const dsc::cloud::TargetCloud cloud(noisy);
-    const Bench bench(dsc::sdk::moved(dsc::sdk::square(15, 0.5), [](const Vec3& p) { return Vec3(p.x() + 0.011, p.y() + 0.007, 0); }));
+    const Bench bench(dsc::sdk::moved(dsc::sdk::square(15, 0.5), [](const Vec3& p) {
+        return Vec3(p.x() + 0.011, p.y() + 0.007, 0);
+    }));
     const auto worst = [&](const ConfigNode& params) {
         double largest = 0;
-        for (const Vec3& d : bench.displacements(*bench.make(params), &cloud)) largest = std::max(largest, d.norm());
+        for (const Vec3& d : bench.displacements(*bench.make(params), &cloud))
+            largest = std::max(largest, d.norm());
         return largest;
     };
     const ConfigNode nearest = ConfigNode::map({{"alpha", 1.0}});
-    const ConfigNode mean = ConfigNode::map({{"alpha", 1.0}, {"target", ConfigNode::map({{"neighbours", 24}, {"width", 0.8}})}});
+    const ConfigNode mean = ConfigNode::map(
+        {{"alpha", 1.0}, {"target", ConfigNode::map({{"neighbours", 24}, {"width", 0.8}})}});
     CHECK(worst(nearest) == doctest::Approx(0.02).epsilon(1e-9));
     CHECK(worst(mean) < 0.004);
 }
@@ -332,7 +368,8 @@ TEST_CASE("beta without an estimator is refused") {
 
 TEST_CASE("a curvature at unsupported places needs a limit of support") {
     const Bench bench(dsc::sdk::square(1, 0.5));
-    CHECK_THROWS_WITH_AS(bench.make(ConfigNode::map({{"curvature_at", "unsupported"}})),
-                         doctest::Contains("curvature_at: unsupported needs unsupported: {beyond: ...} above 0"),
-                         dsc::ConfigError);
+    CHECK_THROWS_WITH_AS(
+        bench.make(ConfigNode::map({{"curvature_at", "unsupported"}})),
+        doctest::Contains("curvature_at: unsupported needs unsupported: {beyond: ...} above 0"),
+        dsc::ConfigError);
 }

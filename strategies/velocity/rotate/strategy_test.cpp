@@ -1,7 +1,8 @@
 // Tests of the velocity on surfaces with known values; the plugin is loaded as in a run.
+#include <cmath>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/steps.hpp>
@@ -38,8 +39,8 @@ TEST_CASE("a quarter turn about z takes x to y") {
 TEST_CASE("360 steps of one degree about a tilted axis bring every vertex back") {
     const Bench bench;
     const Vec3 centre(0.2, -0.1, 0.3);
-    const auto field = bench.make(
-        ConfigNode::map({{"centre", vector(0.2, -0.1, 0.3)}, {"axis", vector(1, 2, 3)}, {"degrees", 1.0}}));
+    const auto field = bench.make(ConfigNode::map(
+        {{"centre", vector(0.2, -0.1, 0.3)}, {"axis", vector(1, 2, 3)}, {"degrees", 1.0}}));
     const auto start = dsc::sdk::icosphere(2, 0.7);
     auto mesh = start;
     for (int step = 0; step < 360; ++step) {

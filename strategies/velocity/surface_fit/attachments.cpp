@@ -7,12 +7,14 @@ namespace dsc::strategies::fit {
 namespace {
 
 constexpr std::size_t attachment_block = 1024;  // vertices
-constexpr double precedence = 10.0;             // weight of an attachment over that of a nearby point: it dominates bending
+constexpr double precedence = 10.0;  // weight of an attachment over that of a nearby point: it
+                                     // dominates bending
 
 }  // namespace
 
-void attach_vertices(const surface::SurfaceView& view, std::span<const Vec3> points, std::span<const surface::FacePoint> places,
-                     std::span<const double> lengths, double reach, std::vector<std::uint32_t>& attached) {
+void attach_vertices(const surface::SurfaceView& view, std::span<const Vec3> points,
+                     std::span<const surface::FacePoint> places, std::span<const double> lengths,
+                     double reach, std::vector<std::uint32_t>& attached) {
     attached.assign(view.vertex_count(), no_point);
     std::vector<double> nearest(view.vertex_count(), std::numeric_limits<double>::infinity());
     for (std::uint32_t i = 0; i < places.size(); ++i) {
@@ -30,8 +32,9 @@ void attach_vertices(const surface::SurfaceView& view, std::span<const Vec3> poi
     }
 }
 
-void attachment_rows(const surface::SurfaceView& view, std::span<const Vec3> points, std::span<const std::uint32_t> attached,
-                     std::span<const double> widths, std::size_t first, RowSystem& system, Workers* workers) {
+void attachment_rows(const surface::SurfaceView& view, std::span<const Vec3> points,
+                     std::span<const std::uint32_t> attached, std::span<const double> widths,
+                     std::size_t first, RowSystem& system, Workers* workers) {
     for_blocks(workers, attached.size(), attachment_block, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
             const auto corner = static_cast<std::uint32_t>(v);

@@ -1,8 +1,9 @@
 #include "attachments.hpp"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <dsc/sdk/steps.hpp>
 #include <dsc/sdk/surfaces.hpp>
 
@@ -34,8 +35,10 @@ struct Square {
 
 }  // namespace
 
-TEST_CASE("a vertex is attached to the nearest of the points at it, within its reach, and every point to one vertex at most") {
-    const Square square({Vec3(0.3, 0.1, 0), Vec3(0.1, 0.05, 0.1), Vec3(0.9, 0.5, 0), Vec3(0.2, 0.95, 0)});
+TEST_CASE("a vertex is attached to the nearest of the points at it, within its reach, and every "
+          "point to one vertex at most") {
+    const Square square(
+        {Vec3(0.3, 0.1, 0), Vec3(0.1, 0.05, 0.1), Vec3(0.9, 0.5, 0), Vec3(0.2, 0.95, 0)});
     std::vector<std::uint32_t> expected(4, no_point);
     const auto vertex = [&](const Vec3& at) {
         std::size_t v = 0;
@@ -56,14 +59,16 @@ TEST_CASE("an attached vertex moves to its point, and the others stay") {
     system.rows.resize(12);
     system.wanted.resize(12);
     system.holds.assign(4, Hold{1e-9, Vec3::Zero()});
-    attachment_rows(square.view, square.points, attached, std::vector<double>(4, 0.5), 0, system, nullptr);
+    attachment_rows(square.view, square.points, attached, std::vector<double>(4, 0.5), 0, system,
+                    nullptr);
     gather_rows(system, square.view.movable);
     Solver solver;
     std::vector<Vec3> u;
     solver.solve(system, {}, nullptr, u);
     for (std::size_t v = 0; v < 4; ++v) {
         const Vec3 place = square.view.positions[v] + u[v];
-        const Vec3 wanted = attached[v] == no_point ? square.view.positions[v] : square.points[attached[v]];
+        const Vec3 wanted =
+            attached[v] == no_point ? square.view.positions[v] : square.points[attached[v]];
         CHECK((place - wanted).norm() < 1e-6);
     }
     CHECK(std::count(attached.begin(), attached.end(), no_point) == 3);

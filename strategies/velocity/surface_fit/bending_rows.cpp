@@ -6,8 +6,9 @@ namespace dsc::strategies::fit {
 namespace {
 
 constexpr std::size_t hinge_block = 1024;
-constexpr double least_height = 0.15;     // edge lengths: lower corners would have unbounded weights
-constexpr double least_opening = 1e-6;    // length of the normals' sum below which a hinge is folded shut and has no normal
+constexpr double least_height = 0.15;   // edge lengths: lower corners would have unbounded weights
+constexpr double least_opening = 1e-6;  // length of the normals' sum below which a hinge is folded
+                                        // shut and has no normal
 
 /// The position of a corner relative to an edge.
 struct Apex {
@@ -39,14 +40,17 @@ void bending_row(const BendingTerm& term, const Hinge& hinge, Row& row, double& 
     const Vec3 normal = both / opening;
     const Apex one = apex_of(view.positions[c], view.positions[a], edge, length);
     const Apex two = apex_of(view.positions[d], view.positions[a], edge, length);
-    const double bent = -(one.part + two.part) * half_sine(view.face_normals[f], view.face_normals[g], edge);
-    const double target = -(one.part + two.part) * half_sine(term.normals[f], term.normals[g], edge);
+    const double bent =
+        -(one.part + two.part) * half_sine(view.face_normals[f], view.face_normals[g], edge);
+    const double target =
+        -(one.part + two.part) * half_sine(term.normals[f], term.normals[g], edge);
     const double lambda = term.length * 0.5 * (term.widths[a] + term.widths[b]);
     const double ratio = bent / term.saturation;
     const double root = lambda * lambda * std::sqrt(3.0 / area) * length / (1.0 + ratio * ratio);
     row.direction = root * normal;
-    row.factor = {-((1.0 - one.foot) / one.height + (1.0 - two.foot) / two.height), -(one.foot / one.height + two.foot / two.height),
-                  1.0 / one.height, 1.0 / two.height};
+    row.factor = {-((1.0 - one.foot) / one.height + (1.0 - two.foot) / two.height),
+                  -(one.foot / one.height + two.foot / two.height), 1.0 / one.height,
+                  1.0 / two.height};
     row.vertex = hinge.vertices;
     wanted = root * (target - bent);
 }
@@ -55,7 +59,8 @@ void bending_row(const BendingTerm& term, const Hinge& hinge, Row& row, double& 
 
 void bending_rows(const BendingTerm& term, std::size_t first, RowSystem& system, Workers* workers) {
     for_blocks(workers, term.hinges.size(), hinge_block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) bending_row(term, term.hinges[i], system.rows[first + i], system.wanted[first + i]);
+        for (std::size_t i = begin; i < end; ++i)
+            bending_row(term, term.hinges[i], system.rows[first + i], system.wanted[first + i]);
     });
 }
 

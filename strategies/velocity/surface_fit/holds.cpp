@@ -1,7 +1,8 @@
 #include "holds.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include <Eigen/Eigenvalues>
 
 namespace dsc::strategies::fit {
 namespace {
@@ -21,12 +22,13 @@ Vec3 common_normal(const surface::SurfaceView& view, std::size_t v) {
 
 }  // namespace
 
-void measure_holds(const surface::SurfaceView& view, std::span<const double> lengths, double along, double across, Workers* workers,
-                   std::vector<Hold>& holds) {
+void measure_holds(const surface::SurfaceView& view, std::span<const double> lengths, double along,
+                   double across, Workers* workers, std::vector<Hold>& holds) {
     holds.resize(view.vertex_count());
     for_blocks(workers, holds.size(), hold_block, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-            holds[v] = {along * lengths[v] * lengths[v], std::sqrt(along - across) * lengths[v] * common_normal(view, v)};
+            holds[v] = {along * lengths[v] * lengths[v],
+                        std::sqrt(along - across) * lengths[v] * common_normal(view, v)};
         }
     });
 }

@@ -11,9 +11,10 @@
 
 namespace dsc::strategies::fit {
 
-/// One hold per vertex: weight `across`, times its squared target length, along the direction in which the normals of its faces
-/// agree best (the first axis of the sum of area n n^T), and `along` in the other two. [step]
-void measure_holds(const surface::SurfaceView& view, std::span<const double> lengths, double along, double across, Workers* workers,
-                   std::vector<Hold>& holds);
+/// One hold per vertex: weight `across`, times its squared target length, along the direction in
+/// which the normals of its faces agree best (the first axis of the sum of area n n^T), and `along`
+/// in the other two. [step]
+void measure_holds(const surface::SurfaceView& view, std::span<const double> lengths, double along,
+                   double across, Workers* workers, std::vector<Hold>& holds);
 
 }  // namespace dsc::strategies::fit

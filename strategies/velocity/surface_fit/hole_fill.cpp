@@ -1,26 +1,31 @@
 #include "hole_fill.hpp"
 
+#include <algorithm>
+
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
-#include <algorithm>
 
 namespace dsc::strategies::fit {
 namespace {
 
-constexpr double filled_beyond = 1.0;      // point widths
-constexpr std::size_t alike_neighbours = 2;  // with fewer, it is a vertex between points, not a hole
-constexpr std::size_t largest_part = 4;      // a hole contains at most a quarter of the surface's vertices
+constexpr double filled_beyond = 1.0;        // point widths
+constexpr std::size_t alike_neighbours = 2;  // with fewer, it is a vertex between points, not a
+                                             // hole
+constexpr std::size_t largest_part = 4;      // a hole contains at most a quarter of the surface's
+                                             // vertices
 constexpr int no_unknown = -1;
 
 /// The number of each unknown, per vertex.
 class HoleVertices {
 public:
-    HoleVertices(const SurfaceLinks& links, std::span<const double> gaps, std::span<const std::uint8_t> movable)
+    HoleVertices(const SurfaceLinks& links, std::span<const double> gaps,
+                 std::span<const std::uint8_t> movable)
         : links_(links), states_(gaps.size(), State::outside), unknown_(gaps.size(), no_unknown) {
         for (std::size_t v = 0; v < gaps.size(); ++v) {
             if (movable[v] == 0 || !(gaps[v] > filled_beyond)) continue;
             const auto near = links.neighbours_of(v);
-            const auto alike = std::count_if(near.begin(), near.end(), [&](std::uint32_t w) { return gaps[w] > filled_beyond; });
+            const auto alike = std::count_if(
+                near.begin(), near.end(), [&](std::uint32_t w) { return gaps[w] > filled_beyond; });
             if (static_cast<std::size_t>(alike) >= alike_neighbours) states_[v] = State::inside;
         }
         for (std::uint32_t v = 0; v < states_.size(); ++v) {
@@ -45,7 +50,8 @@ public:
 private:
     enum class State : std::uint8_t { outside, inside, seen };
 
-    // Collects the hole of a vertex, unless nothing surrounds it or it is larger than a hole: then that side was not scanned.
+    // Collects the hole of a vertex, unless nothing surrounds it or it is larger than a hole: then
+    // that side was not scanned.
     void take_piece(std::uint32_t start) {
         std::vector<std::uint32_t> piece = {start};
         states_[start] = State::seen;
@@ -73,13 +79,15 @@ private:
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Laplacian x = right: one equation per vertex of a hole or next to one, x - mean of the neighbours = 0.
+/// Laplacian x = right: one equation per vertex of a hole or next to one, x - mean of the
+/// neighbours = 0.
 struct Laplacian {
     SparseMatrix matrix;
     Eigen::MatrixX3d right;
 };
 
-Laplacian laplacian_of(const SurfaceLinks& links, const HoleVertices& hole, const std::vector<Vec3>& positions) {
+Laplacian laplacian_of(const SurfaceLinks& links, const HoleVertices& hole,
+                       const std::vector<Vec3>& positions) {
     const std::vector<std::uint32_t> centres = hole.with_ring();
     const auto equations = static_cast<Eigen::Index>(centres.size());
     const auto unknowns = static_cast<Eigen::Index>(hole.vertices().size());
@@ -89,8 +97,10 @@ Laplacian laplacian_of(const SurfaceLinks& links, const HoleVertices& hole, cons
         const std::uint32_t v = centres[static_cast<std::size_t>(e)];
         const auto add = [&](std::uint32_t w, double factor) {
             const int unknown = hole.unknown(w);
-            if (unknown != no_unknown) entries.emplace_back(static_cast<int>(e), unknown, factor);
-            else laplacian.right.row(e) -= factor * positions[w].transpose();
+            if (unknown != no_unknown)
+                entries.emplace_back(static_cast<int>(e), unknown, factor);
+            else
+                laplacian.right.row(e) -= factor * positions[w].transpose();
         };
         add(v, 1.0);
         const auto near = links.neighbours_of(v);
@@ -102,8 +112,8 @@ Laplacian laplacian_of(const SurfaceLinks& links, const HoleVertices& hole, cons
 
 }  // namespace
 
-std::size_t fill_holes(const SurfaceLinks& links, std::span<const double> gaps, std::span<const std::uint8_t> movable,
-                       std::vector<Vec3>& positions) {
+std::size_t fill_holes(const SurfaceLinks& links, std::span<const double> gaps,
+                       std::span<const std::uint8_t> movable, std::vector<Vec3>& positions) {
     const HoleVertices hole(links, gaps, movable);
     if (hole.vertices().empty()) return 0;
     const Laplacian laplacian = laplacian_of(links, hole, positions);

@@ -1,9 +1,10 @@
 #include "hole_fill.hpp"
 
 #include <algorithm>
+#include <cmath>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/sdk/surfaces.hpp>
 
 using dsc::Vec3;
@@ -28,12 +29,15 @@ TEST_CASE("a dented plane becomes flat over its hole, and nothing else moves") {
     for (std::size_t v = 0; v < positions.size(); ++v) {
         if (flat.points[v].norm() > 0.55) continue;
         gaps[v] = 1.5;
-        positions[v] += Vec3(0.03 * std::sin(20 * flat.points[v].y()), 0.0, -0.4 * (0.55 - flat.points[v].norm()));
+        positions[v] += Vec3(0.03 * std::sin(20 * flat.points[v].y()), 0.0,
+                             -0.4 * (0.55 - flat.points[v].norm()));
         ++inside;
     }
     const std::vector<Vec3> before = positions;
-    CHECK(fill_holes(links, gaps, std::vector<std::uint8_t>(positions.size(), 1), positions) == inside);
-    for (std::size_t v = 0; v < positions.size(); ++v) CHECK((positions[v] - flat.points[v]).norm() < 1e-10);
+    CHECK(fill_holes(links, gaps, std::vector<std::uint8_t>(positions.size(), 1), positions) ==
+          inside);
+    for (std::size_t v = 0; v < positions.size(); ++v)
+        CHECK((positions[v] - flat.points[v]).norm() < 1e-10);
     for (std::size_t v = 0; v < positions.size(); ++v) {
         if (gaps[v] < 1.0) CHECK(positions[v] == before[v]);
     }
@@ -57,7 +61,8 @@ TEST_CASE("a cap of a ball that sank returns to the ball") {
     CHECK(after < 0.2 * before);
 }
 
-TEST_CASE("gaps between points are not holes, fixed vertices stay, and a piece far from all points stays") {
+TEST_CASE("gaps between points are not holes, fixed vertices stay, and a piece far from all points "
+          "stays") {
     auto mesh = dsc::sdk::icosphere(2, 1.0);
     const auto links = links_of(mesh);
     std::vector<Vec3> positions = mesh.points;
@@ -71,9 +76,10 @@ TEST_CASE("gaps between points are not holes, fixed vertices stay, and a piece f
     CHECK(positions == mesh.points);
     for (std::size_t v = 0; v < gaps.size(); ++v) gaps[v] = mesh.points[v].z() > 0.7 ? 3.0 : 0.3;
     const auto in_cap = static_cast<std::size_t>(std::count(gaps.begin(), gaps.end(), 3.0));
-    const auto top = static_cast<std::size_t>(std::max_element(mesh.points.begin(), mesh.points.end(), [](const Vec3& a, const Vec3& b) {
-                                                  return a.z() < b.z();
-                                              }) - mesh.points.begin());
+    const auto top = static_cast<std::size_t>(
+        std::max_element(mesh.points.begin(), mesh.points.end(),
+                         [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); }) -
+        mesh.points.begin());
     std::vector<std::uint8_t> one_fixed = movable;
     one_fixed[top] = 0;
     CHECK(fill_holes(links, gaps, one_fixed, positions) == in_cap - 1);

@@ -6,8 +6,8 @@
 namespace dsc::strategies::fit {
 namespace {
 
-constexpr unsigned ring_rounds = 3;           // rounds of sums over rings: noise in the angles cancels
-constexpr double largest_angle = 0.5;         // radians: larger angles belong to creases, not to curvature
+constexpr unsigned ring_rounds = 3;    // rounds of sums over rings: noise in the angles cancels
+constexpr double largest_angle = 0.5;  // radians: larger angles belong to creases, not to curvature
 constexpr std::size_t curvature_block = 1024;  // vertices
 
 /// Numerator and denominator of the curvature.
@@ -18,14 +18,16 @@ struct BentArea {
 
 double angle_of(const surface::SurfaceView& view, const Hinge& hinge) {
     const Vec3 edge = view.positions[hinge.vertices[1]] - view.positions[hinge.vertices[0]];
-    const double sine = half_sine(view.face_normals[hinge.faces[0]], view.face_normals[hinge.faces[1]], edge);
-    return std::clamp(2.0 * std::asin(std::clamp(sine, -1.0, 1.0)), -largest_angle, largest_angle) * edge.norm();
+    const double sine =
+        half_sine(view.face_normals[hinge.faces[0]], view.face_normals[hinge.faces[1]], edge);
+    return std::clamp(2.0 * std::asin(std::clamp(sine, -1.0, 1.0)), -largest_angle, largest_angle) *
+           edge.norm();
 }
 
 }  // namespace
 
-void measure_curvature(const surface::SurfaceView& view, const SurfaceLinks& links, double largest, Workers* workers,
-                       std::vector<double>& curvature) {
+void measure_curvature(const surface::SurfaceView& view, const SurfaceLinks& links, double largest,
+                       Workers* workers, std::vector<double>& curvature) {
     const std::size_t count = view.vertex_count();
     std::vector<BentArea> sums(count);
     for (const Hinge& hinge : links.hinges) {
@@ -52,7 +54,8 @@ void measure_curvature(const surface::SurfaceView& view, const SurfaceLinks& lin
     }
     curvature.resize(count);
     for (std::size_t v = 0; v < count; ++v) {
-        curvature[v] = sums[v].area > 0.0 ? std::clamp(sums[v].bend / sums[v].area, -largest, largest) : 0.0;
+        curvature[v] =
+            sums[v].area > 0.0 ? std::clamp(sums[v].bend / sums[v].area, -largest, largest) : 0.0;
     }
 }
 

@@ -1,10 +1,11 @@
+#include <cmath>
+#include <numbers>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/random.hpp>
 #include <dsc/sdk/steps.hpp>
 #include <dsc/sdk/surfaces.hpp>
-#include <numbers>
 
 #include "bending_rows.hpp"
 #include "data_rows.hpp"
@@ -28,11 +29,13 @@ SurfaceView hinge_view(double angle, const Vec3& corner, const Vec3& other) {
     mesh.points = {Vec3::Zero(), Vec3(1, 0, 0), corner, fold * other};
     mesh.faces = {{0, 1, 2}, {1, 0, 3}};
     const Eigen::AngleAxisd turn(0.9, Vec3(3, -1, 2).normalized());
-    return dsc::sdk::view_of(dsc::sdk::moved(mesh, [&](const Vec3& p) { return Vec3(turn * p + Vec3(0.3, 0.2, -0.7)); }));
+    return dsc::sdk::view_of(dsc::sdk::moved(
+        mesh, [&](const Vec3& p) { return Vec3(turn * p + Vec3(0.3, 0.2, -0.7)); }));
 }
 
 struct Bending {
-    explicit Bending(const SurfaceView& view, std::span<const Vec3> normals, double length = 1.0, double width = 1.0) {
+    explicit Bending(const SurfaceView& view, std::span<const Vec3> normals, double length = 1.0,
+                     double width = 1.0) {
         build_links(view, links);
         system.rows.resize(links.hinges.size());
         system.wanted.resize(links.hinges.size());
@@ -53,7 +56,9 @@ dsc::surface::TriangleMesh tube(unsigned n, unsigned rows, double radius) {
     dsc::surface::TriangleMesh mesh;
     const double step = 2 * std::numbers::pi / n;
     for (unsigned j = 0; j <= rows; ++j) {
-        for (unsigned i = 0; i < n; ++i) mesh.points.emplace_back(radius * std::cos(step * i), radius * std::sin(step * i), step * radius * j);
+        for (unsigned i = 0; i < n; ++i)
+            mesh.points.emplace_back(radius * std::cos(step * i), radius * std::sin(step * i),
+                                     step * radius * j);
     }
     for (unsigned j = 0; j < rows; ++j) {
         for (unsigned i = 0; i < n; ++i) {
@@ -82,7 +87,8 @@ double mean_shrinkage(const dsc::surface::TriangleMesh& mesh, bool filtered, boo
     for (std::size_t v = 0; v < u.size(); ++v) {
         const bool rim = !round && (view.positions[v].z() < 0.3 || view.positions[v].z() > 0.9);
         if (rim) continue;
-        const Vec3 out = round ? view.positions[v] : Vec3(view.positions[v].x(), view.positions[v].y(), 0);
+        const Vec3 out =
+            round ? view.positions[v] : Vec3(view.positions[v].x(), view.positions[v].y(), 0);
         sum += u[v].dot(out.normalized());
         ++count;
     }
@@ -103,7 +109,9 @@ TEST_CASE("a bending row measures the angle of its hinge, and no rigid motion ch
         const double sine = 2 * std::sin(angle / 2);
         CHECK(scale * scale == doctest::Approx(3.0 / area / std::pow(1 + sine * sine / 0.09, 2)));
         CHECK(bending.applied(row, view.positions) == doctest::Approx(-scale * sine).epsilon(1e-9));
-        CHECK(bending.system.wanted[0] == doctest::Approx(scale * sine).epsilon(1e-9));  // to become flat
+        CHECK(bending.system.wanted[0] == doctest::Approx(scale * sine).epsilon(1e-9));  // to
+                                                                                         // become
+                                                                                         // flat
         std::vector<Vec3> u(4, Vec3(0.3, -2, 1));
         CHECK(std::abs(bending.applied(row, u)) < 1e-12 * scale);
         for (std::size_t v = 0; v < 4; ++v) u[v] = Vec3(1, 2, -0.5).cross(view.positions[v]);
@@ -129,21 +137,26 @@ TEST_CASE("balls and tubes do not shrink: bending aims at the angles of the filt
     CHECK(std::abs(mean_shrinkage(pipe, true, false)) < 0.1 * flat_pipe);
 }
 
-TEST_CASE("the filter keeps the normals of a ball and the two sides of a crease, and reduces noise") {
+TEST_CASE(
+    "the filter keeps the normals of a ball and the two sides of a crease, and reduces noise") {
     const SurfaceView ball = dsc::sdk::view_of(dsc::sdk::icosphere(4, 1.0));
     std::vector<Vec3> filtered;
-    filter_normals(ball, 4, 0.5, std::vector<double>(ball.vertex_count(), ball.mean_edge), nullptr, filtered);
-    for (std::size_t f = 0; f < ball.face_count(); ++f) CHECK((filtered[f] - ball.face_normals[f]).norm() < 0.02);
+    filter_normals(ball, 4, 0.5, std::vector<double>(ball.vertex_count(), ball.mean_edge), nullptr,
+                   filtered);
+    for (std::size_t f = 0; f < ball.face_count(); ++f)
+        CHECK((filtered[f] - ball.face_normals[f]).norm() < 0.02);
 
     auto roof = dsc::sdk::square(20, 1.0);
     dsc::RandomStream random(dsc::RandomKey{3, 1, 0, 0});
     for (Vec3& p : roof.points) p.z() = -std::abs(p.x()) + 0.01 * (random.uniform() - 0.5);
     const SurfaceView noisy = dsc::sdk::view_of(roof);
-    filter_normals(noisy, 4, 0.35, std::vector<double>(noisy.vertex_count(), noisy.mean_edge), nullptr, filtered);
+    filter_normals(noisy, 4, 0.35, std::vector<double>(noisy.vertex_count(), noisy.mean_edge),
+                   nullptr, filtered);
     double before = 0.0, after = 0.0;
     for (std::size_t f = 0; f < noisy.face_count(); ++f) {
         const auto& [a, b, c] = noisy.faces[f];
-        const double side = noisy.positions[a].x() + noisy.positions[b].x() + noisy.positions[c].x() > 0 ? 1 : -1;
+        const double side =
+            noisy.positions[a].x() + noisy.positions[b].x() + noisy.positions[c].x() > 0 ? 1 : -1;
         const Vec3 truth = Vec3(side, 0, 1).normalized();
         before += (noisy.face_normals[f] - truth).squaredNorm();
         after += (filtered[f] - truth).squaredNorm();
@@ -160,7 +173,8 @@ TEST_CASE("a ball of radius r has the mean curvature 1/r, seen from inside -1/r,
             build_links(view, links);
             std::vector<double> curvature;
             measure_curvature(view, links, 100, nullptr, curvature);
-            for (const double c : curvature) CHECK(c == doctest::Approx(sign / radius).epsilon(0.02));
+            for (const double c : curvature)
+                CHECK(c == doctest::Approx(sign / radius).epsilon(0.02));
             measure_curvature(view, links, 0.1, nullptr, curvature);
             for (const double c : curvature) CHECK(c == sign * 0.1);
             for (auto& face : mesh.faces) std::swap(face[1], face[2]);
@@ -171,15 +185,18 @@ TEST_CASE("a ball of radius r has the mean curvature 1/r, seen from inside -1/r,
 namespace {
 
 struct Data {
-    Data(const SurfaceView& view, const std::vector<Vec3>& points, double width, double noise, double reach, bool corrected) {
+    Data(const SurfaceView& view, const std::vector<Vec3>& points, double width, double noise,
+         double reach, bool corrected) {
         dsc::surface::nearest_faces(view, points, places);
         SurfaceLinks links;
         build_links(view, links);
         if (corrected) measure_curvature(view, links, 100, nullptr, curvature);
-        const std::vector<double> point_widths(points.size(), width), widths(view.vertex_count(), width);
+        const std::vector<double> point_widths(points.size(), width),
+            widths(view.vertex_count(), width);
         system.rows.resize(points.size());
         system.wanted.resize(points.size());
-        data_rows({view, points, places, point_widths, widths, curvature, noise, reach}, 0, system, fits, nullptr);
+        data_rows({view, points, places, point_widths, widths, curvature, noise, reach}, 0, system,
+                  fits, nullptr);
     }
     std::vector<dsc::surface::FacePoint> places;
     std::vector<double> curvature;
@@ -203,7 +220,8 @@ TEST_CASE("data rows are met exactly where the surface lies in the plane of the 
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Row& row = data.system.rows[i];
         Vec3 sum = Vec3::Zero();
-        for (std::size_t k = 0; k < 4; ++k) sum += row.factor[k] * Vec3(0, 0, height(view.positions[row.vertex[k]]));
+        for (std::size_t k = 0; k < 4; ++k)
+            sum += row.factor[k] * Vec3(0, 0, height(view.positions[row.vertex[k]]));
         CHECK(row.direction.dot(sum) == doctest::Approx(data.system.wanted[i]).epsilon(1e-12));
         const double ratio = data.fits[i].distance / 0.21;
         CHECK(data.fits[i].weight == doctest::Approx(0.01 / std::pow(1 + ratio * ratio, 2)));
@@ -212,7 +230,8 @@ TEST_CASE("data rows are met exactly where the surface lies in the plane of the 
 
 TEST_CASE("points beyond three reaches have no effect, those at 6 sigma count a quarter") {
     const SurfaceView view = dsc::sdk::view_of(dsc::sdk::square(6, 1.0));
-    const std::vector<Vec3> points = {Vec3(0, 0, 0.059), Vec3(0, 0, 0.061), Vec3(0, 0, -0.059), Vec3(0, 0, 0)};
+    const std::vector<Vec3> points = {Vec3(0, 0, 0.059), Vec3(0, 0, 0.061), Vec3(0, 0, -0.059),
+                                      Vec3(0, 0, 0)};
     const Data clean(view, points, 0.02, 0.0, 1.0, false);
     CHECK(clean.fits[0].weight > 0);
     CHECK(clean.fits[1].weight == 0);
@@ -240,12 +259,14 @@ TEST_CASE("the offset by which noise moves the mean of a ball's points is subtra
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Row& row = data.system.rows[i];
             const double outwards = row.direction.dot(points[i]) > 0 ? 1.0 : -1.0;
-            if (data.fits[i].weight > 0) sum += outwards * data.system.wanted[i] / row.direction.norm();
+            if (data.fits[i].weight > 0)
+                sum += outwards * data.system.wanted[i] / row.direction.norm();
         }
         return sum / static_cast<double>(points.size());
     };
     const double plain = mean_pull(false);
-    CHECK(plain == doctest::Approx(noise * noise / radius).epsilon(0.4));  // sigma^2 H, and the sagitta of the faces
+    CHECK(plain == doctest::Approx(noise * noise / radius).epsilon(0.4));  // sigma^2 H, and the
+                                                                           // sagitta of the faces
     CHECK(std::abs(mean_pull(true)) < 0.4 * plain);
 }
 
@@ -277,7 +298,8 @@ TEST_CASE("widths follow the nearby points if the spacing is uneven, gaps always
     }
     const dsc::cloud::TargetCloud cloud(dsc::cloud::Normalized{points, {}});
     REQUIRE(cloud.statistics().spread > 3);
-    const SurfaceView view = dsc::sdk::view_of(dsc::sdk::moved(dsc::sdk::square(40, 0.4), [](const Vec3& p) { return Vec3(p.x(), p.y(), 0.02); }));
+    const SurfaceView view = dsc::sdk::view_of(dsc::sdk::moved(
+        dsc::sdk::square(40, 0.4), [](const Vec3& p) { return Vec3(p.x(), p.y(), 0.02); }));
     SurfaceLinks links;
     build_links(view, links);
     dsc::hooks::StepContext context = dsc::sdk::step_context(view);

@@ -1,7 +1,8 @@
 #include "solver.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
+
+#include <Eigen/LU>
 
 namespace dsc::strategies::fit {
 namespace {
@@ -9,10 +10,13 @@ namespace {
 constexpr std::size_t solver_vertices = 512;  // per block
 constexpr std::size_t solver_rows = 2048;     // per block
 
-/// The inverse of a positive definite block; zero if it is not positive definite, for example without rows: such a vertex stays.
+/// The inverse of a positive definite block; zero if it is not positive definite, for example
+/// without rows: such a vertex stays.
 Eigen::Matrix3d inverse_of(const Eigen::Matrix3d& block) {
     const Eigen::Matrix3d inverse = block.inverse();
-    return inverse.allFinite() && block.determinant() > 0.0 ? inverse : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
+    return inverse.allFinite() && block.determinant() > 0.0
+               ? inverse
+               : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
 }
 
 }  // namespace
@@ -23,10 +27,12 @@ double Solver::sum() const {
     return total;
 }
 
-// Right-hand side and preconditioner. Vertices without rows do not move and have an inverse of zero.
+// Right-hand side and preconditioner. Vertices without rows do not move and have an inverse of
+// zero.
 void Solver::begin(const RowSystem& system, Workers* workers) {
     const std::size_t count = system.vertex_count();
-    for (std::vector<Vec3>* vector : {&residual_, &conditioned_, &direction_, &product_}) vector->assign(count, Vec3::Zero());
+    for (std::vector<Vec3>* vector : {&residual_, &conditioned_, &direction_, &product_})
+        vector->assign(count, Vec3::Zero());
     pull_.resize(system.rows.size());
     inverse_.resize(count);
     partial_.assign((count + solver_vertices - 1) / solver_vertices, 0.0);
@@ -36,7 +42,8 @@ void Solver::begin(const RowSystem& system, Workers* workers) {
             inverse_[v].setZero();
             if (entries.empty()) continue;
             const Hold& hold = system.holds[v];
-            Eigen::Matrix3d block = hold.along * Eigen::Matrix3d::Identity() - hold.axis * hold.axis.transpose();
+            Eigen::Matrix3d block =
+                hold.along * Eigen::Matrix3d::Identity() - hold.axis * hold.axis.transpose();
             Vec3 right = Vec3::Zero();
             for (const RowSystem::Entry& e : entries) {
                 const Vec3& n = system.rows[e.row].direction;
@@ -59,16 +66,18 @@ double Solver::multiply(const RowSystem& system, Workers* workers) {
             pull_[r] = row.direction.dot(moved) * row.direction;
         }
     });
-    for_blocks(workers, system.vertex_count(), solver_vertices, [&](std::size_t begin, std::size_t end) {
-        double part = 0.0;
-        for (std::size_t v = begin; v < end; ++v) {
-            Vec3 sum = system.holds[v].times(direction_[v]);
-            for (const RowSystem::Entry& e : system.entries_of(v)) sum += e.factor * pull_[e.row];
-            product_[v] = sum;
-            part += sum.dot(direction_[v]);
-        }
-        partial_[begin / solver_vertices] = part;
-    });
+    for_blocks(workers, system.vertex_count(), solver_vertices,
+               [&](std::size_t begin, std::size_t end) {
+                   double part = 0.0;
+                   for (std::size_t v = begin; v < end; ++v) {
+                       Vec3 sum = system.holds[v].times(direction_[v]);
+                       for (const RowSystem::Entry& e : system.entries_of(v))
+                           sum += e.factor * pull_[e.row];
+                       product_[v] = sum;
+                       part += sum.dot(direction_[v]);
+                   }
+                   partial_[begin / solver_vertices] = part;
+               });
     return sum();
 }
 
@@ -95,11 +104,14 @@ SolverReport Solver::solve(const RowSystem& system, const SolverOptions& options
     double left = start;
     double before = INFINITY;  // the first direction is the preconditioned residual alone
     SolverReport report;
-    while (left > options.tolerance * options.tolerance * start && report.iterations < options.most_iterations) {
+    while (left > options.tolerance * options.tolerance * start &&
+           report.iterations < options.most_iterations) {
         const double turn = left / before;
-        for_blocks(workers, direction_.size(), solver_vertices, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t v = begin; v < end; ++v) direction_[v] = conditioned_[v] + turn * direction_[v];
-        });
+        for_blocks(workers, direction_.size(), solver_vertices,
+                   [&](std::size_t begin, std::size_t end) {
+                       for (std::size_t v = begin; v < end; ++v)
+                           direction_[v] = conditioned_[v] + turn * direction_[v];
+                   });
         const double curvature = multiply(system, workers);
         if (!(curvature > 0.0) || !std::isfinite(curvature)) break;
         before = left;

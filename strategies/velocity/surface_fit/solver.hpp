@@ -9,7 +9,8 @@ namespace dsc::strategies::fit {
 
 struct SolverOptions {
     std::size_t most_iterations = 80;
-    double tolerance = 1e-3;  ///< of the preconditioned residual's length, relative to that at the start
+    double tolerance = 1e-3;  ///< of the preconditioned residual's length, relative to that at the
+                              ///< start
 };
 
 struct SolverReport {
@@ -20,10 +21,11 @@ struct SolverReport {
 /// Keeps its memory between calls.
 class Solver {
 public:
-    /// Minimises from zero displacements on [Hestenes1952], preconditioned by the 3 x 3 blocks of the diagonal; `displacements`
-    /// gets one entry per vertex, zero where a vertex has no row. All sums are over fixed blocks: the same bits for any
-    /// number of threads. [step]
-    SolverReport solve(const RowSystem& system, const SolverOptions& options, Workers* workers, std::vector<Vec3>& displacements);
+    /// Minimises from zero displacements on [Hestenes1952], preconditioned by the 3 x 3 blocks of
+    /// the diagonal; `displacements` gets one entry per vertex, zero where a vertex has no row. All
+    /// sums are over fixed blocks: the same bits for any number of threads. [step]
+    SolverReport solve(const RowSystem& system, const SolverOptions& options, Workers* workers,
+                       std::vector<Vec3>& displacements);
 
 private:
     void begin(const RowSystem& system, Workers* workers);

@@ -1,8 +1,8 @@
 #include "solver.hpp"
 
+#include <Eigen/Cholesky>
 #include <doctest/doctest.h>
 
-#include <Eigen/Cholesky>
 #include <dsc/base/random.hpp>
 
 using dsc::Vec3;
@@ -10,10 +10,14 @@ using namespace dsc::strategies::fit;
 
 namespace {
 
-Vec3 random_vector(dsc::RandomStream& random) { return {random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5}; }
+Vec3 random_vector(dsc::RandomStream& random) {
+    return {random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5};
+}
 
-/// Rows between random vertices with holds that differ by direction; every seventh vertex does not move.
-RowSystem random_system(std::uint32_t vertices, std::size_t rows, std::vector<std::uint8_t>& movable) {
+/// Rows between random vertices with holds that differ by direction; every seventh vertex does not
+/// move.
+RowSystem random_system(std::uint32_t vertices, std::size_t rows,
+                        std::vector<std::uint8_t>& movable) {
     dsc::RandomStream random(dsc::RandomKey{7, 1, 0, 0});
     RowSystem system;
     for (std::size_t r = 0; r < rows; ++r) {
@@ -28,7 +32,8 @@ RowSystem random_system(std::uint32_t vertices, std::size_t rows, std::vector<st
         system.rows.push_back(row);
         system.wanted.push_back(random.uniform() - 0.5);
     }
-    for (std::uint32_t v = 0; v < vertices; ++v) system.holds.push_back({0.05, std::sqrt(0.04) * random_vector(random).normalized()});
+    for (std::uint32_t v = 0; v < vertices; ++v)
+        system.holds.push_back({0.05, std::sqrt(0.04) * random_vector(random).normalized()});
     movable.assign(vertices, 1);
     for (std::uint32_t v = 0; v < vertices; v += 7) movable[v] = 0;
     gather_rows(system, movable);
@@ -44,18 +49,24 @@ std::vector<Vec3> dense_minimum(const RowSystem& system, const std::vector<std::
         Eigen::RowVectorXd line = Eigen::RowVectorXd::Zero(3 * count);
         for (std::size_t k = 0; k < 4; ++k) {
             const std::uint32_t v = system.rows[r].vertex[k];
-            if (movable[v] != 0) line.segment<3>(3 * v) += system.rows[r].factor[k] * system.rows[r].direction.transpose();
+            if (movable[v] != 0)
+                line.segment<3>(3 * v) +=
+                    system.rows[r].factor[k] * system.rows[r].direction.transpose();
         }
         matrix += line.transpose() * line;
         right += system.wanted[r] * line.transpose();
     }
     for (Eigen::Index v = 0; v < count; ++v) {
         const Hold& hold = system.holds[static_cast<std::size_t>(v)];
-        matrix.block<3, 3>(3 * v, 3 * v) += hold.along * Eigen::Matrix3d::Identity() - hold.axis * hold.axis.transpose();
+        matrix.block<3, 3>(3 * v, 3 * v) +=
+            hold.along * Eigen::Matrix3d::Identity() - hold.axis * hold.axis.transpose();
     }
     const Eigen::VectorXd solution = matrix.ldlt().solve(right);
     std::vector<Vec3> out;
-    for (Eigen::Index v = 0; v < count; ++v) out.emplace_back(movable[static_cast<std::size_t>(v)] != 0 ? Vec3(solution.segment<3>(3 * v)) : Vec3::Zero());
+    for (Eigen::Index v = 0; v < count; ++v)
+        out.emplace_back(movable[static_cast<std::size_t>(v)] != 0
+                             ? Vec3(solution.segment<3>(3 * v))
+                             : Vec3::Zero());
     return out;
 }
 
@@ -67,21 +78,25 @@ TEST_CASE("the solver finds the minimum that a dense factorisation finds") {
     const std::vector<Vec3> expected = dense_minimum(system, movable);
     Solver solver;
     std::vector<Vec3> found;
-    const SolverReport report = solver.solve(system, {.most_iterations = 500, .tolerance = 1e-12}, nullptr, found);
+    const SolverReport report =
+        solver.solve(system, {.most_iterations = 500, .tolerance = 1e-12}, nullptr, found);
     CHECK(report.residual <= 1e-12);
     REQUIRE(found.size() == expected.size());
     for (std::size_t v = 0; v < found.size(); ++v) {
-        if (movable[v] == 0 || !system.entries_of(v).empty()) CHECK((found[v] - expected[v]).norm() < 1e-9);
+        if (movable[v] == 0 || !system.entries_of(v).empty())
+            CHECK((found[v] - expected[v]).norm() < 1e-9);
     }
 }
 
-TEST_CASE("the solver stops at its tolerance or its limit of iterations, and is then closer to the solution") {
+TEST_CASE("the solver stops at its tolerance or its limit of iterations, and is then closer to the "
+          "solution") {
     std::vector<std::uint8_t> movable;
     const RowSystem system = random_system(400, 2500, movable);
     Solver solver;
     std::vector<Vec3> exact, found;
     solver.solve(system, {.most_iterations = 2000, .tolerance = 1e-13}, nullptr, exact);
-    const SolverReport few = solver.solve(system, {.most_iterations = 3, .tolerance = 1e-13}, nullptr, found);
+    const SolverReport few =
+        solver.solve(system, {.most_iterations = 3, .tolerance = 1e-13}, nullptr, found);
     CHECK(few.iterations == 3);
     const SolverReport usual = solver.solve(system, {}, nullptr, found);
     CHECK(usual.iterations > 3);

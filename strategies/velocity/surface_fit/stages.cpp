@@ -22,7 +22,8 @@ Scales scales_of(const cloud::Statistics& statistics, double noise) {
     return scales;
 }
 
-Stage stage_of(const Scales& scales, std::size_t iteration, std::size_t iterations, double smoothing) {
+Stage stage_of(const Scales& scales, std::size_t iteration, std::size_t iterations,
+               double smoothing) {
     const double s = scales.ratio;
     const auto it = static_cast<double>(iteration);
     const auto all = static_cast<double>(iterations);
@@ -35,8 +36,10 @@ Stage stage_of(const Scales& scales, std::size_t iteration, std::size_t iteratio
     stage.normal = 1e-3;
     stage.filter_rounds = s > 0.1 ? 4 : 1;
     stage.filter_range = std::min(0.8, 0.35 + s);
-    // Not with noisy points; and no vertex is held while a large bending length still has to move it.
-    stage.attach = !scales.even && scales.regular && s < cloud::noise_floor && it >= settling_part * all;
+    // Not with noisy points; and no vertex is held while a large bending length still has to move
+    // it.
+    stage.attach =
+        !scales.even && scales.regular && s < cloud::noise_floor && it >= settling_part * all;
     return stage;
 }
 

@@ -1,14 +1,15 @@
 // Tests of the velocity on surfaces beside known clouds; the plugin is loaded as in a run.
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/sdk/steps.hpp>
 #include <dsc/sdk/surfaces.hpp>
-#include <numbers>
-#include <sstream>
 
 namespace {
 
@@ -20,7 +21,8 @@ using dsc::surface::TriangleMesh;
 
 struct Bench {
     Bench() { host.load(DSC_TEST_PLUGIN); }
-    std::unique_ptr<dsc::hooks::VelocityField> make(const ConfigNode& params = ConfigNode::map()) const {
+    std::unique_ptr<dsc::hooks::VelocityField> make(
+        const ConfigNode& params = ConfigNode::map()) const {
         return host.create<dsc::hooks::VelocityField>({"surface_fit", params}, "velocity");
     }
     dsc::host::Host host;
@@ -28,14 +30,16 @@ struct Bench {
 
 TargetCloud cloud_of(std::vector<Vec3> points) { return TargetCloud({std::move(points), {}}); }
 
-std::vector<Vec3> step(dsc::hooks::VelocityField& field, const SurfaceView& view, const TargetCloud& cloud, std::uint64_t number) {
+std::vector<Vec3> step(dsc::hooks::VelocityField& field, const SurfaceView& view,
+                       const TargetCloud& cloud, std::uint64_t number) {
     dsc::hooks::StepContext context = dsc::sdk::step_context(view, number);
     context.cloud = &cloud;
     return dsc::sdk::displacements(field, context);
 }
 
 /// Runs this number of steps without a kernel, from step `first` on.
-void deform(dsc::hooks::VelocityField& field, TriangleMesh& mesh, const TargetCloud& cloud, std::uint64_t first, std::uint64_t steps) {
+void deform(dsc::hooks::VelocityField& field, TriangleMesh& mesh, const TargetCloud& cloud,
+            std::uint64_t first, std::uint64_t steps) {
     for (std::uint64_t i = 0; i < steps; ++i) {
         const std::vector<Vec3> out = step(field, dsc::sdk::view_of(mesh), cloud, first + i);
         for (std::size_t v = 0; v < out.size(); ++v) mesh.points[v] += out[v];
@@ -47,7 +51,8 @@ std::vector<Vec3> ball_points(std::size_t count, double radius) {
     std::vector<Vec3> points;
     for (std::size_t i = 0; i < count; ++i) {
         const double z = 1.0 - (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(count);
-        const double flat = std::sqrt(1.0 - z * z), turn = std::numbers::pi * (3.0 - std::sqrt(5.0)) * static_cast<double>(i);
+        const double flat = std::sqrt(1.0 - z * z),
+                     turn = std::numbers::pi * (3.0 - std::sqrt(5.0)) * static_cast<double>(i);
         points.push_back(radius * Vec3(flat * std::cos(turn), flat * std::sin(turn), z));
     }
     return points;
@@ -56,7 +61,8 @@ std::vector<Vec3> ball_points(std::size_t count, double radius) {
 TriangleMesh rough_ball(unsigned level, double radius, double roughness) {
     dsc::RandomStream random(dsc::RandomKey{2, 1, 0, 0});
     return dsc::sdk::moved(dsc::sdk::icosphere(level, radius), [&](const Vec3& p) {
-        return Vec3(p + roughness * Vec3(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5));
+        return Vec3(p + roughness * Vec3(random.uniform() - 0.5, random.uniform() - 0.5,
+                                         random.uniform() - 0.5));
     });
 }
 
@@ -92,7 +98,8 @@ TEST_CASE("a plane of points is reproduced, slope and all") {
     const Vec3 normal = Vec3(0.05, -0.03, 1).normalized();
     std::vector<Vec3> points;
     for (double x = -1; x <= 1; x += 0.05) {
-        for (double y = -1; y <= 1; y += 0.05) points.emplace_back(x, y, 0.02 - (normal.x() * x + normal.y() * y) / normal.z());
+        for (double y = -1; y <= 1; y += 0.05)
+            points.emplace_back(x, y, 0.02 - (normal.x() * x + normal.y() * y) / normal.z());
     }
     const TargetCloud cloud = cloud_of(points);
     TriangleMesh mesh = dsc::sdk::square(10, 0.8);
@@ -113,7 +120,8 @@ TEST_CASE("a rough ball settles on the ball of its points, from inside and from 
         dsc::surface::nearest_faces(view, cloud.points(), places);
         double sum = 0.0;
         for (const auto& place : places) sum += place.distance;
-        CHECK(sum / 4000 < 5e-4);  // a face of this size lies 2e-3 below the ball on which its corners lie
+        CHECK(sum / 4000 < 5e-4);  // a face of this size lies 2e-3 below the ball on which its
+                                   // corners lie
         CHECK(field->finished());
     }
 }
@@ -156,8 +164,10 @@ TEST_CASE("moved and turned, surface and cloud give the displacements moved and 
     const TargetCloud cloud = cloud_of(points), moved_cloud = cloud_of(there);
     const auto field = bench.make(), moved_field = bench.make();
     const auto out = step(*field, dsc::sdk::view_of(mesh), cloud, 1);
-    const auto moved_out = step(*moved_field, dsc::sdk::view_of(dsc::sdk::moved(mesh, move)), moved_cloud, 1);
-    for (std::size_t v = 0; v < out.size(); ++v) CHECK((turn * out[v] - moved_out[v]).norm() < 1e-9);
+    const auto moved_out =
+        step(*moved_field, dsc::sdk::view_of(dsc::sdk::moved(mesh, move)), moved_cloud, 1);
+    for (std::size_t v = 0; v < out.size(); ++v)
+        CHECK((turn * out[v] - moved_out[v]).norm() < 1e-9);
 }
 
 TEST_CASE("the displacements have the same bits with any number of threads") {
@@ -215,7 +225,8 @@ TEST_CASE("the number of steps is fixed in the first: 14, 24 with holes, or as s
     }
     const auto planned = [&](const std::vector<Vec3>& points, std::uint64_t iterations) {
         const TargetCloud cloud = cloud_of(points);
-        const auto field = bench.make(ConfigNode::map({{"iterations", static_cast<int>(iterations)}}));
+        const auto field =
+            bench.make(ConfigNode::map({{"iterations", static_cast<int>(iterations)}}));
         CHECK(field->planned_steps() == iterations);
         step(*field, dsc::sdk::view_of(dsc::sdk::icosphere(3, 0.9)), cloud, 3);
         CHECK_FALSE(field->finished());
@@ -248,7 +259,10 @@ TEST_CASE("a hole is filled with the surface round it, beyond the usual length o
     });
     const auto worst_after = [&](bool filled) {
         TriangleMesh mesh = start;
-        const auto field = bench.make(ConfigNode::map({{"iterations", 1}, {"fill_holes", filled}}));  // the first step is the one
+        const auto field =
+            bench.make(ConfigNode::map({{"iterations", 1}, {"fill_holes", filled}}));  // the first
+                                                                                       // step is
+                                                                                       // the one
         deform(*field, mesh, cloud, 1, 1);
         double largest = 0.0;
         for (const Vec3& p : mesh.points) largest = std::max(largest, std::abs(p.norm() - 0.9));
@@ -272,7 +286,8 @@ TEST_CASE("vertices that cannot move stay, others move at most 0.7 target length
     const auto out = dsc::sdk::displacements(*field, context);
     CHECK(out[11] == Vec3::Zero());
     CHECK(out[5].norm() == doctest::Approx(0.7 * 0.02));
-    for (std::size_t v = 0; v < out.size(); ++v) CHECK(out[v].norm() < 0.7 * lengths[v] * (1 + 1e-12));
+    for (std::size_t v = 0; v < out.size(); ++v)
+        CHECK(out[v].norm() < 0.7 * lengths[v] * (1 + 1e-12));
     dsc::hooks::Attributes attributes;
     field->publish(attributes);
     REQUIRE(attributes.size() == 3);
@@ -283,7 +298,8 @@ TEST_CASE("vertices that cannot move stay, others move at most 0.7 target length
     CHECK(attributes[1].values[5] == near.distance / cloud.point_width(near.index));
 }
 
-TEST_CASE("the host need not provide the nearest faces, an empty surface has no displacements, and a cloud is needed") {
+TEST_CASE("the host need not provide the nearest faces, an empty surface has no displacements, and "
+          "a cloud is needed") {
     const Bench bench;
     const TargetCloud cloud = cloud_of(ball_points(500, 0.9));
     const SurfaceView view = dsc::sdk::view_of(dsc::sdk::icosphere(2, 0.85));
@@ -297,7 +313,8 @@ TEST_CASE("the host need not provide the nearest faces, an empty surface has no 
     CHECK(out == expected);
     CHECK(field->planned_steps() == 0);
     CHECK(step(*field, dsc::sdk::view_of({}), cloud, 1).empty());
-    CHECK_THROWS_WITH_AS(bench.make()->advance(dsc::sdk::step_context(view)),
-                         "velocity 'surface_fit': the experiment has no cloud; add input: {cloud: {file: "
-                         "...}}", dsc::ConfigError);
+    CHECK_THROWS_WITH_AS(
+        bench.make()->advance(dsc::sdk::step_context(view)),
+        "velocity 'surface_fit': the experiment has no cloud; add input: {cloud: {file: ...}}",
+        dsc::ConfigError);
 }

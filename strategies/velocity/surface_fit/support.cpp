@@ -14,8 +14,8 @@ struct PointSums {
 
 }  // namespace
 
-void measure_support(const surface::SurfaceView& view, std::span<const surface::FacePoint> places, std::span<const PointFit> fits,
-                     Support& support) {
+void measure_support(const surface::SurfaceView& view, std::span<const surface::FacePoint> places,
+                     std::span<const PointFit> fits, Support& support) {
     const std::size_t count = view.vertex_count();
     std::vector<PointSums> sums(count);
     for (std::size_t i = 0; i < fits.size(); ++i) {

@@ -7,23 +7,28 @@ namespace {
 
 /// Whether a face contains the edge in the direction from -> to.
 bool runs(const std::array<std::uint32_t, 3>& face, std::uint32_t from, std::uint32_t to) {
-    return (face[0] == from && face[1] == to) || (face[1] == from && face[2] == to) || (face[2] == from && face[0] == to);
+    return (face[0] == from && face[1] == to) || (face[1] == from && face[2] == to) ||
+           (face[2] == from && face[0] == to);
 }
 
-std::uint32_t corner_off(const std::array<std::uint32_t, 3>& face, std::uint32_t a, std::uint32_t b) {
+std::uint32_t corner_off(const std::array<std::uint32_t, 3>& face, std::uint32_t a,
+                         std::uint32_t b) {
     for (const std::uint32_t v : face) {
         if (v != a && v != b) return v;
     }
     return a;
 }
 
-void add_hinge(const surface::SurfaceView& view, const surface::ViewEdge& edge, std::vector<Hinge>& hinges) {
+void add_hinge(const surface::SurfaceView& view, const surface::ViewEdge& edge,
+               std::vector<Hinge>& hinges) {
     if (edge.face_count != 2) return;
     const auto [a, b] = edge.vertices;
     auto [first, second] = edge.faces;
     if (!runs(view.faces[first], a, b)) std::swap(first, second);
     if (!runs(view.faces[first], a, b) || !runs(view.faces[second], b, a)) return;
-    hinges.push_back({{a, b, corner_off(view.faces[first], a, b), corner_off(view.faces[second], a, b)}, {first, second}});
+    hinges.push_back(
+        {{a, b, corner_off(view.faces[first], a, b), corner_off(view.faces[second], a, b)},
+         {first, second}});
 }
 
 }  // namespace

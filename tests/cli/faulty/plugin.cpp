@@ -1,10 +1,11 @@
 // A velocity that misbehaves on demand, for tests of what the command makes of it.
 #include <cstdio>
 #include <cstdlib>
-#include <dsc/plugin/plugin.hpp>
 #include <iostream>
 #include <limits>
 #include <stdexcept>
+
+#include <dsc/plugin/plugin.hpp>
 
 namespace {
 
@@ -18,8 +19,14 @@ public:
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema
             .choice("fault", &Params::fault,
-                    {{"none", Fault::none}, {"throws", Fault::throws}, {"nan", Fault::nan}, {"outside", Fault::outside},
-                     {"exits", Fault::exits}, {"quick_exits", Fault::quick_exits}, {"ends", Fault::ends}, {"prints", Fault::prints}})
+                    {{"none", Fault::none},
+                     {"throws", Fault::throws},
+                     {"nan", Fault::nan},
+                     {"outside", Fault::outside},
+                     {"exits", Fault::exits},
+                     {"quick_exits", Fault::quick_exits},
+                     {"ends", Fault::ends},
+                     {"prints", Fault::prints}})
             .doc("What goes wrong.");
         schema.integer("step", &Params::step).at_least(0).unit("steps").doc("In which step.");
     }

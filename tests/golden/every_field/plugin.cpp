@@ -1,12 +1,14 @@
-// A velocity that stands still and declares a parameter of every type, with every attribute that a declaration may have.
+// A velocity that stands still and declares a parameter of every type, with every attribute that a
+// declaration may have.
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <dsc/plugin/plugin.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <dsc/plugin/plugin.hpp>
 
 namespace {
 
@@ -16,7 +18,12 @@ struct Inner {
     double weight = 1.0;
     bool on = true;
     static void declare(dsc::config::ParamSchema<Inner>& s) {
-        s.real("weight", &Inner::weight).range(0, 1).open_low().required().unit("1").doc("Must be given.");
+        s.real("weight", &Inner::weight)
+            .range(0, 1)
+            .open_low()
+            .required()
+            .unit("1")
+            .doc("Must be given.");
         s.boolean("on", &Inner::on).doc("Need not be given.");
         s.check([](const Inner& p) { return p.on || p.weight < 1; }, "a weight of 1 must be on");
         s.deprecated("heaviness", "weight");
@@ -77,31 +84,47 @@ void declare_scalars(dsc::config::ParamSchema<Params>& s) {
         .advanced()
         .doc("Both ends open.");
     s.real("below", &Params::below).at_most(0).unit("length").doc("One end, closed.");
-    s.real("radius", &Params::radius).greater(0).unit("length").doc("One end, open; may stay unset.");
+    s.real("radius", &Params::radius)
+        .greater(0)
+        .unit("length")
+        .doc("One end, open; may stay unset.");
     s.string("label", &Params::label).doc("Any text | even with a bar.");
     s.string("remark", &Params::remark).doc("Text that may stay unset.");
     s.choice("mode", &Params::mode, {{"near", Mode::near}, {"far", Mode::far}}).doc("One of two.");
     s.choice("other_mode", &Params::other_mode, {{"near", Mode::near}, {"far", Mode::far}})
         .doc("One of two or unset.");
     s.file("file", &Params::file).required().doc("Any file, must be given.");
-    s.file("page", &Params::page).extensions({".md", ".txt"}).doc("A file with an extension, or none.");
+    s.file("page", &Params::page)
+        .extensions({".md", ".txt"})
+        .doc("A file with an extension, or none.");
     s.file("table", &Params::table).extensions({".csv"}).doc("A file that may stay unset.");
 }
 
 void declare_others(dsc::config::ParamSchema<Params>& s) {
     s.vec3("axis", &Params::axis).range(-1, 1).unit("1").doc("Three numbers, bounded each.");
-    s.integers("sizes", &Params::sizes).at_least(1).size(1, 3).doc("Integers, one to three of them.");
-    s.reals("levels", &Params::levels).range(0, 1).open_high().size(1).doc("Numbers, one at least.");
+    s.integers("sizes", &Params::sizes)
+        .at_least(1)
+        .size(1, 3)
+        .doc("Integers, one to three of them.");
+    s.reals("levels", &Params::levels)
+        .range(0, 1)
+        .open_high()
+        .size(1)
+        .doc("Numbers, one at least.");
     s.strings("words", &Params::words).size(0, 2).doc("Two words at most.");
     s.strings("formats", &Params::formats).choices({"obj", "ply"}).doc("Words out of two.");
-    s.object("inner", &Params::inner, Inner::declare).doc("A map with something that must be given.");
+    s.object("inner", &Params::inner, Inner::declare)
+        .doc("A map with something that must be given.");
     s.object("maybe", &Params::maybe, Inner::declare).doc("The same, may stay unset.");
     s.list("steps", &Params::steps, Step::declare).size(0, 2).doc("Two maps at most.");
     s.strategy("curvature", &Params::curvature, "curvature").doc("A strategy, must be given.");
-    s.strategy("second", &Params::second, "curvature").optional().doc("A strategy that may stay unset.");
+    s.strategy("second", &Params::second, "curvature")
+        .optional()
+        .doc("A strategy that may stay unset.");
     s.strategies("curvatures", &Params::curvatures, "curvature").doc("Any number of strategies.");
     s.check([](const Params& p) { return p.count != 7; }, "count must not be 7");
-    s.check([](const Params& p) { return p.mode == Mode::near || p.radius; }, "mode: far needs a radius");
+    s.check([](const Params& p) { return p.mode == Mode::near || p.radius; },
+            "mode: far needs a radius");
     s.deprecated("number", "count");
     s.deprecated("source", "file");
 }

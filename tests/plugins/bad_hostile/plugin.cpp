@@ -44,7 +44,8 @@ public:
     struct Params {};
     static void declare(dsc::config::ParamSchema<Params>&) {}
     AsksTwice(const Params&, const dsc::plugin::Setup&) {}
-    void refine(const dsc::hooks::RefinementContext& context, dsc::hooks::RefinementRequests& out) override {
+    void refine(const dsc::hooks::RefinementContext& context,
+                dsc::hooks::RefinementRequests& out) override {
         if (context.step.surface.face_count() > 0) out.split_faces = {0, 0};
     }
 };
@@ -55,7 +56,8 @@ public:
     static void declare(dsc::config::ParamSchema<Params>&) {}
     WrongSizing(const Params&, const dsc::plugin::Setup&) {}
     bool owns_sizing() const override { return true; }
-    void refine(const dsc::hooks::RefinementContext& context, dsc::hooks::RefinementRequests& out) override {
+    void refine(const dsc::hooks::RefinementContext& context,
+                dsc::hooks::RefinementRequests& out) override {
         out.target_lengths.assign(context.step.surface.face_count(), 0.1);
     }
 };

@@ -14,7 +14,10 @@ class Furlongs final : public Gained {
 public:
     using Gained::Gained;
     static void declare(ParamSchema<Params>& schema) {
-        schema.real("gain", &Params::gain).range(0, 1).unit("furlongs").doc("How far along the normals.");
+        schema.real("gain", &Params::gain)
+            .range(0, 1)
+            .unit("furlongs")
+            .doc("How far along the normals.");
     }
 };
 

@@ -1,9 +1,10 @@
 // A sound plugin with two strategies; one nests the other.
 #include <algorithm>
-#include <dsc/plugin/plugin.hpp>
 #include <istream>
 #include <ostream>
 #include <stdexcept>
+
+#include <dsc/plugin/plugin.hpp>
 
 namespace {
 
@@ -17,7 +18,8 @@ public:
     }
     Constant(const Params& params, const dsc::plugin::Setup&) : value_(params.value) {}
     void prepare(const dsc::hooks::StepContext&) override {}
-    void evaluate(dsc::hooks::Range, std::span<double> scalar, std::span<dsc::Vec3> vector) const override {
+    void evaluate(dsc::hooks::Range, std::span<double> scalar,
+                  std::span<dsc::Vec3> vector) const override {
         std::fill(scalar.begin(), scalar.end(), value_);
         std::fill(vector.begin(), vector.end(), dsc::Vec3::Zero());
     }
@@ -38,7 +40,9 @@ public:
             .range(0, 1)
             .unit("length")
             .doc("Displacement along z in a step.");
-        schema.strategy("curvature", &Params::curvature, "curvature").optional().doc("Multiplies the speed.");
+        schema.strategy("curvature", &Params::curvature, "curvature")
+            .optional()
+            .doc("Multiplies the speed.");
     }
     Upwards(const Params& params, const dsc::plugin::Setup& setup)
         : speed_(params.speed),
@@ -53,7 +57,8 @@ public:
             double factor = 1;
             dsc::Vec3 unused;
             if (curvature_)
-                curvature_->evaluate({range.begin + i, range.begin + i + 1}, {&factor, 1}, {&unused, 1});
+                curvature_->evaluate({range.begin + i, range.begin + i + 1}, {&factor, 1},
+                                     {&unused, 1});
             out[i] = dsc::Vec3(0, 0, factor * speed_);
         }
     }

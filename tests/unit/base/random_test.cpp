@@ -1,9 +1,9 @@
-#include <dsc/base/random.hpp>
+#include <cmath>
+#include <set>
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <set>
+#include <dsc/base/random.hpp>
 
 using dsc::RandomKey;
 using dsc::RandomStream;
@@ -16,9 +16,10 @@ TEST_CASE("a stream depends on its key alone") {
 
 TEST_CASE("every field of the key matters") {
     std::set<std::uint64_t> seen;
-    for (const RandomKey& key : {RandomKey{1, 1, 1, 1}, RandomKey{2, 1, 1, 1}, RandomKey{1, 2, 1, 1},
-                                 RandomKey{1, 1, 2, 1}, RandomKey{1, 1, 1, 2}, RandomKey{1ULL << 40U, 1, 1, 1},
-                                 RandomKey{1, 1, 1, 1ULL << 40U}, RandomKey{1, 1, 1ULL << 40U, 1}}) {
+    for (const RandomKey& key :
+         {RandomKey{1, 1, 1, 1}, RandomKey{2, 1, 1, 1}, RandomKey{1, 2, 1, 1},
+          RandomKey{1, 1, 2, 1}, RandomKey{1, 1, 1, 2}, RandomKey{1ULL << 40U, 1, 1, 1},
+          RandomKey{1, 1, 1, 1ULL << 40U}, RandomKey{1, 1, 1ULL << 40U, 1}}) {
         RandomStream stream(key);
         seen.insert((static_cast<std::uint64_t>(stream()) << 32U) | stream());
     }

@@ -1,11 +1,11 @@
-#include <dsc/base/workers.hpp>
-
-#include <doctest/doctest.h>
-
 #include <atomic>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include <doctest/doctest.h>
+
+#include <dsc/base/workers.hpp>
 
 TEST_CASE("every index is visited once, whatever the number of threads") {
     for (const unsigned threads : {1U, 2U, 5U}) {

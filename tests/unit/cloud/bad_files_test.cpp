@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <doctest/doctest.h>
+
 #include <dsc/cloud/read.hpp>
 
 #include "files.hpp"
@@ -49,7 +50,8 @@ const std::string obj_remedy =
     "a 'v' line is 'v x y z' or 'v x y z r g b'; the file may be cut off, write it again";
 const std::string xyz_remedy =
     "a point needs x, y and z, separated by blanks, commas or semicolons; the file may be cut off";
-const std::string finite_remedy = "is not a finite number; remove the point or write its true coordinates";
+const std::string finite_remedy =
+    "is not a finite number; remove the point or write its true coordinates";
 const std::string cut = "; the file is cut off, write it again";
 const std::string again = "; save the cloud again";
 const std::string header = "; correct the line or export the file again";
@@ -62,11 +64,13 @@ TEST_CASE("what is no readable file is refused") {
     for (const std::string extension : {"xyz", "obj", "ply", "pcd"}) {
         const std::string missing = "missing." + extension, empty = "empty." + extension,
                           sub = "folder." + extension;
-        CHECK(read_error(folder, missing) == "io.missing 6: " + missing + ": does not exist; check the path");
+        CHECK(read_error(folder, missing) ==
+              "io.missing 6: " + missing + ": does not exist; check the path");
         CHECK(read_error(folder, empty, "") ==
               "io.empty 6: " + empty + ": the file is empty; write the cloud again");
         std::filesystem::create_directory(folder.path(sub));
-        CHECK(read_error(folder, sub) == "io.directory 6: " + sub + ": is a folder; name a file in it");
+        CHECK(read_error(folder, sub) ==
+              "io.directory 6: " + sub + ": is a folder; name a file in it");
     }
     folder.write("file", "x");
     CHECK(read_error(folder, "file/inside.xyz") ==
@@ -74,18 +78,19 @@ TEST_CASE("what is no readable file is refused") {
     // Even root cannot read the start of this one.
     std::filesystem::create_symlink("/proc/self/mem", folder.path("memory.xyz"));
     CHECK(read_error(folder, "memory.xyz") ==
-          "io.unreadable 6: memory.xyz: cannot be read: Input/output error; check its permissions and the "
-          "disk");
+          "io.unreadable 6: memory.xyz: cannot be read: Input/output error; check its permissions "
+          "and the disk");
     std::filesystem::create_symlink("/dev/zero", folder.path("zero.ply"));
     CHECK(read_error(folder, "zero.ply") ==
           "io.unreadable 6: zero.ply: is not a regular file; copy its content into a file first");
     if (::geteuid() == 0) {
         MESSAGE("skipped: permissions do not hold for root");
     } else {
-        std::filesystem::permissions(folder.write("locked.obj", "v 1 2 3\n"), std::filesystem::perms::none);
+        std::filesystem::permissions(folder.write("locked.obj", "v 1 2 3\n"),
+                                     std::filesystem::perms::none);
         CHECK(read_error(folder, "locked.obj") ==
-              "io.unreadable 6: locked.obj: cannot be read: Permission denied; check its permissions and the "
-              "disk");
+              "io.unreadable 6: locked.obj: cannot be read: Permission denied; check its "
+              "permissions and the disk");
     }
 }
 
@@ -93,15 +98,14 @@ TEST_CASE("formats that are not read are refused with a way out") {
     const test::Folder folder;
     const std::string accepted = "accepted are .pcd .ply .obj .xyz .txt .asc .pts .csv";
     CHECK(read_error(folder, "scan.las", "LASF") ==
-          "io.format 6: scan.las: las files are not supported; convert it first: pdal translate scan.las "
-          "scan.ply");
+          "io.format 6: scan.las: las files are not supported; convert it first: pdal translate "
+          "scan.las scan.ply");
     CHECK(read_error(folder, "scan.LAZ", "LASF") ==
-          "io.format 6: scan.LAZ: laz files are not supported; convert it first: pdal translate scan.LAZ "
-          "scan.ply");
+          "io.format 6: scan.LAZ: laz files are not supported; convert it first: pdal translate "
+          "scan.LAZ scan.ply");
     CHECK(read_error(folder, "scan.e57", "ASTM-E57") ==
-          "io.format 6: scan.e57: e57 files are not supported; convert it first: pdal translate scan.e57 "
-          "scan.ply, or "
-          "save it as PLY with CloudCompare");
+          "io.format 6: scan.e57: e57 files are not supported; convert it first: pdal translate "
+          "scan.e57 scan.ply, or save it as PLY with CloudCompare");
     CHECK(read_error(folder, "scan.stl", "solid") ==
           "io.format 6: scan.stl: '.stl' is not a supported cloud format; " + accepted);
     CHECK(read_error(folder, "scan", "1 2 3") ==
@@ -110,9 +114,9 @@ TEST_CASE("formats that are not read are refused with a way out") {
 
 TEST_CASE("bad OBJ files") {
     const test::Folder folder;
-    CHECK(
-        read_error(folder, "a.obj", "# nothing\nf 1 2 3\nvn 0 0 1\n") ==
-        "io.no_points 6: a.obj: the file has no points; a cloud in OBJ has a line 'v x y z' for each point");
+    CHECK(read_error(folder, "a.obj", "# nothing\nf 1 2 3\nvn 0 0 1\n") ==
+          "io.no_points 6: a.obj: the file has no points; a cloud in OBJ has a line 'v x y z' for "
+          "each point");
     CHECK(read_error(folder, "a.obj", "v 1 2 3\nv 4 5") ==
           "io.syntax 6: a.obj:2: the vertex has 2 numbers; " + obj_remedy);
     CHECK(read_error(folder, "a.obj", "v 1 2 3\nv\nv 1 2 3\n") ==
@@ -120,14 +124,17 @@ TEST_CASE("bad OBJ files") {
     CHECK(read_error(folder, "a.obj", "v 1 2 3 1 0\n") ==
           "io.syntax 6: a.obj:1: the vertex has 5 numbers; " + obj_remedy);
     CHECK(read_error(folder, "a.obj", "v 1 2 3 1 0 1\nv 1 2 3 1") ==
-          "io.syntax 6: a.obj:2: the vertex has 4 numbers, the previous one has more; " + obj_remedy);
+          "io.syntax 6: a.obj:2: the vertex has 4 numbers, the previous one has more; " +
+              obj_remedy);
     CHECK(read_error(folder, "a.obj", "v 1 2 3\nv 1 2 -\n") ==
           "io.syntax 6: a.obj:2: '-' is not a number; a point needs three numbers");
     CHECK(read_error(folder, "a.obj", "v 1,5 2 3\n") ==
-          "io.syntax 6: a.obj:1: '1,5' is not a number; write decimals with a point, not with a comma");
+          "io.syntax 6: a.obj:1: '1,5' is not a number; write decimals with a point, not with a "
+          "comma");
     CHECK(read_error(folder, "a.obj", "v 1 2 3\r\n\r\nv 1 nan 3\r\n") ==
           "io.non_finite 6: a.obj:3: 'nan' " + finite_remedy);
-    CHECK(read_error(folder, "a.obj", "v 1 2 -inf\n") == "io.non_finite 6: a.obj:1: '-inf' " + finite_remedy);
+    CHECK(read_error(folder, "a.obj", "v 1 2 -inf\n") ==
+          "io.non_finite 6: a.obj:1: '-inf' " + finite_remedy);
     CHECK(read_error(folder, "a.obj", "v 1 2 1e999\n") ==
           "io.non_finite 6: a.obj:1: '1e999' " + finite_remedy);
     CHECK(read_error(folder, "a.obj", std::string("v 1 2 \0\x01zz\n", 11)) ==
@@ -137,7 +144,8 @@ TEST_CASE("bad OBJ files") {
 TEST_CASE("bad XYZ files") {
     const test::Folder folder;
     CHECK(read_error(folder, "a.xyz", "# only\n\n// comments\nx y z\n") ==
-          "io.no_points 6: a.xyz: the file has no points; a text cloud has one line 'x y z' per point");
+          "io.no_points 6: a.xyz: the file has no points; a text cloud has one line 'x y z' per "
+          "point");
     CHECK(read_error(folder, "a.txt", "1 2 3\n4 5\n") ==
           "io.syntax 6: a.txt:2: the line has 2 columns; " + xyz_remedy);
     CHECK(read_error(folder, "a.asc", "1 2 3 255 0 0\n4 5 6 25") ==
@@ -145,9 +153,11 @@ TEST_CASE("bad XYZ files") {
     CHECK(read_error(folder, "a.csv", "x,y,z\n1,,3\n") ==
           "io.syntax 6: a.csv:2: column 2 is empty; a point needs x, y and z");
     CHECK(read_error(folder, "a.csv", "x;y;z\n4,5;5,5;6,5\n") ==
-          "io.syntax 6: a.csv:2: '4,5' is not a number; write decimals with a point, not with a comma");
+          "io.syntax 6: a.csv:2: '4,5' is not a number; write decimals with a point, not with a "
+          "comma");
     CHECK(read_error(folder, "a.xyz", "1.5 2.5 3.5\n1,5 2,5 3,5\n") ==
-          "io.syntax 6: a.xyz:2: '1,5' is not a number; write decimals with a point, not with a comma");
+          "io.syntax 6: a.xyz:2: '1,5' is not a number; write decimals with a point, not with a "
+          "comma");
     CHECK(read_error(folder, "a.csv", "1.5;2.5;3.5\n4;5 6;7;8\n") ==
           "io.syntax 6: a.csv:2: '5 6' is not a number; a point needs three numbers");
     CHECK(read_error(folder, "a.xyz", "1 2 3\nx y z\n") ==
@@ -159,28 +169,35 @@ TEST_CASE("bad XYZ files") {
     CHECK(read_error(folder, "a.pts", "3\n1 2 3\n4 5 6\n") ==
           "io.truncated 6: a.pts:1: the count line announces 3 points, the file has 2" + cut);
     CHECK(read_error(folder, "a.pts", "18446744073709551615\n1 2 3\n") ==
-          "io.truncated 6: a.pts:1: the count line announces 18446744073709551615 points, the file has 1" +
+          "io.truncated 6: a.pts:1: the count line announces 18446744073709551615 points, the file "
+          "has 1" +
               cut);
     CHECK(read_error(folder, "a.pts", "1\n1 2 3\n4 5 6\n") ==
-          "io.syntax 6: a.pts:1: the count line announces 1 point, the file has 2; correct the count");
+          "io.syntax 6: a.pts:1: the count line announces 1 point, the file has 2; correct the "
+          "count");
 }
 
 TEST_CASE("bad PCD headers") {
     const test::Folder folder;
     const std::string three = "1 2 3\n4 5 6\n7 8 9\n";
-    const auto error = [&](const std::string& text) { return read_error(folder, "a.pcd", text + three); };
+    const auto error = [&](const std::string& text) {
+        return read_error(folder, "a.pcd", text + three);
+    };
     REQUIRE(error(pcd("3", "ascii")) == "no error");
-    CHECK(error("hello\n") == "io.syntax 6: a.pcd:1: 'hello' is not an entry of a PCD header" + again);
+    CHECK(error("hello\n") ==
+          "io.syntax 6: a.pcd:1: 'hello' is not an entry of a PCD header" + again);
     CHECK(read_error(folder, "a.pcd", "VERSION 0.7\nFIELDS x y z\n") ==
-          "io.truncated 6: a.pcd: the PCD header has no line DATA; the file is truncated or not a PCD file; "
-          "write it again");
+          "io.truncated 6: a.pcd: the PCD header has no line DATA; the file is truncated or not a "
+          "PCD file; write it again");
     CHECK(error(pcd("0", "ascii")) == "io.no_points 6: a.pcd: the file has no points" + again);
     CHECK(error(pcd("-3", "ascii")) ==
           "io.syntax 6: a.pcd:6: '-3' is not a count between 0 and 2147483647" + again);
     CHECK(error(pcd("99999999999", "ascii")) ==
           "io.syntax 6: a.pcd:6: '99999999999' is not a count between 0 and 2147483647" + again);
     CHECK(error(pcd("3", "ascii", "x y w")) ==
-          "io.syntax 6: a.pcd:10: a point needs the fields x, y and z exactly once; 'z' does not occur exactly once" + again);
+          "io.syntax 6: a.pcd:10: a point needs the fields x, y and z exactly once; 'z' does not "
+          "occur exactly once" +
+              again);
     CHECK(error(pcd("3", "ascii", "x y z", "8 8")) ==
           "io.syntax 6: a.pcd:3: SIZE has 2 values, FIELDS has 3" + again);
     CHECK(error(pcd("3", "ascii", "x y z", "8 8 3")) ==
@@ -191,14 +208,14 @@ TEST_CASE("bad PCD headers") {
           "io.syntax 6: a.pcd:5: '999999' is not a count between 0 and 100000" + again);
     CHECK(error(pcd("3", "ascii", "x y z i", "8 8 8 4", "F F F F", "1 1 1 0")) ==
           "io.syntax 6: a.pcd:5: field 'i' has count 0" + again);
-    CHECK(error(pcd("3", "zipped")) ==
-          "io.syntax 6: a.pcd:10: 'zipped' is not a kind of PCD data; supported are ascii, binary and "
-          "binary_compressed" +
-              again);
+    CHECK(error(pcd("3", "zipped")) == "io.syntax 6: a.pcd:10: 'zipped' is not a kind of PCD data; "
+                                       "supported are ascii, binary and binary_compressed" +
+                                           again);
     CHECK(error("FIELDS x y z\nTYPE F F F\nSIZE 8 8 8\n") ==
           "io.syntax 6: a.pcd:3: 'SIZE' occurs twice or in the wrong order" + again);
-    CHECK(error("FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nWIDTH 2\nHEIGHT 2\nPOINTS 3\nDATA ascii\n") ==
-          "io.syntax 6: a.pcd:7: WIDTH 2 x HEIGHT 2 is not POINTS 3" + again);
+    CHECK(
+        error("FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nWIDTH 2\nHEIGHT 2\nPOINTS 3\nDATA ascii\n") ==
+        "io.syntax 6: a.pcd:7: WIDTH 2 x HEIGHT 2 is not POINTS 3" + again);
     CHECK(error("FIELDS x y z\nSIZE 8 8 8\nWIDTH 3\nHEIGHT 1\nPOINTS 3\nDATA ascii\n") ==
           "io.syntax 6: a.pcd:6: FIELDS, SIZE or TYPE is missing" + again);
     CHECK(error("FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nWIDTH 3\nHEIGHT 1\nDATA ascii\n") ==
@@ -211,15 +228,15 @@ TEST_CASE("bad PCD data") {
     CHECK(error(pcd("5", "ascii") + "1 2 3\n4 5 6\n7 8 9\n") ==
           "io.truncated 6: a.pcd: the header announces 5 points, the file contains 3" + cut);
     CHECK(error(pcd("3", "ascii") + "1 2 3\n4 5 6\n7 8") ==
-          "io.truncated 6: a.pcd:13: the point has 2 values, the header requires 3; the file may be cut off, "
-          "write it "
-          "again");
+          "io.truncated 6: a.pcd:13: the point has 2 values, the header requires 3; the file may "
+          "be cut off, write it again");
     CHECK(error(pcd("3", "ascii") + "1 2 3\n4 five 6\n7 8 9\n") ==
           "io.syntax 6: a.pcd:12: 'five' is not a number; write its true coordinate");
     CHECK(error(pcd("2", "binary") + std::string(47, 'a')) ==
           "io.truncated 6: a.pcd: the header announces 2 points, the file contains 1" + cut);
     CHECK(error(pcd("2147483647", "binary") + std::string(48, 'a')) ==
-          "io.truncated 6: a.pcd: the header announces 2147483647 points, the file contains 2" + cut);
+          "io.truncated 6: a.pcd: the header announces 2147483647 points, the file contains 2" +
+              cut);
 
     const auto compressed = [&](std::uint32_t packed, std::uint32_t unpacked, std::size_t held) {
         std::string bytes(8 + held, '\0');
@@ -232,13 +249,11 @@ TEST_CASE("bad PCD data") {
     CHECK(error(compressed(40, 48, 39)) ==
           "io.truncated 6: a.pcd: the compressed data have 39 of 40 bytes" + cut);
     CHECK(error(compressed(40, 4000000000, 40)) ==
-          "io.syntax 6: a.pcd: the compressed data claim to have 4000000000 bytes, the header's 2 points "
-          "need 48; "
-          "the file is damaged, write it again");
+          "io.syntax 6: a.pcd: the compressed data claim to have 4000000000 bytes, the header's 2 "
+          "points need 48; the file is damaged, write it again");
     CHECK(error(compressed(40, 48, 40)) ==
-          "io.syntax 6: a.pcd: PCL's PCD reader does not accept the file; save the cloud again, for instance "
-          "as PLY "
-          "with x, y and z only");
+          "io.syntax 6: a.pcd: PCL's PCD reader does not accept the file; save the cloud again, "
+          "for instance as PLY with x, y and z only");
     CHECK(error(pcd("1", "binary_compressed", "x y z _", "4 4 4 1", "F F F U", "1 1 1 4") +
                 std::string(40, 'a')) ==
           "io.syntax 6: a.pcd:10: a padding field '_' in compressed data cannot be read" + again);
@@ -253,22 +268,25 @@ TEST_CASE("bad PLY headers") {
     CHECK(error("PK\x03\x04\n") ==
           "io.syntax 6: a.ply:1: the first line is not 'ply'; check that the file is a PLY file");
     CHECK(read_error(folder, "a.ply", "ply\nformat ascii 1.0\nelement vertex 2\n") ==
-          "io.truncated 6: a.ply:3: the PLY header has no line 'end_header'; the file is incomplete: copy or export it again");
+          "io.truncated 6: a.ply:3: the PLY header has no line 'end_header'; the file is "
+          "incomplete: copy or export it again");
     CHECK(error(ply("ascii", "0")) == "io.no_points 6: a.ply: the file has no points" + again);
     CHECK(error("ply\nformat ascii 1.0\nend_header\n") ==
           "io.no_points 6: a.ply: the file has no points" + again);
-    CHECK(error("ply\nend_header\n") == "io.syntax 6: a.ply:2: the header has no line 'format'" + header);
+    CHECK(error("ply\nend_header\n") ==
+          "io.syntax 6: a.ply:2: the header has no line 'format'" + header);
     CHECK(error("ply\nformat ascii 1.0\nproperty double x\n") ==
           "io.syntax 6: a.ply:3: a property comes before the first element" + header);
-    CHECK(error(ply("ascii", "-2")) ==
-          "io.syntax 6: a.ply:3: '-2' is not a count" + header);
+    CHECK(error(ply("ascii", "-2")) == "io.syntax 6: a.ply:3: '-2' is not a count" + header);
     CHECK(error(ply("ascii", "99999999999999999999")) ==
           "io.syntax 6: a.ply:3: '99999999999999999999' is not a count" + header);
     CHECK(error(ply("ascii", "99999999999")) ==
-          "io.syntax 6: a.ply:3: 99999999999 elements 'vertex' are too many; at most 2147483647 can be read" + again);
+          "io.syntax 6: a.ply:3: 99999999999 elements 'vertex' are too many; at most 2147483647 "
+          "can be read" +
+              again);
     CHECK(error(ply("binary", "2")) ==
-          "io.syntax 6: a.ply:2: 'binary' is not a PLY format; supported are ascii, binary_little_endian and "
-          "binary_big_endian" +
+          "io.syntax 6: a.ply:2: 'binary' is not a PLY format; supported are ascii, "
+          "binary_little_endian and binary_big_endian" +
               header);
     CHECK(error(ply("ascii", "2", "element empty 1000000000\n")) ==
           "io.syntax 6: a.ply: element 'empty' has no properties" + again);
@@ -295,27 +313,27 @@ TEST_CASE("bad PLY data") {
     CHECK(error(ply("ascii", "4") + two) ==
           "io.truncated 6: a.ply: the header announces 4 points, the file contains 2" + cut);
     CHECK(error(ply("ascii", "2") + "1 2 3\n4 5") ==
-          "io.truncated 6: a.ply:9: the line ends before 'z' of element 'vertex'; the file may be cut off, "
-          "write it "
-          "again");
+          "io.truncated 6: a.ply:9: the line ends before 'z' of element 'vertex'; the file may be "
+          "cut off, write it again");
     CHECK(error(ply("ascii", "2") + "1 2 3\n4 5 six\n") ==
           "io.syntax 6: a.ply:9: 'six' is not a number" + again);
     CHECK(error(ply("ascii", "2") + "1 2 3\n4 5 6 7\n") ==
-          "io.syntax 6: a.ply:9: the line has more values than element 'vertex' has properties" + again);
+          "io.syntax 6: a.ply:9: the line has more values than element 'vertex' has properties" +
+              again);
     CHECK(error(ply("ascii", "2", face) + two) == face_cut);
     CHECK(error(ply("ascii", "2", face) + two + "3 0 1\n") ==
-          "io.truncated 6: a.ply:12: the line ends before 'vertex_indices' of element 'face'; the file may "
-          "be cut off, "
-          "write it again");
+          "io.truncated 6: a.ply:12: the line ends before 'vertex_indices' of element 'face'; the "
+          "file may be cut off, write it again");
     CHECK(error(ply("ascii", "2", face) + two + "-1 0 1\n") ==
           "io.syntax 6: a.ply:12: '-1' is not the length of a list" + again);
     for (const char* format : {"binary_little_endian", "binary_big_endian"}) {
         CHECK(error(ply(format, "3") + std::string(71, 'a')) ==
               "io.truncated 6: a.ply: the header announces 3 points, the file contains 2" + cut);
         CHECK(error(ply(format, "2147483647") + std::string(48, 'a')) ==
-              "io.truncated 6: a.ply: the header announces 2147483647 points, the file contains 2" + cut);
-        CHECK(error(ply(format, "2", face) + std::string(48, 'a') + "\x03" + std::string(11, 'b')) ==
-              face_cut);
+              "io.truncated 6: a.ply: the header announces 2147483647 points, the file contains 2" +
+                  cut);
+        CHECK(error(ply(format, "2", face) + std::string(48, 'a') + "\x03" +
+                    std::string(11, 'b')) == face_cut);
         CHECK(error(ply(format, "2", face) + std::string(48, 'a')) == face_cut);
     }
 }
@@ -323,20 +341,23 @@ TEST_CASE("bad PLY data") {
 TEST_CASE("PLY layouts that PCL puts into the wrong place are refused") {
     const test::Folder folder;
     const auto error = [&](const std::string& properties, const std::string& body) {
-        return read_error(folder, "a.ply", ply("ascii", "1", "", properties + std::string(xyz)) + body);
+        return read_error(folder, "a.ply",
+                          ply("ascii", "1", "", properties + std::string(xyz)) + body);
     };
     CHECK(error("property uchar alpha\n", "9 1 2 3\n") ==
           "io.format 6: a.ply: the points have alpha without colours before it" + alone);
     CHECK(error("property uchar red\n", "9 1 2 3\n") ==
-          "io.format 6: a.ply: the colours of the points are not red, green, blue in a row" + alone);
-    CHECK(error("property uchar blue\nproperty uchar green\nproperty uchar red\n", "9 9 9 1 2 3\n") ==
-          "io.format 6: a.ply: the colours of the points are not red, green, blue in a row" + alone);
+          "io.format 6: a.ply: the colours of the points are not red, green, blue in a row" +
+              alone);
+    CHECK(
+        error("property uchar blue\nproperty uchar green\nproperty uchar red\n", "9 9 9 1 2 3\n") ==
+        "io.format 6: a.ply: the colours of the points are not red, green, blue in a row" + alone);
     CHECK(error("property list uchar int v\n", "0 1 2 3\n") ==
           "io.format 6: a.ply: the points have a list, 'v'" + alone);
-    const std::string grid =
-        "PLY files with a range grid are not supported; save only the points, for instance with MeshLab or "
-        "CloudCompare";
-    CHECK(read_error(folder, "a.ply",
-                     ply("ascii", "1", "element range_grid 4\nproperty list uchar int vertex_indices\n") +
-                         "1 2 3\n") == "io.format 6: a.ply:7: " + grid);
+    const std::string grid = "PLY files with a range grid are not supported; save only the points, "
+                             "for instance with MeshLab or CloudCompare";
+    CHECK(read_error(
+              folder, "a.ply",
+              ply("ascii", "1", "element range_grid 4\nproperty list uchar int vertex_indices\n") +
+                  "1 2 3\n") == "io.format 6: a.ply:7: " + grid);
 }

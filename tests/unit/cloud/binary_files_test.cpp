@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <doctest/doctest.h>
+
 #include <dsc/cloud/read.hpp>
 
 #include "files.hpp"
@@ -57,8 +58,9 @@ std::string doubles(const std::vector<Vec3>& points, bool big) {
 
 std::string pcd_header(std::size_t points, std::string_view data) {
     const std::string n = std::to_string(points);
-    return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + n +
-           "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA " + std::string(data) + "\n";
+    return "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " +
+           n + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA " + std::string(data) +
+           "\n";
 }
 
 /// LZF with literal runs only, field after field, as PCL lays it out.
@@ -79,9 +81,11 @@ std::string pcd_compressed(const std::vector<Vec3>& points) {
 
 std::string ply_header(std::string_view format, std::size_t points, std::string_view type,
                        std::string_view more = "") {
-    std::string text = "ply\nformat " + std::string(format) + " 1.0\ncomment made by hand\nelement vertex " +
-                       std::to_string(points) + "\n";
-    for (const char* axis : {" x\n", " y\n", " z\n"}) text += "property " + std::string(type) + axis;
+    std::string text = "ply\nformat " + std::string(format) +
+                       " 1.0\ncomment made by hand\nelement vertex " + std::to_string(points) +
+                       "\n";
+    for (const char* axis : {" x\n", " y\n", " z\n"})
+        text += "property " + std::string(type) + axis;
     return text + std::string(more) + "end_header\n";
 }
 
@@ -91,15 +95,21 @@ struct Sample {
     std::string (*make)(const Points&);
 };
 const Sample samples[] = {
-    {"ascii.pcd", [](const Points& points) { return pcd_header(points.size(), "ascii") + lines(points); }},
+    {"ascii.pcd",
+     [](const Points& points) { return pcd_header(points.size(), "ascii") + lines(points); }},
     {"binary.pcd",
-     [](const Points& points) { return pcd_header(points.size(), "binary") + doubles(points, false); }},
+     [](const Points& points) {
+         return pcd_header(points.size(), "binary") + doubles(points, false);
+     }},
     {"compressed.pcd", pcd_compressed},
     {"ascii.ply",
-     [](const Points& points) { return ply_header("ascii", points.size(), "double") + lines(points); }},
+     [](const Points& points) {
+         return ply_header("ascii", points.size(), "double") + lines(points);
+     }},
     {"little.ply",
      [](const Points& points) {
-         return ply_header("binary_little_endian", points.size(), "double") + doubles(points, false);
+         return ply_header("binary_little_endian", points.size(), "double") +
+                doubles(points, false);
      }},
     {"big.ply",
      [](const Points& points) {
@@ -144,7 +154,8 @@ TEST_CASE("PCD and PLY: points with NaN or infinity are dropped and counted") {
             folder.write(sample.name, sample.make({{missing, missing, missing}, {0, infinity, 0}}));
         CHECK(folder.strip(test::error_of([&] { read_cloud(path); })) ==
               "io.non_finite 6: " + sample.name +
-                  ": all 2 points have NaN or infinite coordinates; save a cloud with finite coordinates");
+                  ": all 2 points have NaN or infinite coordinates; save a cloud with finite "
+                  "coordinates");
     }
 }
 
@@ -177,7 +188,8 @@ TEST_CASE("a damaged header or body never crashes and never makes points up") {
                 bytes[at] = wrong;
                 const auto path = folder.write(sample.name, bytes);
                 std::size_t points = 0;
-                refused += test::error_of([&] { points = read_cloud(path).points.size(); }) != "no error";
+                refused +=
+                    test::error_of([&] { points = read_cloud(path).points.size(); }) != "no error";
                 CHECK(points <= 3);
             }
         CHECK(refused > 100);
@@ -186,29 +198,31 @@ TEST_CASE("a damaged header or body never crashes and never makes points up") {
 
 TEST_CASE("PCD: floats, integers, further fields, colours, line ends") {
     const test::Folder folder;
-    const auto cloud = [&](std::string_view text) { return read_cloud(folder.write("a.pcd", text)); };
+    const auto cloud = [&](std::string_view text) {
+        return read_cloud(folder.write("a.pcd", text));
+    };
     const std::string tail = "WIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n";
     const Points expected{{1, 2, 3}, {-4, 5.5, 6}};
-    CHECK(cloud("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n" + tail + "1 2 3\n-4 5.5 6\n").points ==
-          expected);
-    CHECK(cloud("FIELDS x y z\r\nSIZE 4 4 4\r\nTYPE F F F\r\nWIDTH 2\r\nHEIGHT 1\r\nPOINTS 2\r\nDATA "
-                "ascii\r\n1 2 3\r\n"
-                "-4 5.5 6\r\n")
+    CHECK(cloud("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n" + tail + "1 2 3\n-4 5.5 6\n")
               .points == expected);
+    CHECK(
+        cloud("FIELDS x y z\r\nSIZE 4 4 4\r\nTYPE F F F\r\nWIDTH 2\r\nHEIGHT 1\r\nPOINTS 2\r\nDATA "
+              "ascii\r\n1 2 3\r\n"
+              "-4 5.5 6\r\n")
+            .points == expected);
     CHECK(cloud("FIELDS i x h z y\nSIZE 1 8 4 4 2\nTYPE U F F F I\nCOUNT 1 1 3 1 1\n" + tail +
                 "7 1 0 0 0 3 2\n8 -4 9 9 9 6 5\n")
               .points == Points{{1, 2, 3}, {-4, 5, 6}});
-    const Cloud coloured = cloud("FIELDS x y z rgb\nSIZE 8 8 8 4\nTYPE F F F U\nCOUNT 1 1 1 1\n" + tail +
-                                 "1 2 3 16744448\n-4 5.5 6 255\n");
+    const Cloud coloured = cloud("FIELDS x y z rgb\nSIZE 8 8 8 4\nTYPE F F F U\nCOUNT 1 1 1 1\n" +
+                                 tail + "1 2 3 16744448\n-4 5.5 6 255\n");
     CHECK(coloured.points == expected);
     REQUIRE(coloured.colours.size() == 2);
     CHECK(coloured.colours[0] == std::array<std::uint8_t, 3>{255, 128, 0});
     CHECK(coloured.colours[1] == std::array<std::uint8_t, 3>{0, 0, 255});
 
-    std::string organised =
-        "FIELDS x y z _\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 4\nWIDTH 2\nHEIGHT 2\nVIEWPOINT 1 2 3 1 0 0 "
-        "0\nPOINTS 4\n"
-        "DATA binary\n";
+    std::string organised = "FIELDS x y z _\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 4\nWIDTH "
+                            "2\nHEIGHT 2\nVIEWPOINT 1 2 3 1 0 0 0\nPOINTS 4\n"
+                            "DATA binary\n";
     for (int i = 0; i < 4; ++i) {
         for (const float c : {1.5F, 2.0F, static_cast<float>(i)}) put(organised, c);
         put(organised, std::uint32_t{0});
@@ -218,19 +232,24 @@ TEST_CASE("PCD: floats, integers, further fields, colours, line ends") {
 
 TEST_CASE("PLY: floats, integers, further properties and elements, colours, line ends") {
     const test::Folder folder;
-    const auto cloud = [&](std::string_view text) { return read_cloud(folder.write("a.ply", text)); };
+    const auto cloud = [&](std::string_view text) {
+        return read_cloud(folder.write("a.ply", text));
+    };
     const Points expected{{1, 2, 3}, {-4, 5, 6}};
-    for (const char* type : {"float", "float32", "double", "float64", "int", "short", "char", "int16"})
-        CHECK_MESSAGE(cloud(ply_header("ascii", 2, type) + "1 2 3\n-4 5 6\n").points == expected, type);
-    CHECK(cloud("ply\r\nformat ascii 1.0\r\nelement vertex 2\r\nproperty double x\r\nproperty double "
-                "y\r\nproperty double "
-                "z\r\nend_header\r\n1 2 3\r\n-4 5 6\r\n")
-              .points == expected);
-    const Cloud coloured = cloud(ply_header("ascii", 2, "double",
-                                            "property float nx\nproperty uchar red\nproperty uchar "
-                                            "green\nproperty uchar blue\nproperty uchar "
-                                            "alpha\nproperty double quality\n") +
-                                 "1 2 3 0 255 128 0 255 0.5\n-4 5 6 0 0 0 255 255 0.5\n");
+    for (const char* type :
+         {"float", "float32", "double", "float64", "int", "short", "char", "int16"})
+        CHECK_MESSAGE(cloud(ply_header("ascii", 2, type) + "1 2 3\n-4 5 6\n").points == expected,
+                      type);
+    CHECK(
+        cloud("ply\r\nformat ascii 1.0\r\nelement vertex 2\r\nproperty double x\r\nproperty double "
+              "y\r\nproperty double "
+              "z\r\nend_header\r\n1 2 3\r\n-4 5 6\r\n")
+            .points == expected);
+    const Cloud coloured =
+        cloud(ply_header("ascii", 2, "double",
+                         "property float nx\nproperty uchar red\nproperty uchar green\nproperty "
+                         "uchar blue\nproperty uchar alpha\nproperty double quality\n") +
+              "1 2 3 0 255 128 0 255 0.5\n-4 5 6 0 0 0 255 255 0.5\n");
     CHECK(coloured.points == expected);
     REQUIRE(coloured.colours.size() == 2);
     CHECK(coloured.colours[0] == std::array<std::uint8_t, 3>{255, 128, 0});
@@ -239,7 +258,8 @@ TEST_CASE("PLY: floats, integers, further properties and elements, colours, line
     for (const bool big : {false, true}) {
         std::string bytes =
             "ply\nformat " + std::string(big ? "binary_big_endian" : "binary_little_endian") +
-            " 1.0\nelement camera 1\nproperty float view_px\nproperty float view_py\nelement vertex 2\n"
+            " 1.0\nelement camera 1\nproperty float view_px\nproperty float view_py\nelement "
+            "vertex 2\n"
             "property uchar flag\nproperty float z\nproperty double y\nproperty float x\n"
             "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
         put(bytes, 1.0F, big);
@@ -267,7 +287,8 @@ TEST_CASE("PCL says nothing") {
     ::dup2(sink, 2);
     std::vector<std::string> outcomes;
     for (const Sample& sample : samples)
-        for (const std::string& bytes : {sample.make(far), sample.make({{missing, 0, 0}, {0, 0, 0}})})
+        for (const std::string& bytes :
+             {sample.make(far), sample.make({{missing, 0, 0}, {0, 0, 0}})})
             for (const char* more : {"", "more than the header says\n"}) {
                 const auto path = folder.write(sample.name, bytes + more);
                 outcomes.push_back(test::error_of([&] { read_cloud(path); }));
@@ -282,6 +303,7 @@ TEST_CASE("PCL says nothing") {
     ::dup2(keep_err, 2);
     for (const int fd : {keep_out, keep_err, sink}) ::close(fd);
     CHECK(test::slurp(folder.path("spoken")).empty());
-    CHECK(refusal.find("io.syntax 6: broken.pcd: PCL's PCD reader does not accept the file; ") == 0);
+    CHECK(refusal.find("io.syntax 6: broken.pcd: PCL's PCD reader does not accept the file; ") ==
+          0);
     for (const std::string& outcome : outcomes) CHECK(outcome == "no error");
 }

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include <doctest/doctest.h>
+
 #include <dsc/cloud/data_file.hpp>
 #include <dsc/cloud/shapes.hpp>
 
@@ -31,12 +32,13 @@ private:
 
 TEST_CASE("data files are found in the source tree of the build") {
     const Share empty("");  // as good as unset
-    CHECK(std::filesystem::equivalent(dsc::cloud::data_file("teapot.bpt"),
-                                      std::filesystem::path(DSC_SOURCE_DIR) / "share/data/teapot.bpt"));
+    CHECK(std::filesystem::equivalent(
+        dsc::cloud::data_file("teapot.bpt"),
+        std::filesystem::path(DSC_SOURCE_DIR) / "share/data/teapot.bpt"));
     const std::string error = test::error_of([] { dsc::cloud::data_file("none.bpt"); });
     CHECK(error.find("io.data_file 6: none.bpt: this data file of the project is not at /") == 0);
-    CHECK(error.find("share/data/none.bpt; set the environment variable DSC_SHARE to the folder that "
-                     "contains data/none.bpt") != std::string::npos);
+    CHECK(error.find("share/data/none.bpt; set the environment variable DSC_SHARE to the folder "
+                     "that contains data/none.bpt") != std::string::npos);
 }
 
 TEST_CASE("DSC_SHARE decides where data files are") {
@@ -46,16 +48,13 @@ TEST_CASE("DSC_SHARE decides where data files are") {
         return folder.strip(test::error_of([] { dsc::cloud::shape_mesh("teapot"); }));
     };
     CHECK(teapot_error() ==
-          "io.data_file 6: teapot.bpt: this data file of the project is not at s/data/teapot.bpt; set the "
-          "environment "
-          "variable DSC_SHARE to the folder that contains data/teapot.bpt");
+          "io.data_file 6: teapot.bpt: this data file of the project is not at s/data/teapot.bpt; "
+          "set the environment variable DSC_SHARE to the folder that contains data/teapot.bpt");
     std::filesystem::create_directories(folder.path("s/data"));
     folder.write("s/data/teapot.bpt", "31\n");
-    CHECK(
-        teapot_error() ==
-        "io.syntax 6: s/data/teapot.bpt:1: the teapot has 32 patches; restore the file from the source tree");
+    CHECK(teapot_error() == "io.syntax 6: s/data/teapot.bpt:1: the teapot has 32 patches; restore "
+                            "the file from the source tree");
     folder.write("s/data/teapot.bpt", "32\n3 3\n1 2\n");
-    CHECK(teapot_error() ==
-          "io.syntax 6: s/data/teapot.bpt:3: the line does not have 3 numbers; restore the file from the source "
-          "tree");
+    CHECK(teapot_error() == "io.syntax 6: s/data/teapot.bpt:3: the line does not have 3 numbers; "
+                            "restore the file from the source tree");
 }

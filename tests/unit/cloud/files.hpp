@@ -16,7 +16,8 @@ namespace test {
 class Folder {
 public:
     Folder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "dsc_cloud_XXXXXX").string();
+        std::string pattern =
+            (std::filesystem::temp_directory_path() / "dsc_cloud_XXXXXX").string();
         if (!::mkdtemp(pattern.data())) std::abort();
         path_ = pattern;
     }
@@ -29,7 +30,8 @@ public:
 
     std::filesystem::path path(std::string_view name) const { return path_ / name; }
     std::filesystem::path write(std::string_view name, std::string_view bytes) const {
-        std::filesystem::remove(path(name));  // ext4 waits for the disk when a file is cut to nothing and rewritten
+        std::filesystem::remove(path(name));  // ext4 waits for the disk when a file is cut to
+                                              // nothing and rewritten
         std::ofstream(path(name), std::ios::binary)
             .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         return path(name);
@@ -57,7 +59,8 @@ std::string error_of(const Call& call) {
     try {
         call();
     } catch (const dsc::Error& error) {
-        return error.code() + " " + std::to_string(static_cast<int>(error.exit_code())) + ": " + error.what();
+        return error.code() + " " + std::to_string(static_cast<int>(error.exit_code())) + ": " +
+               error.what();
     }
     return "no error";
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include <doctest/doctest.h>
+
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/filter.hpp>
 
@@ -25,7 +26,8 @@ Cloud scan(std::size_t count, std::uint64_t seed) {
         Vec3 p(5e6, -4e6, 0);
         for (int k = 0; k < 3; ++k) p[k] += spread * random.normal();
         cloud.points.push_back(p);
-        cloud.colours.push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i >> 8U), 0});
+        cloud.colours.push_back(
+            {static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(i >> 8U), 0});
     }
     cloud.source = "scan.xyz";
     return cloud;
@@ -34,7 +36,8 @@ Cloud scan(std::size_t count, std::uint64_t seed) {
 double diagonal(const Cloud& cloud) { return dsc::bounding_box(cloud.points).diagonal(); }
 
 /// The kept points must be those of `keep`, in order, bit for bit, and the report must count them.
-void check_kept(const Cloud& cloud, const Filtered& result, const std::vector<bool>& keep, const char* name) {
+void check_kept(const Cloud& cloud, const Filtered& result, const std::vector<bool>& keep,
+                const char* name) {
     Cloud expected;
     for (std::size_t i = 0; i < keep.size(); ++i)
         if (keep[i]) {
@@ -76,7 +79,8 @@ TEST_CASE("duplicates: within a tolerance of an earlier kept point") {
     std::vector<bool> keep(500, true);
     for (std::size_t i = 0; i < 500; ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (keep[j] && (cloud.points[i] - cloud.points[j]).norm() <= tolerance * diagonal(cloud))
+            if (keep[j] &&
+                (cloud.points[i] - cloud.points[j]).norm() <= tolerance * diagonal(cloud))
                 keep[i] = false;
     check_kept(cloud, remove_duplicates(cloud, {tolerance}), keep, "duplicates");
 }
@@ -96,7 +100,9 @@ TEST_CASE("voxel grid: the point nearest to the centroid of each cell, the first
         Vec3 centroid = Vec3::Zero();
         for (const std::size_t i : members)
             centroid += (cloud.points[i] - low) / static_cast<double>(members.size());
-        const auto distance = [&](std::size_t i) { return (cloud.points[i] - low - centroid).norm(); };
+        const auto distance = [&](std::size_t i) {
+            return (cloud.points[i] - low - centroid).norm();
+        };
         std::size_t best = members.front();
         for (const std::size_t i : members)
             if (distance(i) < distance(best) * (1.0 - 1e-9)) best = i;
@@ -108,7 +114,8 @@ TEST_CASE("voxel grid: the point nearest to the centroid of each cell, the first
     CHECK(pairs > 10);
     check_kept(cloud, voxel_grid(cloud, {0.02}), keep, "voxel_grid");
     CHECK(voxel_grid(cloud, {1.0}).report.kept == 1);
-    CHECK(voxel_grid(cloud, {1e-9}).report.kept == 600);  // more cells than PCL's own grid can count
+    CHECK(voxel_grid(cloud, {1e-9}).report.kept == 600);  // more cells than PCL's own grid can
+                                                          // count
 }
 
 TEST_CASE("statistical outliers against brute force") {
@@ -122,11 +129,13 @@ TEST_CASE("statistical outliers against brute force") {
                 for (std::size_t j = 0; j < 500; ++j)
                     if (j != i) distances.push_back((cloud.points[i] - cloud.points[j]).norm());
                 std::sort(distances.begin(), distances.end());
-                for (std::size_t n = 0; n < k; ++n) mean[i] += distances[n] / static_cast<double>(k);
+                for (std::size_t n = 0; n < k; ++n)
+                    mean[i] += distances[n] / static_cast<double>(k);
                 sum += mean[i];
                 squares += mean[i] * mean[i];
             }
-            const double limit = sum / 500 + deviations * std::sqrt((squares - sum * sum / 500) / 499);
+            const double limit =
+                sum / 500 + deviations * std::sqrt((squares - sum * sum / 500) / 499);
             std::vector<bool> keep(500);
             for (std::size_t i = 0; i < 500; ++i) keep[i] = mean[i] <= limit;
             check_kept(cloud, remove_statistical_outliers(cloud, {k, deviations}), keep,
@@ -143,18 +152,21 @@ TEST_CASE("radius outliers against brute force") {
             for (std::size_t i = 0; i < 500; ++i) {
                 std::size_t others = 0;
                 for (std::size_t j = 0; j < 500; ++j)
-                    if (j != i && (cloud.points[i] - cloud.points[j]).norm() <= radius * diagonal(cloud))
+                    if (j != i &&
+                        (cloud.points[i] - cloud.points[j]).norm() <= radius * diagonal(cloud))
                         ++others;
                 keep[i] = others >= wanted;
             }
             if (std::find(keep.begin(), keep.end(), true) == keep.end()) continue;
-            check_kept(cloud, remove_radius_outliers(cloud, {radius, wanted}), keep, "radius_outliers");
+            check_kept(cloud, remove_radius_outliers(cloud, {radius, wanted}), keep,
+                       "radius_outliers");
             ++compared;
         }
     CHECK(compared >= 7);
 }
 
-TEST_CASE("filters work on clouds of one point, of equal points and of fewer points than neighbours") {
+TEST_CASE(
+    "filters work on clouds of one point, of equal points and of fewer points than neighbours") {
     const Cloud one{{{1, 2, 3}}};
     const Cloud equal{std::vector<Vec3>(5, Vec3(1, 2, 3))};
     const Cloud few{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
@@ -176,36 +188,36 @@ TEST_CASE("filters refuse what they cannot work on") {
     Cloud bad = cloud;
     bad.points[4].y() = std::numeric_limits<double>::quiet_NaN();
     const auto refusal = [](const auto& call) { return test::error_of(call); };
-    CHECK(refusal([&] { remove_duplicates(none); }) ==
-          "cloud.empty 5: empty.ply: filter duplicates: the cloud has no points; read another file");
+    CHECK(
+        refusal([&] { remove_duplicates(none); }) ==
+        "cloud.empty 5: empty.ply: filter duplicates: the cloud has no points; read another file");
     CHECK(refusal([&] { voxel_grid(bad); }) ==
-          "cloud.non_finite 5: scan.xyz: point 4 has a coordinate that is not finite or above 1e100; remove "
-          "it");
+          "cloud.non_finite 5: scan.xyz: point 4 has a coordinate that is not finite or above "
+          "1e100; remove it");
     CHECK(refusal([&] { remove_duplicates(cloud, {-0.1}); }) ==
           "cloud.option 5: scan.xyz: filter duplicates: tolerance is -0.1; it must lie in [0, 1]");
     CHECK(refusal([&] { voxel_grid(cloud, {0.0}); }) ==
           "cloud.option 5: scan.xyz: filter voxel_grid: size is 0; it must lie in [1e-9, 1]");
     CHECK(refusal([&] {
               remove_statistical_outliers(cloud, {0, 1.0});
-          }) ==
-          "cloud.option 5: scan.xyz: filter statistical_outliers: neighbours is 0; it must lie in [1, 1000]");
+          }) == "cloud.option 5: scan.xyz: filter statistical_outliers: neighbours is 0; it must "
+                "lie in [1, 1000]");
     CHECK(refusal([&] {
               remove_statistical_outliers(cloud, {4, -1.0});
-          }) ==
-          "cloud.option 5: scan.xyz: filter statistical_outliers: deviations is -1; it must be at least 0");
+          }) == "cloud.option 5: scan.xyz: filter statistical_outliers: deviations is -1; it must "
+                "be at least 0");
     CHECK(refusal([&] {
               remove_radius_outliers(cloud, {0.0, 1});
-          }) ==
-          "cloud.option 5: scan.xyz: filter radius_outliers: radius is 0; it must be above 0 and at most 1");
+          }) == "cloud.option 5: scan.xyz: filter radius_outliers: radius is 0; it must be above 0 "
+                "and at most 1");
     CHECK(refusal([&] {
               remove_radius_outliers(cloud, {0.1, 0});
-          }) ==
-          "cloud.option 5: scan.xyz: filter radius_outliers: neighbours is 0; it must lie in [1, 1000]");
+          }) == "cloud.option 5: scan.xyz: filter radius_outliers: neighbours is 0; it must lie in "
+                "[1, 1000]");
     CHECK(refusal([&] {
               remove_radius_outliers(cloud, {1e-9, 5});
-          }) ==
-          "cloud.filtered_out 5: scan.xyz: filter radius_outliers removes all 20 points; relax its options "
-          "or leave it out");
+          }) == "cloud.filtered_out 5: scan.xyz: filter radius_outliers removes all 20 points; "
+                "relax its options or leave it out");
 }
 
 namespace {
@@ -225,16 +237,21 @@ Cloud attributed(std::size_t count) {
 
 /// Index of a point of the cloud, which has no point twice.
 std::size_t index_of(const Cloud& cloud, const Vec3& point) {
-    return static_cast<std::size_t>(std::find(cloud.points.begin(), cloud.points.end(), point) - cloud.points.begin());
+    return static_cast<std::size_t>(std::find(cloud.points.begin(), cloud.points.end(), point) -
+                                    cloud.points.begin());
 }
 
 }  // namespace
 
-TEST_CASE("every filter takes all attributes along, and the orientation goes with the first point that does") {
+TEST_CASE("every filter takes all attributes along, and the orientation goes with the first point "
+          "that does") {
     const Cloud cloud = attributed(400);
-    const std::vector<Filtered> results = {remove_duplicates(cloud, {0.02}), remove_duplicates(cloud, {0.02, true}),
-                                           voxel_grid(cloud, {0.05}),        remove_statistical_outliers(cloud),
-                                           remove_radius_outliers(cloud),    remove_clusters(cloud, {0.9}),
+    const std::vector<Filtered> results = {remove_duplicates(cloud, {0.02}),
+                                           remove_duplicates(cloud, {0.02, true}),
+                                           voxel_grid(cloud, {0.05}),
+                                           remove_statistical_outliers(cloud),
+                                           remove_radius_outliers(cloud),
+                                           remove_clusters(cloud, {0.9}),
                                            remove_hidden(cloud)};
     for (const Filtered& result : results) {
         CAPTURE(result.report.filter);
@@ -247,8 +264,10 @@ TEST_CASE("every filter takes all attributes along, and the orientation goes wit
         bool all = true;
         for (std::size_t i = 0; i < kept; ++i) {
             const std::size_t from = index_of(cloud, result.cloud.points[i]);
-            all = all && result.cloud.colours[i] == cloud.colours[from] && result.cloud.normals[i] == cloud.normals[from] &&
-                  result.cloud.areas[i] == cloud.areas[from] && result.cloud.confidence[i] == cloud.confidence[from];
+            all = all && result.cloud.colours[i] == cloud.colours[from] &&
+                  result.cloud.normals[i] == cloud.normals[from] &&
+                  result.cloud.areas[i] == cloud.areas[from] &&
+                  result.cloud.confidence[i] == cloud.confidence[from];
         }
         CHECK(all);
         CHECK(result.cloud.orientation.empty());
@@ -277,7 +296,8 @@ TEST_CASE("picked points may come in any order and more than once, but must be t
     CHECK(pick(damaged, std::vector<std::size_t>{1}).normals.empty());
 }
 
-TEST_CASE("duplicates, sorted: -0 and 0 are one place, and the sign of the one that stays does not hang on the order") {
+TEST_CASE("duplicates, sorted: -0 and 0 are one place, and the sign of the one that stays does not "
+          "hang on the order") {
     const auto sign_of = [](const std::vector<Vec3>& points) {
         const Filtered result = remove_duplicates(Cloud{points}, {0.0, true});
         REQUIRE(result.cloud.points.size() == 2);

@@ -1,5 +1,6 @@
 // Whether the normals and the viewpoint of a file are trusted, and what is made of them.
 #include <doctest/doctest.h>
+
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/given_normals.hpp>
 
@@ -18,19 +19,25 @@ Cloud cloud_of(const Solid& solid) {
     return cloud;
 }
 
-bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, std::string_view part) {
+    return text.find(part) != std::string::npos;
+}
 
 /// Not used, for the reason that has these words.
 void check_refused(const Cloud& cloud, std::string_view why) {
     const GivenOrientation given = orient_by_file_normals(cloud);
     CHECK_FALSE(given.oriented.has_value());
-    CHECK_MESSAGE(contains(given.note, "The normals of the file are not used, because "), given.note);
+    CHECK_MESSAGE(contains(given.note, "The normals of the file are not used, because "),
+                  given.note);
     CHECK_MESSAGE(contains(given.note, why), given.note);
 }
 
-Vec3 random_direction(dsc::RandomStream& random) { return Vec3(random.normal(), random.normal(), random.normal()).normalized(); }
+Vec3 random_direction(dsc::RandomStream& random) {
+    return Vec3(random.normal(), random.normal(), random.normal()).normalized();
+}
 
-/// The points of a solid that a scanner at `place` sees: those whose normal looks at it and that nothing hides.
+/// The points of a solid that a scanner at `place` sees: those whose normal looks at it and that
+/// nothing hides.
 template <class Hidden>
 Cloud view_of(const Solid& solid, const Vec3& place, const Hidden& hidden) {
     Cloud cloud;
@@ -74,7 +81,8 @@ TEST_CASE("given normals that all point inwards are turned, and that is said") {
     for (Vec3& normal : cloud.normals) normal = -normal;
     const GivenOrientation given = orient_by_file_normals(cloud);
     REQUIRE(given.oriented.has_value());
-    CHECK(given.note == "The normals of the file point into the solid; they are used with the opposite sign.");
+    CHECK(given.note ==
+          "The normals of the file point into the solid; they are used with the opposite sign.");
     CHECK(wrong_share(given.oriented->normals, truth) == 0.0);
 }
 
@@ -87,9 +95,11 @@ TEST_CASE("given normals that contradict the points are refused") {
     check_refused(cloud, " % of neighbouring normals point to opposite sides");
     for (Vec3& normal : cloud.normals) normal = Vec3::UnitZ();
     check_refused(cloud, " % of the flat places they are not perpendicular to the surface");
-    for (std::size_t i = 0; i < cloud.normals.size(); ++i) cloud.normals[i] = solid.normals[i].unitOrthogonal();
+    for (std::size_t i = 0; i < cloud.normals.size(); ++i)
+        cloud.normals[i] = solid.normals[i].unitOrthogonal();
     check_refused(cloud, "at 100 % of the flat places they are not perpendicular to the surface");
-    for (std::size_t i = 0; i < cloud.normals.size(); ++i) cloud.normals[i] = random_direction(random);
+    for (std::size_t i = 0; i < cloud.normals.size(); ++i)
+        cloud.normals[i] = random_direction(random);
     check_refused(cloud, "they are not perpendicular to the surface");
     cloud = cloud_of(solid);
     for (std::size_t i = 0; i < 600; ++i) cloud.normals[i].setZero();
@@ -130,7 +140,8 @@ TEST_CASE("given normals decide the side of an open surface") {
         for (int i = 0; i < 4000; ++i) {
             const double x = 2.0 * random.uniform() - 1.0, y = 2.0 * random.uniform() - 1.0;
             cloud.points.emplace_back(x, y, 0.1 * std::sin(4.0 * x) * std::cos(3.0 * y));
-            const Vec3 up(-0.4 * std::cos(4.0 * x) * std::cos(3.0 * y), 0.3 * std::sin(4.0 * x) * std::sin(3.0 * y), 1.0);
+            const Vec3 up(-0.4 * std::cos(4.0 * x) * std::cos(3.0 * y),
+                          0.3 * std::sin(4.0 * x) * std::sin(3.0 * y), 1.0);
             cloud.normals.push_back(sign * up.normalized());
         }
         const GivenOrientation given = orient_by_file_normals(cloud);
@@ -142,7 +153,8 @@ TEST_CASE("given normals decide the side of an open surface") {
 TEST_CASE("given normals: threads change nothing") {
     const Cloud cloud = cloud_of(torus(12000));
     dsc::Workers workers(3);
-    const GivenOrientation one = orient_by_file_normals(cloud), three = orient_by_file_normals(cloud, {}, &workers);
+    const GivenOrientation one = orient_by_file_normals(cloud),
+                           three = orient_by_file_normals(cloud, {}, &workers);
     REQUIRE(one.oriented.has_value());
     CHECK(one.oriented->normals == three.oriented->normals);
     CHECK(one.oriented->areas == three.oriented->areas);
@@ -155,14 +167,17 @@ TEST_CASE("a scanner's place turns the normals of one view towards it") {
     view.sensor = Sensor{place, true};
     const GivenOrientation given = orient_by_sensor(view);
     REQUIRE(given.oriented.has_value());
-    CHECK(given.note == "Normals point towards the viewpoint 0.5 -3 4 of the file, from which all points were seen.");
+    CHECK(given.note == "Normals point towards the viewpoint 0.5 -3 4 of the file, from which all "
+                        "points were seen.");
     CHECK(wrong_share(given.oriented->normals, view.normals) == 0.0);
-    // A room seen from inside has no solid round its points, so the winding field cannot use the place.
+    // A room seen from inside has no solid round its points, so the winding field cannot use the
+    // place.
     Cloud room = cloud_of(sphere(4000));
     room.sensor = Sensor{Vec3(0.1, 0.0, 0.0), true};
     const GivenOrientation inside = orient_by_sensor(room);
     CHECK_FALSE(inside.oriented.has_value());
-    CHECK_MESSAGE(contains(inside.note, "of the points would then lie inside or outside"), inside.note);
+    CHECK_MESSAGE(contains(inside.note, "of the points would then lie inside or outside"),
+                  inside.note);
 }
 
 TEST_CASE("a place from which not all points can have been seen is not used") {
@@ -170,8 +185,10 @@ TEST_CASE("a place from which not all points can have been seen is not used") {
     cloud.sensor = Sensor{Vec3(0.5, -3.0, 4.0), true};
     const GivenOrientation given = orient_by_sensor(cloud);
     CHECK_FALSE(given.oriented.has_value());
-    CHECK_MESSAGE(contains(given.note, "The viewpoint 0.5 -3 4 of the file is not used, because "), given.note);
-    // The value that programs write by default needs no word, and is not believed inside of the cloud.
+    CHECK_MESSAGE(contains(given.note, "The viewpoint 0.5 -3 4 of the file is not used, because "),
+                  given.note);
+    // The value that programs write by default needs no word, and is not believed inside of the
+    // cloud.
     cloud.sensor = Sensor{Vec3(0.0, 0.0, 0.0), false};
     CHECK_FALSE(orient_by_sensor(cloud).oriented.has_value());
     CHECK(orient_by_sensor(cloud).note.empty());

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include <doctest/doctest.h>
+
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/normalize.hpp>
 #include <dsc/cloud/target.hpp>
@@ -42,7 +43,8 @@ TEST_CASE("the normalisation centres the box and scales its largest half-extent"
         CHECK(box.high.x() == box.high.maxCoeff());
         CHECK(box.high.x() == doctest::Approx(target).epsilon(1e-9));
         const Vec3 size = dsc::bounding_box(cloud.points).size();  // uniform: proportions stay
-        CHECK(box.size().y() / box.size().x() == doctest::Approx(size.y() / size.x()).epsilon(1e-9));
+        CHECK(box.size().y() / box.size().x() ==
+              doctest::Approx(size.y() / size.x()).epsilon(1e-9));
         CHECK_FALSE(result.transform.identity());
         for (std::size_t i = 0; i < result.points.size(); ++i) {
             CHECK(result.points[i] == result.transform.apply(cloud.points[i]));
@@ -62,17 +64,14 @@ TEST_CASE("coordinates may stay as they are inside the box") {
     cloud.points[8] = Vec3(1, 1, 1);
     cloud.points[3] = Vec3(0, 0, 0);
     CHECK(test::error_of([&] { keep_coordinates(cloud); })
-              .find("cloud.outside_box 5: scan.ply: cloud outside the box: 2 of 50 points, the first is "
-                    "point 7; the cloud spans "
-                    "[0, 2] x [-1.75, 1] x [0, ") == 0);
+              .find("cloud.outside_box 5: scan.ply: cloud outside the box: 2 of 50 points, the "
+                    "first is point 7; the cloud spans [0, 2] x [-1.75, 1] x [0, ") == 0);
     CHECK(test::error_of([&] {
               keep_coordinates({{{2, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}, "s"});
           }) ==
-          "cloud.outside_box 5: s: cloud outside the box: 1 of 4 points, the first is point 0; the cloud "
-          "spans [0, 2] x [0, "
-          "1] x [0, 1], the box is [-1.5, 1.5] x [-1.5, 1.5] x [-1.5, 1.5]; normalise the cloud (normalize: "
-          "{scale: 0.9}) "
-          "or scale it into the box");
+          "cloud.outside_box 5: s: cloud outside the box: 1 of 4 points, the first is point 0; the "
+          "cloud spans [0, 2] x [0, 1] x [0, 1], the box is [-1.5, 1.5] x [-1.5, 1.5] x [-1.5, "
+          "1.5]; normalise the cloud (normalize: {scale: 0.9}) or scale it into the box");
 }
 
 TEST_CASE("clouds that bound no volume are refused") {
@@ -86,38 +85,45 @@ TEST_CASE("clouds that bound no volume are refused") {
     std::vector<Vec3> line;
     for (int i = 0; i < 10; ++i) line.push_back(Vec3(0.1, 0.2, 0.3) * i);
     CHECK(refusal(line) ==
-          "cloud.collinear 5: scan.xyz: all 10 points lie on one line (extent 0.9 x 1.8 x 2.7)" + remedy);
+          "cloud.collinear 5: scan.xyz: all 10 points lie on one line (extent 0.9 x 1.8 x 2.7)" +
+              remedy);
     std::vector<Vec3> plane = random_points(100, 3);
     for (Vec3& p : plane) p.z() = 2.0;
     plane.push_back({0, 0, 2});
     plane.push_back({1, 1, 2});
     CHECK(refusal(plane) ==
-          "cloud.coplanar 5: scan.xyz: all 102 points lie on one plane (extent 1 x 1 x 0)" + remedy);
-    CHECK(test::error_of([&] { normalize(Cloud{plane}); }).find("cloud.coplanar 5: cloud: all") == 0);
+          "cloud.coplanar 5: scan.xyz: all 102 points lie on one plane (extent 1 x 1 x 0)" +
+              remedy);
+    CHECK(test::error_of([&] { normalize(Cloud{plane}); }).find("cloud.coplanar 5: cloud: all") ==
+          0);
     const double missing = std::numeric_limits<double>::quiet_NaN();
     CHECK(refusal({{0, 0, 0}, {1, 0, 0}, {0, missing, 0}, {0, 0, 1}}) ==
-          "cloud.non_finite 5: scan.xyz: point 2 has a coordinate that is not finite or above 1e100; remove "
-          "it");
+          "cloud.non_finite 5: scan.xyz: point 2 has a coordinate that is not finite or above "
+          "1e100; remove it");
     CHECK(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1e200}})
               .find("cloud.non_finite 5: scan.xyz: point 3") == 0);
 }
 
-TEST_CASE("flat is what rounding alone may have thickened, wherever it lies and however it is turned") {
+TEST_CASE(
+    "flat is what rounding alone may have thickened, wherever it lies and however it is turned") {
     const Eigen::Matrix3d turn =
-        (Eigen::AngleAxisd(0.7, Vec3::UnitX()) * Eigen::AngleAxisd(1.1, Vec3::UnitY())).toRotationMatrix();
+        (Eigen::AngleAxisd(0.7, Vec3::UnitX()) * Eigen::AngleAxisd(1.1, Vec3::UnitY()))
+            .toRotationMatrix();
     for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(1e3, -2e3, 7), Vec3(5e6, 5e6, 5e6)})
         for (const double size : {1.0, 1000.0}) {
             CAPTURE(size);
             for (const double thickness : {0.0, 1e-11, 1e-3}) {
                 CAPTURE(thickness);
                 std::vector<Vec3> points = random_points(300, 4);
-                for (Vec3& p : points) p = offset + turn * (size * Vec3(p.x(), p.y(), p.z() * thickness));
+                for (Vec3& p : points)
+                    p = offset + turn * (size * Vec3(p.x(), p.y(), p.z() * thickness));
                 const std::string outcome = test::error_of([&] { normalize(Cloud{points}); });
                 CHECK(outcome.substr(0, 14) == (thickness > 1e-9 ? "no error" : "cloud.coplanar"));
             }
             std::vector<Vec3> line = random_points(300, 5);
             for (Vec3& p : line) p = offset + turn * Vec3(p.x() * size, 0, 0);
-            CHECK(test::error_of([&] { normalize(Cloud{line}); }).substr(0, 15) == "cloud.collinear");
+            CHECK(test::error_of([&] { normalize(Cloud{line}); }).substr(0, 15) ==
+                  "cloud.collinear");
         }
     // Millimetre detail five thousand kilometres out is volume, not rounding.
     std::vector<Vec3> small = random_points(300, 6);
@@ -128,8 +134,8 @@ TEST_CASE("flat is what rounding alone may have thickened, wherever it lies and 
 TEST_CASE("the scale target is checked") {
     const Cloud cloud{random_points(10, 7), {}, "scan.xyz"};
     CHECK(test::error_of([&] { normalize(cloud, 2.0); }) ==
-          "cloud.scale 5: scan.xyz: the normalisation scale is 2; choose one above 0 and at most 1.5, 0.9 by "
-          "default");
+          "cloud.scale 5: scan.xyz: the normalisation scale is 2; choose one above 0 and at most "
+          "1.5, 0.9 by default");
     CHECK(test::error_of([&] { normalize(cloud, 0.0); }).find("cloud.scale 5: ") == 0);
     CHECK(test::error_of([&] { normalize(cloud, std::nan("")); }).find("cloud.scale 5: ") == 0);
 }
@@ -147,7 +153,8 @@ TEST_CASE("a target cloud has the normalised points, their box and the way back"
     CHECK(copy.transform().scale == normalized.transform.scale);
 }
 
-TEST_CASE("attributes come into normalised units: areas with the square of the scale, lengths with it, directions as they are") {
+TEST_CASE("attributes come into normalised units: areas with the square of the scale, lengths with "
+          "it, directions as they are") {
     Cloud cloud{random_points(60, 5)};
     for (std::size_t i = 0; i < cloud.points.size(); ++i) {
         cloud.points[i] = Vec3(100, -20, 3) + 50.0 * cloud.points[i];
@@ -204,5 +211,7 @@ TEST_CASE("statistics of a target are those of its normalised points, with any n
     }
     CHECK(target.noise() == direct.noise);
     // Widths are lengths: those in the units of the file, times the scale.
-    CHECK(direct.width == doctest::Approx(target.transform().scale * measure_cloud(cloud.points).width).epsilon(1e-9));
+    CHECK(direct.width ==
+          doctest::Approx(target.transform().scale * measure_cloud(cloud.points).width)
+              .epsilon(1e-9));
 }

@@ -1,14 +1,15 @@
+#include "cloud/one_sided.hpp"
+
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <doctest/doctest.h>
+
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/orientation.hpp>
 #include <dsc/cloud/shapes.hpp>
-
-#include "cloud/one_sided.hpp"
 
 using dsc::Vec3;
 using namespace dsc::cloud;
@@ -62,9 +63,11 @@ TEST_CASE("one side: clouds that surround a solid are not of this kind, in any p
     dsc::RandomStream random(dsc::RandomKey{4, 0, 0, 0});
     for (const char* name : {"sphere", "torus", "box_tunnel", "teapot"}) {
         for (const std::size_t n : {400U, 3000U, 20000U}) {
-            if (n == 400 && std::string(name) == "teapot") continue;  // open at its lid, with a handle one point wide
+            if (n == 400 && std::string(name) == "teapot")
+                continue;  // open at its lid, with a handle one point wide
             const Vec3 axis = Vec3(random.normal(), random.normal(), random.normal()).normalized();
-            const Eigen::Matrix3d turn = Eigen::AngleAxisd(random.uniform(0, 6), axis).toRotationMatrix();
+            const Eigen::Matrix3d turn =
+                Eigen::AngleAxisd(random.uniform(0, 6), axis).toRotationMatrix();
             std::vector<Vec3> points = sample_shape(name, n, n).points;
             for (Vec3& p : points) p = turn * p;
             CAPTURE(std::string(name));

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/orientation.hpp>
@@ -23,8 +24,9 @@ void check_sound(const OrientedPoints& found, std::size_t count) {
     REQUIRE(found.confidence.size() == count);
     bool sound = true;
     for (std::size_t i = 0; i < count; ++i)
-        sound = sound && std::abs(found.normals[i].norm() - 1.0) < 1e-9 && found.areas[i].allFinite() &&
-                found.confidence[i] >= 0.0 && found.confidence[i] <= 1.0;
+        sound = sound && std::abs(found.normals[i].norm() - 1.0) < 1e-9 &&
+                found.areas[i].allFinite() && found.confidence[i] >= 0.0 &&
+                found.confidence[i] <= 1.0;
     for (const SurfaceSample& s : found.orientation.samples)
         sound = sound && s.position.allFinite() && s.area.allFinite() && s.width > 0.0;
     CHECK(sound);
@@ -40,10 +42,11 @@ double total_area(const OrientedPoints& found) {
 
 std::string bytes(const OrientedPoints& found) {
     const auto raw = [](const auto& values) {
-        return std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values[0]));
+        return std::string(reinterpret_cast<const char*>(values.data()),
+                           values.size() * sizeof(values[0]));
     };
-    return raw(found.normals) + raw(found.areas) + raw(found.confidence) + raw(found.orientation.samples) +
-           std::to_string(found.orientation.residual);
+    return raw(found.normals) + raw(found.areas) + raw(found.confidence) +
+           raw(found.orientation.samples) + std::to_string(found.orientation.residual);
 }
 
 std::string error_code(const std::vector<Vec3>& points) {
@@ -64,7 +67,8 @@ TEST_CASE("orientation: sphere, torus and cube") {
         CHECK(wrong_share(found.normals, solid.normals) == 0.0);
         CHECK(median_error(found.normals, solid.normals) < median);
         // The smoothed field asks for a little more than the area where the surface is curved.
-        CHECK(total_area(found) / (solid.area * static_cast<double>(solid.points.size())) == doctest::Approx(1.0).epsilon(0.15));
+        CHECK(total_area(found) / (solid.area * static_cast<double>(solid.points.size())) ==
+              doctest::Approx(1.0).epsilon(0.15));
         CHECK(found.orientation.residual < 0.1);
         CHECK(found.orientation.samples.size() + found.dropped == solid.points.size());
         CHECK(found.orientation.all_points);
@@ -77,7 +81,8 @@ TEST_CASE("orientation: sphere, torus and cube") {
 TEST_CASE("orientation: the field of its samples tells inside from outside") {
     const Solid solid = torus(4000);
     const WindingField field = winding_field(orient_points(solid.points).orientation.samples);
-    const std::vector<Vec3> points{Vec3(1, 0, 0), Vec3(0, -1, 0.1), Vec3(0, 0, 0), Vec3(0, 0, 2), Vec3(1.7, 0, 0)};
+    const std::vector<Vec3> points{Vec3(1, 0, 0), Vec3(0, -1, 0.1), Vec3(0, 0, 0), Vec3(0, 0, 2),
+                                   Vec3(1.7, 0, 0)};
     std::vector<double> w(points.size());
     field.evaluate(points, {}, w);
     CHECK(w[0] > 0.9);
@@ -91,7 +96,8 @@ TEST_CASE("orientation: noise is measured, and outliers lose their say") {
     Solid solid = sphere(6000);
     dsc::RandomStream random({5, 0, 0, 0});
     const double sigma = 0.4 * std::sqrt(solid.area);
-    for (std::size_t i = 0; i < solid.points.size(); ++i) solid.points[i] += sigma * random.normal() * solid.normals[i];
+    for (std::size_t i = 0; i < solid.points.size(); ++i)
+        solid.points[i] += sigma * random.normal() * solid.normals[i];
     solid.points.emplace_back(0.1, 0.2, 0.0);   // deep inside
     solid.points.emplace_back(0.0, -1.6, 0.3);  // far outside
     const OrientedPoints found = orient_points(solid.points);
@@ -131,9 +137,11 @@ TEST_CASE("orientation: threads, order and repeated points change nothing") {
     backwards.insert(backwards.end(), solid.points.begin(), solid.points.begin() + 500);
     const OrientedPoints again = orient_points(backwards, quick);
     bool same = true;
-    for (std::size_t i = 0; i < 12000; ++i) same = same && again.normals[11999 - i] == found.normals[i];
+    for (std::size_t i = 0; i < 12000; ++i)
+        same = same && again.normals[11999 - i] == found.normals[i];
     for (std::size_t i = 0; i < 500; ++i)
-        same = same && again.normals[12000 + i] == found.normals[i] && again.areas[12000 + i] == 0.5 * found.areas[i];
+        same = same && again.normals[12000 + i] == found.normals[i] &&
+               again.areas[12000 + i] == 0.5 * found.areas[i];
     CHECK(same);
     CHECK(again.orientation.samples.size() == found.orientation.samples.size());
     CHECK(again.orientation.residual == found.orientation.residual);
@@ -147,7 +155,8 @@ TEST_CASE("orientation: any unit of length, far from the origin") {
         const OrientedPoints found = orient_points(points);
         check_sound(found, points.size());
         CHECK(wrong_share(found.normals, solid.normals) == 0.0);
-        CHECK(total_area(found) / (scale * scale * solid.area * 2000.0) == doctest::Approx(1.0).epsilon(0.15));
+        CHECK(total_area(found) / (scale * scale * solid.area * 2000.0) ==
+              doctest::Approx(1.0).epsilon(0.15));
     };
     check(1e-6, Vec3::Zero());
     check(1e6, Vec3::Zero());
@@ -158,12 +167,13 @@ TEST_CASE("orientation: clouds without a volume are refused, odd ones give sound
     CHECK(error_code({}) != "none");
     CHECK(error_code({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}) == "cloud.few");
     CHECK(error_code(std::vector<Vec3>(100, Vec3(1, 2, 3))) == "cloud.equal");
-    CHECK(error_code({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(3, 0, 0), Vec3(5, 0, 0)}) == "cloud.collinear");
+    CHECK(error_code({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(3, 0, 0), Vec3(5, 0, 0)}) ==
+          "cloud.collinear");
     std::vector<Vec3> plane;
     for (int i = 0; i < 100; ++i) plane.emplace_back(i % 10, i / 10, 0.0);
     CHECK(error_code(plane) == "cloud.coplanar");
-    CHECK(error_code({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, std::numeric_limits<double>::infinity())}) ==
-          "cloud.non_finite");
+    CHECK(error_code({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0),
+                      Vec3(0, 0, std::numeric_limits<double>::infinity())}) == "cloud.non_finite");
 
     plane.emplace_back(5, 5, 3);  // a sheet and one point above it
     check_sound(orient_points(plane), plane.size());
@@ -202,6 +212,8 @@ TEST_CASE("orientation: by normals that are known") {
         CHECK(std::abs(w[1]) < 0.1);
     }
     const Solid solid = cube(100);
-    CHECK_THROWS_AS(orient_by_normals(solid.points, std::vector<Vec3>(100, Vec3::Zero())), dsc::GeometryError);
-    CHECK_THROWS_AS(orient_by_normals(solid.points, std::vector<Vec3>(99, Vec3::UnitX())), dsc::GeometryError);
+    CHECK_THROWS_AS(orient_by_normals(solid.points, std::vector<Vec3>(100, Vec3::Zero())),
+                    dsc::GeometryError);
+    CHECK_THROWS_AS(orient_by_normals(solid.points, std::vector<Vec3>(99, Vec3::UnitX())),
+                    dsc::GeometryError);
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/filter.hpp>
@@ -20,7 +21,9 @@ Cloud cloud_of(std::vector<Vec3> points) {
     return cloud;
 }
 
-std::size_t count_of(const Filtered& result, std::size_t reason) { return result.report.reasons[reason].count; }
+std::size_t count_of(const Filtered& result, std::size_t reason) {
+    return result.report.reasons[reason].count;
+}
 
 }  // namespace
 
@@ -33,15 +36,18 @@ TEST_CASE("outliers: clean clouds keep all their points") {
             CHECK(result.report.removed == 0);
         }
     }
-    for (std::size_t few = 1; few < 12; ++few) CHECK(remove_outliers(cloud_of(sphere(few).points)).report.removed == 0);
+    for (std::size_t few = 1; few < 12; ++few)
+        CHECK(remove_outliers(cloud_of(sphere(few).points)).report.removed == 0);
 }
 
 TEST_CASE("outliers: most of those spread through the box go, no other point does") {
     Cloud cloud = cloud_of(torus(5000).points);
     dsc::RandomStream random({6, 0, 0, 0});
     for (int i = 0; i < 100; ++i)
-        cloud.points.emplace_back(4.0 * random.uniform() - 2.0, 4.0 * random.uniform() - 2.0, 4.0 * random.uniform() - 2.0);
-    for (std::size_t i = 0; i < cloud.points.size(); ++i) cloud.confidence.push_back(static_cast<double>(i));
+        cloud.points.emplace_back(4.0 * random.uniform() - 2.0, 4.0 * random.uniform() - 2.0,
+                                  4.0 * random.uniform() - 2.0);
+    for (std::size_t i = 0; i < cloud.points.size(); ++i)
+        cloud.confidence.push_back(static_cast<double>(i));
     const Filtered result = remove_outliers(cloud);
     CHECK(result.report.removed > 85);
     CHECK(result.report.kept + result.report.removed == cloud.points.size());
@@ -49,7 +55,8 @@ TEST_CASE("outliers: most of those spread through the box go, no other point doe
     for (const RemovedPoints& reason : result.report.reasons) counted += reason.count;
     CHECK(counted == result.report.removed);
     CHECK(count_of(result, 0) > 0);
-    for (std::size_t i = 0; i < 5000; ++i) CHECK(result.cloud.confidence[i] == static_cast<double>(i));
+    for (std::size_t i = 0; i < 5000; ++i)
+        CHECK(result.cloud.confidence[i] == static_cast<double>(i));
     for (const unsigned threads : {2U, 3U}) {
         dsc::Workers workers(threads);
         CHECK(remove_outliers(cloud, {}, &workers).cloud.points == result.cloud.points);
@@ -58,7 +65,8 @@ TEST_CASE("outliers: most of those spread through the box go, no other point doe
 
 TEST_CASE("outliers: options and reasons") {
     Cloud cloud = cloud_of(sphere(2000).points);
-    for (const Vec3& p : sphere(20).points) cloud.points.push_back(Vec3(0, 0, 6) + 1.5 * p);  // far together, none alone
+    for (const Vec3& p : sphere(20).points)
+        cloud.points.push_back(Vec3(0, 0, 6) + 1.5 * p);  // far together, none alone
     const Filtered result = remove_outliers(cloud);
     CHECK(result.report.removed == 20);
     CHECK(result.report.reasons[1].reason == "far");
@@ -72,7 +80,8 @@ TEST_CASE("outliers: options and reasons") {
     CHECK_THROWS_AS(remove_outliers(Cloud{}), dsc::GeometryError);
 }
 
-TEST_CASE("outliers: of a tenth and a fifth more points in the box nearly all that lie away from the surface go") {
+TEST_CASE("outliers: of a tenth and a fifth more points in the box nearly all that lie away from "
+          "the surface go") {
     for (const std::size_t more : {500UL, 1000UL}) {
         const std::size_t clean = 5000;
         std::vector<Vec3> points = torus(clean).points;
@@ -83,15 +92,18 @@ TEST_CASE("outliers: of a tenth and a fifth more points in the box nearly all th
             points.push_back(box.centre() + 1.2 * part.cwiseProduct(box.size()));
         }
         Cloud cloud = cloud_of(points);
-        for (std::size_t i = 0; i < points.size(); ++i) cloud.confidence.push_back(static_cast<double>(i));
+        for (std::size_t i = 0; i < points.size(); ++i)
+            cloud.confidence.push_back(static_cast<double>(i));
         const Filtered result = remove_outliers(cloud);
         const auto is_clean = [&](double index) { return index < static_cast<double>(clean); };
-        const auto kept = static_cast<std::size_t>(std::count_if(result.cloud.confidence.begin(), result.cloud.confidence.end(), is_clean));
+        const auto kept = static_cast<std::size_t>(std::count_if(
+            result.cloud.confidence.begin(), result.cloud.confidence.end(), is_clean));
         CHECK(clean - kept <= 5);
         std::size_t away = 0;  // 3 % of the diagonal from all points of the torus: two spacings
         for (std::size_t n = kept; n < result.cloud.points.size(); ++n) {
             double nearest = 1e9;
-            for (std::size_t i = 0; i < clean; ++i) nearest = std::min(nearest, (points[i] - result.cloud.points[n]).norm());
+            for (std::size_t i = 0; i < clean; ++i)
+                nearest = std::min(nearest, (points[i] - result.cloud.points[n]).norm());
             away += nearest > 0.03 * box.diagonal();
         }
         CHECK(away <= more / 100);
@@ -115,12 +127,16 @@ TEST_CASE("outliers: clumps that fill space go, a small surface of its own stays
     for (const Vec3& p : sphere(150).points) points.push_back(Vec3(0, 0, 3) + 0.15 * p);
     dsc::RandomStream random({8, 0, 0, 0});
     for (const Vec3& centre : {Vec3(3, 0, 2), Vec3(-3, 1, 2), Vec3(0, 4, -2)})
-        for (int i = 0; i < 150; ++i) points.push_back(centre + 0.12 * Vec3(random.normal(), random.normal(), random.normal()));
+        for (int i = 0; i < 150; ++i)
+            points.push_back(centre +
+                             0.12 * Vec3(random.normal(), random.normal(), random.normal()));
     Cloud cloud = cloud_of(points);
-    for (std::size_t i = 0; i < points.size(); ++i) cloud.confidence.push_back(static_cast<double>(i));
+    for (std::size_t i = 0; i < points.size(); ++i)
+        cloud.confidence.push_back(static_cast<double>(i));
     const Filtered result = remove_outliers(cloud);
     const auto is_clean = [&](double index) { return index < static_cast<double>(clean); };
-    const auto kept = static_cast<std::size_t>(std::count_if(result.cloud.confidence.begin(), result.cloud.confidence.end(), is_clean));
+    const auto kept = static_cast<std::size_t>(
+        std::count_if(result.cloud.confidence.begin(), result.cloud.confidence.end(), is_clean));
     CHECK(kept == clean);
     CHECK(result.cloud.points.size() - kept <= 20);  // a group that happens to be flat may stay
     CHECK(result.report.reasons[4].reason == "clump");

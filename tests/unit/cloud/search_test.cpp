@@ -3,6 +3,7 @@
 #include <limits>
 
 #include <doctest/doctest.h>
+
 #include <dsc/base/random.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/search.hpp>
@@ -34,9 +35,10 @@ std::vector<Neighbour> brute_force(const std::vector<Vec3>& points, const Vec3& 
 }
 
 bool same(const std::vector<Neighbour>& a, const std::vector<Neighbour>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Neighbour& x, const Neighbour& y) {
-        return x.index == y.index && x.distance == y.distance;
-    });
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const Neighbour& x, const Neighbour& y) {
+                          return x.index == y.index && x.distance == y.distance;
+                      });
 }
 
 std::vector<Neighbour> first(const std::vector<Neighbour>& all, std::size_t count) {
@@ -72,7 +74,8 @@ void compare(const std::vector<Vec3>& points, const std::vector<Vec3>& queries) 
     }
 }
 
-std::vector<Vec3> random_points(std::size_t count, std::uint64_t seed, double low = 0.0, double high = 1.0) {
+std::vector<Vec3> random_points(std::size_t count, std::uint64_t seed, double low = 0.0,
+                                double high = 1.0) {
     dsc::RandomStream random({seed, 0, 0, 0});
     std::vector<Vec3> points(count);
     for (Vec3& p : points)
@@ -120,7 +123,8 @@ TEST_CASE("the search agrees with brute force") {
     }
     SUBCASE("far from the origin, a micrometre apart") {
         const Vec3 far(5e6, -5e6, 5e6);
-        std::vector<Vec3> points = random_points(500, 50), queries = random_points(50, 51, -0.5, 1.5);
+        std::vector<Vec3> points = random_points(500, 50),
+                          queries = random_points(50, 51, -0.5, 1.5);
         for (Vec3& p : points) p = far + p * 1e-3;
         for (Vec3& q : queries) q = far + q * 1e-3;
         compare(points, queries);
@@ -162,14 +166,16 @@ TEST_CASE("a search keeps its own points and can be moved") {
 }
 
 TEST_CASE("a search refuses what it cannot hold") {
-    const std::vector<Vec3> none, infinite{{0, 0, 0}, {0, std::numeric_limits<double>::infinity(), 0}};
+    const std::vector<Vec3> none,
+        infinite{{0, 0, 0}, {0, std::numeric_limits<double>::infinity(), 0}};
     CHECK(test::error_of([&] { NearestSearch{none}; }) ==
           "cloud.empty 5: nearest-point search: no points; a search needs at least one");
     CHECK(test::error_of([&] { NearestSearch{infinite}; }) ==
           "cloud.non_finite 5: nearest-point search: point 1 is not finite; remove it first");
 }
 
-TEST_CASE("the spacing at a point is the distance to its sixth neighbour, points in one place counting once") {
+TEST_CASE("the spacing at a point is the distance to its sixth neighbour, points in one place "
+          "counting once") {
     // A square lattice: four neighbours at 1, four at sqrt 2, each point three times.
     dsc::cloud::Normalized lattice;
     for (int copy = 0; copy < 3; ++copy)
@@ -177,7 +183,8 @@ TEST_CASE("the spacing at a point is the distance to its sixth neighbour, points
             for (int j = 0; j < 7; ++j) lattice.points.emplace_back(i, j, 0);
     const dsc::cloud::TargetCloud target(lattice);
     CHECK(target.spacing(3 * 7 + 3) == doctest::Approx(std::sqrt(2.0)));
-    CHECK(target.spacing(0) == doctest::Approx(std::sqrt(5.0)));  // the corner: 1 1 sqrt2 2 2 sqrt5 sqrt5
+    CHECK(target.spacing(0) == doctest::Approx(std::sqrt(5.0)));  // the corner: 1 1 sqrt2 2 2 sqrt5
+                                                                  // sqrt5
     dsc::cloud::Normalized pair;
     pair.points = {Vec3(0, 0, 0), Vec3(0, 0, 2), Vec3(0, 0, 2)};
     CHECK(dsc::cloud::TargetCloud(pair).spacing(0) == 2.0);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <doctest/doctest.h>
+
 #include <dsc/cloud/search.hpp>
 #include <dsc/cloud/shapes.hpp>
 #include <dsc/geometry/quality.hpp>
@@ -94,7 +95,8 @@ TEST_CASE("the meshes of sphere, torus and box_tunnel are closed and true") {
 TEST_CASE("samples lie on the shape, uniform by area") {
     constexpr std::size_t n = 40000;  // four standard deviations of a share of one half are 0.01
     const Cloud sphere = sample_shape("sphere", n, 1);
-    CHECK(share_of(sphere, [](const Vec3& p) { return p.z() > 0.5; }) == doctest::Approx(0.25).epsilon(0.04));
+    CHECK(share_of(sphere, [](const Vec3& p) { return p.z() > 0.5; }) ==
+          doctest::Approx(0.25).epsilon(0.04));
     CHECK(share_of(sphere, [](const Vec3& p) { return p.x() + p.y() > 0.0; }) ==
           doctest::Approx(0.5).epsilon(0.02));
     const Cloud torus = sample_shape("torus", n, 1);
@@ -109,16 +111,17 @@ TEST_CASE("samples lie on the shape, uniform by area") {
     CHECK(share_of(tunnel, [](const Vec3& p) { return p.x() == -1.0; }) ==
           doctest::Approx(2.4 / all).epsilon(0.06));
     for (const char* name : {"sphere", "torus", "box_tunnel"})
-        for (const Vec3& p : sample_shape(name, 5000, 2).points) REQUIRE(off_surface(name, p) < 1e-12);
+        for (const Vec3& p : sample_shape(name, 5000, 2).points)
+            REQUIRE(off_surface(name, p) < 1e-12);
 }
 
 TEST_CASE("the teapot is seen from outside") {
     const ShapeMesh mesh = shape_mesh("teapot");
     const Census found = census(mesh);
-    CHECK(found.wrong == 0);     // patches joined, all with the same side out
-    CHECK(found.volume > 10.0);  // and that side is the outer one
-    CHECK(found.boundary >
-          100);  // open at the rim, the lid, the spout's tip and where spout and handle enter the body
+    CHECK(found.wrong == 0);      // patches joined, all with the same side out
+    CHECK(found.volume > 10.0);   // and that side is the outer one
+    CHECK(found.boundary > 100);  // open at the rim, the lid, the spout's tip and where spout and
+                                  // handle enter the body
     const dsc::Box3 box = dsc::bounding_box(mesh.points);
     CHECK(box.low.x() == doctest::Approx(-3.0).epsilon(1e-3));
     CHECK(box.high.x() == doctest::Approx(3.434).epsilon(1e-3));
@@ -130,13 +133,16 @@ TEST_CASE("the teapot is seen from outside") {
     for (const Vec3& p : cloud.points) {
         REQUIRE(box.contains(p));
         REQUIRE(surface.nearest(p).distance < 0.1);  // cells are up to 0.16 long
-        // The body's radius between these heights; spout and handle start at 1.5 and 1.7, well inside.
+        // The body's radius between these heights; spout and handle start at 1.5 and 1.7, well
+        // inside.
         const double r = std::hypot(p.x(), p.y());
         if (p.z() > 0.7 && p.z() < 1.5) REQUIRE(r > 1.88);
         if (p.z() > 1.8 && p.z() < 2.2) REQUIRE(r > 1.58);
         // The wall behind the handle's upper end and behind the spout: no scanner sees it.
-        if (std::abs(p.y()) < 0.08 && p.z() > 2.06 && p.z() < 2.2 && p.x() < 0.0) REQUIRE(p.x() < -2.5);
-        if (std::abs(p.y()) < 0.3 && p.z() > 0.8 && p.z() < 1.2 && p.x() > 0.0) REQUIRE(p.x() > 2.05);
+        if (std::abs(p.y()) < 0.08 && p.z() > 2.06 && p.z() < 2.2 && p.x() < 0.0)
+            REQUIRE(p.x() < -2.5);
+        if (std::abs(p.y()) < 0.3 && p.z() > 0.8 && p.z() < 1.2 && p.x() > 0.0)
+            REQUIRE(p.x() > 2.05);
     }
     // Area-uniform: shares of the visible area.
     const auto upper = [](const Vec3& p) { return p.z() > 1.2; };
@@ -182,9 +188,11 @@ TEST_CASE("samples depend on the arguments only") {
 
 TEST_CASE("wrong requests are refused") {
     CHECK(test::error_of([] { sample_shape("cup", 10, 1); }) ==
-          "shape.unknown 2: unknown built-in shape 'cup'; accepted are teapot, sphere, torus, box_tunnel");
+          "shape.unknown 2: unknown built-in shape 'cup'; accepted are teapot, sphere, torus, "
+          "box_tunnel");
     CHECK(test::error_of([] { shape_mesh(""); }) ==
-          "shape.unknown 2: unknown built-in shape ''; accepted are teapot, sphere, torus, box_tunnel");
+          "shape.unknown 2: unknown built-in shape ''; accepted are teapot, sphere, torus, "
+          "box_tunnel");
     CHECK(test::error_of([] { sample_shape("sphere", 0, 1); }) ==
           "shape.option 2: 0 points requested; a cloud has at least 1");
     CHECK(test::error_of([] { sample_shape("sphere", 10, 1, -0.5); }) ==

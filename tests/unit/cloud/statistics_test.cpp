@@ -1,13 +1,12 @@
-#include <dsc/cloud/statistics.hpp>
-
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
+#include <dsc/cloud/statistics.hpp>
 
 namespace {
 
@@ -22,9 +21,11 @@ std::vector<Vec3> sphere(std::size_t count, double radius, double noise, std::ui
     dsc::RandomStream random(dsc::RandomKey{seed, 0, 0, 0});
     std::vector<Vec3> points;
     for (std::size_t i = 0; i < count; ++i) {
-        const double z = 2.0 * random.uniform() - 1.0, angle = 2.0 * pi * random.uniform(), r = std::sqrt(1.0 - z * z);
+        const double z = 2.0 * random.uniform() - 1.0, angle = 2.0 * pi * random.uniform(),
+                     r = std::sqrt(1.0 - z * z);
         const Vec3 shift(random.normal(), random.normal(), random.normal());
-        points.push_back(radius * Vec3(r * std::cos(angle), r * std::sin(angle), z) + noise * shift);
+        points.push_back(radius * Vec3(r * std::cos(angle), r * std::sin(angle), z) +
+                         noise * shift);
     }
     return points;
 }
@@ -63,14 +64,16 @@ TEST_CASE("little noise counts as none, much in full, without a jump between") {
     CHECK(dsc::cloud::certain_noise(0.0) == 0.0);
     CHECK(dsc::cloud::certain_noise(dsc::cloud::noise_floor) == 0.0);
     CHECK(dsc::cloud::certain_noise(0.21) == doctest::Approx(0.15));
-    CHECK(dsc::cloud::certain_noise(std::nextafter(dsc::cloud::noise_certain, 0.0)) == doctest::Approx(dsc::cloud::noise_certain).epsilon(1e-12));
+    CHECK(dsc::cloud::certain_noise(std::nextafter(dsc::cloud::noise_certain, 0.0)) ==
+          doctest::Approx(dsc::cloud::noise_certain).epsilon(1e-12));
     CHECK(dsc::cloud::certain_noise(0.7) == 0.7);
 }
 
 TEST_CASE("a triangular grid has the regularity that Clark and Evans give, 2 sqrt(2 / sqrt 3)") {
     std::vector<Vec3> points;
     for (int row = 0; row < 60; ++row) {
-        for (int column = 0; column < 60; ++column) points.emplace_back(column + 0.5 * (row % 2), row * std::sqrt(0.75), 0.0);
+        for (int column = 0; column < 60; ++column)
+            points.emplace_back(column + 0.5 * (row % 2), row * std::sqrt(0.75), 0.0);
     }
     // The width from the 12th neighbour is 0.956 of the true one there, and larger at the rim.
     CHECK(measure_cloud(points).regularity == doctest::Approx(2.149).epsilon(0.12));
@@ -96,7 +99,8 @@ TEST_CASE("points far from all others stand out") {
     const std::size_t ordinary = points.size();
     points.insert(points.end(), {{0.0, 0.0, 0.0}, {1.9, 0.3, 0.0}, {0.0, -2.0, 1.0}});
     const Statistics s = measure_cloud(points);
-    CHECK(*std::max_element(s.outlier_score.begin(), s.outlier_score.begin() + static_cast<std::ptrdiff_t>(ordinary)) < 2.5);
+    CHECK(*std::max_element(s.outlier_score.begin(),
+                            s.outlier_score.begin() + static_cast<std::ptrdiff_t>(ordinary)) < 2.5);
     for (std::size_t i = ordinary; i < points.size(); ++i) CHECK(s.outlier_score[i] > 2.5);
 }
 

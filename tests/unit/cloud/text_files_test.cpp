@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <dsc/cloud/read.hpp>
 
 #include "files.hpp"
@@ -30,13 +31,15 @@ TEST_CASE("OBJ: what is no vertex is skipped, colours are kept where all have th
     const test::Folder folder;
     const std::vector<Vec3> expected{{1, 2, 3}, {-4, 5e-3, 6}};
     CHECK(read(folder, "a.obj",
-               "\xEF\xBB\xBF# made by hand\no thing\nv 1 2 3\nvt 0 0\nvn 0 0 1\n\n\tv  -4\t+5e-3 6 # end\nf "
+               "\xEF\xBB\xBF# made by hand\no thing\nv 1 2 3\nvt 0 0\nvn 0 0 1\n\n\tv  -4\t+5e-3 6 "
+               "# end\nf "
                "1 2 1\n") == expected);
     CHECK(read(folder, "a.OBJ", "v 1 2 3 1\rv -4 0.005 6 1") == expected);
     CHECK(read(folder, "a.obj", "v 1 2 3\r\nv -4 0.005 6\r\n") == expected);
 
     dsc::cloud::ReadReport report;
-    const Cloud fractions = read_cloud(folder.write("b.obj", "v 1 2 3 1 0.5 0\nv 1 2 4 0 0 1\n"), &report);
+    const Cloud fractions =
+        read_cloud(folder.write("b.obj", "v 1 2 3 1 0.5 0\nv 1 2 4 0 0 1\n"), &report);
     CHECK(report.format == "OBJ");
     CHECK(report.points == 2);
     CHECK(report.dropped_non_finite == 0);

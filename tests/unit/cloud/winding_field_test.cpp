@@ -2,12 +2,12 @@
 #include <cmath>
 #include <limits>
 
+#include <cloud/winding_kernels.hpp>
 #include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/winding_field.hpp>
-
-#include <cloud/winding_kernels.hpp>
 
 #include "solids.hpp"
 
@@ -20,7 +20,8 @@ namespace {
 const double four_pi = 4.0 * std::acos(-1.0);
 
 /// The sum that the field stands for, in double, source by source.
-double direct_winding(std::span<const SurfaceSample> samples, const Vec3& x, double target, double smoothing) {
+double direct_winding(std::span<const SurfaceSample> samples, const Vec3& x, double target,
+                      double smoothing) {
     double sum = 0.0;
     for (const SurfaceSample& s : samples) {
         const double own = smoothing * s.width;
@@ -36,12 +37,14 @@ std::vector<Vec3> places(std::size_t count, double reach) {
     dsc::RandomStream random({3, 0, 0, 0});
     std::vector<Vec3> out;
     for (std::size_t i = 0; i < count; ++i)
-        out.emplace_back(reach * (2.0 * random.uniform() - 1.0), reach * (2.0 * random.uniform() - 1.0),
+        out.emplace_back(reach * (2.0 * random.uniform() - 1.0),
+                         reach * (2.0 * random.uniform() - 1.0),
                          reach * (2.0 * random.uniform() - 1.0));
     return out;
 }
 
-WindingField field_of(std::span<const SurfaceSample> samples, double opening, double smoothing = 0.5) {
+WindingField field_of(std::span<const SurfaceSample> samples, double opening,
+                      double smoothing = 0.5) {
     std::vector<Vec3> positions, vectors;
     std::vector<double> weights, lengths;
     for (const SurfaceSample& s : samples) {
@@ -82,7 +85,9 @@ TEST_CASE("winding field: 1 inside and 0 outside of a sphere, a torus and a cube
         CHECK(inside > 100);
     };
     check(sphere(8000), [](const Vec3& p) { return p.norm() - 1.0; });
-    check(torus(8000), [](const Vec3& p) { return Vec3(std::hypot(p.x(), p.y()) - 1.0, p.z(), 0.0).norm() - 0.4; });
+    check(torus(8000), [](const Vec3& p) {
+        return Vec3(std::hypot(p.x(), p.y()) - 1.0, p.z(), 0.0).norm() - 0.4;
+    });
     check(cube(8000), [](const Vec3& p) { return p.cwiseAbs().maxCoeff() - 1.0; });
 }
 
@@ -94,7 +99,9 @@ TEST_CASE("winding field: without clusters it is the sum over all sources") {
     std::vector<double> w(points.size());
     field.evaluate(points, smoothing, w);
     for (std::size_t i = 0; i < points.size(); ++i)
-        CHECK(w[i] == doctest::Approx(direct_winding(samples, points[i], 0.03, 0.5)).scale(1.0).epsilon(1e-5));
+        CHECK(w[i] == doctest::Approx(direct_winding(samples, points[i], 0.03, 0.5))
+                          .scale(1.0)
+                          .epsilon(1e-5));
 }
 
 TEST_CASE("winding field: clusters cost little accuracy, the less the smaller they are") {
@@ -128,7 +135,8 @@ TEST_CASE("winding field: the gradient is that of the winding number") {
         for (int k = 0; k < 3; ++k) {
             const Vec3 step = 1e-4 * Vec3::Unit(k);
             const double slope = (direct_winding(samples, points[i] + step, 0.1, 0.5) -
-                                  direct_winding(samples, points[i] - step, 0.1, 0.5)) / 2e-4;
+                                  direct_winding(samples, points[i] - step, 0.1, 0.5)) /
+                                 2e-4;
             CHECK(gradients[i][k] == doctest::Approx(-slope).scale(1.0).epsilon(1e-4));
         }
     // At the positions themselves: the same function.
@@ -140,7 +148,8 @@ TEST_CASE("winding field: the gradient is that of the winding number") {
     }
     field.gradient(own);
     field.evaluate_gradient(positions, lengths, elsewhere);
-    for (std::size_t i = 0; i < own.size(); ++i) CHECK((own[i] - elsewhere[i]).norm() < 1e-4 * own[i].norm());
+    for (std::size_t i = 0; i < own.size(); ++i)
+        CHECK((own[i] - elsewhere[i]).norm() < 1e-4 * own[i].norm());
 }
 
 TEST_CASE("winding field: the adjoint is one, <A mu, r> = <mu, A^T r>") {
@@ -238,26 +247,32 @@ TEST_CASE("winding field: a target on a source, equal sources, one source") {
     CHECK_THROWS_AS(field.evaluate(bad, {}, w), dsc::GeometryError);
 }
 
-// The order of all operations, spelled out. It holds for whichever registers this machine has, so all give the same bits.
+// The order of all operations, spelled out. It holds for whichever registers this machine has, so
+// all give the same bits.
 TEST_CASE("winding kernels: eight sums side by side, added up in one order") {
     dsc::RandomStream random({4, 0, 0, 0});
     WindingSources sources;
     sources.resize(37);
     for (std::size_t q = 0; q < winding_quantities; ++q)
-        for (std::size_t n = 0; n < 37; ++n) sources.column(q)[n] = static_cast<float>(q == 3 ? 0.01 * random.uniform() : random.uniform());
+        for (std::size_t n = 0; n < 37; ++n)
+            sources.column(q)[n] =
+                static_cast<float>(q == 3 ? 0.01 * random.uniform() : random.uniform());
     CHECK(sources.count() == 40);
     const WindingTarget target{0.3F, 0.6F, 0.2F, 0.001F};
     std::array<std::array<float, 8>, 7> sums{};
     for (std::size_t n = 0; n < sources.count(); ++n) {
-        const std::array<float, 3> d{sources[0][n] - target.x, sources[1][n] - target.y, sources[2][n] - target.z};
+        const std::array<float, 3> d{sources[0][n] - target.x, sources[1][n] - target.y,
+                                     sources[2][n] - target.z};
         const std::array<float, 3> v{sources[4][n], sources[5][n], sources[6][n]};
-        const float inverse_square = 1.0F / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + (sources[3][n] + target.half_square));
+        const float inverse_square =
+            1.0F / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + (sources[3][n] + target.half_square));
         const float inverse_cube = inverse_square * std::sqrt(inverse_square);
         const float dot_product = v[0] * d[0] + v[1] * d[1] + v[2] * d[2];
         sums[0][n % 8] += dot_product * inverse_cube;
         for (std::size_t k = 0; k < 3; ++k) {
             sums[1 + k][n % 8] -= v[0] * inverse_cube * d[k];
-            sums[4 + k][n % 8] += (v[k] - 3.0F * dot_product * inverse_square * d[k]) * inverse_cube;
+            sums[4 + k][n % 8] +=
+                (v[k] - 3.0F * dot_product * inverse_square * d[k]) * inverse_cube;
         }
     }
     std::array<float, 7> total{};

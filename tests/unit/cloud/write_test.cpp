@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/read.hpp>
 #include <dsc/cloud/write.hpp>
@@ -31,7 +32,8 @@ TEST_CASE("what is written reads back bit for bit") {
         CHECK(test::slurp(folder.path(name)) == first);
     }
     cloud.colours.clear();
-    for (const std::string name : {"a.xyz", "a.csv", "a.obj", "a.ply", "a.pcd"}) {  // over the old files
+    for (const std::string name : {"a.xyz", "a.csv", "a.obj", "a.ply", "a.pcd"}) {  // over the old
+                                                                                    // files
         dsc::cloud::write_cloud(folder.path(name), cloud);
         const Cloud again = dsc::cloud::read_cloud(folder.path(name));
         CHECK(again.points == cloud.points);
@@ -43,19 +45,18 @@ TEST_CASE("a failed write names its cause and leaves nothing behind") {
     const test::Folder folder;
     const Cloud cloud{{{1, 2, 3}}};
     const auto error = [&](std::string_view name) {
-        return folder.strip(test::error_of([&] { dsc::cloud::write_cloud(folder.path(name), cloud); }));
+        return folder.strip(
+            test::error_of([&] { dsc::cloud::write_cloud(folder.path(name), cloud); }));
     };
     const std::string accepted = "accepted are .pcd .ply .obj .xyz .txt .asc .pts .csv";
-    CHECK(error("a.stl") ==
-          "io.format 6: a.stl: clouds cannot be written as '.stl'; " + accepted);
+    CHECK(error("a.stl") == "io.format 6: a.stl: clouds cannot be written as '.stl'; " + accepted);
     CHECK(error("a") == "io.format 6: a: the file's name has no extension; " + accepted);
-    CHECK(error("none/a.xyz") ==
-          "io.write 6: none/a.xyz: cannot be written: No such file or directory; create the folder "
-          "first or name another one");
+    CHECK(error("none/a.xyz") == "io.write 6: none/a.xyz: cannot be written: No such file or "
+                                 "directory; create the folder first or name another one");
     std::filesystem::create_directory(folder.path("taken.xyz"));
-    CHECK(error("taken.xyz") ==
-          "io.write 6: taken.xyz: is a directory; name a file");
+    CHECK(error("taken.xyz") == "io.write 6: taken.xyz: is a directory; name a file");
     std::size_t files = 0;
-    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path("."))) ++files;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path(".")))
+        ++files;
     CHECK(files == 1);
 }

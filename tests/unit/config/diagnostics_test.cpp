@@ -1,8 +1,9 @@
+#include <memory>
+#include <string>
+
 #include <doctest/doctest.h>
 
 #include <dsc/config/diagnostics.hpp>
-#include <memory>
-#include <string>
 
 #include "support.hpp"
 
@@ -26,24 +27,22 @@ TEST_CASE("diagnostics of a file are sorted by place, files keep their order") {
     diagnostics.warning("config.w", {a, 2, 1, 3}, "second");
     diagnostics.error("config.x", {}, "fifth", "somewhere");
     CHECK(diagnostics.error_count() == 4);
-    CHECK(test::error_of([&] { diagnostics.throw_if_errors(); }) ==
-          "a.yaml:1:2: error: first\n"
-          "    1 | one\n"
-          "      |  ^~\n"
-          "a.yaml:3:1: error: third\n"
-          "    3 | three\n"
-          "      | ^~~~~\n"
-          "b.yaml:1:2: error: fourth\n"
-          "    1 | four\n"
-          "      |  ^~  hint\n"
-          "      note: note\n"
-          "built in: error: fifth\n"
-          "      note: somewhere\n"
-          "4 errors; nothing was run");
-    CHECK(diagnostics.text(Severity::warning) ==
-          "a.yaml:2:1: warning: second\n"
-          "    2 | two\n"
-          "      | ^~~\n");
+    CHECK(test::error_of([&] { diagnostics.throw_if_errors(); }) == "a.yaml:1:2: error: first\n"
+                                                                    "    1 | one\n"
+                                                                    "      |  ^~\n"
+                                                                    "a.yaml:3:1: error: third\n"
+                                                                    "    3 | three\n"
+                                                                    "      | ^~~~~\n"
+                                                                    "b.yaml:1:2: error: fourth\n"
+                                                                    "    1 | four\n"
+                                                                    "      |  ^~  hint\n"
+                                                                    "      note: note\n"
+                                                                    "built in: error: fifth\n"
+                                                                    "      note: somewhere\n"
+                                                                    "4 errors; nothing was run");
+    CHECK(diagnostics.text(Severity::warning) == "a.yaml:2:1: warning: second\n"
+                                                 "    2 | two\n"
+                                                 "      | ^~~\n");
 }
 
 TEST_CASE("warnings alone do not throw") {
@@ -65,22 +64,21 @@ TEST_CASE("a long line is cut round the caret") {
     const std::string line = std::string(500, 'a') + "X" + std::string(500, 'b');
     Diagnostics diagnostics;
     diagnostics.error("config.x", {text("a.yaml", line), 1, 501, 1}, "m");
-    CHECK(diagnostics.text(Severity::error) ==
-          "a.yaml:1:501: error: m\n"
-          "    1 | ..." +
-              std::string(60, 'a') + "X" + std::string(59, 'b') +
-              "...\n"
-              "      | " +
-              std::string(63, ' ') + "^\n");
+    CHECK(diagnostics.text(Severity::error) == "a.yaml:1:501: error: m\n"
+                                               "    1 | ..." +
+                                                   std::string(60, 'a') + "X" +
+                                                   std::string(59, 'b') +
+                                                   "...\n"
+                                                   "      | " +
+                                                   std::string(63, ' ') + "^\n");
 }
 
 TEST_CASE("control characters never reach the terminal, and carets count characters") {
     Diagnostics diagnostics;
     diagnostics.error("config.x", {text("a.yaml", "\x1b[2J\t\xc3\xa9\xff: bad"), 1, 7, 1}, "m");
-    CHECK(diagnostics.text(Severity::error) ==
-          "a.yaml:1:7: error: m\n"
-          "    1 |  [2J \xc3\xa9?: bad\n"
-          "      |       ^\n");
+    CHECK(diagnostics.text(Severity::error) == "a.yaml:1:7: error: m\n"
+                                               "    1 |  [2J \xc3\xa9?: bad\n"
+                                               "      |       ^\n");
 }
 
 TEST_CASE("a flood of faults is cut, but counted") {

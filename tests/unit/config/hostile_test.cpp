@@ -1,9 +1,10 @@
-// Text that nobody wrote in good faith: every one ends with a ConfigError or a tree, soon and with little
-// memory.
+// Text that nobody wrote in good faith: every one ends with a ConfigError or a tree, soon and with
+// little memory.
+#include <string>
+
 #include <doctest/doctest.h>
 
 #include <dsc/base/random.hpp>
-#include <string>
 
 #include "support.hpp"
 
@@ -45,7 +46,8 @@ TEST_CASE("an alias bomb is refused before it grows") {
 TEST_CASE("aliases cannot hide depth or cycles") {
     std::string text = "a0: &a0 [1]\n";
     for (int i = 1; i < 100; ++i) {
-        text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [*a" + std::to_string(i - 1) + "]\n";
+        text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [*a" +
+                std::to_string(i - 1) + "]\n";
     }
     CHECK(code_of([&] { parse(text); }) == "config.too_deep");
     CHECK(code_of([] { parse("a: &a [*a]\n"); }) == "config.yaml");
@@ -65,9 +67,8 @@ TEST_CASE("binary junk is refused with the place of the first bad byte") {
     CHECK(code_of([] { parse("a: \xed\xa0\x80\n"); }) == "config.yaml");  // a surrogate
     CHECK(code_of([] { parse("a: \x1b[2J\n"); }) == "config.yaml");
     CHECK(code_of([] {
-              parse(
-                  "\xff\xfe"
-                  "a\0:\0");
+              parse("\xff\xfe"
+                    "a\0:\0");
           }) == "config.yaml");  // UTF-16
 }
 
@@ -116,7 +117,8 @@ TEST_CASE("thousands of unknown keys are told briefly") {
 TEST_CASE("20,000 mutations of an experiment: a tree or a ConfigError, nothing else") {
     const std::string seed =
         "include: []\nname: \"x\\n\" # c\nv: &a {type: 'p''q', k: [1, 2.5, -3e4, ~], r: null}\n"
-        "s:\n  - {steps: 50}\n  - refine: *a\n  - |\n    block\n  - >-\n    folded\n? q\n: ${HOME}\n";
+        "s:\n  - {steps: 50}\n  - refine: *a\n  - |\n    block\n  - >-\n    folded\n? q\n: "
+        "${HOME}\n";
     static const std::string pieces = "[]{}:,-?#&*!|>'\"%@`$ \n\t\\~<=.0aeE+\xc3\xa9";
     dsc::RandomStream random({13, 0, 0, 0});
     int trees = 0, errors = 0;
@@ -127,18 +129,10 @@ TEST_CASE("20,000 mutations of an experiment: a tree or a ConfigError, nothing e
             const std::size_t at = random.index(text.size());
             const char piece = pieces[random.index(pieces.size())];
             switch (random.index(4)) {
-                case 0:
-                    text[at] = piece;
-                    break;
-                case 1:
-                    text.insert(at, 1, piece);
-                    break;
-                case 2:
-                    text.erase(at, 1 + random.index(4));
-                    break;
-                default:
-                    text.resize(at + 1);
-                    break;
+                case 0: text[at] = piece; break;
+                case 1: text.insert(at, 1, piece); break;
+                case 2: text.erase(at, 1 + random.index(4)); break;
+                default: text.resize(at + 1); break;
             }
         }
         try {

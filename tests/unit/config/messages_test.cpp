@@ -1,9 +1,10 @@
 // Golden texts: what a user reads. Every message is asserted whole.
+#include <string>
+#include <vector>
+
 #include <doctest/doctest.h>
 
 #include <dsc/config/overrides.hpp>
-#include <string>
-#include <vector>
 
 #include "support.hpp"
 
@@ -16,7 +17,8 @@ TEST_CASE("unknown key, with the one that was meant") {
                    "velocity: {type: point_cloud, alhpa: 0.3}\n") ==
           "a.yaml:2:31: error: unknown key 'alhpa' in velocity 'point_cloud'\n"
           "    2 | velocity: {type: point_cloud, alhpa: 0.3}\n"
-          "      |                               ^~~~~  did you mean 'alpha'? (real, (0, 1], default 0.2)\n"
+          "      |                               ^~~~~  did you mean 'alpha'? (real, (0, 1], "
+          "default 0.2)\n"
           "      note: accepted keys: type, alpha, beta, k, radius, curvature\n"
           "1 error; nothing was run");
 }
@@ -35,9 +37,8 @@ TEST_CASE("unknown key that belongs elsewhere") {
           "a.yaml:2:1: error: unknown key 'thickness' in the experiment\n"
           "    2 | thickness: 3\n"
           "      | ^~~~~~~~~  'thickness' belongs to 'topology' of the experiment\n"
-          "      note: accepted keys: name, seed, cloud, axis, levels, surface, sizes, topology, schedule, "
-          "velocity, "
-          "estimators\n"
+          "      note: accepted keys: name, seed, cloud, axis, levels, surface, sizes, topology, "
+          "schedule, velocity, estimators\n"
           "1 error; nothing was run");
 }
 
@@ -84,13 +85,15 @@ TEST_CASE("out of range, closed and open ends") {
           "      |                                      ^  accepted: real, (0, 1], default 0.2\n"
           "a.yaml:1:44: error: 'velocity.k': 513 is above the maximum 512\n"
           "    1 | velocity: {type: point_cloud, alpha: 0, k: 513}\n"
-          "      |                                            ^~~  accepted: integer, [1, 512], default 8\n"
+          "      |                                            ^~~  accepted: integer, [1, 512], "
+          "default 8\n"
           "a.yaml:2:7: error: 'seed': -1 is below the minimum 0\n"
           "    2 | seed: -1\n"
           "      |       ^~  accepted: integer, default 1\n"
           "a.yaml:3:15: error: 'levels.1': 2.5 is above the maximum 2\n"
           "    3 | levels: [0.5, 2.5]\n"
-          "      |               ^~~  accepted: list of reals, at most 4 items, [0, 2], default [0.5, 1]\n"
+          "      |               ^~~  accepted: list of reals, at most 4 items, [0, 2], default "
+          "[0.5, 1]\n"
           "4 errors; nothing was run");
 }
 
@@ -111,8 +114,7 @@ TEST_CASE("bad choice, wrong number of items, wrong extension") {
           "    5 | axis: [0, 1]\n"
           "      |       ^  accepted: vector of 3 reals, default [0, 0, 1]\n"
           "a.yaml:6:8: error: 'cloud': 'scan.las' cannot be used here; the file's name must end in "
-          ".obj or "
-          ".ply\n"
+          ".obj or .ply\n"
           "    6 | cloud: scan.las\n"
           "      |        ^~~~~~~~\n"
           "4 errors; nothing was run");
@@ -135,8 +137,8 @@ TEST_CASE("unknown strategy") {
 
 TEST_CASE("a strategy without its type") {
     CHECK(error_in("velocity: normal\n") ==
-          "a.yaml:1:11: error: 'velocity' must be a velocity strategy {type: ID, ...}, not the string "
-          "'normal'\n"
+          "a.yaml:1:11: error: 'velocity' must be a velocity strategy {type: ID, ...}, not the "
+          "string 'normal'\n"
           "    1 | velocity: normal\n"
           "      |           ^~~~~~  write {type: normal}\n"
           "      note: known velocity strategies: normal, point_cloud\n"
@@ -151,20 +153,18 @@ TEST_CASE("a strategy without its type") {
 
 TEST_CASE("missing and empty values") {
     CHECK(error_in("name: x\n"
-                   "seed:\n") ==
-          "a.yaml:1:1: error: 'velocity' is missing in the experiment\n"
-          "    1 | name: x\n"
-          "      | ^  velocity strategy, required\n"
-          "      note: Velocity field.\n"
-          "a.yaml:2:1: error: 'seed' has no value\n"
-          "    2 | seed:\n"
-          "      | ^~~~  accepted: integer, default 1\n"
-          "2 errors; nothing was run");
-    CHECK(error_in("# nothing yet\n") ==
-          "a.yaml: error: 'velocity' is missing in the experiment\n"
-          "      note: velocity strategy, required\n"
-          "      note: Velocity field.\n"
-          "1 error; nothing was run");
+                   "seed:\n") == "a.yaml:1:1: error: 'velocity' is missing in the experiment\n"
+                                 "    1 | name: x\n"
+                                 "      | ^  velocity strategy, required\n"
+                                 "      note: Velocity field.\n"
+                                 "a.yaml:2:1: error: 'seed' has no value\n"
+                                 "    2 | seed:\n"
+                                 "      | ^~~~  accepted: integer, default 1\n"
+                                 "2 errors; nothing was run");
+    CHECK(error_in("# nothing yet\n") == "a.yaml: error: 'velocity' is missing in the experiment\n"
+                                         "      note: velocity strategy, required\n"
+                                         "      note: Velocity field.\n"
+                                         "1 error; nothing was run");
 }
 
 TEST_CASE("failed cross check") {
@@ -185,11 +185,10 @@ TEST_CASE("old and new name together") {
 
 TEST_CASE("malformed YAML") {
     CHECK(error_in("name: x\n"
-                   "a: b: c\n") ==
-          "a.yaml:2:5: error: malformed YAML: illegal map value\n"
-          "    2 | a: b: c\n"
-          "      |     ^  put text that contains ': ' in quotes\n"
-          "1 error; nothing was run");
+                   "a: b: c\n") == "a.yaml:2:5: error: malformed YAML: illegal map value\n"
+                                   "    2 | a: b: c\n"
+                                   "      |     ^  put text that contains ': ' in quotes\n"
+                                   "1 error; nothing was run");
     CHECK(error_in("name: x\n"
                    "levels: [1, 2\n"
                    "seed: 3\n") ==
@@ -198,11 +197,10 @@ TEST_CASE("malformed YAML") {
           "      |     ^  is the '[' in line 2 closed?\n"
           "1 error; nothing was run");
     CHECK(error_in("topology:\n"
-                   "\topen: true\n") ==
-          "a.yaml:2:6: error: malformed YAML: illegal map value\n"
-          "    2 |  open: true\n"
-          "      |      ^  indent with blanks, not tabs\n"
-          "1 error; nothing was run");
+                   "\topen: true\n") == "a.yaml:2:6: error: malformed YAML: illegal map value\n"
+                                        "    2 |  open: true\n"
+                                        "      |      ^  indent with blanks, not tabs\n"
+                                        "1 error; nothing was run");
     CHECK(error_in("cloud: {file: ${DSC_DATA}/x.obj}\n") ==
           "a.yaml:1:16: error: malformed YAML: end of map flow not found\n"
           "    1 | cloud: {file: ${DSC_DATA}/x.obj}\n"
@@ -217,11 +215,10 @@ TEST_CASE("a quote that is not closed, with and without a newline at the end of 
         "      |       ^\n"
         "1 error; nothing was run";
     CHECK(error_in("seed: 3\nname: 'x\n") == message);
-    CHECK(error_in("name: \"x") ==
-          "a.yaml:1:9: error: malformed YAML: illegal EOF in scalar\n"
-          "    1 | name: \"x\n"
-          "      |         ^\n"
-          "1 error; nothing was run");
+    CHECK(error_in("name: \"x") == "a.yaml:1:9: error: malformed YAML: illegal EOF in scalar\n"
+                                   "    1 | name: \"x\n"
+                                   "      |         ^\n"
+                                   "1 error; nothing was run");
 }
 
 TEST_CASE("duplicate key, naming both lines") {
@@ -237,27 +234,25 @@ TEST_CASE("duplicate key, naming both lines") {
 TEST_CASE("merge key") {
     CHECK(error_in("a: &x {b: 1}\n"
                    "c:\n"
-                   "  <<: *x\n") ==
-          "a.yaml:3:3: error: the merge key '<<' is not supported\n"
-          "    3 |   <<: *x\n"
-          "      |   ^~  use 'include: FILE' at the top of the file\n"
-          "1 error; nothing was run");
+                   "  <<: *x\n") == "a.yaml:3:3: error: the merge key '<<' is not supported\n"
+                                    "    3 |   <<: *x\n"
+                                    "      |   ^~  use 'include: FILE' at the top of the file\n"
+                                    "1 error; nothing was run");
 }
 
 TEST_CASE("numbers that are not finite") {
     CHECK(error_in("a: .inf\n"
                    "b: -.NaN\n"
-                   "c: 1e999\n") ==
-          "a.yaml:1:4: error: '.inf' is not a finite number\n"
-          "    1 | a: .inf\n"
-          "      |    ^~~~  write a finite decimal number\n"
-          "a.yaml:2:4: error: '-.NaN' is not a finite number\n"
-          "    2 | b: -.NaN\n"
-          "      |    ^~~~~  write a finite decimal number\n"
-          "a.yaml:3:4: error: '1e999' does not fit a double\n"
-          "    3 | c: 1e999\n"
-          "      |    ^~~~~  write a finite decimal number\n"
-          "3 errors; nothing was run");
+                   "c: 1e999\n") == "a.yaml:1:4: error: '.inf' is not a finite number\n"
+                                    "    1 | a: .inf\n"
+                                    "      |    ^~~~  write a finite decimal number\n"
+                                    "a.yaml:2:4: error: '-.NaN' is not a finite number\n"
+                                    "    2 | b: -.NaN\n"
+                                    "      |    ^~~~~  write a finite decimal number\n"
+                                    "a.yaml:3:4: error: '1e999' does not fit a double\n"
+                                    "    3 | c: 1e999\n"
+                                    "      |    ^~~~~  write a finite decimal number\n"
+                                    "3 errors; nothing was run");
 }
 
 TEST_CASE("tag, second document, list as a key") {
@@ -288,15 +283,16 @@ TEST_CASE("unset variable") {
 }
 
 TEST_CASE("DSC_DATA unset tells what it is and where the clouds are") {
-    CHECK(
-        error_in("cloud: \"${DSC_DATA}/teapot.obj\"\n") ==
-        "a.yaml:1:8: error: the environment variable 'DSC_DATA' is not set\n"
-        "    1 | cloud: \"${DSC_DATA}/teapot.obj\"\n"
-        "      |        ^~~~~~~~~~~~~~~~~~~~~~~~  set it: export DSC_DATA=...\n"
-        "      note: DSC_DATA is the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj\n"
-        "      note: they are public models: the Stanford bunny (graphics.stanford.edu/data/3Dscanrep), the "
-        "teapot and the cow (the common OBJ test models)\n"
-        "1 error; nothing was run");
+    CHECK(error_in("cloud: \"${DSC_DATA}/teapot.obj\"\n") ==
+          "a.yaml:1:8: error: the environment variable 'DSC_DATA' is not set\n"
+          "    1 | cloud: \"${DSC_DATA}/teapot.obj\"\n"
+          "      |        ^~~~~~~~~~~~~~~~~~~~~~~~  set it: export DSC_DATA=...\n"
+          "      note: DSC_DATA is the folder with the thesis' clouds bunny.obj, teapot.obj and "
+          "cow.obj\n"
+          "      note: they are public models: the Stanford bunny "
+          "(graphics.stanford.edu/data/3Dscanrep), the teapot and the cow (the common OBJ test "
+          "models)\n"
+          "1 error; nothing was run");
 }
 
 TEST_CASE("malformed name of a variable") {
@@ -311,9 +307,8 @@ TEST_CASE("a file that is no map") {
     CHECK(error_in("just text\n") ==
           "a.yaml:1:1: error: the experiment must be a map, not the string 'just text'\n"
           "    1 | just text\n"
-          "      | ^~~~~~~~~  accepted keys: name, seed, cloud, axis, levels, surface, sizes, topology, "
-          "schedule, "
-          "velocity, estimators\n"
+          "      | ^~~~~~~~~  accepted keys: name, seed, cloud, axis, levels, surface, sizes, "
+          "topology, schedule, velocity, estimators\n"
           "1 error; nothing was run");
 }
 
@@ -331,19 +326,19 @@ TEST_CASE("faults of overrides name the override") {
           "command line: 'velocity.k=0': error: 'velocity.k': 0 is below the minimum 1\n"
           "      note: accepted: integer, [1, 512], default 8\n"
           "2 errors; nothing was run");
-    CHECK(error({"x", "+a=3", "a..b=3", "schedule.1.steps=3", "velocity.type.a=3", "name=a: b", "name=#x",
-                 "velocity.k=[1", "cloud=${NOPE}"}) ==
+    CHECK(error({"x", "+a=3", "a..b=3", "schedule.1.steps=3", "velocity.type.a=3", "name=a: b",
+                 "name=#x", "velocity.k=[1", "cloud=${NOPE}"}) ==
           "command line: 'x': error: malformed override: no '=' in it\n"
           "      note: write path.to.key=value\n"
           "command line: '+a=3': error: malformed override: it starts with '+'\n"
           "      note: write path.to.key=value; every key of the schema is allowed\n"
           "command line: 'a..b=3': error: malformed override: 'a..b' is not a dotted path\n"
           "      note: write path.to.key=value\n"
-          "command line: 'schedule.1.steps=3': error: malformed override: 'schedule' is a list of 1; it has "
-          "no item '1'\n"
+          "command line: 'schedule.1.steps=3': error: malformed override: 'schedule' is a list of "
+          "1; it has no item '1'\n"
           "      note: items are numbered from 0 to 0\n"
-          "command line: 'velocity.type.a=3': error: malformed override: 'velocity.type' is a string; it has "
-          "no key 'a'\n"
+          "command line: 'velocity.type.a=3': error: malformed override: 'velocity.type' is a "
+          "string; it has no key 'a'\n"
           "command line: 'name=a: b': error: malformed YAML: expected a scalar, [list] or {map}\n"
           "      note: put text with ': ' or '- ' in quotes\n"
           "command line: 'name=#x': error: malformed override: its value is a comment\n"

@@ -1,8 +1,9 @@
+#include <string>
+#include <vector>
+
 #include <doctest/doctest.h>
 
 #include <dsc/config/overrides.hpp>
-#include <string>
-#include <vector>
 
 #include "support.hpp"
 
@@ -73,7 +74,8 @@ TEST_CASE("a value that stands in a file keeps its place, its key too") {
     ConfigNode root = parse("velocity: {type: point_cloud}\nschedule: [{steps: 5}]\n");
     for (const config::ConfigEntry& entry : sweep.entries())
         root = config::with_value(root, entry.key, entry.value, entry.position);
-    CHECK(root == parse("velocity: {type: point_cloud, alpha: 0.3}\nschedule: [{steps: 7}]\nstop: {speed: 1}\n"));
+    CHECK(root == parse("velocity: {type: point_cloud, alpha: 0.3}\nschedule: [{steps: 7}]\nstop: "
+                        "{speed: 1}\n"));
     const config::ConfigEntry* alpha = root.at("velocity").find_entry("alpha");
     REQUIRE(alpha != nullptr);
     CHECK(alpha->position.describe() == "a.yaml:1:1");
@@ -81,23 +83,27 @@ TEST_CASE("a value that stands in a file keeps its place, its key too") {
     CHECK(alpha->value.path() == "velocity.alpha");
 
     const auto fault = [&](const std::string& path) {
-        return test::error_of([&] { config::with_value(root, path, ConfigNode(1), sweep.entries()[1].position); });
+        return test::error_of(
+            [&] { config::with_value(root, path, ConfigNode(1), sweep.entries()[1].position); });
     };
-    CHECK(fault("schedule.4.steps").find("a.yaml:2:1: error: 'schedule' is a list of 1; it has no item '4'") == 0);
-    CHECK(fault("velocity.alpha.x").find("a.yaml:2:1: error: 'velocity.alpha' is a real number") == 0);
-    CHECK(fault("velocity..alpha").find("a.yaml:2:1: error: 'velocity..alpha' is not a dotted path") == 0);
+    CHECK(fault("schedule.4.steps")
+              .find("a.yaml:2:1: error: 'schedule' is a list of 1; it has no item '4'") == 0);
+    CHECK(fault("velocity.alpha.x").find("a.yaml:2:1: error: 'velocity.alpha' is a real number") ==
+          0);
+    CHECK(fault("velocity..alpha")
+              .find("a.yaml:2:1: error: 'velocity..alpha' is not a dotted path") == 0);
 }
 
 TEST_CASE("a value on one line reads back as an equal tree") {
-    for (const char* text :
-         {"1", "1.0", "-0.001", "true", "~", "plain", "'it''s, {odd}: #'", "\"tab\\t line\\n\"", "'$${HOME}'", "'0.5'", "[]", "{}",
-          "[1, [2.5, a], {b: [~]}]", "{a.b: 1, 'c d': {e: ['x, y']}}"}) {
+    for (const char* text : {"1", "1.0", "-0.001", "true", "~", "plain", "'it''s, {odd}: #'",
+                             "\"tab\\t line\\n\"", "'$${HOME}'", "'0.5'", "[]", "{}",
+                             "[1, [2.5, a], {b: [~]}]", "{a.b: 1, 'c d': {e: ['x, y']}}"}) {
         const ConfigNode value = parse(std::string("a: ") + text).at("a");
         const std::string flow = config::flow_text(value);
         CAPTURE(flow);
         CHECK(flow.find('\n') == std::string::npos);
-        const auto source = std::make_shared<const config::SourceText>(
-            config::SourceText{config::SourceText::Kind::command_line, "command line", "a=" + flow});
+        const auto source = std::make_shared<const config::SourceText>(config::SourceText{
+            config::SourceText::Kind::command_line, "command line", "a=" + flow});
         CHECK(config::parse_value(source, 2) == value);
     }
 }

@@ -1,9 +1,10 @@
-#include <doctest/doctest.h>
-
 #include <array>
 #include <cstdint>
-#include <dsc/config/params.hpp>
 #include <string>
+
+#include <doctest/doctest.h>
+
+#include <dsc/config/params.hpp>
 
 #include "support.hpp"
 
@@ -59,8 +60,10 @@ struct Everything {
         s.real("maybe_real", &Everything::maybe_real).doc("d");
         s.string("text", &Everything::text).doc("d");
         s.string("maybe_text", &Everything::maybe_text).doc("d");
-        s.choice("area", &Everything::area, {{"mixed", Area::mixed}, {"ring", Area::ring}}).doc("d");
-        s.choice("maybe_area", &Everything::maybe_area, {{"mixed", Area::mixed}, {"ring", Area::ring}})
+        s.choice("area", &Everything::area, {{"mixed", Area::mixed}, {"ring", Area::ring}})
+            .doc("d");
+        s.choice("maybe_area", &Everything::maybe_area,
+                 {{"mixed", Area::mixed}, {"ring", Area::ring}})
             .doc("d");
         s.vec3("axis", &Everything::axis).doc("d");
         s.vec3("maybe_axis", &Everything::maybe_axis).doc("d");
@@ -76,7 +79,9 @@ struct Everything {
     }
 };
 
-Everything read(const std::string& text) { return read_params<Everything>(parse(text), test::FakeLookup()); }
+Everything read(const std::string& text) {
+    return read_params<Everything>(parse(text), test::FakeLookup());
+}
 
 template <class T>
 std::string declaration_fault(T declare) {
@@ -121,10 +126,13 @@ TEST_CASE("defaults are those of the struct") {
 
 TEST_CASE("given values reach their members") {
     const Everything p = read(
-        "flag: false\nmaybe_flag: true\nsmall: -7\nmaybe_large: 9223372036854775807\ncount: 0\nreal: 1\n"
-        "maybe_real: null\ntext: x\nmaybe_text: y\narea: mixed\nmaybe_area: ring\naxis: [4, 5.5, -6]\n"
+        "flag: false\nmaybe_flag: true\nsmall: -7\nmaybe_large: 9223372036854775807\ncount: "
+        "0\nreal: 1\n"
+        "maybe_real: null\ntext: x\nmaybe_text: y\narea: mixed\nmaybe_area: ring\naxis: [4, 5.5, "
+        "-6]\n"
         "maybe_axis: [0, 0, 1]\nintegers: []\nreals: [1, 2]\nstrings: [c]\ninner: {radius: 9}\n"
-        "maybe_inner: {cut: true}\nshapes: [{shape: box}, {radius: 4}]\ncurvature: {type: angular_defect}\n"
+        "maybe_inner: {cut: true}\nshapes: [{shape: box}, {radius: 4}]\ncurvature: {type: "
+        "angular_defect}\n"
         "none: {type: implicit_fairing, area: ring}\nobservers: []\n");
     CHECK_FALSE(p.flag);
     CHECK(p.maybe_flag == true);
@@ -218,7 +226,8 @@ TEST_CASE("a required field has no default") {
     schema.file("file", &P::file).required().doc("The mesh.");
     CHECK(schema.schema().find("file")->default_value.is_null());
     Diagnostics diagnostics;
-    validate(ConfigNode::map(), schema.schema(), NoStrategies(), diagnostics, "initial_mesh 'dsc_file'");
+    validate(ConfigNode::map(), schema.schema(), NoStrategies(), diagnostics,
+             "initial_mesh 'dsc_file'");
     CHECK(diagnostics.all().at(0).message == "'file' is missing in initial_mesh 'dsc_file'");
 }
 
@@ -236,8 +245,8 @@ TEST_CASE("faulty declarations are refused") {
     CHECK(declaration_fault([](S& s) { s.real("radius", &Shape::radius); }) ==
           "faulty declaration of parameters: parameter 'radius' has no doc");
     CHECK(declaration_fault([](S& s) { s.real("radius", &Shape::radius).range(2, 3).doc("d"); }) ==
-          "faulty declaration of parameters: parameter 'radius' has a bad default: 'radius': 1 is below the "
-          "minimum 2");
+          "faulty declaration of parameters: parameter 'radius' has a bad default: 'radius': 1 is "
+          "below the minimum 2");
     CHECK(declaration_fault([](S& s) { s.string("shape", &Shape::shape).at_least(2).doc("d"); }) ==
           "faulty declaration of parameters: parameter 'shape' has a range but is not a number");
     CHECK(declaration_fault([](S& s) {
@@ -248,12 +257,11 @@ TEST_CASE("faulty declarations are refused") {
           "faulty declaration of parameters: parameter 'a b' has a name that is not an identifier");
     CHECK(declaration_fault([](S& s) {
               s.choice("shape", &Shape::shape, {{"a", "b"}}).doc("d");
-          }) ==
-          "faulty declaration of parameters: parameter 'shape' has a bad default: 'shape' must be a string, "
-          "not an "
-          "empty value");
+          }) == "faulty declaration of parameters: parameter 'shape' has a bad default: 'shape' "
+                "must be a string, not an empty value");
     CHECK(declaration_fault([](S& s) { s.deprecated("old", "new"); }) ==
-          "faulty declaration of parameters: 'old' is an old name of 'new', which is not a parameter");
+          "faulty declaration of parameters: 'old' is an old name of 'new', which is not a "
+          "parameter");
     CHECK(declaration_fault([](S& s) { s.check([](const Shape&) { return true; }, ""); }) ==
           "faulty declaration of parameters: a cross check has no message");
 }
@@ -263,5 +271,6 @@ TEST_CASE("a strategy must not call a parameter 'type'") {
     schema.string("type", &Shape::shape).doc("d");
     CHECK(schema.schema().problems().empty());
     CHECK(schema.schema().problems(true) ==
-          std::vector<std::string>{"parameter 'type' has the name 'type', which selects the strategy"});
+          std::vector<std::string>{
+              "parameter 'type' has the name 'type', which selects the strategy"});
 }

@@ -1,9 +1,10 @@
-#include <doctest/doctest.h>
-
 #include <algorithm>
-#include <dsc/config/spelling.hpp>
 #include <string>
 #include <vector>
+
+#include <doctest/doctest.h>
+
+#include <dsc/config/spelling.hpp>
 
 using dsc::config::closest;
 using dsc::config::edit_distance;
@@ -15,7 +16,8 @@ TEST_CASE("edit distance of known pairs") {
     CHECK(edit_distance("alhpa", "alpha") == 1);
     CHECK(edit_distance("alph", "alpha") == 1);
     CHECK(edit_distance("kitten", "sitting") == 3);
-    CHECK(edit_distance("ca", "abc") == 3);  // optimal string alignment, not the unrestricted distance 2
+    CHECK(edit_distance("ca", "abc") == 3);  // optimal string alignment, not the unrestricted
+                                             // distance 2
 }
 
 TEST_CASE("edit distance is symmetric and obeys its bounds") {

@@ -1,11 +1,9 @@
 #pragma once
-// What the tests of this module share: an environment, a fake set of strategies, the text of an error.
+// What the tests of this module share: an environment, a fake set of strategies, the text of an
+// error.
 
 #include <array>
 #include <cstdint>
-#include <dsc/base/error.hpp>
-#include <dsc/config/params.hpp>
-#include <dsc/config/yaml.hpp>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -13,6 +11,10 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <dsc/base/error.hpp>
+#include <dsc/config/params.hpp>
+#include <dsc/config/yaml.hpp>
 
 namespace test {
 
@@ -84,7 +86,8 @@ public:
     }
 
 private:
-    /// Differs between the processes of a parallel test run, which share the folder for temporary files.
+    /// Differs between the processes of a parallel test run, which share the folder for temporary
+    /// files.
     static long process() {
         std::error_code ignored;
         const auto self = std::filesystem::read_symlink("/proc/self", ignored);
@@ -146,7 +149,10 @@ struct Topology {
     double thickness = 0.6;
     static void declare(dsc::config::ParamSchema<Topology>& s) {
         s.boolean("open", &Topology::open).doc("Open handles.");
-        s.real("thickness", &Topology::thickness).at_least(0).unit("mean edges").doc("Largest thickness.");
+        s.real("thickness", &Topology::thickness)
+            .at_least(0)
+            .unit("mean edges")
+            .doc("Largest thickness.");
     }
 };
 
@@ -184,7 +190,8 @@ struct Experiment {
         s.object("topology", &Experiment::topology, Topology::declare).doc("Events.");
         s.list("schedule", &Experiment::schedule, Phase::declare).doc("Phases.");
         s.strategy("velocity", &Experiment::velocity, "velocity").doc("Velocity field.");
-        s.strategies("estimators", &Experiment::estimators, "curvature").doc("Estimators to report.");
+        s.strategies("estimators", &Experiment::estimators, "curvature")
+            .doc("Estimators to report.");
     }
 };
 
@@ -197,7 +204,8 @@ public:
         ImplicitFairing::declare(fairing_);
         AngularDefect::declare(defect_);
     }
-    const dsc::config::Schema* find_schema(const std::string& kind, const std::string& id) const override {
+    const dsc::config::Schema* find_schema(const std::string& kind,
+                                           const std::string& id) const override {
         if (kind == "velocity" && id == "point_cloud") return &point_cloud_.schema();
         if (kind == "velocity" && id == "normal") return &normal_.schema();
         if (kind == "curvature" && id == "implicit_fairing") return &fairing_.schema();

@@ -1,7 +1,8 @@
+#include <string>
+
 #include <doctest/doctest.h>
 
 #include <dsc/config/yaml.hpp>
-#include <string>
 
 #include "support.hpp"
 
@@ -10,20 +11,24 @@ using dsc::config::NodeType;
 using test::parse;
 
 TEST_CASE("scalars are read as in JSON") {
-    const auto type = [](const std::string& text) { return parse("a: " + text + "\n").at("a").type(); };
+    const auto type = [](const std::string& text) {
+        return parse("a: " + text + "\n").at("a").type();
+    };
     for (const char* text : {"0", "-1", "123", "9223372036854775807", "-9223372036854775808"}) {
         CAPTURE(text);
         CHECK(type(text) == NodeType::integer);
     }
-    for (const char* text : {"0.5", "-0.0", "1e3", "3.0e-4", "1E+2", "9223372036854775808", "1e-300"}) {
+    for (const char* text :
+         {"0.5", "-0.0", "1e3", "3.0e-4", "1E+2", "9223372036854775808", "1e-300"}) {
         CAPTURE(text);
         CHECK(type(text) == NodeType::real);
     }
     for (const char* text : {"true", "false"}) CHECK(type(text) == NodeType::boolean);
     for (const char* text : {"null", "~", ""}) CHECK(type(text) == NodeType::null);
-    for (const char* text : {"0123", "0x1F", "0o17",  "1_000",      ".5",  "5.",       "+5",  "yes",
-                             "no",   "on",   "off",   "True",       "y",   "1e",       "--1", "1.2.3",
-                             "inf",  "nan",  "12:30", "2024-01-01", "'8'", "\"true\"", "''"}) {
+    for (const char* text :
+         {"0123", "0x1F", "0o17",  "1_000",      ".5",  "5.",       "+5",  "yes",
+          "no",   "on",   "off",   "True",       "y",   "1e",       "--1", "1.2.3",
+          "inf",  "nan",  "12:30", "2024-01-01", "'8'", "\"true\"", "''"}) {
         CAPTURE(text);
         CHECK(type(text) == NodeType::string);
     }
@@ -37,13 +42,12 @@ TEST_CASE("numbers keep all their digits") {
 }
 
 TEST_CASE("every node and key knows its line and column, path and quotes") {
-    const ConfigNode node = parse(
-        "name: thesis\n"
-        "schedule:\n"
-        "  - {steps: 50}\n"
-        "  - refine:\n"
-        "      type: \"average_area\"\n"
-        "empty:\n");
+    const ConfigNode node = parse("name: thesis\n"
+                                  "schedule:\n"
+                                  "  - {steps: 50}\n"
+                                  "  - refine:\n"
+                                  "      type: \"average_area\"\n"
+                                  "empty:\n");
     const ConfigNode& type = node.at("schedule").at(1).at("refine").at("type");
     CHECK(type.path() == "schedule.1.refine.type");
     CHECK(type.position().describe() == "a.yaml:5:13");
@@ -83,12 +87,11 @@ TEST_CASE("an empty text is null, a comment is nothing") {
 }
 
 TEST_CASE("variables expand in strings, keys and numbers stay as they are") {
-    const ConfigNode node = parse(
-        "a: \"${HOME}/data\"\n"
-        "b: '${HOME}${HOME}'\n"
-        "c: ${HOME}/x\n"
-        "d: $${HOME} costs $5\n"
-        "\"${HOME}\": 1\n");
+    const ConfigNode node = parse("a: \"${HOME}/data\"\n"
+                                  "b: '${HOME}${HOME}'\n"
+                                  "c: ${HOME}/x\n"
+                                  "d: $${HOME} costs $5\n"
+                                  "\"${HOME}\": 1\n");
     CHECK(node.at("a").as_string() == "/home/ada/data");
     CHECK(node.at("b").as_string() == "/home/ada/home/ada");
     CHECK(node.at("c").as_string() == "/home/ada/x");
@@ -98,8 +101,8 @@ TEST_CASE("variables expand in strings, keys and numbers stay as they are") {
 }
 
 TEST_CASE("what a variable holds is taken as it is") {
-    const auto options =
-        test::with_variables({{"A", "${B} 1.0 \"#"}, {"B", "no"}, {"N", "5"}, {"E", ""}, {"X", "\xff"}});
+    const auto options = test::with_variables(
+        {{"A", "${B} 1.0 \"#"}, {"B", "no"}, {"N", "5"}, {"E", ""}, {"X", "\xff"}});
     const auto value = [&](const std::string& text) {
         return dsc::config::parse_yaml("a: " + text + "\n", "a.yaml", options).at("a");
     };
@@ -113,17 +116,21 @@ TEST_CASE("what a variable holds is taken as it is") {
 }
 
 TEST_CASE("several faults of one text are told at once") {
-    CHECK(test::error_of([] { parse("a: .inf\na: 1\nb: ${NOPE}\n"); }).find("3 errors; nothing was run") !=
-          std::string::npos);
+    CHECK(test::error_of([] {
+              parse("a: .inf\na: 1\nb: ${NOPE}\n");
+          }).find("3 errors; nothing was run") != std::string::npos);
 }
 
 TEST_CASE("a duplicate key is found in any map, quoted or not") {
     CHECK(test::code_of([] { parse("a: {b: 1, \"b\": 2}\n"); }) == "config.duplicate_key");
-    CHECK(test::code_of([] { parse("- {b: 1, c: 3}\n- {b: 1, b: 3}\n"); }) == "config.duplicate_key");
+    CHECK(test::code_of([] { parse("- {b: 1, c: 3}\n- {b: 1, b: 3}\n"); }) ==
+          "config.duplicate_key");
     CHECK(parse("a: {b: 1}\nc: {b: 1}\n").size() == 2);
 }
 
-TEST_CASE("a quoted '<<' is a key like any other") { CHECK(parse("'<<': 1\n").at("<<").as_integer() == 1); }
+TEST_CASE("a quoted '<<' is a key like any other") {
+    CHECK(parse("'<<': 1\n").at("<<").as_integer() == 1);
+}
 
 TEST_CASE("a file that cannot be read is a fault of input") {
     const test::Folder folder("unreadable");
@@ -132,8 +139,8 @@ TEST_CASE("a file that cannot be read is a fault of input") {
         dsc::config::load_yaml(missing);
         FAIL("no error");
     } catch (const dsc::IoError& error) {
-        CHECK(error.what() ==
-              missing + ": cannot read the configuration: the file does not exist; name a readable YAML file");
+        CHECK(error.what() == missing + ": cannot read the configuration: the file does not exist; "
+                                        "name a readable YAML file");
         CHECK(error.exit_code() == dsc::ExitCode::io);
     }
     CHECK(test::code_of([&] { dsc::config::load_yaml(folder.path()); }) == "io.open");

@@ -1,12 +1,13 @@
-#include <doctest/doctest.h>
-
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <dsc/base/random.hpp>
 #include <limits>
 #include <string>
 #include <vector>
+
+#include <doctest/doctest.h>
+
+#include <dsc/base/random.hpp>
 
 #include "support.hpp"
 
@@ -97,7 +98,8 @@ ConfigNode random_tree(dsc::RandomStream& random, int depth) {
     const std::uint64_t kind = random.index(depth > 0 ? 7 : 5);
     if (kind == 0) return ConfigNode();
     if (kind == 1) return ConfigNode(random.index(2) == 0);
-    if (kind == 2) return ConfigNode(static_cast<std::int64_t>((std::uint64_t{random()} << 32U) | random()));
+    if (kind == 2)
+        return ConfigNode(static_cast<std::int64_t>((std::uint64_t{random()} << 32U) | random()));
     if (kind == 3) return ConfigNode(random_double(random));
     if (kind == 4) return ConfigNode(random_string(random));
     const std::uint64_t count = random.index(5);
@@ -115,27 +117,26 @@ ConfigNode random_tree(dsc::RandomStream& random, int depth) {
 }  // namespace
 
 TEST_CASE("the text is what a person would write") {
-    const std::string text =
-        "dsc: 1\n"
-        "name: thesis-teapot\n"
-        "input:\n"
-        "  cloud:\n"
-        "    file: /data/teapot.obj\n"
-        "    filters:\n"
-        "      - type: duplicates\n"
-        "      - type: voxel_grid\n"
-        "        leaf: 0.01\n"
-        "velocity:\n"
-        "  alpha: 0.2\n"
-        "  beta: 0.0003\n"
-        "  radius: null\n"
-        "axis: [0.0, 0.0, 1.0]\n"
-        "observers: []\n"
-        "nested:\n"
-        "  - - a: 1\n"
-        "    - [1, 2]\n"
-        "  - {}\n"
-        "note: \"yes: it's so\"\n";
+    const std::string text = "dsc: 1\n"
+                             "name: thesis-teapot\n"
+                             "input:\n"
+                             "  cloud:\n"
+                             "    file: /data/teapot.obj\n"
+                             "    filters:\n"
+                             "      - type: duplicates\n"
+                             "      - type: voxel_grid\n"
+                             "        leaf: 0.01\n"
+                             "velocity:\n"
+                             "  alpha: 0.2\n"
+                             "  beta: 0.0003\n"
+                             "  radius: null\n"
+                             "axis: [0.0, 0.0, 1.0]\n"
+                             "observers: []\n"
+                             "nested:\n"
+                             "  - - a: 1\n"
+                             "    - [1, 2]\n"
+                             "  - {}\n"
+                             "note: \"yes: it's so\"\n";
     CHECK(to_yaml(parse(text)) == text);
 }
 
@@ -160,8 +161,9 @@ TEST_CASE("20,000 random doubles come back bit for bit") {
         if (bits(parse(dsc::config::real_text(value)).as_real()) != bits(value)) ++wrong;
     }
     CHECK(wrong == 0);
-    for (const double value : {5e-324, std::numeric_limits<double>::max(), std::numeric_limits<double>::min(),
-                               1e15, 1e-5, 123456789012345680.0}) {
+    for (const double value :
+         {5e-324, std::numeric_limits<double>::max(), std::numeric_limits<double>::min(), 1e15,
+          1e-5, 123456789012345680.0}) {
         CHECK(bits(parse(dsc::config::real_text(value)).as_real()) == bits(value));
     }
 }
@@ -250,5 +252,7 @@ TEST_CASE("3,000 random trees come back equal, and their text is stable") {
 TEST_CASE("what cannot be read back is refused") {
     CHECK(test::code_of([] { to_yaml(ConfigNode("\xff")); }) == "config.text");
     CHECK(test::code_of([] { to_yaml(ConfigNode::map({{"\xff", 1}})); }) == "config.text");
-    CHECK(test::code_of([] { to_yaml(ConfigNode::map({{"include", "a.yaml"}})); }) == "config.include");
+    CHECK(test::code_of([] {
+              to_yaml(ConfigNode::map({{"include", "a.yaml"}}));
+          }) == "config.include");
 }

@@ -1,9 +1,9 @@
-#include <doctest/doctest.h>
+#include "generate/cell_set.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "generate/cell_set.hpp"
+#include <doctest/doctest.h>
 
 TEST_CASE("sets of cells grow and coarsen, across words and up to the walls") {
     using dsc::generate::lattice::Cell;

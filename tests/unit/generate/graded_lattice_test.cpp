@@ -1,16 +1,17 @@
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <random>
+
+#include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
+#include <dsc/generate/graded_lattice.hpp>
+#include <dsc/generate/topology_filter.hpp>
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/generate/graded_lattice.hpp>
-#include <dsc/generate/topology_filter.hpp>
 #include <dsc/mesh/validate.hpp>
-#include <map>
-#include <random>
 
 #include "implicit.hpp"
 
@@ -50,7 +51,8 @@ Vec3 low_of(const GradedLattice& l, const Leaf& leaf) { return l.points()[leaf.v
 bool overlaps(const GradedLattice& l, const Leaf& leaf, const Vec3& low, double edge) {
     const Vec3 at = low_of(l, leaf);
     const double little = 1e-9;
-    return ((at.array() + leaf.edge > low.array() + little) && (at.array() < low.array() + edge - little))
+    return ((at.array() + leaf.edge > low.array() + little) &&
+            (at.array() < low.array() + edge - little))
         .all();
 }
 
@@ -62,9 +64,11 @@ void check_tets(const GradedLattice& l) {
     double least_quality = 1;
     for (const auto& t : tets) {
         const auto p = l.points();
-        least_quality = std::min(least_quality, geometry::tet_quality(p[t[0]], p[t[1]], p[t[2]], p[t[3]]));
+        least_quality =
+            std::min(least_quality, geometry::tet_quality(p[t[0]], p[t[1]], p[t[2]], p[t[3]]));
         positive = positive && geometry::orient3d(p[t[0]], p[t[1]], p[t[2]], p[t[3]]) > 0;
-        volume += std::abs((p[t[1]] - p[t[0]]).dot((p[t[2]] - p[t[0]]).cross(p[t[3]] - p[t[0]]))) / 6;
+        volume +=
+            std::abs((p[t[1]] - p[t[0]]).dot((p[t[2]] - p[t[0]]).cross(p[t[3]] - p[t[0]]))) / 6;
         for (const std::uint32_t v : t) used[v] = true;
     }
     CHECK(positive);
@@ -91,7 +95,8 @@ Complex adopted(const GradedLattice& l) {
 
 }  // namespace
 
-TEST_CASE("cells at a place and beside it are as small as the place asks, whatever the order of the places") {
+TEST_CASE("cells at a place and beside it are as small as the place asks, whatever the order of "
+          "the places") {
     std::vector<CellSize> sizes = uneven_sizes(0.02, 150, 3);
     const GradedLattice l(with_cell(0.017, Vec3(0.1, 0, -0.2)), sizes, "test");
     CHECK(l.finest_cell() == doctest::Approx(0.017).epsilon(1e-12));
@@ -120,10 +125,12 @@ TEST_CASE("cells at a place and beside it are as small as the place asks, whatev
     std::shuffle(sizes.begin(), sizes.end(), std::mt19937(9));
     const GradedLattice again(with_cell(0.017, Vec3(0.1, 0, -0.2)), sizes, "test");
     CHECK(again.tets() == l.tets());
-    CHECK(std::equal(l.points().begin(), l.points().end(), again.points().begin(), again.points().end()));
+    CHECK(std::equal(l.points().begin(), l.points().end(), again.points().begin(),
+                     again.points().end()));
 }
 
-TEST_CASE("cells that share a corner differ by at most a factor of two, also after cells were divided") {
+TEST_CASE(
+    "cells that share a corner differ by at most a factor of two, also after cells were divided") {
     GradedLattice l(with_cell(0.04), std::vector<CellSize>{{Vec3(0.31, 0.2, 0.7), 0.04}}, "test");
     std::mt19937 random(5);
     for (int round = 0; round < 4; ++round) {
@@ -156,17 +163,20 @@ TEST_CASE("tets of a lattice with sizes of 10:1 are positive, conforming and fil
 
 TEST_CASE("dividing cells only adds vertices, so values survive; volumes add up to the box") {
     const auto value = [](const Vec3& x) { return test::torus(x, 0.5, 0.2); };
-    GradedLattice l(with_cell(0.021), std::vector<CellSize>{{Vec3(1.49, 1.49, 1.49), 0.05}}, "test");
+    GradedLattice l(with_cell(0.021), std::vector<CellSize>{{Vec3(1.49, 1.49, 1.49), 0.05}},
+                    "test");
     std::vector<Vec3> points;
     std::vector<double> values;
     std::size_t rounds = 0;
     for (std::size_t old = 0; old < l.points().size(); ++rounds) {
         REQUIRE(std::equal(points.begin(), points.end(), l.points().begin()));
         REQUIRE(old == points.size());
-        for (std::size_t v = old; v < l.points().size(); ++v) values.push_back(value(l.points()[v]));
+        for (std::size_t v = old; v < l.points().size(); ++v)
+            values.push_back(value(l.points()[v]));
         points.assign(l.points().begin(), l.points().end());
         const std::vector<double> volumes = l.volumes();
-        CHECK(std::accumulate(volumes.begin(), volumes.end(), 0.0) == doctest::Approx(l.box().size().prod()));
+        CHECK(std::accumulate(volumes.begin(), volumes.end(), 0.0) ==
+              doctest::Approx(l.box().size().prod()));
         old = l.split_where(
             [&](const Leaf& leaf) { return has_mixed_signs(leaf, values) && leaf.edge > 0.04; });
     }
@@ -174,31 +184,37 @@ TEST_CASE("dividing cells only adds vertices, so values survive; volumes add up 
     for (std::size_t v = 0; v < values.size(); ++v) REQUIRE(values[v] == value(l.points()[v]));
     for (const Leaf& leaf : l.leaves()) {
         // x runs fastest, the centre is last.
-        REQUIRE((l.points()[leaf.vertices[1]] - l.points()[leaf.vertices[0]] - Vec3(leaf.edge, 0, 0)).norm() <
-                1e-12);
-        REQUIRE((l.points()[leaf.vertices[8]] - low_of(l, leaf) - Vec3::Constant(leaf.edge / 2)).norm() <
-                1e-12);
+        REQUIRE(
+            (l.points()[leaf.vertices[1]] - l.points()[leaf.vertices[0]] - Vec3(leaf.edge, 0, 0))
+                .norm() < 1e-12);
+        REQUIRE((l.points()[leaf.vertices[8]] - low_of(l, leaf) - Vec3::Constant(leaf.edge / 2))
+                    .norm() < 1e-12);
         if (has_mixed_signs(leaf, values)) REQUIRE(leaf.edge <= 0.042 + 1e-12);
     }
     check_tets(l);
     CHECK(validate(adopted(l)).faults == std::vector<std::string>{});
 }
 
-TEST_CASE("a lattice made coarse keeps the leaves with both labels, the topology of any labels and its balance") {
-    // Cells of all sizes beside each other, so that vertices hang on edges and faces of larger cells.
+TEST_CASE("a lattice made coarse keeps the leaves with both labels, the topology of any labels and "
+          "its balance") {
+    // Cells of all sizes beside each other, so that vertices hang on edges and faces of larger
+    // cells.
     GradedLattice fine(with_cell(0.06), uneven_sizes(0.06, 60, 2), "test");
     std::mt19937 random(6);
-    for (int round = 0; round < 3; ++round) fine.split_where([&](const Leaf&) { return random() % 8 == 0; });
+    for (int round = 0; round < 3; ++round)
+        fine.split_where([&](const Leaf&) { return random() % 8 == 0; });
     const auto tets = fine.tets();
     const Box3 box = fine.box();
     std::size_t merged = 0;
     for (int trial = 0; trial < 12; ++trial) {
-        // A ball with holes of single vertices, and single vertices outside it; none where the trial's share is 0.
+        // A ball with holes of single vertices, and single vertices outside it; none where the
+        // trial's share is 0.
         std::bernoulli_distribution other(trial % 4 * 0.01);
         std::vector<double> values;
         for (const Vec3& p : fine.points()) {
             const bool inside = (p.norm() < 0.3 + 0.06 * trial) != other(random);
-            const bool on_box = ((p - box.low).array() <= 0).any() || ((p - box.high).array() >= 0).any();
+            const bool on_box =
+                ((p - box.low).array() <= 0).any() || ((p - box.high).array() >= 0).any();
             values.push_back(inside && !on_box ? 1.0 : -1.0);
         }
         std::vector<std::uint32_t> origins;
@@ -209,15 +225,18 @@ TEST_CASE("a lattice made coarse keeps the leaves with both labels, the topology
             REQUIRE(fine.points()[origins[v]] == coarse.points()[v]);
             kept.push_back(values[origins[v]]);
         }
-        CHECK(count_topology(coarse.points(), coarse.tets(), kept) == count_topology(fine.points(), tets, values));
-        std::map<std::array<double, 3>, double> edges;  // of the coarse lattice's leaves, by their centres
+        CHECK(count_topology(coarse.points(), coarse.tets(), kept) ==
+              count_topology(fine.points(), tets, values));
+        std::map<std::array<double, 3>, double> edges;  // of the coarse lattice's leaves, by their
+                                                        // centres
         for (const Leaf& leaf : coarse.leaves()) {
             const Vec3& centre = coarse.points()[leaf.vertices[8]];
             edges[{centre.x(), centre.y(), centre.z()}] = leaf.edge;
         }
         for (const Leaf& leaf : fine.leaves()) {
             const Vec3& centre = fine.points()[leaf.vertices[8]];
-            if (has_mixed_signs(leaf, values)) REQUIRE(edges[{centre.x(), centre.y(), centre.z()}] == leaf.edge);
+            if (has_mixed_signs(leaf, values))
+                REQUIRE(edges[{centre.x(), centre.y(), centre.z()}] == leaf.edge);
         }
         merged += fine.leaves().size() - coarse.leaves().size();
         if (trial != 1) continue;
@@ -251,14 +270,17 @@ TEST_CASE("the vertex near a place is the nearest one of its cell") {
     std::uniform_real_distribution<double> uniform(-1.6, 1.6);
     for (int n = 0; n < 200; ++n) {
         const Vec3 place(uniform(random), uniform(random), uniform(random));
-        const Vec3 within = place.cwiseMax(l.box().low * (1 - 1e-12)).cwiseMin(l.box().high * (1 - 1e-12));
+        const Vec3 within =
+            place.cwiseMax(l.box().low * (1 - 1e-12)).cwiseMin(l.box().high * (1 - 1e-12));
         const auto leaf = std::find_if(l.leaves().begin(), l.leaves().end(), [&](const Leaf& x) {
-            return overlaps(l, x, within, 0) || ((low_of(l, x).array() <= within.array()).all() &&
-                                                 (low_of(l, x).array() + x.edge > within.array()).all());
+            return overlaps(l, x, within, 0) ||
+                   ((low_of(l, x).array() <= within.array()).all() &&
+                    (low_of(l, x).array() + x.edge > within.array()).all());
         });
         REQUIRE(leaf != l.leaves().end());
         double least = 10;
-        for (const std::uint32_t v : leaf->vertices) least = std::min(least, (l.points()[v] - place).norm());
+        for (const std::uint32_t v : leaf->vertices)
+            least = std::min(least, (l.points()[v] - place).norm());
         CHECK((l.points()[l.vertex_near(place)] - place).norm() == doctest::Approx(least));
     }
 }

@@ -1,11 +1,11 @@
 #pragma once
-// Lattices round the zero sets of functions, and their interface built and counted triangle by triangle.
+// Lattices round the zero sets of functions, and their interface built and counted triangle by
+// triangle.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <dsc/generate/graded_lattice.hpp>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -13,6 +13,8 @@
 #include <span>
 #include <utility>
 #include <vector>
+
+#include <dsc/generate/graded_lattice.hpp>
 
 namespace dsc::generate::test {
 
@@ -29,7 +31,8 @@ struct Sampled {
 
 inline double clipped(double x) { return std::clamp(x, -0.5, 0.5); }
 
-/// `near` is small where the finest cells shall be, in units of length; `value` gives the values of the vertices.
+/// `near` is small where the finest cells shall be, in units of length; `value` gives the values of
+/// the vertices.
 inline Sampled sample(double cell, const Function& near, const Function& value) {
     LatticeOptions options;
     options.cell = cell;
@@ -53,7 +56,8 @@ struct Counted {
     long genus() const { return shells - euler / 2; }
 };
 
-/// Marching tets: a vertex per cut edge, one or two triangles per cut tet; every edge must have two triangles.
+/// Marching tets: a vertex per cut edge, one or two triangles per cut tet; every edge must have two
+/// triangles.
 inline Counted march(const Tets& tets, const std::vector<double>& values, bool* closed = nullptr) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> vertices;
     std::map<std::pair<std::size_t, std::size_t>, int> edges;
@@ -66,14 +70,15 @@ inline Counted march(const Tets& tets, const std::vector<double>& values, bool* 
             return vertices.emplace(std::minmax(a, b), vertices.size()).first->second;
         };
         if (in.size() == 2) {
-            const std::array<std::size_t, 4> q = {cut(in[0], out[0]), cut(in[0], out[1]), cut(in[1], out[1]),
-                                                  cut(in[1], out[0])};
+            const std::array<std::size_t, 4> q = {cut(in[0], out[0]), cut(in[0], out[1]),
+                                                  cut(in[1], out[1]), cut(in[1], out[0])};
             triangles.push_back({q[0], q[1], q[2]});
             triangles.push_back({q[0], q[2], q[3]});
         } else {
             const auto& one = in.size() == 1 ? in : out;
             const auto& three = in.size() == 1 ? out : in;
-            triangles.push_back({cut(one[0], three[0]), cut(one[0], three[1]), cut(one[0], three[2])});
+            triangles.push_back(
+                {cut(one[0], three[0]), cut(one[0], three[1]), cut(one[0], three[2])});
         }
     }
     std::vector<std::size_t> parent(vertices.size());
@@ -89,7 +94,8 @@ inline Counted march(const Tets& tets, const std::vector<double>& values, bool* 
         }
     }
     if (closed != nullptr) {
-        *closed = std::all_of(edges.begin(), edges.end(), [](const auto& e) { return e.second == 2; });
+        *closed =
+            std::all_of(edges.begin(), edges.end(), [](const auto& e) { return e.second == 2; });
     }
     Counted counted;
     for (std::size_t i = 0; i < parent.size(); ++i) counted.shells += find(i) == i ? 1 : 0;
@@ -98,7 +104,9 @@ inline Counted march(const Tets& tets, const std::vector<double>& values, bool* 
     return counted;
 }
 
-inline double ball(const Vec3& x, const Vec3& centre, double radius) { return radius - (x - centre).norm(); }
+inline double ball(const Vec3& x, const Vec3& centre, double radius) {
+    return radius - (x - centre).norm();
+}
 inline double torus(const Vec3& x, double ring, double tube) {
     return tube - std::hypot(std::hypot(x[0], x[1]) - ring, x[2]);
 }

@@ -1,18 +1,18 @@
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <numeric>
 
+#include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
+#include <dsc/generate/isosurface.hpp>
+#include <dsc/generate/lattice.hpp>
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/adopt.hpp>
-#include <dsc/generate/isosurface.hpp>
-#include <dsc/generate/lattice.hpp>
 #include <dsc/mesh/validate.hpp>
 
 using namespace dsc;
@@ -26,7 +26,9 @@ using Key = std::vector<std::uint32_t>;
 
 class Union {
 public:
-    explicit Union(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+    explicit Union(std::size_t n) : parent_(n) {
+        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    }
     std::size_t root(std::size_t i) {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return i;
@@ -37,7 +39,8 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-// Euler numbers of the components of a surface, ascending: its cells, each with the keys of its edges and vertices.
+// Euler numbers of the components of a surface, ascending: its cells, each with the keys of its
+// edges and vertices.
 struct Cell {
     std::vector<Key> edges, vertices;
 };
@@ -63,10 +66,13 @@ Key sorted(Key key) {
     return key;
 }
 
-// The interface of marching tets: a polygon in each mixed tet, an edge in each mixed face, a vertex on each mixed edge.
-std::vector<long> euler_numbers_of_labels(const TetMesh& lattice, const std::vector<double>& values) {
+// The interface of marching tets: a polygon in each mixed tet, an edge in each mixed face, a vertex
+// on each mixed edge.
+std::vector<long> euler_numbers_of_labels(const TetMesh& lattice,
+                                          const std::vector<double>& values) {
     const auto mixed = [&](const Key& key) {
-        return std::any_of(key.begin(), key.end(), [&](std::uint32_t v) { return values[v] > 0; }) &&
+        return std::any_of(key.begin(), key.end(),
+                           [&](std::uint32_t v) { return values[v] > 0; }) &&
                std::any_of(key.begin(), key.end(), [&](std::uint32_t v) { return values[v] < 0; });
     };
     std::vector<Cell> cells;
@@ -75,9 +81,12 @@ std::vector<long> euler_numbers_of_labels(const TetMesh& lattice, const std::vec
         Cell cell;
         for (unsigned i = 0; i < 4; ++i) {
             for (unsigned j = i + 1; j < 4; ++j) {
-                if (const Key edge = sorted({t[i], t[j]}); mixed(edge)) cell.vertices.push_back(edge);
+                if (const Key edge = sorted({t[i], t[j]}); mixed(edge))
+                    cell.vertices.push_back(edge);
             }
-            if (const Key face = sorted({t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4]}); mixed(face)) cell.edges.push_back(face);
+            if (const Key face = sorted({t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4]});
+                mixed(face))
+                cell.edges.push_back(face);
         }
         cells.push_back(cell);
     }
@@ -114,14 +123,18 @@ TetMesh lattice_of(int cells, const SameWithin& same, double growth = 2.0) {
     return make_lattice(options, same, "test");
 }
 TetMesh uniform(int cells) {
-    return lattice_of(cells, [](const Vec3&, double) { return false; }, 1.0);
+    return lattice_of(
+        cells, [](const Vec3&, double) { return false; }, 1.0);
 }
 // Fine near the surface for x < 0 only, so that the surface runs through cells of all sizes.
 TetMesh half_graded(int cells, const Field& distance) {
-    return lattice_of(cells, [&](const Vec3& x, double radius) { return x.x() > radius || std::abs(distance(x)) > radius; });
+    return lattice_of(cells, [&](const Vec3& x, double radius) {
+        return x.x() > radius || std::abs(distance(x)) > radius;
+    });
 }
 TetMesh graded(int cells, const Field& distance) {
-    return lattice_of(cells, [&](const Vec3& x, double radius) { return std::abs(distance(x)) > radius; });
+    return lattice_of(cells,
+                      [&](const Vec3& x, double radius) { return std::abs(distance(x)) > radius; });
 }
 
 bool on_box(const Vec3& p, const Box3& box) {
@@ -155,14 +168,17 @@ std::vector<double> noise(const TetMesh& mesh, std::uint64_t seed, unsigned roun
         for (std::size_t v = 0; v < f.size(); ++v) f[v] = sum[v] / count[v];
     }
     const Box3 box = bounding_box(mesh.points);
-    for (std::size_t v = 0; v < f.size(); ++v) f[v] = on_box(mesh.points[v], box) ? -1.0 : f[v] == 0 ? 1e-6 : f[v];
+    for (std::size_t v = 0; v < f.size(); ++v)
+        f[v] = on_box(mesh.points[v], box) ? -1.0 : f[v] == 0 ? 1e-6 : f[v];
     return f;
 }
 
 // Checks all that is promised and returns the report.
-StuffReport check_stuffed(const TetMesh& lattice, const std::vector<double>& values, const StuffOptions& options = {}) {
+StuffReport check_stuffed(const TetMesh& lattice, const std::vector<double>& values,
+                          const StuffOptions& options = {}) {
     StuffReport report;
-    const TetMesh mesh = stuff_interface(lattice, values, options, &report, nullptr, nullptr, "test");
+    const TetMesh mesh =
+        stuff_interface(lattice, values, options, &report, nullptr, nullptr, "test");
     std::size_t vertices = 0;
     CHECK(euler_numbers_of_mesh(mesh, vertices) == euler_numbers_of_labels(lattice, values));
     CHECK(report.interface_vertices == vertices);
@@ -174,14 +190,16 @@ StuffReport check_stuffed(const TetMesh& lattice, const std::vector<double>& val
         const auto& p = mesh.points;
         inverted += geometry::orient3d(p[a], p[b], p[c], p[d]) > 0 ? 0 : 1;
         least = std::min(least, geometry::tet_quality(p[a], p[b], p[c], p[d]));
-        for (const auto v : mesh.tets[t]) phases[v] = static_cast<char>(phases[v] | (mesh.labels[t] > 0 ? 2 : 1));
+        for (const auto v : mesh.tets[t])
+            phases[v] = static_cast<char>(phases[v] | (mesh.labels[t] > 0 ? 2 : 1));
     }
     CHECK(inverted == 0);
     CHECK(least >= 0.05);
     CHECK(least == doctest::Approx(report.least_quality));
     if (report.collapsed_edges == 0) {
         // Vertices of the lattice that are not snapped stay on their side.
-        for (std::size_t v = 0; v < values.size(); ++v) mislabelled += phases[v] == 3 || phases[v] == (values[v] > 0 ? 2 : 1) ? 0 : 1;
+        for (std::size_t v = 0; v < values.size(); ++v)
+            mislabelled += phases[v] == 3 || phases[v] == (values[v] > 0 ? 2 : 1) ? 0 : 1;
         CHECK(mislabelled == 0);
         CHECK(report.snapped_vertices + report.cut_vertices == vertices);
     }
@@ -198,11 +216,16 @@ StuffReport check_stuffed(const TetMesh& lattice, const std::vector<double>& val
 
 double ball(const Vec3& x) { return 0.9 - x.norm(); }
 double torus(const Vec3& x) { return 0.28 - std::hypot(std::hypot(x.x(), x.y()) - 0.8, x.z()); }
-double plate(const Vec3& x) { return std::min({0.9 - std::abs(x.x()), 0.9 - std::abs(x.y()), 0.04 - std::abs(x.z() - 0.013)}); }
-double two_balls(const Vec3& x) { return 0.5 - std::min((x - Vec3(0.53, 0, 0)).norm(), (x + Vec3(0.53, 0, 0)).norm()); }
+double plate(const Vec3& x) {
+    return std::min({0.9 - std::abs(x.x()), 0.9 - std::abs(x.y()), 0.04 - std::abs(x.z() - 0.013)});
+}
+double two_balls(const Vec3& x) {
+    return 0.5 - std::min((x - Vec3(0.53, 0, 0)).norm(), (x + Vec3(0.53, 0, 0)).norm());
+}
 double gyroid(const Vec3& x) {
     const Vec3 y = 4.4 * x;
-    const double g = std::sin(y.x()) * std::cos(y.y()) + std::sin(y.y()) * std::cos(y.z()) + std::sin(y.z()) * std::cos(y.x());
+    const double g = std::sin(y.x()) * std::cos(y.y()) + std::sin(y.y()) * std::cos(y.z()) +
+                     std::sin(y.z()) * std::cos(y.x());
     return std::min(g / 7.0, 1.1 - x.norm());
 }
 
@@ -212,8 +235,10 @@ TEST_CASE("stuffing keeps the topology of the labels on known shapes, even and g
     for (const auto& [shape, genus] : std::vector<std::pair<Field, long>>{{ball, 0}, {torus, 1}}) {
         for (const TetMesh& lattice : {uniform(20), graded(32, shape), half_graded(32, shape)}) {
             const StuffReport report = check_stuffed(lattice, values_at(lattice, shape));
-            CHECK(report.interface_faces == 2 * report.interface_vertices - static_cast<std::size_t>(4 - 4 * genus));
-            // Snapping takes most of the cut points away, and no tet is bad for shapes as simple as these.
+            CHECK(report.interface_faces ==
+                  2 * report.interface_vertices - static_cast<std::size_t>(4 - 4 * genus));
+            // Snapping takes most of the cut points away, and no tet is bad for shapes as simple as
+            // these.
             CHECK(3 * report.interface_vertices < report.mixed_edges);
             CHECK(report.least_quality > 0.15);
         }
@@ -243,30 +268,37 @@ TEST_CASE("stuffing leaves no more interface vertices than asked for, with the s
         StuffOptions options;
         const std::size_t all = check_stuffed(lattice, values).interface_vertices;
         for (const double share : {0.9, 0.5}) {
-            options.most_interface_vertices = static_cast<std::size_t>(share * static_cast<double>(all));
-            CHECK(check_stuffed(lattice, values, options).interface_vertices <= options.most_interface_vertices);
+            options.most_interface_vertices =
+                static_cast<std::size_t>(share * static_cast<double>(all));
+            CHECK(check_stuffed(lattice, values, options).interface_vertices <=
+                  options.most_interface_vertices);
         }
     }
     // Of no shape is more left than is needed for its topology where all is asked to go.
     StuffOptions options;
     options.most_interface_vertices = 0;
     const TetMesh lattice = uniform(8);
-    for (std::uint64_t seed = 0; seed < 3; ++seed) check_stuffed(lattice, noise(lattice, seed, 1), options);
+    for (std::uint64_t seed = 0; seed < 3; ++seed)
+        check_stuffed(lattice, noise(lattice, seed, 1), options);
 }
 
 TEST_CASE("stuffing is near to the surface and smooth") {
     const TetMesh lattice = graded(48, ball);
-    const TetMesh mesh = stuff_interface(lattice, values_at(lattice, ball), {}, nullptr, nullptr, nullptr, "test");
+    const TetMesh mesh =
+        stuff_interface(lattice, values_at(lattice, ball), {}, nullptr, nullptr, nullptr, "test");
     const Complex c = adopt(mesh, "test");
     double worst = 0.0, turn = 1.0;
-    for (const VertexId v : c.interface_vertices()) worst = std::max(worst, std::abs(ball(c.position(v))));
+    for (const VertexId v : c.interface_vertices())
+        worst = std::max(worst, std::abs(ball(c.position(v))));
     CHECK(worst < 0.2 * 3.0 / 48);
     for (TetId t = 0; t < c.tet_slots(); ++t) {
         for (unsigned f = 0; f < 4; ++f) {
             if (c.label(t) != 1 || !c.interface_face(t, f)) continue;
             std::array<Vec3, 3> p;
             for (unsigned k = 0; k < 3; ++k) p[k] = c.position(c.tet(t).v[face_vertices[f][k]]);
-            turn = std::min(turn, geometry::triangle_normal(p[0], p[1], p[2]).dot((p[0] + p[1] + p[2]).normalized()));
+            turn = std::min(
+                turn,
+                geometry::triangle_normal(p[0], p[1], p[2]).dot((p[0] + p[1] + p[2]).normalized()));
         }
     }
     CHECK(turn > std::cos(0.35));
@@ -277,10 +309,12 @@ TEST_CASE("stuffing gives the same bytes with any number of threads") {
     const std::vector<double> values = values_at(lattice, torus);
     StuffOptions options;
     options.most_interface_vertices = 1500;
-    const TetMesh one = stuff_interface(lattice, values, options, nullptr, nullptr, nullptr, "test");
+    const TetMesh one =
+        stuff_interface(lattice, values, options, nullptr, nullptr, nullptr, "test");
     for (const unsigned threads : {1U, 3U}) {
         Workers workers(threads);
-        const TetMesh other = stuff_interface(lattice, values, options, nullptr, &workers, nullptr, "test");
+        const TetMesh other =
+            stuff_interface(lattice, values, options, nullptr, &workers, nullptr, "test");
         CHECK(other.points == one.points);
         CHECK(other.tets == one.tets);
         CHECK(other.labels == one.labels);
@@ -306,7 +340,8 @@ TEST_CASE("stuffing refuses what it cannot cut and stops when asked to") {
     cancel.cancel();
     CHECK(code({}, &cancel) == "run.cancelled");
     const Box3 box = bounding_box(lattice.points);
-    const auto corner = std::find_if(lattice.points.begin(), lattice.points.end(), [&](const Vec3& p) { return p == box.low; });
+    const auto corner = std::find_if(lattice.points.begin(), lattice.points.end(),
+                                     [&](const Vec3& p) { return p == box.low; });
     const auto at = static_cast<std::size_t>(corner - lattice.points.begin());
     values[at] = 0.5;
     CHECK(code({}, nullptr) == "stuff.box");

@@ -1,7 +1,8 @@
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <doctest/doctest.h>
+
 #include <dsc/generate/label_components.hpp>
 #include <dsc/generate/topology_filter.hpp>
 
@@ -36,7 +37,8 @@ std::vector<LabelComponent> settle(Sampled& s, const std::vector<Vec3>& cloud,
                                    const ComponentOptions& options) {
     std::vector<std::uint32_t> vertices;
     for (const Vec3& x : cloud) vertices.push_back(s.lattice.vertex_near(x));
-    return settle_components(s.lattice.points(), s.tets, s.values, s.volumes, {cloud, vertices}, options);
+    return settle_components(s.lattice.points(), s.tets, s.values, s.volumes, {cloud, vertices},
+                             options);
 }
 
 ComponentOptions with(CavityPolicy policy) {
@@ -46,18 +48,20 @@ ComponentOptions with(CavityPolicy policy) {
     return options;
 }
 
-const LabelComponent& nearest(const std::vector<LabelComponent>& list, const Vec3& place, bool inside) {
+const LabelComponent& nearest(const std::vector<LabelComponent>& list, const Vec3& place,
+                              bool inside) {
     const auto distance = [&](const LabelComponent& c) {
         return c.inside == inside ? (c.place - place).norm() : 100;
     };
-    return *std::min_element(list.begin(), list.end(),
-                             [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+    return *std::min_element(list.begin(), list.end(), [&](const auto& a, const auto& b) {
+        return distance(a) < distance(b);
+    });
 }
 
 }  // namespace
 
-TEST_CASE(
-    "islands below the least volume go, the largest component stays, all are listed with their volumes") {
+TEST_CASE("islands below the least volume go, the largest component stays, all are listed with "
+          "their volumes") {
     const Vec3 far(0, 0.9, 0), mid(0.9, 0, 0);
     const Function balls = [&](const Vec3& x) {
         return std::max({ball(x, Vec3::Zero(), 0.5), ball(x, mid, 0.2), ball(x, far, 0.1)});
@@ -68,8 +72,8 @@ TEST_CASE(
     options.width = std::cbrt(0.5 * (volume_of_ball(0.1) + volume_of_ball(0.2)) / 30);
     const auto list = settle(s, {}, options);
     REQUIRE(list.size() == 3);
-    const LabelComponent &large = nearest(list, Vec3::Zero(), true), &middle = nearest(list, mid, true),
-                         &small = nearest(list, far, true);
+    const LabelComponent &large = nearest(list, Vec3::Zero(), true),
+                         &middle = nearest(list, mid, true), &small = nearest(list, far, true);
     CHECK(large.volume == doctest::Approx(volume_of_ball(0.5)).epsilon(0.05));
     CHECK(middle.volume == doctest::Approx(volume_of_ball(0.2)).epsilon(0.15));
     CHECK((large.kept && middle.kept));
@@ -96,7 +100,8 @@ TEST_CASE(
     CHECK(s.values == old);
 }
 
-TEST_CASE("a cavity stays if it is large, certain and has points at its shell, or as the policy says") {
+TEST_CASE(
+    "a cavity stays if it is large, certain and has points at its shell, or as the policy says") {
     const Vec3 centre(0.1, 0, 0);
     const Function shell = [&](const Vec3& x) {
         return std::min(ball(x, Vec3::Zero(), 0.9), (x - centre).norm() - 0.4);
@@ -153,7 +158,8 @@ TEST_CASE("of nested shells each cavity is judged by the points at its own shell
         CHECK(c.components == 3);
         CHECK(c.cavities == 2);
     }
-    // Only the shell at 0.9 has points, that of the inner hollow is at 0.5; those at 0.3 are the ball's own.
+    // Only the shell at 0.9 has points, that of the inner hollow is at 0.5; those at 0.3 are the
+    // ball's own.
     std::vector<Vec3> cloud = on_sphere(Vec3::Zero(), 0.9, 100);
     for (const Vec3& x : on_sphere(Vec3::Zero(), 0.3, 100)) cloud.push_back(x);
     const auto list = settle(s, cloud, with(CavityPolicy::automatic));
@@ -169,7 +175,8 @@ TEST_CASE("of nested shells each cavity is judged by the points at its own shell
         if (!c.kept) CHECK(c.points == 0);
         if (c.kept) CHECK(c.points == 100);
         if (c.kept)
-            CHECK(c.volume == doctest::Approx(volume_of_ball(0.9) - volume_of_ball(0.7)).epsilon(0.1));
+            CHECK(c.volume ==
+                  doctest::Approx(volume_of_ball(0.9) - volume_of_ball(0.7)).epsilon(0.1));
         kept += c.kept ? 1 : 0;
     }
     CHECK(cavities == 2);

@@ -1,12 +1,13 @@
 // Interfaces on the surface of shapes, and the nearest points that they go to.
+#include <cmath>
+#include <set>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/random.hpp>
-#include <dsc/mesh/adopt.hpp>
 #include <dsc/generate/project.hpp>
+#include <dsc/mesh/adopt.hpp>
 #include <dsc/mesh/validate.hpp>
-#include <set>
 
 #include "../mesh/meshes.hpp"
 
@@ -97,7 +98,8 @@ TEST_CASE("a border that a later shape covers is not part of the surface") {
         CHECK(std::min(std::abs(first), std::abs(second)) < 1e-11);
         CHECK(std::min(first, second) > -1e-11);
     }
-    // The circle where they meet is nearest to this point, 0.1 away; going to and fro ends a little beyond it.
+    // The circle where they meet is nearest to this point, 0.1 away; going to and fro ends a little
+    // beyond it.
     CHECK((nearest_on_surface(pair, Vec3(0, 0.3, 0)) - Vec3(0, 0.3, 0)).norm() < 0.12);
 }
 
@@ -131,8 +133,8 @@ TEST_CASE("a sphere's interface goes to the radius, tets stay good, at every res
 }
 
 TEST_CASE("a notch and a bar with two ends come out with their topology") {
-    const std::vector<Shape> notched = {sphere(Vec3::Zero(), 0.9),
-                                        box(Vec3(0, -0.5, 0), Vec3(0.25, 0.6, 1.2), ShapeAction::cut)};
+    const std::vector<Shape> notched = {
+        sphere(Vec3::Zero(), 0.9), box(Vec3(0, -0.5, 0), Vec3(0.25, 0.6, 1.2), ShapeAction::cut)};
     const Complex notch = projected(notched, 24);
     CHECK(validate(notch).faults == std::vector<std::string>{});
     CHECK(count_interface(notch).genus() == 0);
@@ -143,7 +145,8 @@ TEST_CASE("a notch and a bar with two ends come out with their topology") {
     bar.axis = Vec3(1, 0, 0);
     bar.radius = 0.2;
     bar.half_length = 0.6;
-    const std::vector<Shape> dumbbell = {sphere(Vec3(-0.6, 0, 0), 0.4), sphere(Vec3(0.6, 0, 0), 0.4), bar};
+    const std::vector<Shape> dumbbell = {sphere(Vec3(-0.6, 0, 0), 0.4),
+                                         sphere(Vec3(0.6, 0, 0), 0.4), bar};
     const Complex bell = projected(dumbbell, 24);
     CHECK(count_interface(bell).shells == 1);
     CHECK(count_interface(bell).genus() == 0);
@@ -154,10 +157,11 @@ TEST_CASE("a notch and a bar with two ends come out with their topology") {
 TEST_CASE("where there is no way, a vertex stays as near as it got and no tet inverts") {
     // A surface that folds the lattice: one sheet for both sides of a thin slab.
     Complex complex = adopt(
-        test::grid(12, 1.5, [](const Vec3& c) { return std::abs(c.z()) < 0.3 && c.norm() < 1 ? 1 : 0; }),
+        test::grid(12, 1.5,
+                   [](const Vec3& c) { return std::abs(c.z()) < 0.3 && c.norm() < 1 ? 1 : 0; }),
         "slab");
-    const ProjectReport report =
-        project_interface(complex, [](const Vec3& p) { return Vec3(p.x(), p.y(), 0.0); }, {.rounds = 10});
+    const ProjectReport report = project_interface(
+        complex, [](const Vec3& p) { return Vec3(p.x(), p.y(), 0.0); }, {.rounds = 10});
     CHECK(report.off_surface > 0);
     CHECK(validate(complex).faults == std::vector<std::string>{});
     CHECK(report.min_quality > 0.0);

@@ -1,9 +1,10 @@
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
-#include <dsc/generate/topology_filter.hpp>
 #include <random>
+
+#include <doctest/doctest.h>
+
+#include <dsc/generate/topology_filter.hpp>
 
 #include "implicit.hpp"
 
@@ -49,7 +50,8 @@ TopologyFilterReport filtered(Sampled& s) {
     return report;
 }
 
-void check_counts(const TopologyCounts& c, std::size_t components, std::size_t cavities, long genus) {
+void check_counts(const TopologyCounts& c, std::size_t components, std::size_t cavities,
+                  long genus) {
     CHECK(c.components == components);
     CHECK(c.cavities == cavities);
     CHECK(c.shells == components + cavities);
@@ -72,15 +74,18 @@ TEST_CASE("components, cavities and genus of known solids, which the filter leav
              return std::max(ball(x, Vec3(0.6, 0, 0), 0.4), ball(x, Vec3(-0.6, 0.1, 0), 0.3));
          },
          2, 0, 0},
-        {[](const Vec3& x) { return 0.15 - std::abs((x - Vec3(0, 0, 0.1)).norm() - 0.6); }, 1, 1, 0},
-        {[](const Vec3& x) { return std::max(0.15 - std::abs(x.norm() - 0.9), torus(x, 0.4, 0.15)); }, 2, 1,
-         1},
+        {[](const Vec3& x) { return 0.15 - std::abs((x - Vec3(0, 0, 0.1)).norm() - 0.6); }, 1, 1,
+         0},
+        {[](const Vec3& x) {
+             return std::max(0.15 - std::abs(x.norm() - 0.9), torus(x, 0.4, 0.15));
+         },
+         2, 1, 1},
     };
     for (std::size_t i = 0; i < solids.size(); ++i) {
         CAPTURE(i);
         const Solid& solid = solids[i];
-        Sampled s =
-            sample(0.06, solid.distance, [&](const Vec3& x) { return clipped(solid.distance(x) / 0.12); });
+        Sampled s = sample(0.06, solid.distance,
+                           [&](const Vec3& x) { return clipped(solid.distance(x) / 0.12); });
         const std::vector<double> old = s.values;
         const TopologyFilterReport report = filtered(s);
         check_counts(report.before, solid.components, solid.cavities, solid.genus);
@@ -104,9 +109,12 @@ TEST_CASE("a tunnel goes if its values are weak and stays if they are certain") 
     for (const double level : {-0.05, -0.3}) {
         CAPTURE(level);
         const Function distance = [](const Vec3& x) { return ball(x, Vec3::Zero(), 0.6); };
-        const auto tunnel = [](const Vec3& x) { return std::hypot(x[0] - 0.013, x[1] + 0.02) - 0.08; };
+        const auto tunnel = [](const Vec3& x) {
+            return std::hypot(x[0] - 0.013, x[1] + 0.02) - 0.08;
+        };
         Sampled s = sample(
-            0.05, [&](const Vec3& x) { return std::min(std::abs(distance(x)), std::abs(tunnel(x))); },
+            0.05,
+            [&](const Vec3& x) { return std::min(std::abs(distance(x)), std::abs(tunnel(x))); },
             [&](const Vec3& x) {
                 const double solid = clipped(distance(x) / 0.1);
                 return tunnel(x) < 0 && solid > 0 ? level : solid;
@@ -171,7 +179,8 @@ TEST_CASE("a witness keeps a weak bridge and a weak tunnel, with their values") 
             for (const std::uint32_t v : cluster.vertices) CHECK((solid.values[v] > 0) == inside);
             return true;
         };
-        const TopologyFilterReport report = filter_topology(solid.lattice.points(), solid.tets, values, tau, keep);
+        const TopologyFilterReport report =
+            filter_topology(solid.lattice.points(), solid.tets, values, tau, keep);
         CHECK(asked == 1);
         CHECK(report.confirmed.size() == 1);
         CHECK(report.clusters.empty());
@@ -181,14 +190,16 @@ TEST_CASE("a witness keeps a weak bridge and a weak tunnel, with their values") 
     }
 }
 
-TEST_CASE("a single bridge stays and is reported with its level, and so is an opening to a cavity") {
+TEST_CASE(
+    "a single bridge stays and is reported with its level, and so is an opening to a cavity") {
     for (const double sign : {1.0, -1.0}) {
         CAPTURE(sign);
         // Two balls and a rod between them, or a hollow in a ball and a channel out of it.
         const Vec3 a(-0.5, 0, 0), b(0.5, 0, 0);
         const auto rod = [&](const Vec3& x) {
-            return x[0] > (sign > 0 ? -0.5 : 0) && x[0] < (sign > 0 ? 0.5 : 1) ? 0.1 - std::hypot(x[1], x[2])
-                                                                               : -1;
+            return x[0] > (sign > 0 ? -0.5 : 0) && x[0] < (sign > 0 ? 0.5 : 1)
+                       ? 0.1 - std::hypot(x[1], x[2])
+                       : -1;
         };
         const Function solid = [&](const Vec3& x) {
             return sign > 0 ? std::max(ball(x, a, 0.4), ball(x, b, 0.35))
@@ -224,7 +235,8 @@ TEST_CASE("a single bridge stays and is reported with its level, and so is an op
     }
 }
 
-TEST_CASE("handles that noise makes go, those of the solid stay; the order of the tets has no influence") {
+TEST_CASE("handles that noise makes go, those of the solid stay; the order of the tets has no "
+          "influence") {
     for (const unsigned seed : {1U, 2U, 3U}) {
         CAPTURE(seed);
         const Function ring = [](const Vec3& x) { return torus(x, 0.6, 0.25); };

@@ -1,11 +1,10 @@
-#include <dsc/base/random.hpp>
-#include <dsc/geometry/predicates.hpp>
-
-#include <doctest/doctest.h>
+#include <cmath>
 
 #include <boost/multiprecision/cpp_int.hpp>
+#include <doctest/doctest.h>
 
-#include <cmath>
+#include <dsc/base/random.hpp>
+#include <dsc/geometry/predicates.hpp>
 
 using dsc::Vec3;
 using dsc::geometry::orient2d;
@@ -19,7 +18,8 @@ int truth(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const Rational bx = r(b.x()) - r(a.x()), by = r(b.y()) - r(a.y()), bz = r(b.z()) - r(a.z());
     const Rational cx = r(c.x()) - r(a.x()), cy = r(c.y()) - r(a.y()), cz = r(c.z()) - r(a.z());
     const Rational dx = r(d.x()) - r(a.x()), dy = r(d.y()) - r(a.y()), dz = r(d.z()) - r(a.z());
-    const Rational det = bx * (cy * dz - cz * dy) - by * (cx * dz - cz * dx) + bz * (cx * dy - cy * dx);
+    const Rational det =
+        bx * (cy * dz - cz * dy) - by * (cx * dz - cz * dx) + bz * (cx * dy - cy * dx);
     return det.sign();
 }
 
@@ -40,7 +40,10 @@ TEST_CASE("orient3d agrees with rational arithmetic on points within an ulp of a
     int zeros = 0;
     for (int i = 0; i < 3000; ++i) {
         const double scale = std::ldexp(1.0, static_cast<int>(random.index(80)) - 40);
-        const auto point = [&] { return Vec3(random.uniform(-scale, scale), random.uniform(-scale, scale), random.uniform(-scale, scale)); };
+        const auto point = [&] {
+            return Vec3(random.uniform(-scale, scale), random.uniform(-scale, scale),
+                        random.uniform(-scale, scale));
+        };
         const Vec3 a = point(), b = point(), c = point();
         const double s = random.uniform(), t = random.uniform();
         Vec3 d = a + s * (b - a) + t * (c - a);

@@ -1,10 +1,11 @@
+#include <cmath>
+#include <sstream>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/log.hpp>
 #include <dsc/base/random.hpp>
 #include <dsc/sdk/surfaces.hpp>
-#include <sstream>
 
 #include "support.hpp"
 
@@ -64,7 +65,8 @@ TEST_CASE("a good plugin is known by all that it says") {
     CHECK(host.ids("curvature") == std::vector<std::string>{"constant"});
     CHECK(host.ids("nonsense").empty());
     REQUIRE(host.find_schema("velocity", "upwards") != nullptr);
-    CHECK(host.find_schema("velocity", "upwards")->names() == std::vector<std::string>{"speed", "curvature"});
+    CHECK(host.find_schema("velocity", "upwards")->names() ==
+          std::vector<std::string>{"speed", "curvature"});
     CHECK(host.find_schema("curvature", "upwards") == nullptr);
 }
 
@@ -144,31 +146,28 @@ TEST_CASE("faults of a strategy name it") {
     const auto not_a_number = make("not_a_number");
     not_a_number->prepare(context_of(view, 2));
     not_a_number->evaluate({0, 7}, std::span(out).first(7));
-    const std::string text = message([&] { not_a_number->evaluate({4, 12}, std::span(out).first(8)); });
-    CHECK(text.find(
-              who("not_a_number") +
-              "evaluate at step 2 gave the displacement (0.5, 0.0, nan) to vertex 7 (birth id 7, at (") == 0);
+    const std::string text = message([&] {
+        not_a_number->evaluate({4, 12}, std::span(out).first(8));
+    });
+    CHECK(text.find(who("not_a_number") + "evaluate at step 2 gave the displacement (0.5, 0.0, "
+                                          "nan) to vertex 7 (birth id 7, at (") == 0);
     CHECK_THROWS_AS(not_a_number->evaluate({4, 12}, std::span(out).first(8)), dsc::StrategyError);
 }
 
 TEST_CASE("wrong parameters and unknown strategies") {
     Host host;
     host.load(fixture("good"));
-    CHECK_THROWS_WITH_AS(
-        host.create<dsc::hooks::VelocityField>({"upwards", ConfigNode::map({{"speed", 2.0}})}, "velocity"),
-        doctest::Contains("speed"), dsc::ConfigError);
+    CHECK_THROWS_WITH_AS(host.create<dsc::hooks::VelocityField>(
+                             {"upwards", ConfigNode::map({{"speed", 2.0}})}, "velocity"),
+                         doctest::Contains("speed"), dsc::ConfigError);
     CHECK(message([&] {
               host.create<dsc::hooks::VelocityField>({"upward", {}}, "velocity");
-          }) ==
-          "velocity: there is no velocity 'upward', did you mean 'upwards'?; loaded are upwards, others come "
-          "with --plugin "
-          "or DSC_PLUGIN_PATH");
+          }) == "velocity: there is no velocity 'upward', did you mean 'upwards'?; loaded are "
+                "upwards, others come with --plugin or DSC_PLUGIN_PATH");
     CHECK(message([&] {
               host.create<dsc::hooks::Observer>({"x", {}}, "observers.0");
-          }) ==
-          "observers.0: there is no observer 'x'; no plugin with a strategy of this kind is loaded, see "
-          "--plugin and "
-          "DSC_PLUGIN_PATH");
+          }) == "observers.0: there is no observer 'x'; no plugin with a strategy of this kind is "
+                "loaded, see --plugin and DSC_PLUGIN_PATH");
 }
 
 TEST_CASE("in a folder only libdsc_NAME.so counts, and a named folder may hold nothing bad") {
@@ -206,10 +205,12 @@ TEST_CASE("in a folder that the user did not name a bad library is a warning") {
     CHECK(host.plugins().size() == 1);
     REQUIRE(log.lines.size() == 1);
     CHECK(log.lines[0] ==
-          "user folder: " + bad.string() + ": is not a shared library; give the file of a plugin, libdsc_NAME.so");
+          "user folder: " + bad.string() +
+              ": is not a shared library; give the file of a plugin, libdsc_NAME.so");
 }
 
-TEST_CASE("an earlier place stands in front of a later one, but two answers to one name are an error") {
+TEST_CASE(
+    "an earlier place stands in front of a later one, but two answers to one name are an error") {
     const support::TemporaryFolder mine;
     const support::TemporaryFolder theirs;
     const fs::path front = mine.copy("good");

@@ -24,18 +24,19 @@ std::vector<Examination> examine(const fs::path& file) { return dsc::host::exami
 
 }  // namespace
 
-TEST_CASE("a library that crashes, ends the program or hangs when it is loaded does so in another process") {
-    const std::vector<fs::path> files = {fixture("bad_crash"), fixture("good"),       fixture("bad_exit"),
-                                         fixture("bad_hang"),  fixture("bad_throws"), fixture("good")};
+TEST_CASE("a library that crashes, ends the program or hangs when it is loaded does so in another "
+          "process") {
+    const std::vector<fs::path> files = {fixture("bad_crash"),  fixture("good"),
+                                         fixture("bad_exit"),   fixture("bad_hang"),
+                                         fixture("bad_throws"), fixture("good")};
     const auto faults = dsc::host::scan(files, std::chrono::milliseconds(1500));
     REQUIRE(faults.size() == 6);
     REQUIRE(faults[0].has_value());
     CHECK(faults[0]->code == "plugin.crash");
 #ifndef __SANITIZE_ADDRESS__
     CHECK(faults[0]->message ==
-          files[0].string() +
-              ": crashes when it is loaded: the child process was ended by signal 11 "
-              "(Segmentation fault); report this to the plugin's authors");
+          files[0].string() + ": crashes when it is loaded: the child process was ended by signal "
+                              "11 (Segmentation fault); report this to the plugin's authors");
 #endif
     CHECK_FALSE(faults[1].has_value());
     REQUIRE(faults[2].has_value());
@@ -89,7 +90,8 @@ TEST_CASE("the doctor goes the way of a load and stops where it ends") {
 }
 
 TEST_CASE("the doctor finds a plugin that has the same ids") {
-    const std::vector<dsc::host::SearchEntry> search = {{fixture("bad_duplicate"), "--plugin", true}};
+    const std::vector<dsc::host::SearchEntry> search = {
+        {fixture("bad_duplicate"), "--plugin", true}};
     const auto examinations = dsc::host::examine(fixture("good"), search);
     CHECK(failed_step(examinations).step == "names");
     CHECK(failed_step(examinations).text.find("already exists") != std::string::npos);

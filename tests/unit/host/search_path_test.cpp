@@ -1,6 +1,6 @@
-#include <doctest/doctest.h>
-
 #include <map>
+
+#include <doctest/doctest.h>
 
 #include "support.hpp"
 
@@ -32,7 +32,8 @@ TEST_CASE("the order of the search path") {
     REQUIRE(entries.size() == 6);
     const char* origins[] = {"--plugin",        "plugins:",    "DSC_PLUGIN_PATH",
                              "DSC_PLUGIN_PATH", "user folder", "installed folder"};
-    const fs::path paths[] = {"/a/libdsc_a.so", "/b", "/c", "/d/libdsc_d.so", users, DSC_BUILTIN_PLUGINS};
+    const fs::path paths[] = {"/a/libdsc_a.so", "/b",  "/c",
+                              "/d/libdsc_d.so", users, DSC_BUILTIN_PLUGINS};
     for (std::size_t i = 0; i < entries.size(); ++i) {
         CHECK(entries[i].origin == origins[i]);
         CHECK(entries[i].required == (i < 4));
@@ -44,7 +45,8 @@ TEST_CASE("XDG_DATA_HOME goes before the home folder, relative values do not cou
     const support::TemporaryFolder data;
     fs::create_directories(data.path() / "dsc" / "plugins");
     SearchOptions options;
-    options.environment = environment({{"XDG_DATA_HOME", data.path().string()}, {"HOME", "/nowhere"}});
+    options.environment =
+        environment({{"XDG_DATA_HOME", data.path().string()}, {"HOME", "/nowhere"}});
     REQUIRE(search_path(options).size() == 2);
     CHECK(search_path(options)[0].path == data.path() / "dsc" / "plugins");
     options.environment = environment({{"XDG_DATA_HOME", "data"}, {"HOME", "home"}});
@@ -64,11 +66,10 @@ TEST_CASE("the current folder is nobody's plugin folder") {
     CHECK(entries[0].origin == "installed folder");
 
     options.environment = environment({{"DSC_PLUGIN_PATH", "/a:."}});
-    CHECK_THROWS_WITH_AS(
-        search_path(options),
-        "DSC_PLUGIN_PATH: '.' is relative, so its meaning would depend on the current folder; write an "
-        "absolute path",
-        dsc::PluginError);
+    CHECK_THROWS_WITH_AS(search_path(options),
+                         "DSC_PLUGIN_PATH: '.' is relative, so its meaning would depend on the "
+                         "current folder; write an absolute path",
+                         dsc::PluginError);
 }
 
 TEST_CASE("the built-in strategies are found beside the core library") {

@@ -1,10 +1,10 @@
 #include "support.hpp"
 
-#include <stdlib.h>
-
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+
+#include <stdlib.h>
 
 namespace support {
 namespace fs = std::filesystem;

@@ -1,10 +1,11 @@
 #pragma once
 // What the tests of the host share.
 
-#include <dsc/base/error.hpp>
-#include <dsc/host/host.hpp>
 #include <filesystem>
 #include <string>
+
+#include <dsc/base/error.hpp>
+#include <dsc/host/host.hpp>
 
 namespace support {
 

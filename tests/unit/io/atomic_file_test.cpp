@@ -1,12 +1,13 @@
-#include <dsc/base/read_file.hpp>
-#include <dsc/base/replace_file.hpp>
-#include <dsc/io/atomic_file.hpp>
+#include <csignal>
+
+#include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <doctest/doctest.h>
 
-#include <csignal>
-#include <sys/resource.h>
-#include <sys/stat.h>
+#include <dsc/base/read_file.hpp>
+#include <dsc/base/replace_file.hpp>
+#include <dsc/io/atomic_file.hpp>
 
 #include "files.hpp"
 
@@ -100,8 +101,10 @@ TEST_CASE("whether a file can be replaced is known before, and nothing changes")
     require_replaceable(folder / "old");
     CHECK(test::content_of(folder / "old") == "content");
     constexpr auto require = [](const std::filesystem::path& f) { require_replaceable(f); };
-    CHECK(test::refusal(folder / "none/a.txt", require).message == test::refusal(folder / "none/a.txt", write_x).message);
-    CHECK(test::refusal("/sys/kernel/x.obj", require).code == "io.write");  // not even for the superuser
+    CHECK(test::refusal(folder / "none/a.txt", require).message ==
+          test::refusal(folder / "none/a.txt", write_x).message);
+    CHECK(test::refusal("/sys/kernel/x.obj", require).code == "io.write");  // not even for the
+                                                                            // superuser
     CHECK(test::refusal("/dev/null", require).code == "io.write");
 }
 
@@ -109,8 +112,8 @@ TEST_CASE("what cannot be written is named") {
     const test::Folder folder;
     auto found = test::refusal(folder / "none/a.txt", write_x);
     CHECK(found.code == "io.write");
-    CHECK(found.message ==
-          "FILE: cannot be written: No such file or directory; create the folder first or name another one");
+    CHECK(found.message == "FILE: cannot be written: No such file or directory; create the folder "
+                           "first or name another one");
     std::filesystem::create_directory(folder / "dir");
     CHECK(test::refusal(folder / "dir", write_x).message == "FILE: is a directory; name a file");
     CHECK(test::refusal("/dev/null", write_x).message ==
@@ -120,8 +123,8 @@ TEST_CASE("what cannot be written is named") {
     if (::geteuid() == 0) {
         MESSAGE("skipped for root, who may write everywhere: read-only folder");
     } else {
-        std::filesystem::permissions(folder / "dir",
-                                     std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+        std::filesystem::permissions(folder / "dir", std::filesystem::perms::owner_read |
+                                                         std::filesystem::perms::owner_exec);
         found = test::refusal(folder / "dir/a.txt", write_x);
         std::filesystem::permissions(folder / "dir", std::filesystem::perms::owner_all);
         CHECK(found.message ==
@@ -139,8 +142,8 @@ TEST_CASE("a disk that fills up: one message, the old file stays, no temporary f
     small.rlim_cur = 100000;
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
-    const auto found =
-        test::refusal(folder / "a.bin", [](const auto& f) { write_file(f, std::string(300000, 'x')); });
+    const auto found = test::refusal(
+        folder / "a.bin", [](const auto& f) { write_file(f, std::string(300000, 'x')); });
     ::setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
     CHECK(found.code == "io.write");

@@ -1,11 +1,12 @@
-// MSH and MEDIT files, byte for byte and number by number: the readers here know nothing of the writers.
-#include <dsc/io/write.hpp>
-
-#include <doctest/doctest.h>
-
+// MSH and MEDIT files, byte for byte and number by number: the readers here know nothing of the
+// writers.
 #include <cstdlib>
 #include <map>
 #include <sstream>
+
+#include <doctest/doctest.h>
+
+#include <dsc/io/write.hpp>
 
 #include "files.hpp"
 
@@ -68,7 +69,8 @@ private:
 TetMesh read_medit(const std::string& text) {
     Words words(text);
     TetMesh m;
-    for (const char* word : {"MeshVersionFormatted", "2", "Dimension", "3", "Vertices"}) words.expect(word);
+    for (const char* word : {"MeshVersionFormatted", "2", "Dimension", "3", "Vertices"})
+        words.expect(word);
     for (std::uint64_t left = words.count(); left > 0; --left) {
         m.points.push_back(words.point());
         words.expect("0");
@@ -86,7 +88,8 @@ TetMesh read_medit(const std::string& text) {
 TetMesh read_msh(const std::string& text) {
     Words words(text);
     TetMesh m;
-    for (const char* word : {"$MeshFormat", "4.1", "0", "8", "$EndMeshFormat", "$PhysicalNames"}) words.expect(word);
+    for (const char* word : {"$MeshFormat", "4.1", "0", "8", "$EndMeshFormat", "$PhysicalNames"})
+        words.expect(word);
     std::map<std::uint64_t, mesh::Label> labels;
     const std::uint64_t groups = words.count();
     for (std::uint64_t i = 0; i < groups; ++i) {
@@ -130,7 +133,8 @@ TetMesh read_msh(const std::string& text) {
             const std::uint64_t t = words.count() - 1;
             m.tets.at(t) = words.tet();
             m.labels.at(t) = labels.at(tag);
-            for (const std::uint32_t v : m.tets.at(t)) CHECK(boxes.at(tag).contains(m.points.at(v)));
+            for (const std::uint32_t v : m.tets.at(t))
+                CHECK(boxes.at(tag).contains(m.points.at(v)));
         }
     }
     words.expect("$EndElements");
@@ -143,7 +147,8 @@ TEST_CASE("medit: what is written, byte for byte") {
     const test::Folder folder;
     write_volume(folder / "m.mesh", two_tets());
     CHECK(test::content_of(folder / "m.mesh") ==
-          "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n5\n0 0 0 0\n0.1 0 0 0\n0 1e+22 0 0\n0 0 3 0\n"
+          "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n5\n0 0 0 0\n0.1 0 0 0\n0 1e+22 0 "
+          "0\n0 0 3 0\n"
           "0 0 -0.30000000000000004 0\n\nTetrahedra\n2\n1 2 3 4 7\n1 3 2 5 0\n\nEnd\n");
 }
 
@@ -151,10 +156,13 @@ TEST_CASE("msh: what is written, byte for byte") {
     const test::Folder folder;
     write_volume(folder / "m.msh", two_tets());
     CHECK(test::content_of(folder / "m.msh") ==
-          "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"label_0\"\n3 8 \"label_7\"\n"
+          "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 1 \"label_0\"\n3 8 "
+          "\"label_7\"\n"
           "$EndPhysicalNames\n$Entities\n0 0 0 2\n1 0 0 -0.30000000000000004 0.1 1e+22 0 1 1 0\n"
-          "8 0 0 0 0.1 1e+22 3 1 8 0\n$EndEntities\n$Nodes\n1 5 1 5\n3 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n0.1 0 0\n"
-          "0 1e+22 0\n0 0 3\n0 0 -0.30000000000000004\n$EndNodes\n$Elements\n2 2 1 2\n3 1 4 1\n2 1 3 2 5\n"
+          "8 0 0 0 0.1 1e+22 3 1 8 0\n$EndEntities\n$Nodes\n1 5 1 5\n3 1 0 5\n1\n2\n3\n4\n5\n0 0 "
+          "0\n0.1 0 0\n"
+          "0 1e+22 0\n0 0 3\n0 0 -0.30000000000000004\n$EndNodes\n$Elements\n2 2 1 2\n3 1 4 1\n2 1 "
+          "3 2 5\n"
           "3 8 4 1\n1 1 2 3 4\n$EndElements\n");
 }
 
@@ -165,8 +173,8 @@ TEST_CASE("many random tets come back from both formats, bit for bit and in thei
         const TetMesh m = random_tets(1500, seed);
         write_volume(folder / "m.mesh", m);
         write_volume(folder / "m.msh", m);
-        for (const TetMesh& back :
-             {read_medit(test::content_of(folder / "m.mesh")), read_msh(test::content_of(folder / "m.msh"))}) {
+        for (const TetMesh& back : {read_medit(test::content_of(folder / "m.mesh")),
+                                    read_msh(test::content_of(folder / "m.msh"))}) {
             CHECK(test::same_bits(back.points, m.points));
             CHECK(back.tets == m.tets);
             CHECK(back.labels == m.labels);
@@ -182,9 +190,8 @@ TEST_CASE("a label without a tag is refused, and medit holds it") {
         FAIL("no error");
     } catch (const GeometryError& error) {
         CHECK(error.code() == "volume.label");
-        CHECK(std::string(error.what()) ==
-              "volume: tet 5 has the label 2147483647; .msh can store labels from 0 to 2147483646, write a .vtu or "
-              ".dsc");
+        CHECK(std::string(error.what()) == "volume: tet 5 has the label 2147483647; .msh can store "
+                                           "labels from 0 to 2147483646, write a .vtu or .dsc");
     }
     CHECK(folder.files() == 0);
     write_volume(folder / "m.mesh", m);

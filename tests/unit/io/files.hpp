@@ -1,13 +1,6 @@
 #pragma once
 // Files and meshes for the tests.
 
-#include <dsc/base/error.hpp>
-#include <dsc/base/random.hpp>
-#include <dsc/mesh/tet_mesh.hpp>
-#include <dsc/surface/triangle_mesh.hpp>
-
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -17,6 +10,13 @@
 #include <iterator>
 #include <string>
 #include <vector>
+
+#include <unistd.h>
+
+#include <dsc/base/error.hpp>
+#include <dsc/base/random.hpp>
+#include <dsc/mesh/tet_mesh.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
 
 namespace dsc::io::test {
 
@@ -46,7 +46,8 @@ public:
         return path_ / name;
     }
     std::size_t files() const {
-        return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
+        return static_cast<std::size_t>(
+            std::distance(std::filesystem::directory_iterator(path_), {}));
     }
 
 private:
@@ -103,7 +104,8 @@ inline bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 /// Cube of six positive tets round its diagonal, at a place where every digit counts.
 inline mesh::TetMesh cube_of_tets(const Vec3& corner = {0.1, 0.2, 0.3}, double edge = 1.0 / 3.0) {
     mesh::TetMesh m;
-    for (int i = 0; i < 8; ++i) m.points.push_back(corner + edge * Vec3(i & 1, (i >> 1) & 1, (i >> 2) & 1));
+    for (int i = 0; i < 8; ++i)
+        m.points.push_back(corner + edge * Vec3(i & 1, (i >> 1) & 1, (i >> 2) & 1));
     m.tets = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
     m.labels = {0, 1, 1, 0, 2, 2147483647};
     return m;

@@ -1,11 +1,12 @@
-// Files that are damaged at random: a reader gives a sound mesh or one IoError, never anything else.
-#include <dsc/io/read.hpp>
-#include <dsc/io/write.hpp>
-#include <dsc/surface/measure.hpp>
+// Files that are damaged at random: a reader gives a sound mesh or one IoError, never anything
+// else.
+#include <algorithm>
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
+#include <dsc/io/read.hpp>
+#include <dsc/io/write.hpp>
+#include <dsc/surface/measure.hpp>
 
 #include "files.hpp"
 
@@ -19,24 +20,14 @@ std::string damaged(std::string text, RandomStream& random) {
     for (std::uint64_t i = 0; i < changes && !text.empty(); ++i) {
         const std::size_t at = random.index(text.size());
         switch (random.index(6)) {
-            case 0:
-                text[at] = static_cast<char>(random.index(256));
-                break;
-            case 1:
-                text[at] = "0123456789-+.e \n/"[random.index(17)];
-                break;
-            case 2:
-                text.erase(at, 1 + random.index(20));
-                break;
+            case 0: text[at] = static_cast<char>(random.index(256)); break;
+            case 1: text[at] = "0123456789-+.e \n/"[random.index(17)]; break;
+            case 2: text.erase(at, 1 + random.index(20)); break;
             case 3:
                 text.insert(at, text.substr(random.index(text.size()), random.index(30)));
                 break;
-            case 4:
-                text.resize(at);
-                break;
-            default:
-                text[at] = static_cast<char>(text[at] ^ (1 << random.index(8)));
-                break;
+            case 4: text.resize(at); break;
+            default: text[at] = static_cast<char>(text[at] ^ (1 << random.index(8))); break;
         }
     }
     return text;
@@ -99,11 +90,10 @@ TEST_CASE("damaged text stl and text ply") {
                "\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
     }
     stl += "endsolid\n";
-    const std::string ply =
-        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
-        "z\nproperty double gap\nelement face 2\n"
-        "property list uchar int vertex_indices\nend_header\n0 0 0 nan\n1 0 0 1\n0 1 0 2.5\n0 0 1 -3\n3 0 1 2\n4 0 1 2 "
-        "3\n";
+    const std::string ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty "
+                            "float y\nproperty float z\nproperty double gap\nelement face 2\n"
+                            "property list uchar int vertex_indices\nend_header\n0 0 0 nan\n1 0 0 "
+                            "1\n0 1 0 2.5\n0 0 1 -3\n3 0 1 2\n4 0 1 2 3\n";
     RandomStream random(RandomKey{2, 0, 0, 0});
     for (int i = 0; i < 1500; ++i) {
         refused([&] { read_whole(folder.with("a.stl", damaged(stl, random))); });
@@ -115,7 +105,8 @@ TEST_CASE("damaged volumes") {
     const test::Folder folder;
     for (const char* name : {"m.dsc", "m.vtu"}) {
         CAPTURE(name);
-        write_volume(folder / name, test::cube_of_tets(), {{}, {{"gap", std::vector<double>(8, 0.5)}}});
+        write_volume(folder / name, test::cube_of_tets(),
+                     {{}, {{"gap", std::vector<double>(8, 0.5)}}});
         const std::string good = test::content_of(folder / name);
         RandomStream random(RandomKey{3, 0, 0, 0});
         int refusals = 0;

@@ -1,9 +1,8 @@
+#include <doctest/doctest.h>
+#include <png.h>
+
 #include <dsc/base/workers.hpp>
 #include <dsc/io/picture.hpp>
-
-#include <doctest/doctest.h>
-
-#include <png.h>
 
 #include "files.hpp"
 
@@ -79,13 +78,16 @@ TEST_CASE("every view fits the frame and fills it") {
          {View::front, View::back, View::left, View::right, View::top, View::bottom, View::iso}) {
         const Image image = render(tetrahedron(), small(view));
         CHECK(object_pixels(image) > 500);
-        for (int x = 0; x < 96; ++x) CHECK_FALSE((is_object(image, x, 0) || is_object(image, x, 63)));
-        for (int y = 0; y < 64; ++y) CHECK_FALSE((is_object(image, 0, y) || is_object(image, 95, y)));
+        for (int x = 0; x < 96; ++x)
+            CHECK_FALSE((is_object(image, x, 0) || is_object(image, x, 63)));
+        for (int y = 0; y < 64; ++y)
+            CHECK_FALSE((is_object(image, 0, y) || is_object(image, 95, y)));
     }
 }
 
 TEST_CASE("up is y, or z when asked for") {
-    // A thin arrow along +z with its head at the top: seen from the front it stands upright only with z up.
+    // A thin arrow along +z with its head at the top: seen from the front it stands upright only
+    // with z up.
     TriangleMesh arrow;
     arrow.points = {{-0.2, 0, -1}, {0.2, 0, -1}, {0, 0, 1}, {0, 0.2, -1}};
     arrow.faces = {{0, 1, 2}, {1, 3, 2}, {3, 0, 2}, {0, 3, 1}};
@@ -162,8 +164,8 @@ TEST_CASE("what cannot be drawn is refused") {
                          "picture: the mesh has no faces; at least one is needed", GeometryError);
     RenderOptions o;
     o.width = 0;
-    CHECK_THROWS_WITH_AS(render(square(), o), "picture: size 0x768; each side may be 1 to 16384 pixels",
-                         UsageError);
+    CHECK_THROWS_WITH_AS(render(square(), o),
+                         "picture: size 0x768; each side may be 1 to 16384 pixels", UsageError);
     o.width = 100000;
     CHECK_THROWS_AS(render(square(), o), UsageError);
     TriangleMesh bad = square();
@@ -186,11 +188,13 @@ TEST_CASE("the png holds the pixels and is the same file every time") {
     std::vector<std::uint8_t> pixels(96 * 64 * 3);
     REQUIRE(png_image_finish_read(&header, nullptr, pixels.data(), 0, nullptr) != 0);
     CHECK(pixels == image.pixels);
-    const auto found = test::refusal(folder / "none/a.png", [&](const auto& f) { write_png(f, image); });
+    const auto found =
+        test::refusal(folder / "none/a.png", [&](const auto& f) { write_png(f, image); });
     CHECK(found.code == "io.write");
 }
 
-TEST_CASE("values colour the outside: blue where they are low, red where they are high, plain without one") {
+TEST_CASE("values colour the outside: blue where they are low, red where they are high, plain "
+          "without one") {
     const TriangleMesh m = square();
     RenderOptions options = small(View::front);
     const Image plain = render(m, options);
@@ -198,7 +202,8 @@ TEST_CASE("values colour the outside: blue where they are low, red where they ar
     options.values = across;
     const Image image = render(m, options);
     const int y = image.height / 2, middle = image.width / 2, side = image.height / 4;
-    const auto left = image.at(middle - side, y), right = image.at(middle + side, y), centre = image.at(middle, y);
+    const auto left = image.at(middle - side, y), right = image.at(middle + side, y),
+               centre = image.at(middle, y);
     CHECK(left[2] > left[0] + 40);
     CHECK(right[0] > right[2] + 40);
     CHECK(centre[1] > centre[0]);  // the ramp's middle is green
@@ -214,7 +219,9 @@ TEST_CASE("values colour the outside: blue where they are low, red where they ar
     options.values = {};
     CHECK(inside.pixels == render(m, options).pixels);
     options.values = std::span(across).first(3);
-    CHECK_THROWS_WITH_AS(render(m, options), "picture: 3 values for 4 points; give one for each or none", GeometryError);
+    CHECK_THROWS_WITH_AS(render(m, options),
+                         "picture: 3 values for 4 points; give one for each or none",
+                         GeometryError);
 }
 
 TEST_CASE("bounds of colours leave out the outer hundredths and what is not finite") {
@@ -222,7 +229,8 @@ TEST_CASE("bounds of colours leave out the outer hundredths and what is not fini
     for (int i = 100; i >= 0; --i) values.push_back(i);
     CHECK(colour_bounds(values).low == 1);
     CHECK(colour_bounds(values).high == 99);
-    values.insert(values.begin(), {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()});
+    values.insert(values.begin(), {std::numeric_limits<double>::quiet_NaN(),
+                                   std::numeric_limits<double>::infinity()});
     CHECK(colour_bounds(values).high == 99);
     CHECK(colour_bounds({}).high == 0);
     const ColourBounds bounds{2, 6};

@@ -1,7 +1,7 @@
 // Surfaces with arrays as .vtp, and the index of a series.
-#include <dsc/io/series.hpp>
-
 #include <doctest/doctest.h>
+
+#include <dsc/io/series.hpp>
 
 #include "files.hpp"
 
@@ -21,7 +21,8 @@ SurfaceData arrays() {
 
 }  // namespace
 
-TEST_CASE("vtp: points, faces and arrays come back to the last bit; a second writing gives the same bytes") {
+TEST_CASE("vtp: points, faces and arrays come back to the last bit; a second writing gives the "
+          "same bytes") {
     const test::Folder folder;
     const surface::TriangleMesh m = test::awkward_mesh();
     write_vtp(folder / "a.vtp", m, arrays());
@@ -47,8 +48,9 @@ TEST_CASE("vtp: the file is what other programs expect; nothing at all is a surf
     const test::Folder folder;
     write_vtp(folder / "a.vtp", test::awkward_mesh(), arrays());
     const std::string bytes = test::content_of(folder / "a.vtp");
-    for (const char* part : {"type=\"PolyData\"", "byte_order=\"LittleEndian\"", "header_type=\"UInt64\"", "NumberOfPolys=\"3\"",
-                             "Name=\"distance\"", "type=\"Float64\" Name=\"Points\"", "encoding=\"raw\""}) {
+    for (const char* part : {"type=\"PolyData\"", "byte_order=\"LittleEndian\"",
+                             "header_type=\"UInt64\"", "NumberOfPolys=\"3\"", "Name=\"distance\"",
+                             "type=\"Float64\" Name=\"Points\"", "encoding=\"raw\""}) {
         CAPTURE(part);
         CHECK(bytes.find(part) != std::string::npos);
     }
@@ -65,9 +67,13 @@ TEST_CASE("vtp: colours come back, and are bytes that ParaView shows as they are
     const surface::TriangleMesh read = read_vtp(folder / "a.vtp", &back);
     CHECK(read.colours == m.colours);
     CHECK(back.points.size() == 2);
-    CHECK(test::content_of(folder / "a.vtp").find("type=\"UInt8\" Name=\"colour\" NumberOfComponents=\"3\"") != std::string::npos);
+    CHECK(test::content_of(folder / "a.vtp")
+              .find("type=\"UInt8\" Name=\"colour\" NumberOfComponents=\"3\"") !=
+          std::string::npos);
     m.colours.pop_back();
-    CHECK_THROWS_WITH_AS(write_vtp(folder / "a.vtp", m), "surface: array 'colour' has 3 values for 4; give one for each", GeometryError);
+    CHECK_THROWS_WITH_AS(write_vtp(folder / "a.vtp", m),
+                         "surface: array 'colour' has 3 values for 4; give one for each",
+                         GeometryError);
 }
 
 TEST_CASE("vtp: arrays that do not fit and damaged files are refused") {
@@ -75,7 +81,8 @@ TEST_CASE("vtp: arrays that do not fit and damaged files are refused") {
     SurfaceData data = arrays();
     data.vectors[0].values.pop_back();
     CHECK_THROWS_WITH_AS(write_vtp(folder / "a.vtp", test::awkward_mesh(), data),
-                         "surface: array 'normal' has 3 values for 4; give one for each", GeometryError);
+                         "surface: array 'normal' has 3 values for 4; give one for each",
+                         GeometryError);
     CHECK(folder.files() == 0);
     write_vtp(folder / "a.vtp", test::awkward_mesh(), arrays());
     const std::string bytes = test::content_of(folder / "a.vtp");
@@ -83,12 +90,15 @@ TEST_CASE("vtp: arrays that do not fit and damaged files are refused") {
         CAPTURE(size);
         CHECK_THROWS_AS(read_vtp(folder.with("cut.vtp", bytes.substr(0, size))), IoError);
     }
-    CHECK(test::refusal(folder / "missing.vtp", [](const auto& f) { read_vtp(f); }).code == "io.missing");
+    CHECK(test::refusal(folder / "missing.vtp", [](const auto& f) { read_vtp(f); }).code ==
+          "io.missing");
     const std::string text =
-        "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData><Piece NumberOfPoints=\"4\" "
-        "NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"1\"><Points><DataArray type=\"Float64\" "
-        "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 1 1 0</DataArray></Points><Polys><DataArray type=\"Int64\" "
-        "Name=\"connectivity\" format=\"ascii\">0 1 CORNERS</DataArray><DataArray type=\"Int64\" Name=\"offsets\" "
+        "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData><Piece "
+        "NumberOfPoints=\"4\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+        "NumberOfPolys=\"1\"><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" "
+        "format=\"ascii\">0 0 0 1 0 0 0 1 0 1 1 0</DataArray></Points><Polys><DataArray "
+        "type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 CORNERS</DataArray><DataArray "
+        "type=\"Int64\" Name=\"offsets\" "
         "format=\"ascii\">OFFSET</DataArray></Polys></Piece></PolyData></VTKFile>";
     const auto polygon = [&](const std::string& corners, const std::string& offset) {
         std::string file = text;
@@ -107,7 +117,8 @@ TEST_CASE("pvd: one line a state, escaped") {
     const std::vector<SeriesEntry> entries = {{0, "surface_000000.vtp"}, {10, "a&<\".vtp"}};
     write_pvd(folder / "a.pvd", entries);
     CHECK(test::content_of(folder / "a.pvd") ==
-          "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  <Collection>\n"
+          "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
+          "byte_order=\"LittleEndian\">\n  <Collection>\n"
           "    <DataSet timestep=\"0\" part=\"0\" file=\"surface_000000.vtp\"/>\n"
           "    <DataSet timestep=\"10\" part=\"0\" file=\"a&amp;&lt;&quot;.vtp\"/>\n"
           "  </Collection>\n</VTKFile>\n");

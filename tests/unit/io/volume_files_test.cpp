@@ -1,9 +1,9 @@
-#include <dsc/io/read.hpp>
-#include <dsc/io/write.hpp>
+#include <cmath>
 
 #include <doctest/doctest.h>
 
-#include <cmath>
+#include <dsc/io/read.hpp>
+#include <dsc/io/write.hpp>
 
 #include "files.hpp"
 
@@ -56,7 +56,8 @@ TEST_CASE("dsc: what is written, byte for byte") {
     m.tets = {{0, 1, 2, 3}};
     m.labels = {7};
     write_volume(folder / "m.dsc", m);
-    CHECK(test::content_of(folder / "m.dsc") == "v 0 0 0\nv 0.1 0 0\nv 0 1e+22 0\nv 0 0 3\nt 0 1 2 3 7\n");
+    CHECK(test::content_of(folder / "m.dsc") ==
+          "v 0 0 0\nv 0.1 0 0\nv 0 1e+22 0\nv 0 0 3\nt 0 1 2 3 7\n");
 }
 
 TEST_CASE("dsc: any order, any white space, no last tet twice") {
@@ -78,8 +79,8 @@ TEST_CASE("vtu: the file is what other programs expect") {
     const std::string bytes = test::content_of(folder / "m.vtu");
     for (const char* part :
          {"type=\"UnstructuredGrid\"", "byte_order=\"LittleEndian\"", "header_type=\"UInt64\"",
-          "compressor=\"vtkZLibDataCompressor\"", "encoding=\"raw\"", "Name=\"label\"", "Name=\"quality\"",
-          "Name=\"age\"", "Name=\"speed\"", "type=\"Float64\" Name=\"Points\"",
+          "compressor=\"vtkZLibDataCompressor\"", "encoding=\"raw\"", "Name=\"label\"",
+          "Name=\"quality\"", "Name=\"age\"", "Name=\"speed\"", "type=\"Float64\" Name=\"Points\"",
           "<CellData Scalars=\"label\">"}) {
         CAPTURE(part);
         CHECK(bytes.find(part) != std::string::npos);
@@ -90,17 +91,18 @@ TEST_CASE("vtu: the file is what other programs expect") {
 TEST_CASE("vtu: text arrays, float points and integers of another width are read") {
     const test::Folder folder;
     const TetMesh m = read_volume(folder.with(
-        "m.vtu",
-        "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>"
-        "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">"
-        "<CellData><DataArray type=\"UInt8\" Name=\"label\" format=\"ascii\">3</DataArray></CellData>"
-        "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 "
-        "1"
-        "</DataArray></Points><Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 "
-        "3</DataArray>"
-        "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">4</DataArray>"
-        "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10</DataArray></Cells>"
-        "</Piece></UnstructuredGrid></VTKFile>"));
+        "m.vtu", "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+                 "byte_order=\"LittleEndian\"><UnstructuredGrid>"
+                 "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\">"
+                 "<CellData><DataArray type=\"UInt8\" Name=\"label\" "
+                 "format=\"ascii\">3</DataArray></CellData>"
+                 "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 "
+                 "0 0 1 0 0 0 1 0 0 0 1"
+                 "</DataArray></Points><Cells><DataArray type=\"Int32\" Name=\"connectivity\" "
+                 "format=\"ascii\">0 1 2 3</DataArray>"
+                 "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">4</DataArray>"
+                 "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10</DataArray></Cells>"
+                 "</Piece></UnstructuredGrid></VTKFile>"));
     CHECK(m.points[1] == Vec3(1, 0, 0));
     CHECK(m.tets == std::vector<std::array<std::uint32_t, 4>>{{0, 1, 2, 3}});
     CHECK(m.labels == std::vector<mesh::Label>{3});
@@ -113,13 +115,12 @@ TEST_CASE("a tet that is not exactly positive is not written") {
     std::swap(m.tets[4][0], m.tets[4][1]);
     const std::string place = (folder / "m.vtu").string();
     const std::string text =
-        place +
-        ": not written, 2 tets of 6 not positive, the first is tet 2; orient the tets (adopt does) "
-        "or use units in which their volume is not rounded to 0";
+        place + ": not written, 2 tets of 6 not positive, the first is tet 2; orient the tets "
+                "(adopt does) or use units in which their volume is not rounded to 0";
     CHECK_THROWS_WITH_AS(write_volume(folder / "m.vtu", m), text.c_str(), GeometryError);
 
-    // Flat by one unit in the last place of the largest coordinate: a plain determinant cannot tell, the
-    // exact one can.
+    // Flat by one unit in the last place of the largest coordinate: a plain determinant cannot
+    // tell, the exact one can.
     m = {};
     m.points = {{1e8, 0, 0}, {1e8 + 1, 0, 0}, {1e8, 1, 0}, {1e8, 0, 0x1p-1000}};
     m.tets = {{0, 1, 2, 3}};
@@ -135,12 +136,14 @@ TEST_CASE("arrays and indices that do not fit are refused") {
     TetMesh m = test::cube_of_tets();
     m.labels.pop_back();
     CHECK_THROWS_WITH_AS(write_volume(folder / "m.dsc", m),
-                         "volume: the array of labels has 5 values for 6; give one for each", GeometryError);
+                         "volume: the array of labels has 5 values for 6; give one for each",
+                         GeometryError);
     m = test::cube_of_tets();
     VolumeData data;
     data.points.push_back({"speed", {1}});
     CHECK_THROWS_WITH_AS(write_volume(folder / "m.vtu", m, data),
-                         "volume: point array 'speed' has 1 value for 8; give one for each", GeometryError);
+                         "volume: point array 'speed' has 1 value for 8; give one for each",
+                         GeometryError);
     m.tets[1][2] = 8;
     CHECK_THROWS_WITH_AS(write_volume(folder / "m.dsc", m), "volume: tet 1 refers to point 8 of 8",
                          GeometryError);
@@ -149,7 +152,9 @@ TEST_CASE("arrays and indices that do not fit are refused") {
     CHECK_THROWS_WITH_AS(write_volume(folder / "m.dsc", m), "volume: point 5 is NaN or infinite",
                          GeometryError);
     CHECK(folder.files() == 0);
-    const auto found =
-        test::refusal(folder / "m.obj", [&](const auto& f) { write_volume(f, test::cube_of_tets()); });
-    CHECK(found.message == "FILE: a volume cannot be written with this extension; use one of .vtu, .dsc, .msh, .mesh");
+    const auto found = test::refusal(folder / "m.obj",
+                                     [&](const auto& f) { write_volume(f, test::cube_of_tets()); });
+    CHECK(
+        found.message ==
+        "FILE: a volume cannot be written with this extension; use one of .vtu, .dsc, .msh, .mesh");
 }

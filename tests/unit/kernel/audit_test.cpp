@@ -1,8 +1,9 @@
-// The audit compares the queues with a full scan: it is silent on a sound kernel and speaks when a wake-up is lost.
-#include <doctest/doctest.h>
-
+// The audit compares the queues with a full scan: it is silent on a sound kernel and speaks when a
+// wake-up is lost.
 #include <algorithm>
 #include <string>
+
+#include <doctest/doctest.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/kernel/deformer.hpp>
@@ -24,10 +25,13 @@ std::string audited(std::uint64_t drop_wake_up) {
     try {
         for (int step = 0; step < 8; ++step) {
             const mesh::Complex& c = d.complex();
-            std::vector<mesh::VertexId> v(c.interface_vertices().begin(), c.interface_vertices().end());
+            std::vector<mesh::VertexId> v(c.interface_vertices().begin(),
+                                          c.interface_vertices().end());
             std::sort(v.begin(), v.end(), [&c](auto a, auto b) { return c.birth(a) < c.birth(b); });
             std::vector<Vec3> displacements;
-            for (const auto x : v) displacements.push_back(0.08 * Vec3(-c.position(x).y(), c.position(x).x(), 0) - 0.05 * c.position(x));
+            for (const auto x : v)
+                displacements.push_back(0.08 * Vec3(-c.position(x).y(), c.position(x).x(), 0) -
+                                        0.05 * c.position(x));
             d.step(v, displacements, test::quality_policy());
         }
     } catch (const GeometryError& error) {

@@ -1,8 +1,8 @@
 // The Deformer as a whole: motion, books, ends.
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <doctest/doctest.h>
 
 #include <dsc/base/random.hpp>
 #include <dsc/geometry/quality.hpp>
@@ -24,7 +24,8 @@ std::vector<VertexId> by_birth(const mesh::Complex& c) {
     return v;
 }
 
-// Which of the two balls each vertex belongs to, by walking the interface from a vertex far left: 1 for that shell.
+// Which of the two balls each vertex belongs to, by walking the interface from a vertex far left: 1
+// for that shell.
 std::vector<char> left_shell(const mesh::Complex& c) {
     std::vector<char> in(c.vertex_slots(), 0);
     std::vector<VertexId> queue;
@@ -57,7 +58,9 @@ StepReport drive(Deformer& d, const RepairPolicy& policy, Field&& field) {
     return d.step(vertices, displacements, policy);
 }
 
-mesh::Complex ball(int cells = 14, double radius = 0.8) { return mesh::adopt(test::ball_grid(cells, radius), "ball"); }
+mesh::Complex ball(int cells = 14, double radius = 0.8) {
+    return mesh::adopt(test::ball_grid(cells, radius), "ball");
+}
 
 }  // namespace
 
@@ -82,12 +85,15 @@ TEST_CASE("a translation there and back arrives, keeps the volume and stays vali
     std::uint64_t committed = 0;
     for (int i = 0; i < 16; ++i) {
         const double sign = i < 8 ? 1.0 : -1.0;
-        const StepReport report = drive(d, policy, [&](const Vec3&) { return Vec3(sign * Vec3(0.03, 0.03, 0.03)); });
+        const StepReport report =
+            drive(d, policy, [&](const Vec3&) { return Vec3(sign * Vec3(0.03, 0.03, 0.03)); });
         CHECK(report.clamped == 0);
         CHECK(report.dropped_motion < 0.05);
         CHECK(report.rounds <= 50);
-        edits += report.edit_volume + report.relabelled_volume + report.dropped_motion * d.target_length() * d.target_length();
-        committed += report.operations[static_cast<std::size_t>(repair::Operation::edge_removal)].committed;
+        edits += report.edit_volume + report.relabelled_volume +
+                 report.dropped_motion * d.target_length() * d.target_length();
+        committed +=
+            report.operations[static_cast<std::size_t>(repair::Operation::edge_removal)].committed;
     }
     CHECK(mesh::validate(d.complex()).faults == std::vector<std::string>{});
     CHECK(committed > 0);
@@ -105,7 +111,9 @@ TEST_CASE("destinations are clamped to the box shrunk by 2 L") {
     const double margin = 1.5 - 2.0 * d.target_length();
     std::size_t clamped = 0;
     for (int i = 0; i < 12; ++i) {
-        clamped += drive(d, test::quality_policy(), [](const Vec3& p) { return Vec3(0.3 * p.normalized()); }).clamped;
+        clamped += drive(d, test::quality_policy(), [](const Vec3& p) {
+                       return Vec3(0.3 * p.normalized());
+                   }).clamped;
     }
     CHECK(clamped > 0);
     for (const VertexId v : d.complex().interface_vertices()) {
@@ -119,7 +127,8 @@ TEST_CASE("a shrinking sphere vanishes as one counted event") {
     Deformer d(ball(12, 0.7));
     repair::EventCounts counts;
     for (int i = 0; i < 60 && !d.complex().interface_vertices().empty(); ++i) {
-        const StepReport report = drive(d, test::quality_policy(), [](const Vec3& p) { return Vec3(-0.05 * p.normalized()); });
+        const StepReport report = drive(d, test::quality_policy(),
+                                        [](const Vec3& p) { return Vec3(-0.05 * p.normalized()); });
         counts.vanished += report.event_counts.vanished;
         REQUIRE(mesh::validate(d.complex()).faults == std::vector<std::string>{});
     }
@@ -128,7 +137,8 @@ TEST_CASE("a shrinking sphere vanishes as one counted event") {
     CHECK(mesh::labelled_volume(d.complex()) == 0.0);
 }
 
-TEST_CASE("events off: two spheres driven together stall without an event and without an inversion") {
+TEST_CASE(
+    "events off: two spheres driven together stall without an event and without an inversion") {
     Deformer d(mesh::adopt(test::two_balls_grid(14), "two balls"));
     RepairPolicy policy = test::quality_policy();
     policy.topology.thickness = 0.0;
@@ -138,7 +148,8 @@ TEST_CASE("events off: two spheres driven together stall without an event and wi
         const std::vector<char> left = left_shell(d.complex());
         const std::vector<VertexId> vertices = by_birth(d.complex());
         std::vector<Vec3> displacements;
-        for (const VertexId v : vertices) displacements.push_back(Vec3(left[v] != 0 ? 0.03 : -0.03, 0, 0));
+        for (const VertexId v : vertices)
+            displacements.push_back(Vec3(left[v] != 0 ? 0.03 : -0.03, 0, 0));
         const StepReport report = d.step(vertices, displacements, policy);
         events += report.events.size();
         CHECK(report.rounds <= 50);
@@ -159,12 +170,14 @@ TEST_CASE("two spheres driven together merge, and the books balance at every ste
     REQUIRE(before.shells == 2);
     std::size_t merges = 0;
     for (int i = 0; i < 30; ++i) {
-        const StepReport report = drive(d, policy, [](const Vec3& p) { return Vec3(p.x() < 0 ? 0.02 : -0.02, 0, 0); });
+        const StepReport report =
+            drive(d, policy, [](const Vec3& p) { return Vec3(p.x() < 0 ? 0.02 : -0.02, 0, 0); });
         const mesh::InterfaceCounts now = mesh::count_interface(d.complex());
         const auto& e = report.event_counts;
         REQUIRE(static_cast<long>(now.shells) - static_cast<long>(before.shells) ==
                 static_cast<long>(e.split + e.born) - static_cast<long>(e.merge + e.vanished));
-        REQUIRE(now.genus() - before.genus() == static_cast<long>(e.handle_opened) - static_cast<long>(e.handle_closed));
+        REQUIRE(now.genus() - before.genus() ==
+                static_cast<long>(e.handle_opened) - static_cast<long>(e.handle_closed));
         merges += e.merge;
         before = now;
     }
@@ -181,10 +194,13 @@ TEST_CASE("adversarial destinations end within the budgets and leave a valid com
             const double length = d.target_length();
             const StepReport report = drive(d, test::quality_policy(), [&](const Vec3& p) {
                 switch (kind) {
-                    case 0: return Vec3(2 * length * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
-                    case 1: return Vec3(-2.0 * p);                       // swapped through the centre
-                    case 2: return Vec3(Vec3(0.1, 0.2, 0.3) - p);        // all to one point
-                    default: return Vec3(10.0 * p);                      // through the wall of the box
+                    case 0:
+                        return Vec3(2 * length *
+                                    Vec3(random.uniform(-1, 1), random.uniform(-1, 1),
+                                         random.uniform(-1, 1)));
+                    case 1: return Vec3(-2.0 * p);                 // swapped through the centre
+                    case 2: return Vec3(Vec3(0.1, 0.2, 0.3) - p);  // all to one point
+                    default: return Vec3(10.0 * p);                // through the wall of the box
                 }
             });
             CHECK(report.rounds <= 50);
@@ -225,7 +241,8 @@ TEST_CASE("relabelling at a plugin's request: birth of a component, unpinched wh
     std::vector<mesh::TetId> tets;
     for (mesh::TetId t = 0; t < c.tet_slots(); ++t) {
         const auto& v = c.tet(t).v;
-        const Vec3 centre = 0.25 * (c.position(v[0]) + c.position(v[1]) + c.position(v[2]) + c.position(v[3]));
+        const Vec3 centre =
+            0.25 * (c.position(v[0]) + c.position(v[1]) + c.position(v[2]) + c.position(v[3]));
         if ((centre - Vec3(0.95, 0.95, 0.95)).norm() < 0.3) tets.push_back(t);
     }
     REQUIRE_FALSE(tets.empty());
@@ -235,6 +252,7 @@ TEST_CASE("relabelling at a plugin's request: birth of a component, unpinched wh
     CHECK(d.relabel(tets, labels, test::quality_policy(), events) > 0);
     const auto after = mesh::count_interface(c);
     CHECK(after.shells == before.shells + 1);
-    CHECK(std::count_if(events.begin(), events.end(), [](const Event& e) { return e.kind == Event::Kind::born; }) == 1);
+    CHECK(std::count_if(events.begin(), events.end(),
+                        [](const Event& e) { return e.kind == Event::Kind::born; }) == 1);
     CHECK(mesh::validate(c).faults == std::vector<std::string>{});
 }

@@ -1,8 +1,9 @@
-// Target lengths and attributes per vertex: how they follow the edits, what they decide, and that they outlive a checkpoint.
-#include <doctest/doctest.h>
-
+// Target lengths and attributes per vertex: how they follow the edits, what they decide, and that
+// they outlive a checkpoint.
 #include <algorithm>
 #include <cmath>
+
+#include <doctest/doctest.h>
 
 #include <dsc/base/random.hpp>
 #include <dsc/base/state.hpp>
@@ -20,7 +21,9 @@ using mesh::VertexId;
 
 namespace {
 
-mesh::Complex ball(int cells = 14, double radius = 0.8) { return mesh::adopt(test::ball_grid(cells, radius), "ball"); }
+mesh::Complex ball(int cells = 14, double radius = 0.8) {
+    return mesh::adopt(test::ball_grid(cells, radius), "ball");
+}
 
 surface::SurfaceView view_of(const Deformer& d) {
     surface::SurfaceView view;
@@ -28,7 +31,8 @@ surface::SurfaceView view_of(const Deformer& d) {
     return view;
 }
 
-// A linear function of the place: its value at the middle of an edge is the mean of its values at the ends.
+// A linear function of the place: its value at the middle of an edge is the mean of its values at
+// the ends.
 double slope(const Vec3& p) { return 2.0 + p.x() + 0.5 * p.y() - 0.25 * p.z(); }
 
 std::vector<double> slopes(const surface::SurfaceView& view) {
@@ -43,7 +47,9 @@ void shake(Deformer& d, std::uint64_t seed, const RepairPolicy& policy) {
     RandomStream random(RandomKey{seed, 0, 0, 0});
     std::vector<Vec3> displacements;
     for (std::size_t i = 0; i < view.vertex_count(); ++i) {
-        displacements.emplace_back(0.33 * view.mean_edge * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+        displacements.emplace_back(
+            0.33 * view.mean_edge *
+            Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
     }
     d.step(view.vertex_ids, displacements, policy);
 }
@@ -66,14 +72,16 @@ TEST_CASE("splits give the mean of the edge's ends, to lengths and attributes") 
     RefineRequests requests;
     requests.owns_sizing = true;
     for (const auto& face : view.faces) {
-        requests.split_faces.push_back({view.vertex_ids[face[0]], view.vertex_ids[face[1]], view.vertex_ids[face[2]]});
+        requests.split_faces.push_back(
+            {view.vertex_ids[face[0]], view.vertex_ids[face[1]], view.vertex_ids[face[2]]});
     }
     const double length = d.target_length();
     CHECK(d.refine(requests).committed > view.face_count() / 4);
     CHECK(d.target_length() == length);
     view = view_of(d);
     REQUIRE(view.vertex_count() > before.size());
-    const std::vector<double> expected = slopes(view), lengths = d.target_lengths(view.vertex_ids), tilt = d.attribute("tilt", view.vertex_ids);
+    const std::vector<double> expected = slopes(view), lengths = d.target_lengths(view.vertex_ids),
+                              tilt = d.attribute("tilt", view.vertex_ids);
     REQUIRE(lengths.size() == view.vertex_count());
     for (std::size_t i = 0; i < view.vertex_count(); ++i) {
         CHECK(lengths[i] == doctest::Approx(expected[i]).epsilon(1e-12));
@@ -141,17 +149,20 @@ TEST_CASE("a flip swaps the diagonal of flat faces only") {
         const surface::SurfaceView now = view_of(d);
         surface::build_edges(now, after);
         CHECK(after.size() == edges.size());
-        CHECK(std::none_of(after.begin(), after.end(), [&](const auto& x) { return x.vertices == e.vertices; }));
+        CHECK(std::none_of(after.begin(), after.end(),
+                           [&](const auto& x) { return x.vertices == e.vertices; }));
     }
     CHECK(flipped == 1);
     CHECK(mesh::validate(d.complex()).faults == std::vector<std::string>{});
 }
 
-TEST_CASE("a vertex goes where it is wanted if nothing is in its way, and as far as it can otherwise") {
+TEST_CASE(
+    "a vertex goes where it is wanted if nothing is in its way, and as far as it can otherwise") {
     Deformer d(ball(12));
     const surface::SurfaceView view = view_of(d);
     const VertexId near = view.vertex_ids[3], far = view.vertex_ids[view.vertex_count() - 3];
-    const Vec3 close = d.complex().position(near) + 0.01 * view.normals[3], start = d.complex().position(far);
+    const Vec3 close = d.complex().position(near) + 0.01 * view.normals[3],
+               start = d.complex().position(far);
     RefineRequests requests;
     requests.moves = {{near, close}, {far, Vec3(0.9, 0.9, 0.9)}};
     CHECK(d.refine(requests).committed == 2);
@@ -159,11 +170,13 @@ TEST_CASE("a vertex goes where it is wanted if nothing is in its way, and as far
     CHECK((d.complex().position(far) - start).norm() > 0.01 * d.target_length());
     CHECK(mesh::validate(d.complex()).faults == std::vector<std::string>{});
     for (mesh::TetId t = 0; t < d.complex().tet_slots(); ++t) {
-        if (d.complex().tet_alive(t) && mesh::has_vertex(d.complex().tet(t), far)) CHECK(static_cast<double>(d.complex().quality(t)) >= 0.019);
+        if (d.complex().tet_alive(t) && mesh::has_vertex(d.complex().tet(t), far))
+            CHECK(static_cast<double>(d.complex().quality(t)) >= 0.019);
     }
 }
 
-TEST_CASE("vertices that come to the interface without a split have the values of their neighbours") {
+TEST_CASE(
+    "vertices that come to the interface without a split have the values of their neighbours") {
     Deformer d(ball(12));
     const surface::SurfaceView view = view_of(d);
     const std::vector<double> ones(view.vertex_count(), 3.0);
@@ -172,7 +185,8 @@ TEST_CASE("vertices that come to the interface without a split have the values o
     std::vector<mesh::TetId> inside;
     for (mesh::TetId t = 0; t < d.complex().tet_slots() && inside.empty(); ++t) {
         const auto& v = d.complex().tet(t).v;
-        const bool free = std::none_of(v.begin(), v.end(), [&](VertexId x) { return d.complex().on_interface(x); });
+        const bool free = std::none_of(v.begin(), v.end(),
+                                       [&](VertexId x) { return d.complex().on_interface(x); });
         if (d.complex().tet_alive(t) && d.complex().label(t) == 1 && free) inside.push_back(t);
     }
     REQUIRE(inside.size() == 1);
@@ -203,7 +217,8 @@ TEST_CASE("bounds of edits read the local length") {
         if (tiny) {
             std::vector<double> lengths(view.vertex_count(), d.target_length());
             // L, the mean, stays what it is: half of the surface is fine, half is coarse.
-            for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i] *= view.positions[i].x() > 0.0 ? 1.98 : 0.02;
+            for (std::size_t i = 0; i < lengths.size(); ++i)
+                lengths[i] *= view.positions[i].x() > 0.0 ? 1.98 : 0.02;
             d.set_target_lengths(view.vertex_ids, lengths);
         }
         RefineRequests requests;
@@ -211,9 +226,11 @@ TEST_CASE("bounds of edits read the local length") {
         std::vector<surface::ViewEdge> edges;
         surface::build_edges(view, edges);
         for (const auto& e : edges) {
-            const Vec3 middle = 0.5 * (view.positions[e.vertices[0]] + view.positions[e.vertices[1]]);
+            const Vec3 middle =
+                0.5 * (view.positions[e.vertices[0]] + view.positions[e.vertices[1]]);
             if (middle.x() > -0.3) continue;
-            requests.collapses.push_back({view.vertex_ids[e.vertices[0]], view.vertex_ids[e.vertices[1]], middle});
+            requests.collapses.push_back(
+                {view.vertex_ids[e.vertices[0]], view.vertex_ids[e.vertices[1]], middle});
         }
         committed[tiny ? 1 : 0] = d.refine(requests).committed;
     }
@@ -221,7 +238,8 @@ TEST_CASE("bounds of edits read the local length") {
     CHECK(committed[1] < committed[0] / 4);  // where the interface is flat nothing moves
 }
 
-TEST_CASE("a refinement that does not own the sizing makes L the mean edge, one that owns it does not") {
+TEST_CASE(
+    "a refinement that does not own the sizing makes L the mean edge, one that owns it does not") {
     for (const bool owns : {false, true}) {
         Deformer d(ball(10));
         const surface::SurfaceView view = view_of(d);
@@ -230,7 +248,8 @@ TEST_CASE("a refinement that does not own the sizing makes L the mean edge, one 
         RefineRequests requests;
         requests.owns_sizing = owns;
         const auto& face = view.faces[0];
-        requests.split_faces.push_back({view.vertex_ids[face[0]], view.vertex_ids[face[1]], view.vertex_ids[face[2]]});
+        requests.split_faces.push_back(
+            {view.vertex_ids[face[0]], view.vertex_ids[face[1]], view.vertex_ids[face[2]]});
         const RefineReport report = d.refine(requests);
         CHECK(report.committed == 1);
         CHECK(report.length_changed == !owns);
@@ -269,7 +288,8 @@ TEST_CASE("the improvement sees the lengths and whether it may edit for size") {
     CHECK(seen == 0.3);
 }
 
-TEST_CASE("with lengths and attributes a saved deformer goes on to the same bytes, and edits keep every value within its range") {
+TEST_CASE("with lengths and attributes a saved deformer goes on to the same bytes, and edits keep "
+          "every value within its range") {
     Deformer d(ball(12, 0.6));
     const surface::SurfaceView view = view_of(d);
     std::vector<double> lengths;

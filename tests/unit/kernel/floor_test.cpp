@@ -1,8 +1,9 @@
-// The least quality of tets: what a step never goes below, and what it gives up for a tet that comes close.
-#include <doctest/doctest.h>
-
+// The least quality of tets: what a step never goes below, and what it gives up for a tet that
+// comes close.
 #include <algorithm>
 #include <cmath>
+
+#include <doctest/doctest.h>
 
 #include <dsc/base/random.hpp>
 #include <dsc/kernel/deformer.hpp>
@@ -20,7 +21,8 @@ namespace {
 
 // Four cells in a row: every vertex of it is on the interface, most of them on a crease.
 mesh::Complex bar() {
-    return test::by_cells([](int i, int j, int k) { return test::between(2, i, 5) && j == 2 && k == 2 ? 1 : 0; });
+    return test::by_cells(
+        [](int i, int j, int k) { return test::between(2, i, 5) && j == 2 && k == 2 ? 1 : 0; });
 }
 
 float least_quality(const mesh::Complex& c) {
@@ -49,7 +51,8 @@ std::vector<Fold> folds(const mesh::Complex& c) {
     for (TetId t = 0; t < c.tet_slots(); ++t) {
         if (!c.tet_alive(t) || c.label(t) == 0) continue;
         const auto& v = c.tet(t).v;
-        if (!std::all_of(v.begin(), v.end(), [&](VertexId x) { return c.on_interface(x); })) continue;
+        if (!std::all_of(v.begin(), v.end(), [&](VertexId x) { return c.on_interface(x); }))
+            continue;
         for (const auto& e : mesh::edge_vertices) out.push_back({v[e[0]], v[e[1]]});
     }
     return out;
@@ -59,7 +62,8 @@ std::vector<Fold> folds(const mesh::Complex& c) {
 void close_fold(Deformer& d, const Fold& fold, double floor) {
     const std::array<VertexId, 1> vertices = {fold.moved};
     for (int step = 0; step < 4; ++step) {
-        const std::array<Vec3, 1> way = {Vec3(d.complex().position(fold.to) - d.complex().position(fold.moved))};
+        const std::array<Vec3, 1> way = {
+            Vec3(d.complex().position(fold.to) - d.complex().position(fold.moved))};
         d.step(vertices, way, without_repair(floor));
     }
 }
@@ -70,7 +74,8 @@ std::size_t slivers_below(const mesh::Complex& c, float bound) {
     for (TetId t = 0; t < c.tet_slots(); ++t) {
         if (!c.tet_alive(t) || c.quality(t) >= bound) continue;
         const auto& v = c.tet(t).v;
-        if (!std::all_of(v.begin(), v.end(), [&](VertexId x) { return c.on_interface(x); })) return 0;
+        if (!std::all_of(v.begin(), v.end(), [&](VertexId x) { return c.on_interface(x); }))
+            return 0;
         ++count;
     }
     return count;
@@ -82,7 +87,8 @@ RepairPolicy against_slivers(double floor) {
     policy.creases = repair::CreaseRule{};
     policy.propose = [](const repair::RepairRound& round, std::vector<repair::Request>& out) {
         for (const TetId t : round.dirty) {
-            for (const auto operation : {repair::Operation::relabel, repair::Operation::edge_collapse}) {
+            for (const auto operation :
+                 {repair::Operation::relabel, repair::Operation::edge_collapse}) {
                 repair::Request request;
                 request.operation = operation;
                 request.mode = repair::CollapseMode::bounded;
@@ -98,23 +104,28 @@ RepairPolicy against_slivers(double floor) {
 
 // Random displacements of all vertices of the interface.
 StepReport shake(Deformer& d, RandomStream& random, double most, const RepairPolicy& policy) {
-    std::vector<VertexId> vertices(d.complex().interface_vertices().begin(), d.complex().interface_vertices().end());
-    std::sort(vertices.begin(), vertices.end(), [&d](VertexId a, VertexId b) { return d.complex().birth(a) < d.complex().birth(b); });
+    std::vector<VertexId> vertices(d.complex().interface_vertices().begin(),
+                                   d.complex().interface_vertices().end());
+    std::sort(vertices.begin(), vertices.end(),
+              [&d](VertexId a, VertexId b) { return d.complex().birth(a) < d.complex().birth(b); });
     std::vector<Vec3> displacements;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        displacements.push_back(most * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+        displacements.push_back(
+            most * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
     }
     return d.step(vertices, displacements, policy);
 }
 
 }  // namespace
 
-TEST_CASE("a flat tet between four interface vertices goes, crease or not, once it is close to the floor") {
+TEST_CASE("a flat tet between four interface vertices goes, crease or not, once it is close to the "
+          "floor") {
     const mesh::Complex start = bar();
     std::size_t closed = 0, gone = 0, kept = 0;
     std::uint64_t exceptions = 0;
     for (const Fold& fold : folds(start)) {
-        Deformer near(start), far(start);  // the floor of the one is half that of the other: its tets are far from it
+        Deformer near(start), far(start);  // the floor of the one is half that of the other: its
+                                           // tets are far from it
         close_fold(near, fold, 0.022);
         close_fold(far, fold, 0.022);
         if (slivers_below(near.complex(), 0.03F) == 0) continue;
@@ -134,7 +145,8 @@ TEST_CASE("a flat tet between four interface vertices goes, crease or not, once 
     CHECK(exceptions >= kept);
 }
 
-TEST_CASE("steps with a floor leave no tet below it, whatever the interface is told to do; the usual floor lets it happen") {
+TEST_CASE("steps with a floor leave no tet below it, whatever the interface is told to do; the "
+          "usual floor lets it happen") {
     float lowest_without = 1.0F;
     for (const test::LabelledMesh& shape : test::labelled_meshes()) {
         CAPTURE(shape.name);

@@ -1,13 +1,14 @@
 // Each operation on its own, against geometry that is known.
-#include <doctest/doctest.h>
+#include "kernel/operations.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include <doctest/doctest.h>
+
 #include <dsc/geometry/quality.hpp>
 #include <dsc/mesh/validate.hpp>
 
-#include "kernel/operations.hpp"
 #include "kernel/triangulations.hpp"
 #include "shapes.hpp"
 
@@ -49,15 +50,20 @@ TEST_CASE("triangulations of polygons: each has n - 2 triangles and covers the p
                 if ((table.masks[m] >> k & 1U) == 0) continue;
                 ++triangles;
                 const auto corner = [&](std::size_t i) {
-                    const double a = 2 * 3.14159265358979 * static_cast<double>(i) / static_cast<double>(n);
+                    const double a =
+                        2 * 3.14159265358979 * static_cast<double>(i) / static_cast<double>(n);
                     return Vec3(std::cos(a), std::sin(a), 0.0);
                 };
-                area += geometry::triangle_area(corner(table.triangles[k].i), corner(table.triangles[k].j), corner(table.triangles[k].k));
+                area += geometry::triangle_area(corner(table.triangles[k].i),
+                                                corner(table.triangles[k].j),
+                                                corner(table.triangles[k].k));
             }
             CHECK(triangles == n - 2);
-            const double whole = 0.5 * static_cast<double>(n) * std::sin(2 * 3.14159265358979 / static_cast<double>(n));
+            const double whole = 0.5 * static_cast<double>(n) *
+                                 std::sin(2 * 3.14159265358979 / static_cast<double>(n));
             CHECK(area == doctest::Approx(whole));
-            for (std::size_t other = 0; other < m; ++other) CHECK(table.masks[other] != table.masks[m]);
+            for (std::size_t other = 0; other < m; ++other)
+                CHECK(table.masks[other] != table.masks[m]);
         }
     }
 }
@@ -73,7 +79,8 @@ TEST_CASE("edge removal undoes an edge split of a ring, 3-2 flips undo 2-3 flips
         for (unsigned f = 0; f < 4 && done < 20; ++f) {
             const std::uint32_t code = c.tet(t).n[f];
             if (code == mesh::none) continue;
-            const VertexId a = c.tet(t).v[f], b = c.tet(mesh::neighbour_tet(code)).v[mesh::neighbour_face(code)];
+            const VertexId a = c.tet(t).v[f],
+                           b = c.tet(mesh::neighbour_tet(code)).v[mesh::neighbour_face(code)];
             if (remove_faces(bench, t, f, 0.0F).refused()) continue;
             REQUIRE(valid(c));
             const TetId edge = c.find_edge(a, b);
@@ -101,8 +108,10 @@ TEST_CASE("face removal takes the named face and no other") {
             request.tet = t;
             request.birth_date = c.birth_date(t);
             request.accept_above = 0.0F;
-            for (unsigned k = 0; k < 3; ++k) request.vertices[k] = c.tet(t).v[mesh::face_vertices[f][k]];
-            const VertexId a = c.tet(t).v[f], b = c.tet(mesh::neighbour_tet(c.tet(t).n[f])).v[mesh::neighbour_face(c.tet(t).n[f])];
+            for (unsigned k = 0; k < 3; ++k)
+                request.vertices[k] = c.tet(t).v[mesh::face_vertices[f][k]];
+            const VertexId a = c.tet(t).v[f], b = c.tet(mesh::neighbour_tet(c.tet(t).n[f]))
+                                                      .v[mesh::neighbour_face(c.tet(t).n[f])];
             if (execute(bench, request).refused()) {
                 ++refused;
                 continue;
@@ -148,7 +157,8 @@ TEST_CASE("a compound with a named vertex or edge repairs that; its gain and lea
             const VertexId v = c.tet(t).v[f];
             if (c.on_interface(v) || c.on_box(v) || c.tet(t).n[f] == mesh::none) continue;
             Vec3 centroid = Vec3::Zero();
-            for (unsigned k = 0; k < 3; ++k) centroid += c.position(c.tet(t).v[mesh::face_vertices[f][k]]) / 3.0;
+            for (unsigned k = 0; k < 3; ++k)
+                centroid += c.position(c.tet(t).v[mesh::face_vertices[f][k]]) / 3.0;
             flatten(c, v, centroid, 0.97);
             const float old = c.quality(t);
             repair::Request request = request_of(c, t, {v, mesh::none, mesh::none});
@@ -176,15 +186,20 @@ TEST_CASE("a compound with a named vertex or edge repairs that; its gain and lea
         Workbench bench(c);
         prepare(bench);
         const auto v = c.tet(t).v;
-        if (std::any_of(v.begin(), v.end(), [&](VertexId x) { return c.on_box(x); }) || c.quality(t) < 0.9F) continue;
-        // The regular tet: its first two vertices towards the others, so that the two edges almost meet.
-        const Vec3 across = 0.5 * (c.position(v[2]) + c.position(v[3]) - c.position(v[0]) - c.position(v[1]));
+        if (std::any_of(v.begin(), v.end(), [&](VertexId x) { return c.on_box(x); }) ||
+            c.quality(t) < 0.9F)
+            continue;
+        // The regular tet: its first two vertices towards the others, so that the two edges almost
+        // meet.
+        const Vec3 across =
+            0.5 * (c.position(v[2]) + c.position(v[3]) - c.position(v[0]) - c.position(v[1]));
         flatten(c, v[0], c.position(v[0]) + across, 0.48);
         flatten(c, v[1], c.position(v[1]) + across, 0.48);
         flatten(c, v[2], c.position(v[2]) - across, 0.48);
         flatten(c, v[3], c.position(v[3]) - across, 0.48);
         REQUIRE(valid(c));
-        // Another pair of opposite edges is as far apart as before: its common vertex would invert tets.
+        // Another pair of opposite edges is as far apart as before: its common vertex would invert
+        // tets.
         CHECK(execute(bench, request_of(c, t, {v[0], v[2], mesh::none})) == Refusal::quality);
         repair::Request request = request_of(c, t, {v[2], v[3], mesh::none});
         const std::size_t vertices = c.vertex_count();
@@ -209,7 +224,8 @@ TEST_CASE("the box never changes: its edges and faces are refused") {
     }
     REQUIRE(along != mesh::none);
     CHECK(split_edge(bench, corner, 0, along, 0.5) == Refusal::box);
-    CHECK(collapse_edge(bench, corner, 0, along, repair::CollapseMode::bounded, 0.0F) == Refusal::box);
+    CHECK(collapse_edge(bench, corner, 0, along, repair::CollapseMode::bounded, 0.0F) ==
+          Refusal::box);
     CHECK(remove_edge(bench, corner, 0, along, 0.0F) == Refusal::box);
     CHECK(flip_interface_edge(bench, corner, 0, along, 0.0F) == Refusal::box);
     CHECK(smooth_laplacian(bench, 0, 0.0F) == Refusal::box);
@@ -223,7 +239,8 @@ TEST_CASE("the box never changes: its edges and faces are refused") {
     CHECK(valid(c));
 }
 
-TEST_CASE("collapse of an exactly flat interface vertex keeps the volume; a corner is kept in safe mode") {
+TEST_CASE("collapse of an exactly flat interface vertex keeps the volume; a corner is kept in safe "
+          "mode") {
     Complex c = test::labelled_meshes().front().complex;
     Workbench bench(c);
     prepare(bench);
@@ -249,7 +266,8 @@ TEST_CASE("collapse of an exactly flat interface vertex keeps the volume; a corn
     // A corner of the block: its three planes meet at right angles.
     VertexId corner = mesh::none;
     for (const VertexId w : c.interface_vertices()) {
-        if ((c.position(w).cwiseAbs() - Vec3::Constant(0.75)).cwiseAbs().maxCoeff() < 1e-9) corner = w;
+        if ((c.position(w).cwiseAbs() - Vec3::Constant(0.75)).cwiseAbs().maxCoeff() < 1e-9)
+            corner = w;
     }
     REQUIRE(corner != mesh::none);
     std::vector<TetId> corner_star;
@@ -308,7 +326,8 @@ TEST_CASE("a plate is not pinched: collapses across it are refused") {
         if (!c.tet_alive(t) || c.label(t) != 1) continue;
         for (const auto& e : mesh::edge_vertices) {
             if (!c.tet_alive(t) || c.label(t) != 1) break;
-            const Outcome r = collapse_edge(bench, t, c.tet(t).v[e[0]], c.tet(t).v[e[1]], repair::CollapseMode::bounded, 0.0F);
+            const Outcome r = collapse_edge(bench, t, c.tet(t).v[e[0]], c.tet(t).v[e[1]],
+                                            repair::CollapseMode::bounded, 0.0F);
             irregular += r == Refusal::irregular ? 1 : 0;
             REQUIRE(mesh::count_interface(c).euler() == 2);
         }

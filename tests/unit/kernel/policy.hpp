@@ -5,13 +5,15 @@
 
 namespace dsc::test {
 
-/// Edge removal, face removal, interface flip, smoothing and collapses for bad tets; collapse of small ones.
+/// Edge removal, face removal, interface flip, smoothing and collapses for bad tets; collapse of
+/// small ones.
 inline kernel::RepairPolicy quality_policy() {
     kernel::RepairPolicy policy;
     policy.topology.thickness = 0.6;
     policy.propose = [](const repair::RepairRound& round, std::vector<repair::Request>& out) {
         const mesh::Complex& c = round.complex;
-        const double small = 0.2 * 0.11785 * round.target_length * round.target_length * round.target_length;
+        const double small =
+            0.2 * 0.11785 * round.target_length * round.target_length * round.target_length;
         for (const mesh::TetId t : round.dirty) {
             repair::Request r;
             r.tet = t;
@@ -24,7 +26,9 @@ inline kernel::RepairPolicy quality_policy() {
                     smooth.vertices[0] = v;
                     out.push_back(smooth);
                 }
-                for (const auto o : {repair::Operation::edge_removal, repair::Operation::interface_flip, repair::Operation::face_removal}) {
+                for (const auto o :
+                     {repair::Operation::edge_removal, repair::Operation::interface_flip,
+                      repair::Operation::face_removal}) {
                     r.operation = o;
                     r.only_below = 0.3F;
                     out.push_back(r);

@@ -1,11 +1,12 @@
-// Long seeded sequences of mixed operations over five start meshes; every invariant, exactly, after every 100th.
-#include <doctest/doctest.h>
-
+// Long seeded sequences of mixed operations over five start meshes; every invariant, exactly, after
+// every 100th.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <sstream>
+
+#include <doctest/doctest.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
@@ -46,8 +47,9 @@ std::map<mesh::Label, double> volumes(const mesh::Complex& c) {
 }
 
 bool keeps_labels(Operation o) {
-    return o == Operation::smooth_laplacian || o == Operation::smooth_optimise || o == Operation::edge_removal ||
-           o == Operation::face_removal || o == Operation::edge_split || o == Operation::vertex_split;
+    return o == Operation::smooth_laplacian || o == Operation::smooth_optimise ||
+           o == Operation::edge_removal || o == Operation::face_removal ||
+           o == Operation::edge_split || o == Operation::vertex_split;
 }
 
 repair::Request random_request(const mesh::Complex& c, RandomStream& random, Operation operation) {
@@ -64,24 +66,29 @@ repair::Request random_request(const mesh::Complex& c, RandomStream& random, Ope
     r.accept_above = random.index(4) == 0 ? 2.0F : 0.0F;
     r.parameter = static_cast<float>(random.uniform(0.05, 0.95));
     if (!c.tet_alive(t)) return r;
-    const bool needs_vertex = operation == Operation::smooth_laplacian || operation == Operation::smooth_optimise;
+    const bool needs_vertex =
+        operation == Operation::smooth_laplacian || operation == Operation::smooth_optimise;
     const bool needs_edge = operation == Operation::vertex_split;
     const auto& e = mesh::edge_vertices[random.index(6)];
     if (needs_vertex) r.vertices[0] = c.tet(t).v[e[0]];
-    if (needs_edge || (random.index(3) == 0 && operation != Operation::compound && operation != Operation::relabel &&
-                       operation != Operation::face_removal && operation != Operation::face_split && !needs_vertex)) {
+    if (needs_edge || (random.index(3) == 0 && operation != Operation::compound &&
+                       operation != Operation::relabel && operation != Operation::face_removal &&
+                       operation != Operation::face_split && !needs_vertex)) {
         r.vertices = {c.tet(t).v[e[0]], c.tet(t).v[e[1]], mesh::none};
     }
     return r;
 }
 
 // As a plugin would: a tet that touches neither interface nor box becomes a component of its own.
-bool give_birth(mesh::Complex& c, Workbench& bench, TopologyStage& stage, RandomStream& random, std::uint64_t n, std::vector<Event>& events) {
+bool give_birth(mesh::Complex& c, Workbench& bench, TopologyStage& stage, RandomStream& random,
+                std::uint64_t n, std::vector<Event>& events) {
     for (int attempt = 0; attempt < 50; ++attempt) {
         const auto t = static_cast<TetId>(random.index(c.tet_slots()));
         if (!c.tet_alive(t)) continue;
         const auto& v = c.tet(t).v;
-        if (std::any_of(v.begin(), v.end(), [&](VertexId x) { return c.on_interface(x) || c.on_box(x); })) continue;
+        if (std::any_of(v.begin(), v.end(),
+                        [&](VertexId x) { return c.on_interface(x) || c.on_box(x); }))
+            continue;
         Region region;
         region.tets.assign(1, t);
         region.from = c.label(t);
@@ -93,19 +100,22 @@ bool give_birth(mesh::Complex& c, Workbench& bench, TopologyStage& stage, Random
     return false;
 }
 
-// As a plugin's relabelling: a tet takes the other label without regard to its corners, and what is pinched then is
-// opened. Returns how many vertices were; 0 where nothing was pinched or the opening was refused.
+// As a plugin's relabelling: a tet takes the other label without regard to its corners, and what is
+// pinched then is opened. Returns how many vertices were; 0 where nothing was pinched or the
+// opening was refused.
 std::size_t pinch_and_open(mesh::Complex& c, RandomStream& random) {
     for (int attempt = 0; attempt < 50; ++attempt) {
         const auto t = static_cast<TetId>(random.index(c.tet_slots()));
         if (!c.tet_alive(t) || c.label(t) > 1) continue;
         const auto corners = c.tet(t).v;
-        if (std::any_of(corners.begin(), corners.end(), [&](VertexId x) { return c.on_box(x); })) continue;
+        if (std::any_of(corners.begin(), corners.end(), [&](VertexId x) { return c.on_box(x); }))
+            continue;
         const mesh::Complex before = c;
         c.relabel(std::span(&t, 1), c.label(t) == 0 ? 1 : 0);
         mesh::LocalStar star(c);
         std::vector<VertexId> touched(corners.begin(), corners.end());
-        std::sort(touched.begin(), touched.end(), [&c](VertexId a, VertexId b) { return c.birth(a) < c.birth(b); });
+        std::sort(touched.begin(), touched.end(),
+                  [&c](VertexId a, VertexId b) { return c.birth(a) < c.birth(b); });
         const bool pinched = std::any_of(touched.begin(), touched.end(), [&](VertexId v) {
             star.build(v);
             return !star.regular();
@@ -114,7 +124,8 @@ std::size_t pinch_and_open(mesh::Complex& c, RandomStream& random) {
             try {
                 const std::size_t opened = mesh::unpinch(c, "sequence", touched);
                 if (opened > 0) return opened;
-            } catch (const GeometryError&) {  // no room: as a plugin's request it would be refused whole
+            } catch (const GeometryError&) {  // no room: as a plugin's request it would be refused
+                                              // whole
             }
         }
         c = before;
@@ -139,10 +150,12 @@ void run_sequence(mesh::Complex& c, std::uint64_t seed, Tally& tally) {
         ++tally.operations;
         Operation operation = static_cast<Operation>(random.index(repair::operation_count));
         // Keep the size of the mesh: splits and collapses pull it either way.
-        if (c.tet_count() > largest && operation >= Operation::edge_split && operation <= Operation::vertex_split) {
+        if (c.tet_count() > largest && operation >= Operation::edge_split &&
+            operation <= Operation::vertex_split) {
             operation = Operation::edge_collapse;
         }
-        if (c.tet_count() < smallest && operation == Operation::edge_collapse) operation = Operation::edge_split;
+        if (c.tet_count() < smallest && operation == Operation::edge_collapse)
+            operation = Operation::edge_split;
         if (random.index(12) == 0 && !c.interface_vertices().empty()) {
             const VertexId v = c.interface_vertices()[random.index(c.interface_vertices().size())];
             const Vec3 d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
@@ -153,8 +166,8 @@ void run_sequence(mesh::Complex& c, std::uint64_t seed, Tally& tally) {
         }
         // Diagonals of bent quadrilaterals too, half of the time.
         bench.limits.flatness = n % 2 == 0 ? 0.995 : 0.5;
-        // Flat configurations on purpose: with the floor at 0 only the exact predicate stands between a flat tet and
-        // the complex.
+        // Flat configurations on purpose: with the floor at 0 only the exact predicate stands
+        // between a flat tet and the complex.
         bench.limits.quality_floor = n % 3 == 0 ? 0.0 : 1e-3;
         repair::Request request = random_request(c, random, operation);
         if (n % 3 == 0) request.accept_above = -1.0F;
@@ -172,7 +185,8 @@ void run_sequence(mesh::Complex& c, std::uint64_t seed, Tally& tally) {
         if (conserved) {
             const auto after = volumes(c);
             REQUIRE(after.size() == before.size());
-            for (const auto& [label, volume] : before) REQUIRE(after.at(label) == doctest::Approx(volume).epsilon(1e-11));
+            for (const auto& [label, volume] : before)
+                REQUIRE(after.at(label) == doctest::Approx(volume).epsilon(1e-11));
         }
         if (n % 100 != 99) continue;
         const mesh::ComplexReport report = mesh::validate(c);
@@ -189,8 +203,11 @@ void run_sequence(mesh::Complex& c, std::uint64_t seed, Tally& tally) {
         long shells = 0, genus = 0;
         for (const Event& event : events) {
             ++tally.events[static_cast<std::size_t>(event.kind)];
-            shells += (event.kind == Event::Kind::split ? 1 : 0) - (event.kind == Event::Kind::merge ? 1 : 0) - (event.kind == Event::Kind::vanished ? 1 : 0);
-            genus += (event.kind == Event::Kind::handle_opened ? 1 : 0) - (event.kind == Event::Kind::handle_closed ? 1 : 0);
+            shells += (event.kind == Event::Kind::split ? 1 : 0) -
+                      (event.kind == Event::Kind::merge ? 1 : 0) -
+                      (event.kind == Event::Kind::vanished ? 1 : 0);
+            genus += (event.kind == Event::Kind::handle_opened ? 1 : 0) -
+                     (event.kind == Event::Kind::handle_closed ? 1 : 0);
         }
         const mesh::InterfaceCounts then = mesh::count_interface(c);
         REQUIRE(static_cast<long>(then.shells) - static_cast<long>(now.shells) == shells);
@@ -209,7 +226,8 @@ void run_sequence(mesh::Complex& c, std::uint64_t seed, Tally& tally) {
         REQUIRE(static_cast<long>(counts.shells) - static_cast<long>(then.shells) == shells);
         REQUIRE(counts.genus() == then.genus());
         if (n % 500 == 499) {
-            tally.events[static_cast<std::size_t>(Event::Kind::unpinched)] += pinch_and_open(c, random);
+            tally.events[static_cast<std::size_t>(Event::Kind::unpinched)] +=
+                pinch_and_open(c, random);
             REQUIRE(mesh::validate(c).faults == std::vector<std::string>{});
             counts = mesh::count_interface(c);
         }
@@ -235,16 +253,21 @@ TEST_CASE("random sequences of mixed operations over five start meshes keep ever
     std::ostringstream table;
     std::size_t commits = 0;
     for (std::size_t o = 0; o < repair::operation_count; ++o) {
-        table << "\n" << repair::name(static_cast<Operation>(o)) << ": tried " << tally.tried[o] << ", committed " << tally.committed[o];
+        table << "\n"
+              << repair::name(static_cast<Operation>(o)) << ": tried " << tally.tried[o]
+              << ", committed " << tally.committed[o];
         for (std::size_t r = 1; r < repair::refusal_count; ++r) {
-            if (tally.refused[o][r] > 0) table << ", " << repair::name(static_cast<Refusal>(r)) << " " << tally.refused[o][r];
+            if (tally.refused[o][r] > 0)
+                table << ", " << repair::name(static_cast<Refusal>(r)) << " "
+                      << tally.refused[o][r];
         }
         commits += tally.committed[o];
     }
     table << "\nevents:";
-    for (std::size_t k = 0; k < 7; ++k) table << " " << name(static_cast<Event::Kind>(k)) << " " << tally.events[k];
-    MESSAGE("operations " << tally.operations << ", commits " << commits << ", moves " << tally.moves << ", exact fallbacks " << exact
-                          << table.str());
+    for (std::size_t k = 0; k < 7; ++k)
+        table << " " << name(static_cast<Event::Kind>(k)) << " " << tally.events[k];
+    MESSAGE("operations " << tally.operations << ", commits " << commits << ", moves "
+                          << tally.moves << ", exact fallbacks " << exact << table.str());
     CHECK(tally.operations >= 200000);
     CHECK(commits >= 40000);
     CHECK(exact >= 1000);

@@ -1,9 +1,9 @@
 // Regions of the topology stage against recounts of the whole mesh.
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include <doctest/doctest.h>
 
 #include <dsc/base/random.hpp>
 #include <dsc/mesh/validate.hpp>
@@ -26,12 +26,14 @@ std::size_t irregular_vertices(const mesh::Complex& c) {
     return count;
 }
 
-// A random set of tets of one label: round an edge or a vertex, or a tet and some neighbours. Empty when unlucky.
+// A random set of tets of one label: round an edge or a vertex, or a tet and some neighbours. Empty
+// when unlucky.
 void random_region(const mesh::Complex& c, RandomStream& random, Region& region) {
     region.tets.clear();
     auto t = static_cast<TetId>(random.index(c.tet_slots()));
     // Half of the time at the interface, where something can happen.
-    if (random.index(2) == 0) t = c.seed(c.interface_vertices()[random.index(c.interface_vertices().size())]);
+    if (random.index(2) == 0)
+        t = c.seed(c.interface_vertices()[random.index(c.interface_vertices().size())]);
     if (!c.tet_alive(t)) return;
     region.from = c.label(t);
     const auto shape = random.index(8);
@@ -40,7 +42,9 @@ void random_region(const mesh::Complex& c, RandomStream& random, Region& region)
         const auto cell = [&c](TetId s) {
             Vec3 centroid = Vec3::Zero();
             for (const VertexId v : c.tet(s).v) centroid += 0.25 * c.position(v);
-            return std::array<double, 3>{std::floor(centroid.x() / 0.375), std::floor(centroid.y() / 0.375), std::floor(centroid.z() / 0.375)};
+            return std::array<double, 3>{std::floor(centroid.x() / 0.375),
+                                         std::floor(centroid.y() / 0.375),
+                                         std::floor(centroid.z() / 0.375)};
         };
         const auto place = cell(t);
         std::vector<TetId> queue = {t};
@@ -50,7 +54,9 @@ void random_region(const mesh::Complex& c, RandomStream& random, Region& region)
                 const std::uint32_t code = c.tet(queue[i]).n[f];
                 if (code == mesh::none) continue;
                 const TetId next = mesh::neighbour_tet(code);
-                if (cell(next) == place && std::find(queue.begin(), queue.end(), next) == queue.end()) queue.push_back(next);
+                if (cell(next) == place &&
+                    std::find(queue.begin(), queue.end(), next) == queue.end())
+                    queue.push_back(next);
             }
         }
     } else if (shape == 4) {
@@ -61,7 +67,8 @@ void random_region(const mesh::Complex& c, RandomStream& random, Region& region)
                 const std::uint32_t code = c.tet(region.tets[i]).n[f];
                 if (code == mesh::none) continue;
                 const TetId next = mesh::neighbour_tet(code);
-                if (c.label(next) == region.from && std::find(region.tets.begin(), region.tets.end(), next) == region.tets.end()) {
+                if (c.label(next) == region.from &&
+                    std::find(region.tets.begin(), region.tets.end(), next) == region.tets.end()) {
                     region.tets.push_back(next);
                 }
             }
@@ -81,12 +88,14 @@ void random_region(const mesh::Complex& c, RandomStream& random, Region& region)
             const std::uint32_t code = c.tet(s).n[random.index(4)];
             if (code == mesh::none) break;
             const TetId next = mesh::neighbour_tet(code);
-            if (std::find(region.tets.begin(), region.tets.end(), next) == region.tets.end()) region.tets.push_back(next);
+            if (std::find(region.tets.begin(), region.tets.end(), next) == region.tets.end())
+                region.tets.push_back(next);
         }
     }
-    region.tets.erase(std::remove_if(region.tets.begin(), region.tets.end(),
-                                     [&](TetId s) { return c.label(s) != region.from || touches_box(c, s); }),
-                      region.tets.end());
+    region.tets.erase(
+        std::remove_if(region.tets.begin(), region.tets.end(),
+                       [&](TetId s) { return c.label(s) != region.from || touches_box(c, s); }),
+        region.tets.end());
     if (region.tets.empty()) return;
     // Towards a label that the region touches, now and then a new one.
     region.to = region.from;
@@ -100,7 +109,8 @@ void random_region(const mesh::Complex& c, RandomStream& random, Region& region)
 
 }  // namespace
 
-TEST_CASE("random regions: accepted exactly when a recount says regular, and the kind is what the recount says") {
+TEST_CASE("random regions: accepted exactly when a recount says regular, and the kind is what the "
+          "recount says") {
     constexpr int wanted = 26000;
     std::vector<test::LabelledMesh> meshes = test::labelled_meshes();
     REQUIRE(meshes.size() == 8);
@@ -138,20 +148,23 @@ TEST_CASE("random regions: accepted exactly when a recount says regular, and the
             (truth ? regular_count : irregular_count) += 1;
             if (!truth || shape != RegionFault::none) continue;
             const unsigned s = region.patches_from, o = region.patches_to;
-            // With three labels the interface is no surface, and patches towards the third are not of these two sides.
+            // With three labels the interface is no surface, and patches towards the third are not
+            // of these two sides.
             if (m.name == "two phases") continue;
             CAPTURE(s);
             CAPTURE(o);
             CAPTURE(region.tets.size());
             CAPTURE(region.from);
 
-            REQUIRE(after.euler() - before.euler() == 2 * (static_cast<long>(s) - static_cast<long>(o)));
+            REQUIRE(after.euler() - before.euler() ==
+                    2 * (static_cast<long>(s) - static_cast<long>(o)));
             if (s == 1 && o == 1) {
                 ++shifts;
                 REQUIRE(after.shells == before.shells);
                 continue;
             }
-            const bool event = (s == 1 && o == 2) || (s == 2 && o == 1) || (s == 0 && o == 1) || (s == 1 && o == 0);
+            const bool event = (s == 1 && o == 2) || (s == 2 && o == 1) || (s == 0 && o == 1) ||
+                               (s == 1 && o == 0);
             if (!event) continue;
             const Event result = stage.commit(region, 1);
             ++kinds[static_cast<std::size_t>(result.kind)];
@@ -171,9 +184,11 @@ TEST_CASE("random regions: accepted exactly when a recount says regular, and the
         const mesh::ComplexReport report = mesh::validate(c);
         CHECK(report.faults == std::vector<std::string>{});
     }
-    MESSAGE("regular " << regular_count << ", irregular " << irregular_count << ", shifts " << shifts << "; merge " << kinds[0] << ", split "
-                       << kinds[1] << ", handle_opened " << kinds[2] << ", handle_closed " << kinds[3] << ", vanished " << kinds[4]
-                       << ", born " << kinds[5] << "; grown: ok " << faults[0] << ", irregular " << faults[1] << ", too large " << faults[2]
+    MESSAGE("regular " << regular_count << ", irregular " << irregular_count << ", shifts "
+                       << shifts << "; merge " << kinds[0] << ", split " << kinds[1]
+                       << ", handle_opened " << kinds[2] << ", handle_closed " << kinds[3]
+                       << ", vanished " << kinds[4] << ", born " << kinds[5] << "; grown: ok "
+                       << faults[0] << ", irregular " << faults[1] << ", too large " << faults[2]
                        << ", box " << faults[5]);
     for (std::size_t k = 0; k < 6; ++k) {
         CAPTURE(k);

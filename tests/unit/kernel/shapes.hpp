@@ -1,5 +1,6 @@
 #pragma once
-// Labelled start meshes for the kernel's tests, by cells of a grid, so that thin parts are one cell thick.
+// Labelled start meshes for the kernel's tests, by cells of a grid, so that thin parts are one cell
+// thick.
 
 #include <cmath>
 #include <string>
@@ -30,16 +31,23 @@ inline bool between(int low, int x, int high) { return low <= x && x <= high; }
 
 inline std::vector<LabelledMesh> labelled_meshes() {
     std::vector<LabelledMesh> out;
-    out.push_back({"block", by_cells([](int i, int j, int k) { return between(2, i, 5) && between(2, j, 5) && between(2, k, 5) ? 1 : 0; })});
+    out.push_back({"block", by_cells([](int i, int j, int k) {
+                       return between(2, i, 5) && between(2, j, 5) && between(2, k, 5) ? 1 : 0;
+                   })});
     out.push_back({"ring", by_cells([](int i, int j, int k) {
                        const bool square = between(2, i, 5) && between(2, j, 5) && k == 4;
                        const bool hole = between(3, i, 4) && between(3, j, 4);
                        return square && !hole ? 1 : 0;
                    })});
     out.push_back({"two blocks", by_cells([](int i, int j, int k) {
-                       return (between(2, i, 3) || between(5, i, 6)) && between(3, j, 5) && between(3, k, 5) ? 1 : 0;
+                       return (between(2, i, 3) || between(5, i, 6)) && between(3, j, 5) &&
+                                      between(3, k, 5)
+                                  ? 1
+                                  : 0;
                    })});
-    out.push_back({"plate", by_cells([](int i, int j, int k) { return between(2, i, 5) && between(2, j, 5) && k == 4 ? 1 : 0; })});
+    out.push_back({"plate", by_cells([](int i, int j, int k) {
+                       return between(2, i, 5) && between(2, j, 5) && k == 4 ? 1 : 0;
+                   })});
     out.push_back({"shell", by_cells([](int i, int j, int k) {
                        const bool outer = between(2, i, 5) && between(2, j, 5) && between(2, k, 5);
                        const bool inner = between(3, i, 4) && between(3, j, 4) && between(3, k, 4);
@@ -55,7 +63,8 @@ inline std::vector<LabelledMesh> labelled_meshes() {
                        return end(i) + end(j) + end(k) >= 2 ? 1 : 0;
                    })});
     out.push_back({"dumbbell", by_cells([](int i, int j, int k) {
-                       const bool head = (between(1, i, 2) || between(5, i, 6)) && between(3, j, 5) && between(3, k, 5);
+                       const bool head = (between(1, i, 2) || between(5, i, 6)) &&
+                                         between(3, j, 5) && between(3, k, 5);
                        const bool neck = between(1, i, 6) && j == 4 && k == 4;
                        return head || neck ? 1 : 0;
                    })});

@@ -1,8 +1,9 @@
-// Work side by side: the same bits for any number of threads, nothing done twice or left out, dates as one thread gives them.
-#include <doctest/doctest.h>
-
+// Work side by side: the same bits for any number of threads, nothing done twice or left out, dates
+// as one thread gives them.
 #include <algorithm>
 #include <atomic>
+
+#include <doctest/doctest.h>
 
 #include <dsc/base/random.hpp>
 #include <dsc/kernel/deformer.hpp>
@@ -33,10 +34,14 @@ std::vector<VertexId> inner_vertices(const mesh::Complex& c) {
 // Ten plates, two cells thick and two apart: a large interface in a small volume.
 mesh::Complex plates() {
     constexpr int n = 42;
-    return test::by_cells([](int i, int j, int k) { return test::between(2, i, n - 3) && test::between(2, j, n - 3) &&
-                                                                   test::between(2, k, n - 3) && k % 4 >= 2
-                                                               ? 1
-                                                               : 0; }, n);
+    return test::by_cells(
+        [](int i, int j, int k) {
+            return test::between(2, i, n - 3) && test::between(2, j, n - 3) &&
+                           test::between(2, k, n - 3) && k % 4 >= 2
+                       ? 1
+                       : 0;
+        },
+        n);
 }
 
 // Shakes every vertex a little, each third one rests, and counts what the loop does.
@@ -58,7 +63,8 @@ struct Shake {
         // Depends on the neighbours, so that the order in which they move shows in the bits.
         find_neighbours(complex, vertices[i], scratch);
         const Vec3 p = complex.position(vertices[i]);
-        const Vec3 w = complex.position(scratch.neighbours[random.index(scratch.neighbours.size())]);
+        const Vec3 w =
+            complex.position(scratch.neighbours[random.index(scratch.neighbours.size())]);
         scratch.place = p + 0.1 * (w - p);
         scratch.qualities.assign(scratch.star.size(), 0.5F);
         for (const TetId t : scratch.star) busy[t].fetch_sub(1);
@@ -83,8 +89,12 @@ Shaken shake(Workers* workers) {
     REQUIRE(vertices.size() >= StarLoop::least_split);
     out.complex.take_changes(out.changes);
     std::vector<std::atomic<int>> busy(out.complex.tet_slots());
-    Shake action{out.complex, vertices, std::vector<std::uint8_t>(vertices.size(), 0), std::vector<std::uint8_t>(vertices.size(), 0),
-                 std::vector<std::uint32_t>(vertices.size(), 0), busy.data()};
+    Shake action{out.complex,
+                 vertices,
+                 std::vector<std::uint8_t>(vertices.size(), 0),
+                 std::vector<std::uint8_t>(vertices.size(), 0),
+                 std::vector<std::uint32_t>(vertices.size(), 0),
+                 busy.data()};
     const std::uint32_t clock = out.complex.clock();
     StarLoop loop(out.complex);
     loop.run(vertices, workers, action);
@@ -103,9 +113,11 @@ Shaken shake(Workers* workers) {
 
 }  // namespace
 
-TEST_CASE("star loop: every vertex once, no tet held by two, the same bits and dates for 1, 2 and 4 threads") {
+TEST_CASE("star loop: every vertex once, no tet held by two, the same bits and dates for 1, 2 and "
+          "4 threads") {
     const Shaken one = shake(nullptr);
-    // A vertex' date is that of the last move in its neighbourhood, and what moved is on the change list once.
+    // A vertex' date is that of the last move in its neighbourhood, and what moved is on the change
+    // list once.
     std::vector<TetId> sorted = one.changes;
     std::sort(sorted.begin(), sorted.end());
     CHECK(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
@@ -130,7 +142,8 @@ TEST_CASE("star loop: every vertex once, no tet held by two, the same bits and d
     }
 }
 
-TEST_CASE("deformer: steps over blocks give the same bits for 1, 2 and 3 threads, and a valid complex") {
+TEST_CASE(
+    "deformer: steps over blocks give the same bits for 1, 2 and 3 threads, and a valid complex") {
     const auto run = [](Workers* workers) {
         DeformerOptions options;
         options.audit = true;
@@ -139,13 +152,18 @@ TEST_CASE("deformer: steps over blocks give the same bits for 1, 2 and 3 threads
         const double length = d.target_length();
         StepReport last;
         for (int step = 0; step < 3; ++step) {
-            std::vector<VertexId> vertices(d.complex().interface_vertices().begin(), d.complex().interface_vertices().end());
-            std::sort(vertices.begin(), vertices.end(),
-                      [&d](VertexId a, VertexId b) { return d.complex().birth(a) < d.complex().birth(b); });
+            std::vector<VertexId> vertices(d.complex().interface_vertices().begin(),
+                                           d.complex().interface_vertices().end());
+            std::sort(vertices.begin(), vertices.end(), [&d](VertexId a, VertexId b) {
+                return d.complex().birth(a) < d.complex().birth(b);
+            });
             std::vector<Vec3> displacements;
             for (const VertexId v : vertices) {
-                RandomStream random(RandomKey{3, 1, static_cast<std::uint64_t>(step), d.complex().birth(v)});
-                displacements.emplace_back(0.3 * length * random.normal(), 0.3 * length * random.normal(), 0.3 * length * random.normal());
+                RandomStream random(
+                    RandomKey{3, 1, static_cast<std::uint64_t>(step), d.complex().birth(v)});
+                displacements.emplace_back(0.3 * length * random.normal(),
+                                           0.3 * length * random.normal(),
+                                           0.3 * length * random.normal());
             }
             last = d.step(vertices, displacements, test::smoothing_policy());
         }
@@ -153,7 +171,8 @@ TEST_CASE("deformer: steps over blocks give the same bits for 1, 2 and 3 threads
     };
     const auto [one, report] = run(nullptr);
     // The lists were long enough to be split.
-    CHECK(report.operations[static_cast<std::size_t>(repair::Operation::smooth_laplacian)].tried >= StarLoop::least_split);
+    CHECK(report.operations[static_cast<std::size_t>(repair::Operation::smooth_laplacian)].tried >=
+          StarLoop::least_split);
     CHECK(mesh::validate(mesh::adopt(one, "result")).valid());
     for (const unsigned threads : {2U, 3U}) {
         CAPTURE(threads);

@@ -1,4 +1,5 @@
-// A view that remembers the last one is the view that walks round every vertex, whatever happened in between.
+// A view that remembers the last one is the view that walks round every vertex, whatever happened
+// in between.
 #include <doctest/doctest.h>
 
 #include <dsc/base/random.hpp>
@@ -31,7 +32,8 @@ void check_same(const surface::SurfaceView& a, const surface::SurfaceView& b) {
 
 }  // namespace
 
-TEST_CASE("a view with memory is the same as one without, after steps, splits, collapses and relabelling") {
+TEST_CASE("a view with memory is the same as one without, after steps, splits, collapses and "
+          "relabelling") {
     for (const std::uint64_t seed : {3U, 4U}) {
         Deformer d(mesh::adopt(test::ball_grid(12, 0.8), "ball"));
         RandomStream random(RandomKey{seed, 0, 0, 0});
@@ -45,18 +47,24 @@ TEST_CASE("a view with memory is the same as one without, after steps, splits, c
             // A few vertices wander and a few edges change: most stars stay as they were.
             std::vector<Vec3> displacements(view.vertex_count(), Vec3::Zero());
             for (int k = 0; k < 12; ++k) {
-                const auto i = static_cast<std::size_t>(random.uniform(0, static_cast<double>(view.vertex_count())));
-                displacements[i] = 0.4 * view.mean_edge * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+                const auto i = static_cast<std::size_t>(
+                    random.uniform(0, static_cast<double>(view.vertex_count())));
+                displacements[i] =
+                    0.4 * view.mean_edge *
+                    Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
             }
             if (round % 2 == 0) d.step(view.vertex_ids, displacements, test::quality_policy());
             RefineRequests requests;
             requests.owns_sizing = true;
             for (int k = 0; k < 12; ++k) {
-                const auto f = static_cast<std::size_t>(random.uniform(0, static_cast<double>(view.face_count())));
+                const auto f = static_cast<std::size_t>(
+                    random.uniform(0, static_cast<double>(view.face_count())));
                 const auto& [a, b, c] = view.faces[f];
                 const auto id = [&](std::uint32_t v) { return view.vertex_ids[v]; };
                 if (k % 3 == 0) requests.split_edges.push_back({id(a), id(b)});
-                if (k % 3 == 1) requests.collapses.push_back({id(a), id(b), 0.5 * (view.positions[a] + view.positions[b])});
+                if (k % 3 == 1)
+                    requests.collapses.push_back(
+                        {id(a), id(b), 0.5 * (view.positions[a] + view.positions[b])});
                 if (k % 3 == 2) requests.flips.push_back({id(a), id(c), 0.0});
             }
             CHECK(d.refine(requests).committed > 0);
@@ -65,7 +73,8 @@ TEST_CASE("a view with memory is the same as one without, after steps, splits, c
                 const mesh::TetId tet = view.face_tets[view.face_count() / 2];
                 const std::vector<mesh::TetId> tets = {tet};
                 const std::vector<mesh::Label> labels = {2};
-                if (d.complex().tet_alive(tet)) d.relabel(tets, labels, test::quality_policy(), events);
+                if (d.complex().tet_alive(tet))
+                    d.relabel(tets, labels, test::quality_policy(), events);
             }
         }
     }

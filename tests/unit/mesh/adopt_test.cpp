@@ -1,6 +1,6 @@
-#include <doctest/doctest.h>
-
 #include <string>
+
+#include <doctest/doctest.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/mesh/adopt.hpp>
@@ -38,7 +38,8 @@ TEST_CASE("adopt re-orients and drops unused vertices") {
 
 TEST_CASE("adopt refuses what is not a box of tets, naming the first offender and the count") {
     TetMesh m = test::cube_grid(6);
-    CHECK(refusal(TetMesh{}) == "file.dsc: the mesh has no tets; provide a box filled with labelled tets");
+    CHECK(refusal(TetMesh{}) ==
+          "file.dsc: the mesh has no tets; provide a box filled with labelled tets");
     TetMesh index = m;
     index.tets[5][2] = 343;
     CHECK(refusal(index) == "file.dsc: tet 5 uses vertex 343 of 343; indices count from 0");
@@ -49,23 +50,26 @@ TEST_CASE("adopt refuses what is not a box of tets, naming the first offender an
     twice.tets.push_back(twice.tets.back());
     twice.labels.push_back(twice.labels.back());
     CHECK(refusal(twice) ==
-          "file.dsc: tet 1080 at (1.5, 1, 1) has a face that two other tets already have (4 in total); remove duplicate "
-          "tets: some writers repeat the last line of the file");
+          "file.dsc: tet 1080 at (1.5, 1, 1) has a face that two other tets already have (4 in "
+          "total); remove duplicate tets: some writers repeat the last line of the file");
     TetMesh gap = m;
     gap.tets.pop_back();
     gap.labels.pop_back();
     CHECK(refusal(gap) ==
-          "file.dsc: the tets' volumes add up to 26.9583333333, their bounding box has 27; the tets must fill an "
-          "axis-parallel box without gaps or overlaps");
+          "file.dsc: the tets' volumes add up to 26.9583333333, their bounding box has 27; the "
+          "tets must fill an axis-parallel box without gaps or overlaps");
     TetMesh labels = m;
     labels.labels.pop_back();
-    CHECK(refusal(labels) == "file.dsc: 1079 labels for 1080 tets; provide exactly one label per tet");
+    CHECK(refusal(labels) ==
+          "file.dsc: 1079 labels for 1080 tets; provide exactly one label per tet");
     TetMesh folded = m;
     folded.points[171] = Vec3(1.4, 1.4, 1.4);  // the centre vertex dragged through its neighbours
-    CHECK(refusal(folded).find("lies on the same side of a face as its neighbour") != std::string::npos);
+    CHECK(refusal(folded).find("lies on the same side of a face as its neighbour") !=
+          std::string::npos);
     TetMesh nan = m;
     nan.points[3].x() = std::nan("");
-    CHECK(refusal(nan) == "file.dsc: vertex 3 has a coordinate that is not finite; fix or remove this vertex and export the mesh again");
+    CHECK(refusal(nan) == "file.dsc: vertex 3 has a coordinate that is not finite; fix or remove "
+                          "this vertex and export the mesh again");
 }
 
 TEST_CASE("checkerboard labels on 4x4x4 cells are unpinched, exactly") {

@@ -1,8 +1,8 @@
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
+
+#include <doctest/doctest.h>
 
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/mesh/adopt.hpp>
@@ -59,7 +59,8 @@ TEST_CASE("star and ring agree with a full scan") {
                 const VertexId p = ring.link[i], q = ring.link[(i + 1) % ring.link.size()];
                 REQUIRE(has_vertex(c.tet(ring.tets[i]), p));
                 REQUIRE(has_vertex(c.tet(ring.tets[i]), q));
-                REQUIRE(geometry::orient3d(c.position(a), c.position(b), c.position(p), c.position(q)) == 1);
+                REQUIRE(geometry::orient3d(c.position(a), c.position(b), c.position(p),
+                                           c.position(q)) == 1);
             }
         }
     }
@@ -137,11 +138,14 @@ TEST_CASE("moves and relabels keep the caches") {
     CHECK(validate(c).faults == std::vector<std::string>{});
     CHECK(c.changes().size() == star.size());
     for (const TetId t : star) CHECK(c.date(t) == c.clock());
-    // One tet that touches nothing else of its label makes four new interface vertices, all regular.
+    // One tet that touches nothing else of its label makes four new interface vertices, all
+    // regular.
     TetId lonely = none;
     for (TetId t = 0; t < c.tet_slots(); ++t) {
         const auto& v = c.tet(t).v;
-        if (std::none_of(v.begin(), v.end(), [&](VertexId x) { return c.on_interface(x) || c.on_box(x); })) lonely = t;
+        if (std::none_of(v.begin(), v.end(),
+                         [&](VertexId x) { return c.on_interface(x) || c.on_box(x); }))
+            lonely = t;
     }
     REQUIRE(lonely != none);
     const std::size_t interface = c.interface_vertices().size();
@@ -169,7 +173,8 @@ TEST_CASE("to_mesh is independent of slots and adopts again") {
 TEST_CASE("local stars: the classic cases of regular and pinched vertices") {
     // Centre of a 2x2x2 grid: one octant, two opposite octants, two octants sharing an edge, half.
     const auto pinch = [](const std::function<bool(const Vec3&)>& in) {
-        const TetMesh m = test::grid(4, 1.0, [&](const Vec3& p) { return p.cwiseAbs().maxCoeff() < 0.5 && in(p) ? 1 : 0; });
+        const TetMesh m = test::grid(
+            4, 1.0, [&](const Vec3& p) { return p.cwiseAbs().maxCoeff() < 0.5 && in(p) ? 1 : 0; });
         std::vector<Tet> tets(m.tets.size());
         std::vector<std::array<std::uint32_t, 4>> dummy;
         // Neighbours by adopting a mesh with plain labels, labels put on afterwards.
@@ -191,6 +196,7 @@ TEST_CASE("local stars: the classic cases of regular and pinched vertices") {
     };
     CHECK(pinch([](const Vec3& p) { return p.minCoeff() > 0; }) == std::pair(true, 2U));
     CHECK(pinch([](const Vec3& p) { return p.x() > 0; }) == std::pair(true, 2U));
-    CHECK(pinch([](const Vec3& p) { return p.minCoeff() > 0 || p.maxCoeff() < 0; }) == std::pair(false, 3U));
+    CHECK(pinch([](const Vec3& p) { return p.minCoeff() > 0 || p.maxCoeff() < 0; }) ==
+          std::pair(false, 3U));
     CHECK(pinch([](const Vec3& p) { return p.x() * p.y() > 0; }) == std::pair(false, 4U));
 }

@@ -119,9 +119,11 @@ TEST_CASE("wrong parameters are faults of the configuration") {
     CHECK_THROWS_AS(all.create<dsc::hooks::CurvatureEstimator>(negative, "velocity.curvature"),
                     dsc::ConfigError);
     const StrategyConfig unknown_key{"inner", ConfigNode::map({{"valeu", 1.0}})};
-    CHECK_THROWS_WITH_AS(all.create<dsc::hooks::CurvatureEstimator>(unknown_key, "velocity.curvature"),
-                         doctest::Contains("curvature 'inner'"), dsc::ConfigError);
+    CHECK_THROWS_WITH_AS(
+        all.create<dsc::hooks::CurvatureEstimator>(unknown_key, "velocity.curvature"),
+        doctest::Contains("curvature 'inner'"), dsc::ConfigError);
     const StrategyConfig nested_unknown{
         "outer", ConfigNode::map({{"curvature", ConfigNode::map({{"type", "innner"}})}})};
-    CHECK_THROWS_AS(all.create<dsc::hooks::VelocityField>(nested_unknown, "velocity"), dsc::ConfigError);
+    CHECK_THROWS_AS(all.create<dsc::hooks::VelocityField>(nested_unknown, "velocity"),
+                    dsc::ConfigError);
 }

@@ -1,12 +1,13 @@
 // What strategies throw or return wrongly, kind by kind.
+#include <functional>
+#include <limits>
+#include <sstream>
+
 #include <doctest/doctest.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
 #include <dsc/plugin/guarded.hpp>
-#include <functional>
-#include <limits>
-#include <sstream>
 
 #include "fake_catalogue.hpp"
 
@@ -50,7 +51,8 @@ struct Sampled final : Base<hooks::VelocityField> {
     void prepare(const hooks::StepContext&) override {}
     void evaluate(hooks::Range, std::span<Vec3>) const override {}
     bool can_sample() const override { return true; }
-    void sample(std::span<const Vec3> points, std::span<const Vec3>, std::span<Vec3> out) const override {
+    void sample(std::span<const Vec3> points, std::span<const Vec3>,
+                std::span<Vec3> out) const override {
         Act::act(points, out);
     }
 };
@@ -68,7 +70,8 @@ struct Filter final : Base<hooks::CloudFilter> {
     using Act = Behaviour<dsc::cloud::Filtered&, const hooks::FilterContext&>;
     Filter(const Params&, const dsc::plugin::Setup&) {}
     // Without a fault: the cloud as it is.
-    dsc::cloud::Filtered apply(const dsc::cloud::Cloud& cloud, const hooks::FilterContext& context) override {
+    dsc::cloud::Filtered apply(const dsc::cloud::Cloud& cloud,
+                               const hooks::FilterContext& context) override {
         dsc::cloud::Filtered result{cloud, {}};
         result.report.kept = cloud.points.size();
         Act::act(result, context);
@@ -79,14 +82,17 @@ struct Filter final : Base<hooks::CloudFilter> {
 struct Refinement final : Base<hooks::RefinementPolicy> {
     using Act = Behaviour<hooks::RefinementRequests&>;
     Refinement(const Params&, const dsc::plugin::Setup&) {}
-    void refine(const hooks::RefinementContext&, hooks::RefinementRequests& out) override { Act::act(out); }
+    void refine(const hooks::RefinementContext&, hooks::RefinementRequests& out) override {
+        Act::act(out);
+    }
 };
 
 struct InitialMesh final : Base<hooks::InitialMesh> {
     using Act = Behaviour<mesh::TetMesh&>;
     InitialMesh(const Params&, const dsc::plugin::Setup&) {}
     mesh::TetMesh build(const hooks::InitialMeshContext&) override {
-        mesh::TetMesh one{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}, {{0, 1, 2, 3}}, {1}};
+        mesh::TetMesh one{
+            {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}, {{0, 1, 2, 3}}, {1}};
         Act::act(one);
         return one;
     }
@@ -118,7 +124,9 @@ struct Observer final : Base<hooks::Observer> {
     using Act = Behaviour<hooks::Figures&>;
     Observer(const Params&, const dsc::plugin::Setup&) {}
     void begin(const hooks::StepContext&) override {}
-    hooks::Figures step(const hooks::StepContext&, const hooks::StepFigures&) override { return figures(); }
+    hooks::Figures step(const hooks::StepContext&, const hooks::StepFigures&) override {
+        return figures();
+    }
     hooks::Figures end(const hooks::StepContext&) override { return figures(); }
     static hooks::Figures figures() {
         hooks::Figures result;
@@ -181,8 +189,10 @@ Caught caught(Body&& body) {
     return {};
 }
 
-std::string who(const std::string& kind, const std::string& id = "faulty", const std::string& path = "here") {
-    return kind + " '" + id + "' (plugin fake 0.1.0, libdsc_fake.so, at '" + path + "' in the experiment): ";
+std::string who(const std::string& kind, const std::string& id = "faulty",
+                const std::string& path = "here") {
+    return kind + " '" + id + "' (plugin fake 0.1.0, libdsc_fake.so, at '" + path +
+           "' in the experiment): ";
 }
 const std::string report = "; report this to the plugin's authors";
 
@@ -194,24 +204,25 @@ TEST_CASE("velocity: not a number, infinity, an entry left out") {
     velocity->prepare(bench.context());
     std::vector<Vec3> out(3);
     const auto evaluate = [&] { velocity->evaluate({1, 4}, out); };
-    const std::string every =
-        "; every entry of the output must be written with a finite number; report this to the plugin's "
-        "authors";
+    const std::string every = "; every entry of the output must be written with a finite number; "
+                              "report this to the plugin's authors";
 
     Velocity::Act::act = [](hooks::Range, std::span<Vec3> o) {
         for (Vec3& d : o) d = Vec3(1, 2, 3);
         o[2].y() = -std::numeric_limits<double>::infinity();
     };
-    CHECK(caught(evaluate).text ==
-          who("velocity") +
-              "evaluate at step 5 gave the displacement (1.0, -inf, 3.0) to vertex 3 (birth id 13, "
-              "at (0.0, 0.0, 1.0))" +
-              every);
+    CHECK(caught(evaluate).text == who("velocity") +
+                                       "evaluate at step 5 gave the displacement (1.0, -inf, 3.0) "
+                                       "to vertex 3 (birth id 13, at (0.0, 0.0, 1.0))" +
+                                       every);
     CHECK(caught(evaluate).code == "strategy.not_finite");
     Velocity::Act::act = [](hooks::Range, std::span<Vec3> o) { o[0] = o[2] = Vec3::Zero(); };
-    CHECK(caught(evaluate).text.find("gave the displacement (nan, nan, nan) to vertex 2 (birth id 12") !=
+    CHECK(caught(evaluate).text.find(
+              "gave the displacement (nan, nan, nan) to vertex 2 (birth id 12") !=
           std::string::npos);
-    Velocity::Act::act = [](hooks::Range, std::span<Vec3> o) { std::fill(o.begin(), o.end(), Vec3::Zero()); };
+    Velocity::Act::act = [](hooks::Range, std::span<Vec3> o) {
+        std::fill(o.begin(), o.end(), Vec3::Zero());
+    };
     CHECK(caught(evaluate).text.empty());
 }
 
@@ -228,7 +239,8 @@ TEST_CASE("whatever is thrown is attributed, but not cancellation and configurat
     CHECK(caught(evaluate).code == "strategy.threw");
     Velocity::Act::act = [](hooks::Range, std::span<Vec3>) { throw 7; };
     CHECK(caught(evaluate).text ==
-          who("velocity") + "evaluate at step 5 threw something that is not a std::exception" + check);
+          who("velocity") + "evaluate at step 5 threw something that is not a std::exception" +
+              check);
     Velocity::Act::act = [](hooks::Range, std::span<Vec3>) {
         throw dsc::GeometryError("geometry.flat", "all is flat");
     };
@@ -236,15 +248,19 @@ TEST_CASE("whatever is thrown is attributed, but not cancellation and configurat
           who("velocity") + "evaluate at step 5 threw geometry.flat: all is flat" + check);
     Velocity::Act::act = [](hooks::Range, std::span<Vec3>) { throw dsc::CancelledError("stop"); };
     CHECK_THROWS_WITH_AS(evaluate(), "stop", dsc::CancelledError);
-    Velocity::Act::act = [](hooks::Range, std::span<Vec3>) { throw dsc::ConfigError("x", "no cloud"); };
+    Velocity::Act::act = [](hooks::Range, std::span<Vec3>) {
+        throw dsc::ConfigError("x", "no cloud");
+    };
     CHECK_THROWS_WITH_AS(evaluate(), "no cloud", dsc::ConfigError);
 
     std::ostringstream state;
-    CHECK(caught([&] { velocity->save(state); }).text == who("velocity") + "save threw: disk full" + check);
+    CHECK(caught([&] { velocity->save(state); }).text ==
+          who("velocity") + "save threw: disk full" + check);
     const std::vector<Vec3> points(1);
     CHECK_FALSE(velocity->can_sample());
-    CHECK(caught([&] { velocity->sample(points, points, out); }).text.find("strategy.no_sampling") !=
-          std::string::npos);
+    CHECK(caught([&] {
+              velocity->sample(points, points, out);
+          }).text.find("strategy.no_sampling") != std::string::npos);
 }
 
 TEST_CASE("velocity: samples are judged too") {
@@ -256,9 +272,8 @@ TEST_CASE("velocity: samples are judged too") {
     Sampled::Act::act = [](std::span<const Vec3>, std::span<Vec3> o) { o[0] = Vec3::Zero(); };
     const Caught fault = caught([&] { velocity->sample(points, points, out); });
     CHECK(fault.code == "strategy.not_finite");
-    CHECK(fault.text.find(
-              "sample at step 5 gave the displacement (nan, nan, nan) to point 1 at (0.5, 0.0, 0.0)") !=
-          std::string::npos);
+    CHECK(fault.text.find("sample at step 5 gave the displacement (nan, nan, nan) to point 1 at "
+                          "(0.5, 0.0, 0.0)") != std::string::npos);
 }
 
 TEST_CASE("curvature: scalar and vector must both be finite") {
@@ -273,8 +288,9 @@ TEST_CASE("curvature: scalar and vector must both be finite") {
         v[1] = Vec3(0, no_number, 0);
     };
     const Caught fault = caught([&] { curvature->evaluate({2, 4}, scalar, vector); });
-    CHECK(fault.text.find(who("curvature") + "evaluate at step 5 gave the curvature 1.0 and the vector (0.0, "
-                                             "nan, 0.0) to vertex 3 (birth id 13") == 0);
+    CHECK(fault.text.find(who("curvature") + "evaluate at step 5 gave the curvature 1.0 and the "
+                                             "vector (0.0, nan, 0.0) to vertex 3 (birth id 13") ==
+          0);
 }
 
 TEST_CASE("the fault of a nested strategy stays its own") {
@@ -282,12 +298,14 @@ TEST_CASE("the fault of a nested strategy stays its own") {
     const auto velocity = bench.make<hooks::VelocityField>("nesting");
     velocity->prepare(bench.context());
     std::vector<Vec3> out(1);
-    Curvature::Act::act = [](std::span<double>, std::span<Vec3>) { throw std::runtime_error("oops"); };
+    Curvature::Act::act = [](std::span<double>, std::span<Vec3>) {
+        throw std::runtime_error("oops");
+    };
     CHECK(caught([&] {
               velocity->evaluate({0, 1}, out);
-          }).text ==
-          who("curvature", "faulty", "here.curvature") +
-              "evaluate at step 5 threw: oops; check its parameters or report this to the plugin's authors");
+          }).text == who("curvature", "faulty", "here.curvature") +
+                         "evaluate at step 5 threw: oops; check its parameters or report this to "
+                         "the plugin's authors");
 }
 
 TEST_CASE("refinement: faces, edges, sizes and labels that do not exist") {
@@ -301,16 +319,19 @@ TEST_CASE("refinement: faces, edges, sizes and labels that do not exist") {
     };
     CHECK(refine([](auto& r) {
               r.split_faces = {0, 1, 2};
-          }).text ==
-          who("refinement") + "refine at step 5 asked in split_faces 2 for 2, which does not exist" + report);
+          }).text == who("refinement") +
+                         "refine at step 5 asked in split_faces 2 for 2, which does not exist" +
+                         report);
     CHECK(refine([](auto& r) {
               r.split_edges = {{0, 4}};
-          }).text ==
-          who("refinement") + "refine at step 5 asked in split_edges 0 for 4, which does not exist" + report);
+          }).text == who("refinement") +
+                         "refine at step 5 asked in split_edges 0 for 4, which does not exist" +
+                         report);
     CHECK(refine([](auto& r) {
               r.sizing = {1, 1};
-          }).text ==
-          who("refinement") + "refine at step 5 gave a sizing field of 2 entries for 4 vertices" + report);
+          }).text == who("refinement") +
+                         "refine at step 5 gave a sizing field of 2 entries for 4 vertices" +
+                         report);
     CHECK(refine([](auto& r) { r.sizing = {1, 1, 0, 1}; }).code == "strategy.not_finite");
     CHECK(refine([](auto& r) { r.sizing = {1, 1, no_number, 1}; }).code == "strategy.not_finite");
     CHECK(refine([](auto& r) { r.relabel = {{0, 0x80000000U}}; }).code == "strategy.range");
@@ -331,16 +352,31 @@ TEST_CASE("refinement: collapses, flips, moves and target lengths that cannot be
         hooks::RefinementRequests out;
         return caught([&] { policy->refine({step}, out); });
     };
-    CHECK(refine([](auto& r) { r.collapse_edges = {{0, 4, Vec3::Zero()}}; }).text ==
-          who("refinement") + "refine at step 5 asked in collapse_edges 0 for 4, which does not exist" + report);
-    CHECK(refine([](auto& r) { r.collapse_edges = {{0, 1, Vec3(0, no_number, 0)}}; }).code == "strategy.not_finite");
-    CHECK(refine([](auto& r) { r.flip_edges = {{{0, 1}, 0.9}, {{5, 1}, 0.9}}; }).text ==
-          who("refinement") + "refine at step 5 asked in flip_edges 1 for 5, which does not exist" + report);
-    CHECK(refine([](auto& r) { r.flip_edges = {{{0, 1}, no_number}}; }).code == "strategy.not_finite");
+    CHECK(refine([](auto& r) {
+              r.collapse_edges = {{0, 4, Vec3::Zero()}};
+          }).text == who("refinement") +
+                         "refine at step 5 asked in collapse_edges 0 for 4, which does not exist" +
+                         report);
+    CHECK(refine([](auto& r) {
+              r.collapse_edges = {{0, 1, Vec3(0, no_number, 0)}};
+          }).code == "strategy.not_finite");
+    CHECK(refine([](auto& r) {
+              r.flip_edges = {{{0, 1}, 0.9}, {{5, 1}, 0.9}};
+          }).text == who("refinement") +
+                         "refine at step 5 asked in flip_edges 1 for 5, which does not exist" +
+                         report);
+    CHECK(refine([](auto& r) {
+              r.flip_edges = {{{0, 1}, no_number}};
+          }).code == "strategy.not_finite");
     CHECK(refine([](auto& r) { r.move_vertices = {{7, Vec3::Zero()}}; }).code == "strategy.range");
-    CHECK(refine([](auto& r) { r.move_vertices = {{1, Vec3(no_number, 0, 0)}}; }).code == "strategy.not_finite");
-    CHECK(refine([](auto& r) { r.target_lengths = {1, 1, 1}; }).text ==
-          who("refinement") + "refine at step 5 gave a sizing field of 3 entries for 4 vertices" + report);
+    CHECK(refine([](auto& r) {
+              r.move_vertices = {{1, Vec3(no_number, 0, 0)}};
+          }).code == "strategy.not_finite");
+    CHECK(refine([](auto& r) {
+              r.target_lengths = {1, 1, 1};
+          }).text == who("refinement") +
+                         "refine at step 5 gave a sizing field of 3 entries for 4 vertices" +
+                         report);
     CHECK(refine([](auto& r) { r.target_lengths = {1, 1, 1, -1}; }).code == "strategy.not_finite");
     CHECK(refine([](auto& r) { r.target_length = -0.5; }).code == "strategy.not_finite");
     CHECK(refine([](auto& r) {
@@ -369,16 +405,20 @@ TEST_CASE("attributes: names, sizes and values are judged, of velocities and of 
     };
     CHECK(publish({{"density", {1, 2, 3, 4}}, {"age", {1, 2, 3, 4}}}).text.empty());
     CHECK(publish({{"density", {1, 2, 3}}}).text ==
-          who("velocity") + "publish at step 5 gave the attribute 'density' 3 values for 4 vertices" + report);
+          who("velocity") +
+              "publish at step 5 gave the attribute 'density' 3 values for 4 vertices" + report);
     CHECK(publish({{"density", {1, 2, 3, std::numeric_limits<double>::infinity()}}}).text ==
-          who("velocity") + "publish at step 5 gave the attribute 'density' the value inf at vertex 3" + report);
+          who("velocity") +
+              "publish at step 5 gave the attribute 'density' the value inf at vertex 3" + report);
     for (const char* name : {"", "Density", "two words", "x", "red", "label"}) {
         CAPTURE(name);
         CHECK(publish({{name, {1, 2, 3, 4}}}).code == "strategy.range");
     }
     CHECK(publish({{"age", {1, 2, 3, 4}}, {"age", {1, 2, 3, 4}}}).code == "strategy.range");
     const auto policy = bench.make<hooks::RefinementPolicy>();
-    Refinement::Act::act = [](hooks::RefinementRequests& r) { r.attributes = {{"density", {no_number, 0, 0, 0}}}; };
+    Refinement::Act::act = [](hooks::RefinementRequests& r) {
+        r.attributes = {{"density", {no_number, 0, 0, 0}}};
+    };
     hooks::RefinementRequests out;
     const hooks::StepContext step = bench.context();
     CHECK(caught([&] { policy->refine({step}, out); }).code == "strategy.not_finite");
@@ -390,7 +430,8 @@ TEST_CASE("velocity: what advance() throws is attributed to it") {
     hooks::StepContext context = bench.context();
     context.step = 13;
     CHECK(caught([&] { velocity->advance(context); }).text ==
-          who("velocity") + "advance at step 13 threw: unlucky; check its parameters or report this to the plugin's authors");
+          who("velocity") + "advance at step 13 threw: unlucky; check its parameters or report "
+                            "this to the plugin's authors");
 }
 
 TEST_CASE("initial mesh: arrays that do not fit together") {
@@ -413,7 +454,9 @@ TEST_CASE("initial mesh: arrays that do not fit together") {
           who("initial_mesh") + "build gave tet 0 the label -1 below 0" + report);
 
     // What is wrong with the user's file is not the generator's fault.
-    InitialMesh::Act::act = [](mesh::TetMesh&) { throw dsc::IoError("io.open", "a.dsc: cannot be read"); };
+    InitialMesh::Act::act = [](mesh::TetMesh&) {
+        throw dsc::IoError("io.open", "a.dsc: cannot be read");
+    };
     CHECK_THROWS_WITH_AS(generator->build({}), "a.dsc: cannot be read", dsc::IoError);
 }
 
@@ -437,13 +480,17 @@ TEST_CASE("improvement: classes of requests have good names, and a request names
     };
     // Without names there is one class.
     CHECK(propose(0).text.empty());
-    CHECK(propose(1).text == who("improvement") + "propose at step 5 named the class 1, which does not exist, in request 0" + report);
+    CHECK(propose(1).text ==
+          who("improvement") +
+              "propose at step 5 named the class 1, which does not exist, in request 0" + report);
     Improvement::classes = {"wedge", "tee"};
     CHECK(propose(1).text.empty());
     CHECK(propose(2).code == "strategy.range");
     CHECK(naming({"wedge", "tee_2"}).text.empty());
-    CHECK(naming({"wedge", "Tee"}).text ==
-          who("improvement") + "repair_classes gave a class of requests the name 'Tee'; names are snake_case and differ" + report);
+    CHECK(naming({"wedge", "Tee"}).text == who("improvement") +
+                                               "repair_classes gave a class of requests the name "
+                                               "'Tee'; names are snake_case and differ" +
+                                               report);
     CHECK(naming({"tee", "wedge", "tee"}).code == "strategy.range");
     CHECK(naming({""}).code == "strategy.range");
     CHECK(naming(std::vector<std::string>(17, "a")).code == "strategy.size");
@@ -463,31 +510,34 @@ TEST_CASE("improvement: requests, limits and answers out of range") {
     repair::Request request;
     request.tet = 3;
     CHECK(propose(request).text ==
-          who("improvement") + "propose at step 5 named tet 3, which does not exist, in request 0" + report);
+          who("improvement") + "propose at step 5 named tet 3, which does not exist, in request 0" +
+              report);
     request = {};
     request.vertices[1] = 8;
     CHECK(propose(request).text ==
-          who("improvement") + "propose at step 5 named vertex 8, which does not exist, in request 0" +
-              report);
+          who("improvement") +
+              "propose at step 5 named vertex 8, which does not exist, in request 0" + report);
     request = {};
     request.operation = static_cast<repair::Operation>(200);
     CHECK(propose(request).code == "strategy.range");
     request = {};
-    for (float repair::Request::*number : {&repair::Request::accept_above, &repair::Request::gain, &repair::Request::least_edge}) {
+    for (float repair::Request::*number :
+         {&repair::Request::accept_above, &repair::Request::gain, &repair::Request::least_edge}) {
         request = {};
         request.*number = std::numeric_limits<float>::quiet_NaN();
         CHECK(propose(request).code == "strategy.not_finite");
     }
     Improvement::Act::act = [](std::vector<repair::Request>& out) { out.clear(); };
     std::vector<repair::Request> earlier(2);
-    CHECK(caught([&] { improvement->propose(bench.context(), round, earlier); }).code == "strategy.size");
+    CHECK(caught([&] { improvement->propose(bench.context(), round, earlier); }).code ==
+          "strategy.size");
 
     const std::vector<repair::TopologyCandidate> candidates(2);
     std::vector<std::uint8_t> accept(2);
     Improvement::Select::act = [](std::span<std::uint8_t> a) { a[0] = 1; };
     CHECK(caught([&] { improvement->select(bench.context(), candidates, accept); }).text ==
-          who("improvement") + "select at step 5 gave candidate 1 the answer 255 instead of 0 or 1" +
-              report);
+          who("improvement") +
+              "select at step 5 gave candidate 1 the answer 255 instead of 0 or 1" + report);
     Improvement::Select::act = [](std::span<std::uint8_t> a) { a[0] = 1, a[1] = 0; };
     CHECK(caught([&] { improvement->select(bench.context(), candidates, accept); }).text.empty());
 
@@ -527,10 +577,8 @@ TEST_CASE("observer: figures of changing, bad or repeated names and without a va
     CHECK(step(*observer, {{"error_max", 2.0}}).text.empty());
     CHECK(step(*observer, {{"error_mean", 2.0}}).code == "strategy.size");
     CHECK(step(*bench.make<hooks::Observer>(), {{"Error max", 1.0}}).text ==
-          who("observer") +
-              "step at step 5 gave a figure the name 'Error max'; names are snake_case and differ; report "
-              "this to "
-              "the plugin's authors");
+          who("observer") + "step at step 5 gave a figure the name 'Error max'; names are "
+                            "snake_case and differ; report this to the plugin's authors");
     CHECK(step(*bench.make<hooks::Observer>(), {{"a", 1.0}, {"a", 2.0}}).code == "strategy.range");
     CHECK(step(*bench.make<hooks::Observer>(), {{"a", no_number}}).code == "strategy.not_finite");
 }
@@ -565,18 +613,30 @@ TEST_CASE("filter: attributes that do not fit the points or are out of range") {
     const std::string sizes = "; an attribute is empty or has one entry per point" + report;
     CHECK(apply([](Filtered&) {}).text.empty());
     CHECK(apply([](Filtered& f) { f.cloud.points.clear(); }).text ==
-          gave + "a cloud without points; at least one point must be left; relax its parameters or leave it out");
-    CHECK(apply([](Filtered& f) { f.cloud.colours.resize(2); }).text == gave + "2 colours for 3 points" + sizes);
-    CHECK(apply([](Filtered& f) { f.cloud.normals.assign(4, Vec3::UnitX()); }).text == gave + "4 normals for 3 points" + sizes);
-    CHECK(apply([](Filtered& f) { f.cloud.areas.assign(1, Vec3::UnitX()); }).text == gave + "1 areas for 3 points" + sizes);
-    CHECK(apply([](Filtered& f) { f.cloud.confidence.assign(5, 0.5); }).text == gave + "5 confidences for 3 points" + sizes);
-    CHECK(apply([](Filtered& f) { f.cloud.points[1].z() = no_number; }).text == gave + "point 1 a coordinate that is not finite" + report);
-    CHECK(apply([](Filtered& f) { f.cloud.areas.assign(3, Vec3::Constant(no_number)); }).code == "strategy.not_finite");
-    CHECK(apply([](Filtered& f) { f.cloud.normals = {Vec3::UnitX(), Vec3(0, 0, 0.5), Vec3::UnitX()}; }).text ==
-          gave + "normal 1 the length 0.5; normals are unit vectors, or zero if they are unknown" + report);
+          gave + "a cloud without points; at least one point must be left; relax its parameters or "
+                 "leave it out");
+    CHECK(apply([](Filtered& f) { f.cloud.colours.resize(2); }).text ==
+          gave + "2 colours for 3 points" + sizes);
+    CHECK(apply([](Filtered& f) { f.cloud.normals.assign(4, Vec3::UnitX()); }).text ==
+          gave + "4 normals for 3 points" + sizes);
+    CHECK(apply([](Filtered& f) { f.cloud.areas.assign(1, Vec3::UnitX()); }).text ==
+          gave + "1 areas for 3 points" + sizes);
+    CHECK(apply([](Filtered& f) { f.cloud.confidence.assign(5, 0.5); }).text ==
+          gave + "5 confidences for 3 points" + sizes);
+    CHECK(apply([](Filtered& f) { f.cloud.points[1].z() = no_number; }).text ==
+          gave + "point 1 a coordinate that is not finite" + report);
+    CHECK(apply([](Filtered& f) { f.cloud.areas.assign(3, Vec3::Constant(no_number)); }).code ==
+          "strategy.not_finite");
+    CHECK(apply([](Filtered& f) {
+              f.cloud.normals = {Vec3::UnitX(), Vec3(0, 0, 0.5), Vec3::UnitX()};
+          }).text ==
+          gave + "normal 1 the length 0.5; normals are unit vectors, or zero if they are unknown" +
+              report);
     CHECK(apply([](Filtered& f) { f.cloud.normals.assign(3, Vec3(0, 0, 1 + 1e-8)); }).text.empty());
     CHECK(apply([](Filtered& f) { f.cloud.confidence = {0, 1, 1.5}; }).code == "strategy.range");
-    CHECK(apply([](Filtered& f) { f.cloud.confidence = {0, no_number, 1}; }).code == "strategy.range");
+    CHECK(apply([](Filtered& f) {
+              f.cloud.confidence = {0, no_number, 1};
+          }).code == "strategy.range");
     CHECK(apply([](Filtered& f) { f.cloud.confidence = {0, 0.5, 1}; }).text.empty());
     const auto sample = [&](const dsc::cloud::SurfaceSample& s) {
         return apply([&](Filtered& f) { f.cloud.orientation.samples = {s}; }).code;
@@ -584,11 +644,15 @@ TEST_CASE("filter: attributes that do not fit the points or are out of range") {
     CHECK(sample({Vec3::Zero(), Vec3::UnitZ(), 1.0}).empty());
     CHECK(sample({Vec3::Zero(), Vec3::Constant(no_number), 1.0}) == "strategy.not_finite");
     CHECK(sample({Vec3::Zero(), Vec3::UnitZ(), -1.0}) == "strategy.range");
-    CHECK(apply([](Filtered& f) { f.cloud.orientation.residual = no_number; }).code == "strategy.range");
+    CHECK(apply([](Filtered& f) { f.cloud.orientation.residual = no_number; }).code ==
+          "strategy.range");
 
     // What is wrong with the user's cloud is not the filter's fault.
-    Filter::Act::act = [](Filtered&, const hooks::FilterContext&) { throw dsc::GeometryError("cloud.filtered_out", "a.xyz: no point is left"); };
-    CHECK_THROWS_WITH_AS(filter->apply(three_points(), {}), "a.xyz: no point is left", dsc::GeometryError);
+    Filter::Act::act = [](Filtered&, const hooks::FilterContext&) {
+        throw dsc::GeometryError("cloud.filtered_out", "a.xyz: no point is left");
+    };
+    CHECK_THROWS_WITH_AS(filter->apply(three_points(), {}), "a.xyz: no point is left",
+                         dsc::GeometryError);
 }
 
 TEST_CASE("filter: a report that does not count what happened") {
@@ -604,21 +668,29 @@ TEST_CASE("filter: a report that does not count what happened") {
     CHECK(apply([](Filtered&) {}).text.empty());
     CHECK(apply([](Filtered& f) { f.report.kept = 3; }).text ==
           who("filter") +
-              "apply reported 3 points as kept and 1 as removed, but was given 3 and returned 2; a filter adds no points, and kept "
-              "and removed points together are the given points" +
+              "apply reported 3 points as kept and 1 as removed, but was given 3 and returned 2; a "
+              "filter adds no points, and kept and removed points together are the given points" +
               report);
     CHECK(apply([](Filtered& f) { f.report.removed = 0; }).code == "strategy.size");
-    CHECK(apply([](Filtered& f) { f.report.removed = std::numeric_limits<std::size_t>::max(); }).code == "strategy.size");
+    CHECK(apply([](Filtered& f) {
+              f.report.removed = std::numeric_limits<std::size_t>::max();
+          }).code == "strategy.size");
     CHECK(apply([](Filtered& f) { f.report.reasons = {{"far", 1}, {"near", 0}}; }).text.empty());
-    CHECK(apply([](Filtered& f) { f.report.reasons = {{"far", 1}, {"near", 1}}; }).text ==
-          who("filter") + "apply gave reasons whose counts do not add up to the 1 removed point" + report);
+    CHECK(apply([](Filtered& f) {
+              f.report.reasons = {{"far", 1}, {"near", 1}};
+          }).text == who("filter") +
+                         "apply gave reasons whose counts do not add up to the 1 removed point" +
+                         report);
     CHECK(apply([](Filtered& f) { f.report.reasons = {{"far", 0}}; }).code == "strategy.size");
     CHECK(apply([](Filtered& f) { f.report.reasons = {{"", 1}}; }).code == "strategy.range");
     CHECK(apply([](Filtered& f) { f.report.figures = {{"Width", 1.0}}; }).code == "strategy.range");
-    CHECK(apply([](Filtered& f) { f.report.figures = {{"width", no_number}}; }).code == "strategy.not_finite");
+    CHECK(apply([](Filtered& f) {
+              f.report.figures = {{"width", no_number}};
+          }).code == "strategy.not_finite");
 }
 
-TEST_CASE("filter: it has its own instance number, its name stands in the report, and a stale orientation goes") {
+TEST_CASE("filter: it has its own instance number, its name stands in the report, and a stale "
+          "orientation goes") {
     const Bench bench;
     const auto filter = bench.make<hooks::CloudFilter>();
     std::uint64_t instance = 0;

@@ -1,7 +1,8 @@
+#include <string>
+
 #include <doctest/doctest.h>
 
 #include <dsc/plugin/entry.hpp>
-#include <string>
 
 using dsc::plugin::compare_fingerprints;
 
@@ -17,8 +18,8 @@ TEST_CASE("equal fingerprints do not differ, in any order of their keys") {
 
 TEST_CASE("every key that memory layouts hang on is hard, the others are soft") {
     const std::string own(dsc::plugin::core_fingerprint());
-    for (const std::string key : {"abi_major", "cxx11abi", "eigen", "align", "real", "index", "dbgstl", "san",
-                                  "compiler", "cxx", "build"}) {
+    for (const std::string key : {"abi_major", "cxx11abi", "eigen", "align", "real", "index",
+                                  "dbgstl", "san", "compiler", "cxx", "build"}) {
         std::string other = own;
         const std::size_t at = (";" + other).find(";" + key + "=");
         REQUIRE(at != std::string::npos);
@@ -51,6 +52,7 @@ TEST_CASE("an entry holds what it was made of and fits the longest fingerprint")
     CHECK(std::string(entry.fingerprint) == dsc::plugin::core_fingerprint());
     CHECK(std::string(entry.summary) == "what it does");
     CHECK(std::string(entry.authors).empty());
-    CHECK_THROWS_AS(dsc::plugin::make_entry(&enroll, std::string(64, 'n'), "1", "MIT", "too long a name"),
-                    std::length_error);
+    CHECK_THROWS_AS(
+        dsc::plugin::make_entry(&enroll, std::string(64, 'n'), "1", "MIT", "too long a name"),
+        std::length_error);
 }

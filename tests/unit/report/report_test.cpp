@@ -1,23 +1,24 @@
 // A run's states on the way, its report and comparisons, made from the folder alone.
-#include <doctest/doctest.h>
-
 #include <cmath>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
 #include <dsc/base/error.hpp>
 #include <dsc/hooks/curvature_estimator.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/io/series.hpp>
-#include <dsc/run/measure.hpp>
 #include <dsc/report/report.hpp>
-#include <dsc/run/run_folder.hpp>
+#include <dsc/run/measure.hpp>
 #include <dsc/run/run_experiment.hpp>
+#include <dsc/run/run_folder.hpp>
 #include <dsc/surface/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
-#include <nlohmann/json.hpp>
 
+#include "../run/fakes.hpp"
 #include "report/record.hpp"
 #include "report/warnings.hpp"
 #include "run/state_series.hpp"
-#include "../run/fakes.hpp"
 
 using namespace dsc;
 using dsc::test::Folder;
@@ -34,7 +35,8 @@ public:
     static void declare(config::ParamSchema<Params>&) {}
     Abscissa(const Params&, const plugin::Setup&) {}
     void prepare(const hooks::StepContext& context) override { surface_ = &context.surface; }
-    void evaluate(hooks::Range range, std::span<double> scalar, std::span<Vec3> vectors) const override {
+    void evaluate(hooks::Range range, std::span<double> scalar,
+                  std::span<Vec3> vectors) const override {
         for (std::size_t i = 0; i < scalar.size(); ++i) {
             scalar[i] = surface_->positions[range.begin + i].x();
             vectors[i] = Vec3::Zero();
@@ -59,11 +61,13 @@ const Catalogue& strategies() {
 }
 
 /// Runs in `folder`, where the linked-in plugin has a file.
-run::RunOutcome work(const Folder& folder, const std::string& name, const std::string& text, const std::vector<std::string>& overrides = {}) {
+run::RunOutcome work(const Folder& folder, const std::string& name, const std::string& text,
+                     const std::vector<std::string>& overrides = {}) {
     const Catalogue& catalogue = strategies();
     const fs::path here = fs::current_path();
     folder.write("libdsc_fake.so", "stands for a plugin");
-    const run::LoadedExperiment loaded = run::load_experiment(folder.write("test.yaml", text), overrides, catalogue.loader());
+    const run::LoadedExperiment loaded =
+        run::load_experiment(folder.write("test.yaml", text), overrides, catalogue.loader());
     fs::current_path(folder.path());
     run::RunOptions options;
     options.folder = folder.path() / name;
@@ -80,17 +84,20 @@ std::string cloud_of_a_cube() {
         for (int j = 0; j <= 4; ++j)
             for (int k = 0; k <= 4; ++k) {
                 if (i % 4 != 0 && j % 4 != 0 && k % 4 != 0) continue;
-                text += std::to_string(10 + i) + " " + std::to_string(20 + j) + " " + std::to_string(30 + k) + "\n";
+                text += std::to_string(10 + i) + " " + std::to_string(20 + j) + " " +
+                        std::to_string(30 + k) + "\n";
             }
     return text;
 }
 
 /// Four steps towards a cube of edge 4 at (12, 22, 32); normalised its half-edge is 0.4.
 std::string with_cloud(const Folder& folder, const std::string& output) {
-    return minimal + "input: {cloud: {file: \"" + folder.write("cloud.xyz", cloud_of_a_cube()) + "\"}, normalize: {scale: 0.4}}\n" + output;
+    return minimal + "input: {cloud: {file: \"" + folder.write("cloud.xyz", cloud_of_a_cube()) +
+           "\"}, normalize: {scale: 0.4}}\n" + output;
 }
 
-const std::vector<double>& array(const std::vector<io::DataArray>& arrays, const std::string& name) {
+const std::vector<double>& array(const std::vector<io::DataArray>& arrays,
+                                 const std::string& name) {
     for (const io::DataArray& a : arrays) {
         if (a.name == name) return a.values;
     }
@@ -100,22 +107,27 @@ const std::vector<double>& array(const std::vector<io::DataArray>& arrays, const
 
 std::size_t count(const std::string& text, const std::string& part) {
     std::size_t found = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++found;
     return found;
 }
 
 }  // namespace
 
-TEST_CASE("series: every so many steps a surface and a volume, arrays and values as the mesh has them") {
+TEST_CASE(
+    "series: every so many steps a surface and a volume, arrays and values as the mesh has them") {
     const Folder folder;
     work(folder, "run", with_cloud(folder, "output: {series: {every: 2}}\n"),
          {"schedule.0.steps=5", "velocity.factor=-0.02", "velocity.curvature={type: abscissa}"});
     const fs::path series = folder.path() / "run/series";
     std::vector<std::string> files;
-    for (const auto& entry : fs::directory_iterator(series)) files.push_back(entry.path().filename().string());
+    for (const auto& entry : fs::directory_iterator(series))
+        files.push_back(entry.path().filename().string());
     std::sort(files.begin(), files.end());
-    CHECK(files == std::vector<std::string>{"surface.pvd", "surface_000000.vtp", "surface_000002.vtp", "surface_000004.vtp",
-                                            "volume.pvd", "volume_000000.vtu", "volume_000002.vtu", "volume_000004.vtu"});
+    CHECK(files == std::vector<std::string>{"surface.pvd", "surface_000000.vtp",
+                                            "surface_000002.vtp", "surface_000004.vtp",
+                                            "volume.pvd", "volume_000000.vtu", "volume_000002.vtu",
+                                            "volume_000004.vtu"});
     const std::string index = folder.read("run/series/surface.pvd");
     CHECK(index.find("timestep=\"4\" part=\"0\" file=\"surface_000004.vtp\"") != std::string::npos);
     CHECK(count(index, "<DataSet") == 3);
@@ -131,14 +143,16 @@ TEST_CASE("series: every so many steps a surface and a volume, arrays and values
     const surface::TriangleMesh interface = surface::extract_interface(volume);
     CHECK(interface.faces.size() == mesh.faces.size());
     CHECK(surface::volume(mesh) == doctest::Approx(surface::volume(interface)));
-    CHECK(surface::volume(mesh) == doctest::Approx(std::pow(10 * std::pow(0.98, 4) * 0.5, 3)).epsilon(1e-9));
+    CHECK(surface::volume(mesh) ==
+          doctest::Approx(std::pow(10 * std::pow(0.98, 4) * 0.5, 3)).epsilon(1e-9));
     const Vec3 centre(12, 22, 32);
     CHECK((surface::used_box(mesh).centre() - centre).norm() < 1e-9);
 
     std::vector<Vec3> cloud;
     std::istringstream points(cloud_of_a_cube());
     for (Vec3 p; points >> p.x() >> p.y() >> p.z();) cloud.push_back(p);
-    const std::vector<double>&distance = array(data.points, "distance"), &curvature = array(data.points, "curvature");
+    const std::vector<double>&distance = array(data.points, "distance"),
+          &curvature = array(data.points, "curvature");
     REQUIRE(data.vectors.size() == 1);
     REQUIRE(distance.size() == 98);
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -156,10 +170,12 @@ TEST_CASE("series: every so many steps a surface and a volume, arrays and values
         CHECK(quality <= 1.0 + 1e-12);
     }
     const std::string vtu = folder.read("run/series/volume_000004.vtu");
-    for (const char* name : {"Name=\"label\"", "Name=\"quality\"", "Name=\"distance\""}) CHECK(vtu.find(name) != std::string::npos);
+    for (const char* name : {"Name=\"label\"", "Name=\"quality\"", "Name=\"distance\""})
+        CHECK(vtu.find(name) != std::string::npos);
 }
 
-TEST_CASE("series: no cloud, no curvature: those arrays are left out; states that are there are taken up again") {
+TEST_CASE("series: no cloud, no curvature: those arrays are left out; states that are there are "
+          "taken up again") {
     const Folder folder;
     work(folder, "run", minimal + "output: {series: {every: 1}}\n");
     io::SurfaceData data;
@@ -177,18 +193,21 @@ TEST_CASE("series: no cloud, no curvature: those arrays are left out; states tha
 
 TEST_CASE("report: a run writes it, and dsc report the same bytes; nothing in it is fetched") {
     const Folder folder;
-    const run::RunOutcome outcome = work(folder, "run", with_cloud(folder, "output: {report: true}\n"), {"observers=[{type: counter}]"});
+    const run::RunOutcome outcome =
+        work(folder, "run", with_cloud(folder, "output: {report: true}\n"),
+             {"observers=[{type: counter}]"});
     const std::string page = folder.read("run/report.html");
     CHECK(outcome.report == folder.path() / "run/report.html");
     CHECK(page == report::report_html(folder.path() / "run", strategies()));
     Workers three(3);
     CHECK(page == report::report_html(folder.path() / "run", strategies(), &three));
     CHECK(page.substr(0, 15) == "<!DOCTYPE html>");
-    for (const char* part : {"In short", "Time and size (table 6.1)", "table 6.2", "Distance, normalised units", "Tets by quality",
-                             "Points of the cloud by distance", "Time by phase", "Changes of topology", "The cloud and the start",
-                             "noise to width", "Provenance", "cloud.xyz",
-                             "counter.count", "\"label\":\"step 0\"", "\"label\":\"step 1\"", "\"label\":\"result\"", "\"tets\":{",
-                             "three.js r111", "normalize:"}) {
+    for (const char* part :
+         {"In short", "Time and size (table 6.1)", "table 6.2", "Distance, normalised units",
+          "Tets by quality", "Points of the cloud by distance", "Time by phase",
+          "Changes of topology", "The cloud and the start", "noise to width", "Provenance",
+          "cloud.xyz", "counter.count", "\"label\":\"step 0\"", "\"label\":\"step 1\"",
+          "\"label\":\"result\"", "\"tets\":{", "three.js r111", "normalize:"}) {
         CAPTURE(part);
         CHECK(page.find(part) != std::string::npos);
     }
@@ -215,9 +234,12 @@ TEST_CASE("report: a cloud that is gone or another one is told, and not shown") 
     folder.write("cloud.xyz", "0 0 0\n1 0 0\n0 1 0\n0 0 1\n");
     const std::string other = report::report_html(folder.path() / "run", strategies());
     CHECK(other.find("\"cloud\":{") == std::string::npos);
-    CHECK(other.find("the cloud is not shown: " + (folder.path() / "cloud.xyz").string() + ": is not the file that the run read") != std::string::npos);
+    CHECK(other.find("the cloud is not shown: " + (folder.path() / "cloud.xyz").string() +
+                     ": is not the file that the run read") != std::string::npos);
     fs::remove(folder.path() / "cloud.xyz");
-    CHECK(report::report_html(folder.path() / "run", strategies()).find("the cloud is not shown: ") != std::string::npos);
+    CHECK(
+        report::report_html(folder.path() / "run", strategies()).find("the cloud is not shown: ") !=
+        std::string::npos);
 }
 
 TEST_CASE("report: folders that are no run's, runs without a result, damaged files") {
@@ -239,7 +261,8 @@ TEST_CASE("report: folders that are no run's, runs without a result, damaged fil
     };
     CHECK(refused("summary.json", "{") == "report.damaged");
     CHECK(refused("summary.json", "[]") == "report.damaged");
-    CHECK(refused("summary.json", "{\"input\": {\"filters\": [{\"kept\": \"x\"}]}}") == "report.damaged");
+    CHECK(refused("summary.json", "{\"input\": {\"filters\": [{\"kept\": \"x\"}]}}") ==
+          "report.damaged");
     CHECK(refused("metrics.csv", "a,b\n1\n") == "report.metrics");
     CHECK(refused("config.resolved.yaml", "a: [") != "accepted");
     CHECK(refused("provenance.json", "{}") == "accepted");
@@ -265,7 +288,8 @@ TEST_CASE("report: hostile names in every file of the run stay text") {
         json["events"][evil] = 1;
         json["operations"][evil] = {{"tried", 1}, {"committed", 1}};
         json["labels"][evil] = {{"surface", {{"closed_manifold", false}}}};
-        json["input"] = {{"filters", {{{"type", evil}, {"kept", 1}, {"removed", 9}, {"notes", {evil}}}}}};
+        json["input"] = {
+            {"filters", {{{"type", evil}, {"kept", 1}, {"removed", 9}, {"notes", {evil}}}}}};
     });
     spoil("provenance.json", [&](auto& json) {
         json["command"] = {evil};
@@ -279,10 +303,13 @@ TEST_CASE("report: hostile names in every file of the run stay text") {
     const std::string column = "observers.counter.count";
     metrics.replace(metrics.find(column), column.size(), "observers." + evil);
     folder.write("run/metrics.csv", metrics);
-    folder.write("run/config.resolved.yaml", folder.read("run/config.resolved.yaml") + "# " + evil + "\n");
-    CHECK(report::report_html(folder.path() / "run", strategies()).find("Notes on the cloud") != std::string::npos);
+    folder.write("run/config.resolved.yaml",
+                 folder.read("run/config.resolved.yaml") + "# " + evil + "\n");
+    CHECK(report::report_html(folder.path() / "run", strategies()).find("Notes on the cloud") !=
+          std::string::npos);
     const fs::path folders[] = {folder.path() / "run", folder.path() / "run"};
-    for (const std::string& page : {report::report_html(folder.path() / "run", strategies()), report::comparison_html(folders, strategies())}) {
+    for (const std::string& page : {report::report_html(folder.path() / "run", strategies()),
+                                    report::comparison_html(folders, strategies())}) {
         CHECK(page.find("<script>alert") == std::string::npos);
         CHECK(page.find("<img src=x") == std::string::npos);
         CHECK(page.find("&lt;script&gt;alert(1)") != std::string::npos);
@@ -317,12 +344,14 @@ TEST_CASE("comparison: a column a run, named by name or folder, what differs in 
     work(folder, "quick", with_cloud(folder, ""), {"velocity.factor=-0.02"});
     const fs::path folders[] = {folder.path() / "slow", folder.path() / "quick/"};
     const std::string page = report::comparison_html(folders, strategies());
-    for (const char* part : {"2 runs compared", "<th>slow</th>", "<th>quick</th>", "velocity.factor", "-0.02", "id=\"view-1-scene\""}) {
+    for (const char* part : {"2 runs compared", "<th>slow</th>", "<th>quick</th>",
+                             "velocity.factor", "-0.02", "id=\"view-1-scene\""}) {
         CAPTURE(part);
         CHECK(page.find(part) != std::string::npos);
     }
     CHECK(page.find("<td>velocity.shift") == std::string::npos);
     const fs::path same[] = {folder.path() / "slow", folder.path() / "slow"};
-    CHECK(report::comparison_html(same, strategies()).find("The experiments are the same.") != std::string::npos);
+    CHECK(report::comparison_html(same, strategies()).find("The experiments are the same.") !=
+          std::string::npos);
     CHECK_THROWS_AS(report::comparison_html({}, strategies()), UsageError);
 }

@@ -1,7 +1,8 @@
 // The small parts of a report: escaping, tables of figures, plots.
+#include <cmath>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/error.hpp>
 
 #include "report/html.hpp"
@@ -14,23 +15,31 @@ namespace html = dsc::report::html;
 
 TEST_CASE("text cannot become markup, whatever its bytes are") {
     CHECK(html::text("<script>\"'&</script>") == "&lt;script&gt;&quot;&#39;&amp;&lt;/script&gt;");
-    CHECK(html::text("Zeile\n\tzwei \xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80") == "Zeile\n\tzwei \xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80");
+    CHECK(html::text("Zeile\n\tzwei \xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80") ==
+          "Zeile\n\tzwei \xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80");
     const std::string bad = "\xEF\xBF\xBD";
     CHECK(html::text(std::string("a\0b", 3)) == "a" + bad + "b");
-    for (const char* broken : {"\xFF", "\xC0\xBC" /* '<' in two bytes */, "\xE0\x80\xBC", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xC3", "\xE2\x82"}) {
+    for (const char* broken : {"\xFF", "\xC0\xBC" /* '<' in two bytes */, "\xE0\x80\xBC",
+                               "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xC3", "\xE2\x82"}) {
         const std::string shown = html::text(std::string(broken) + "<");
         CAPTURE(shown);
         CHECK(shown.substr(0, 3) == bad);
         CHECK(shown.substr(shown.size() - 4) == "&lt;");
         CHECK(shown.find(broken) == std::string::npos);
     }
-    CHECK(html::json_in_script("{\"a\":\"</script><!--\"}") == "{\"a\":\"\\u003c/script>\\u003c!--\"}");
+    CHECK(html::json_in_script("{\"a\":\"</script><!--\"}") ==
+          "{\"a\":\"\\u003c/script>\\u003c!--\"}");
     CHECK(html::table({"<a>"}, {{"<b>"}}).find("<b>") == std::string::npos);
     CHECK(html::facts({{"<a>", "<i>"}}).find("<i>") == std::string::npos);
 }
 
 TEST_CASE("base64 as in RFC 4648, numbers for people") {
-    for (const auto& [plain, packed] : {std::pair{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"\xFF\xFE\xFD", "//79"}}) {
+    for (const auto& [plain, packed] : {std::pair{"", ""},
+                                        {"f", "Zg=="},
+                                        {"fo", "Zm8="},
+                                        {"foo", "Zm9v"},
+                                        {"foob", "Zm9vYg=="},
+                                        {"\xFF\xFE\xFD", "//79"}}) {
         CHECK(html::base64(plain) == packed);
     }
     CHECK(html::integer(0) == "0");
@@ -46,7 +55,8 @@ TEST_CASE("a page is filled in one pass: what is put in is text") {
 }
 
 TEST_CASE("metrics: columns, empty cells, and tables that are none") {
-    const report::MetricsTable table = report::parse_metrics("step,a,b\n0,1.5,\n1,-2e-3,4\n", "m.csv");
+    const report::MetricsTable table =
+        report::parse_metrics("step,a,b\n0,1.5,\n1,-2e-3,4\n", "m.csv");
     CHECK(table.rows() == 2);
     REQUIRE(table.find("b") != nullptr);
     CHECK(std::isnan((*table.find("b"))[0]));
@@ -54,7 +64,8 @@ TEST_CASE("metrics: columns, empty cells, and tables that are none") {
     CHECK((*table.find("a"))[1] == -2e-3);
     CHECK(table.find("c") == nullptr);
     CHECK(report::parse_metrics("", "m.csv").rows() == 0);
-    CHECK_THROWS_WITH_AS(report::parse_metrics("step,a\n1\n", "m.csv"), "m.csv:2: 1 cells for 2 columns; run the experiment again", IoError);
+    CHECK_THROWS_WITH_AS(report::parse_metrics("step,a\n1\n", "m.csv"),
+                         "m.csv:2: 1 cells for 2 columns; run the experiment again", IoError);
     CHECK_THROWS_AS(report::parse_metrics("step\nx\n", "m.csv"), IoError);
 }
 
@@ -63,7 +74,10 @@ TEST_CASE("plots: round ticks, gaps, a logarithmic axis, names escaped") {
     CHECK(report::axis_ticks(3, 3, 5).empty());
     CHECK_FALSE(std::signbit(report::axis_ticks(0, 10, 5).front()));
     const double none = std::nan("");
-    const report::Plot plot{.title = "<t>", .x_label = "<x>", .curves = {{"<c>", {0, 1, 2, 3, 4}, {1, none, 3, 4, 5}}, {"d", {0, 4}, {2, 2}}}};
+    const report::Plot plot{
+        .title = "<t>",
+        .x_label = "<x>",
+        .curves = {{"<c>", {0, 1, 2, 3, 4}, {1, none, 3, 4, 5}}, {"d", {0, 4}, {2, 2}}}};
     const std::string svg = report::svg_plot(plot);
     CHECK(svg.find("<t>") == std::string::npos);
     CHECK(svg.find("<x>") == std::string::npos);
@@ -74,16 +88,25 @@ TEST_CASE("plots: round ticks, gaps, a logarithmic axis, names escaped") {
     const std::string d = svg.substr(at + 9, svg.find('"', at + 9) - at - 9);
     CHECK(std::count(d.begin(), d.end(), 'M') == 2);
     CHECK(std::count(d.begin(), d.end(), 'L') == 2);
-    CHECK(report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {none, 1}}}}).empty());
-    CHECK(report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {0, -1}}}, .logarithmic = true}).empty());
-    const std::string logarithmic = report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1, 2}, {0.001, 0.0, 1}}}, .logarithmic = true});
+    CHECK(report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {none, 1}}}})
+              .empty());
+    CHECK(
+        report::svg_plot(
+            {.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {0, -1}}}, .logarithmic = true})
+            .empty());
+    const std::string logarithmic = report::svg_plot({.title = "t",
+                                                      .x_label = "x",
+                                                      .curves = {{"c", {0, 1, 2}, {0.001, 0.0, 1}}},
+                                                      .logarithmic = true});
     CHECK(logarithmic.find(">0.01<") != std::string::npos);
     CHECK(logarithmic.find("nan") == std::string::npos);
-    CHECK(report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {7, 7}}}}).find("nan") == std::string::npos);
+    CHECK(report::svg_plot({.title = "t", .x_label = "x", .curves = {{"c", {0, 1}, {7, 7}}}})
+              .find("nan") == std::string::npos);
 }
 
 TEST_CASE("histograms count every value once; shares leave out nothing that took time") {
-    CHECK(report::count_bins({0, 0.1, 0.5, 0.99, 1, 2, -1, std::nan("")}, 0, 1, 2) == std::vector<std::size_t>{3, 4});
+    CHECK(report::count_bins({0, 0.1, 0.5, 0.99, 1, 2, -1, std::nan("")}, 0, 1, 2) ==
+          std::vector<std::size_t>{3, 4});
     CHECK(report::svg_histogram("t", "x", 0, 1, {3, 0, 4}).find(": 4<") != std::string::npos);
     const std::string shares = report::svg_shares({{"a", 1}, {"b", 0}, {"c", 3}}, "s");
     CHECK(shares.find("a 1 s") != std::string::npos);

@@ -1,11 +1,11 @@
-#include <dsc/base/random.hpp>
-#include <dsc/cloud/shapes.hpp>
-#include <dsc/run/coverage.hpp>
+#include <algorithm>
+#include <string>
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <string>
+#include <dsc/base/random.hpp>
+#include <dsc/cloud/shapes.hpp>
+#include <dsc/run/coverage.hpp>
 
 using namespace dsc;
 using namespace dsc::run;
@@ -17,9 +17,11 @@ surface::TriangleMesh ball() {
     return {mesh.points, mesh.faces};
 }
 
-Coverage coverage_of(const std::vector<Vec3>& points, const std::vector<Vec3>& removed = {}, Workers* workers = nullptr) {
+Coverage coverage_of(const std::vector<Vec3>& points, const std::vector<Vec3>& removed = {},
+                     Workers* workers = nullptr) {
     const surface::TriangleMesh surface = ball();
-    return measure_coverage(surface, points, surface::cloud_distances(surface, points, workers), cloud::measure_cloud(points, workers), removed, workers);
+    return measure_coverage(surface, points, surface::cloud_distances(surface, points, workers),
+                            cloud::measure_cloud(points, workers), removed, workers);
 }
 
 std::vector<Vec3> on_ball(std::size_t n, double radius = 1.0, const Vec3& centre = Vec3::Zero()) {
@@ -65,25 +67,32 @@ TEST_CASE("a second body without a surface is named, with its place in the units
     CHECK(warnings[1].text.find("280 points around (13.") != std::string::npos);
 }
 
-TEST_CASE("points that a filter removed count as a body where they lie together, not where they are strewn") {
-    CHECK(codes(warnings_of(coverage_of(on_ball(4000), on_ball(100, 0.1, Vec3(1.7, 0, 0))), {})) == std::vector<std::string>{"coverage.missing"});
+TEST_CASE("points that a filter removed count as a body where they lie together, not where they "
+          "are strewn") {
+    CHECK(codes(warnings_of(coverage_of(on_ball(4000), on_ball(100, 0.1, Vec3(1.7, 0, 0))), {})) ==
+          std::vector<std::string>{"coverage.missing"});
     RandomStream random(RandomKey{1, 0, 0, 0});
     std::vector<Vec3> strewn;
-    for (int i = 0; i < 300; ++i) strewn.emplace_back(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3));
+    for (int i = 0; i < 300; ++i)
+        strewn.emplace_back(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3));
     CHECK(warnings_of(coverage_of(on_ball(4000), strewn), {}).empty());
     // So many that most of them have a neighbour near by: still no body.
-    for (int i = 0; i < 400; ++i) strewn.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    for (int i = 0; i < 400; ++i)
+        strewn.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     const Coverage crowded = coverage_of(on_ball(4000), strewn);
     REQUIRE(!crowded.groups.empty());
     CHECK(crowded.groups[0].points > 50);
     CHECK(warnings_of(crowded, {}).empty());
     // A body with a fifteenth of the points per area is one.
-    CHECK(codes(warnings_of(coverage_of(on_ball(4000), on_ball(60, 0.5, Vec3(2, 0, 0))), {})) == std::vector<std::string>{"coverage.missing"});
+    CHECK(codes(warnings_of(coverage_of(on_ball(4000), on_ball(60, 0.5, Vec3(2, 0, 0))), {})) ==
+          std::vector<std::string>{"coverage.missing"});
 }
 
 TEST_CASE("a surface without points is a guess") {
     std::vector<Vec3> points = on_ball(8000);
-    points.erase(std::remove_if(points.begin(), points.end(), [](const Vec3& p) { return p.z() < 0.0; }), points.end());
+    points.erase(
+        std::remove_if(points.begin(), points.end(), [](const Vec3& p) { return p.z() < 0.0; }),
+        points.end());
     const Coverage found = coverage_of(points);
     CHECK(found.far_points == 0);
     CHECK(found.unsupported_share > 0.4);
@@ -94,7 +103,8 @@ TEST_CASE("a surface without points is a guess") {
 
 TEST_CASE("the number of threads changes nothing") {
     std::vector<Vec3> points = on_ball(3000);
-    const std::vector<Vec3> second = on_ball(280, 0.1, Vec3(1.7, 0, 0)), third = on_ball(90, 0.1, Vec3(0, 1.7, 0));
+    const std::vector<Vec3> second = on_ball(280, 0.1, Vec3(1.7, 0, 0)),
+                            third = on_ball(90, 0.1, Vec3(0, 1.7, 0));
     points.insert(points.end(), second.begin(), second.end());
     Workers workers(3);
     const Coverage one = coverage_of(points, third), three = coverage_of(points, third, &workers);

@@ -34,7 +34,9 @@ TEST_CASE("sha256 of known texts") {
     CHECK(run::sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
-TEST_CASE("the schema of format 1 is sound") { CHECK(run::experiment_schema()->problems().empty()); }
+TEST_CASE("the schema of format 1 is sound") {
+    CHECK(run::experiment_schema()->problems().empty());
+}
 
 TEST_CASE("a minimal experiment gets its defaults, its name from the file") {
     const run::LoadedExperiment loaded = load_text(minimal);
@@ -55,7 +57,9 @@ TEST_CASE("a minimal experiment gets its defaults, its name from the file") {
 }
 
 TEST_CASE("columns: names and numbers, three or six of them, for a file alone") {
-    const auto cloud = [](const std::string& text) { return minimal + "input: {cloud: {" + text + "}}\n"; };
+    const auto cloud = [](const std::string& text) {
+        return minimal + "input: {cloud: {" + text + "}}\n";
+    };
     const run::LoadedExperiment loaded = load_text(cloud("file: a.csv, columns: [x, 3, '2']"));
     CHECK(loaded.experiment.input->cloud.columns == std::vector<std::string>{"x", "3", "2"});
     CHECK(contains(run::resolved_text(loaded), "columns: [x, \"3\", \"2\"]"));
@@ -69,8 +73,10 @@ TEST_CASE("columns: names and numbers, three or six of them, for a file alone") 
 TEST_CASE("volumes: every format, one that can be read back among them") {
     CHECK(load_text(minimal + "output: {volume: [mesh, msh, dsc]}\n").experiment.output.volume ==
           std::vector<std::string>{"mesh", "msh", "dsc"});
-    CHECK(contains(fault(minimal + "output: {volume: [msh, mesh]}\n"), "'volume' needs vtu or dsc"));
-    CHECK(contains(fault(minimal + "output: {volume: [mdpa]}\n"), "is not one of vtu, dsc, msh, mesh"));
+    CHECK(
+        contains(fault(minimal + "output: {volume: [msh, mesh]}\n"), "'volume' needs vtu or dsc"));
+    CHECK(contains(fault(minimal + "output: {volume: [mdpa]}\n"),
+                   "is not one of vtu, dsc, msh, mesh"));
 }
 
 TEST_CASE("the resolved text reproduces the experiment") {
@@ -78,7 +84,8 @@ TEST_CASE("the resolved text reproduces the experiment") {
         minimal +
         "name: a.b-c_1\nseed: 7\nstop: {speed: 0.5}\nobservers: [{type: counter}]\n"
         "input: {cloud: {sample: {n: 50}, filters: [{type: every_nth}]}, normalize: {}}\n";
-    const run::LoadedExperiment loaded = load_text(text, {"velocity.factor=0.25", "schedule.0.steps=9"});
+    const run::LoadedExperiment loaded =
+        load_text(text, {"velocity.factor=0.25", "schedule.0.steps=9"});
     CHECK(loaded.experiment.velocity.params.at("factor").as_real() == 0.25);
     CHECK(loaded.experiment.schedule[0].steps == 9U);
     CHECK(loaded.experiment.input->normalize->scale == 0.9);
@@ -91,13 +98,15 @@ TEST_CASE("the resolved text reproduces the experiment") {
 TEST_CASE("faults name the place and what is accepted") {
     CHECK(contains(fault("dsc: 1\n"), "'velocity' is missing"));
     CHECK(contains(fault("dsc: 2\n" + minimal.substr(7)), "dsc"));
-    CHECK(contains(fault(minimal + "velocty: 1\n"), ":6:1: error: unknown key 'velocty' in the experiment"));
+    CHECK(contains(fault(minimal + "velocty: 1\n"),
+                   ":6:1: error: unknown key 'velocty' in the experiment"));
     CHECK(contains(fault(minimal + "velocty: 1\n"), "did you mean 'velocity'?"));
     CHECK(contains(fault(minimal, {"velocity.type=linnear"}), "did you mean 'linear'?"));
     CHECK(contains(fault(minimal, {"velocity.factor=2"}), "[-1, 1]"));
     CHECK(contains(fault(minimal, {"velocity.factor=2"}), "command line"));
     CHECK(contains(fault(minimal, {"schedule=[]"}), "schedule"));
-    CHECK(contains(fault(minimal, {"schedule=[{every: 2}]"}), "needs 'steps' or 'refine', or both"));
+    CHECK(
+        contains(fault(minimal, {"schedule=[{every: 2}]"}), "needs 'steps' or 'refine', or both"));
     CHECK(contains(fault(minimal, {"schedule=[{steps: 3, every: 2}]"}),
                    "'every' must be given if an item has both"));
     CHECK(contains(fault(minimal, {"schedule=[{steps: 3, refine: {type: all}}]"}),
@@ -109,14 +118,17 @@ TEST_CASE("faults name the place and what is accepted") {
                    "exactly one of 'file' and 'sample'"));
     CHECK(contains(fault(minimal, {"input={cloud: {sample: {shape: cup}}}"}),
                    "'cup' is not one of teapot, sphere"));
-    CHECK(contains(fault(minimal, {"input={cloud: {sample: {}}, normalize: {scale: 2}}"}), "(0, 1.5]"));
-    CHECK(contains(fault(minimal, {"input={cloud: {sample: {}, filters: [{type: voxels}]}}"}), "every_nth"));
+    CHECK(contains(fault(minimal, {"input={cloud: {sample: {}}, normalize: {scale: 2}}"}),
+                   "(0, 1.5]"));
+    CHECK(contains(fault(minimal, {"input={cloud: {sample: {}, filters: [{type: voxels}]}}"}),
+                   "every_nth"));
     CHECK(contains(fault(minimal, {"output.surface=[dxf]"}), "dxf"));
     CHECK(contains(fault(minimal, {"output.surface=[]"}), "surface"));
 }
 
 TEST_CASE("all faults at once") {
-    const std::string text = fault(minimal + "speed: 1\n", {"velocity.factor=x", "initial_mesh.cells=0"});
+    const std::string text =
+        fault(minimal + "speed: 1\n", {"velocity.factor=x", "initial_mesh.cells=0"});
     CHECK(contains(text, "unknown key 'speed'"));
     CHECK(contains(text, "factor"));
     CHECK(contains(text, "cells"));
@@ -135,26 +147,30 @@ TEST_CASE("an unset DSC_DATA is explained") {
         FAIL("no error");
     } catch (const ConfigError& error) {
         CHECK(contains(error.what(), "a.yaml:6:"));
-        CHECK(contains(error.what(),
-                       "DSC_DATA is the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj"));
+        CHECK(contains(
+            error.what(),
+            "DSC_DATA is the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj"));
         CHECK(contains(error.what(), "they are public"));
     }
     options.environment = [](const std::string& name) -> std::optional<std::string> {
         if (name == "DSC_DATA") return "/clouds";
         return std::nullopt;
     };
-    CHECK(run::load_experiment(file, {}, strategies.loader(), options).experiment.input->cloud.file ==
-          "/clouds/cow.obj");
+    CHECK(
+        run::load_experiment(file, {}, strategies.loader(), options).experiment.input->cloud.file ==
+        "/clouds/cow.obj");
 }
 
 TEST_CASE("all that format 1 can have written is accepted without a word") {
-    const std::string text = minimal + "output: {checkpoint: {every: 5}, series: {every: 2}, report: true}\n";
+    const std::string text =
+        minimal + "output: {checkpoint: {every: 5}, series: {every: 2}, report: true}\n";
     const run::LoadedExperiment loaded = load_text(text);
     CHECK(loaded.warnings.empty());
     CHECK(load_text(minimal + "output: {report: false}\n").warnings.empty());
 }
 
-TEST_CASE("plugins are loaded before the strategies are judged, relative to the file that names them") {
+TEST_CASE(
+    "plugins are loaded before the strategies are judged, relative to the file that names them") {
     const Folder folder;
     const std::string file = folder.write("sub/a.yaml", minimal + "plugins: [../lib, /abs/b.so]\n");
     const dsc::test::Strategies strategies;
@@ -186,9 +202,12 @@ TEST_CASE("the hash depends on what is computed, not on names of files") {
     CHECK(with(one) != with(other));
     CHECK_THROWS_AS(with("/none/at/all.xyz"), IoError);
     // A file parameter of a strategy counts by its content too.
-    CHECK(hash(minimal, {"initial_mesh.file=" + one}) == hash(minimal, {"initial_mesh.file=" + two}));
-    CHECK(hash(minimal, {"initial_mesh.file=" + one}) != hash(minimal, {"initial_mesh.file=" + other}));
+    CHECK(hash(minimal, {"initial_mesh.file=" + one}) ==
+          hash(minimal, {"initial_mesh.file=" + two}));
+    CHECK(hash(minimal, {"initial_mesh.file=" + one}) !=
+          hash(minimal, {"initial_mesh.file=" + other}));
     const auto files = run::input_files(
-        load_text(minimal + "input: {cloud: {file: " + one + "}}\n", {"initial_mesh.file=" + two}), lookup);
+        load_text(minimal + "input: {cloud: {file: " + one + "}}\n", {"initial_mesh.file=" + two}),
+        lookup);
     CHECK(files == std::vector<std::string>{one, two});
 }

@@ -1,6 +1,11 @@
 #pragma once
 // Small strategies for experiments in tests, and a folder that cleans up after itself.
 
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
 #include <stdlib.h>
 
 #include <dsc/cloud/filter.hpp>
@@ -8,10 +13,6 @@
 #include <dsc/hooks/cloud_filter.hpp>
 #include <dsc/plugin/catalogue.hpp>
 #include <dsc/run/experiment.hpp>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
 
 #include "../plugin/fake_catalogue.hpp"
 
@@ -48,7 +49,8 @@ private:
     fs::path path_;
 };
 
-/// A box [-1.5, 1.5]^3 of N^3 five-tet cells; tets with their barycentre in [-half, half]^3 have label 1.
+/// A box [-1.5, 1.5]^3 of N^3 five-tet cells; tets with their barycentre in [-half, half]^3 have
+/// label 1.
 class BoxMesh final : public hooks::InitialMesh {
 public:
     struct Params {
@@ -58,7 +60,10 @@ public:
     };
     static void declare(config::ParamSchema<Params>& s) {
         s.integer("cells", &Params::cells).range(1, 100).unit("1").doc("Cells along an edge.");
-        s.real("half", &Params::half).range(0, 2).unit("length").doc("Half the edge of the cube inside.");
+        s.real("half", &Params::half)
+            .range(0, 2)
+            .unit("length")
+            .doc("Half the edge of the cube inside.");
         s.file("file", &Params::file).doc("A file that nobody reads.");
     }
     BoxMesh(const Params& params, const plugin::Setup&) : params_(params) {}
@@ -93,7 +98,8 @@ private:
         std::array<std::uint32_t, 8> c{};
         for (int b = 0; b < 8; ++b)
             c[static_cast<std::size_t>(b)] = id(i + (b & 1), j + ((b >> 1) & 1), k + (b >> 2));
-        // The regular tet of even cells has the corners with an even number of ones, that of odd cells the others.
+        // The regular tet of even cells has the corners with an even number of ones, that of odd
+        // cells the others.
         const bool odd = ((i + j + k) & 1) != 0;
         const std::array<std::uint32_t, 4> in =
             odd ? std::array{c[1], c[2], c[4], c[7]} : std::array{c[0], c[3], c[5], c[6]};
@@ -131,10 +137,12 @@ public:
     Linear(const Params& params, const plugin::Setup&) : params_(params) {}
     void prepare(const hooks::StepContext& context) override { surface_ = &context.surface; }
     void evaluate(hooks::Range range, std::span<Vec3> out) const override {
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = at(surface_->positions[range.begin + i]);
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = at(surface_->positions[range.begin + i]);
     }
     bool can_sample() const override { return params_.sampled; }
-    void sample(std::span<const Vec3> points, std::span<const Vec3>, std::span<Vec3> out) const override {
+    void sample(std::span<const Vec3> points, std::span<const Vec3>,
+                std::span<Vec3> out) const override {
         for (std::size_t i = 0; i < out.size(); ++i) out[i] = at(points[i]);
     }
 
@@ -150,27 +158,37 @@ public:
     struct Params {};
     static void declare(config::ParamSchema<Params>&) {}
     NoRepair(const Params&, const plugin::Setup&) {}
-    void propose(const hooks::StepContext&, const repair::RepairRound&, std::vector<repair::Request>&) override {}
-    repair::TopologyLimits topology_limits() const override { return {.thickness = 0.0, .min_component = 0.0}; }
+    void propose(const hooks::StepContext&, const repair::RepairRound&,
+                 std::vector<repair::Request>&) override {}
+    repair::TopologyLimits topology_limits() const override {
+        return {.thickness = 0.0, .min_component = 0.0};
+    }
 };
 
-/// Asks every round for two Laplacian smoothings, of a class each: the second, of an interface vertex, is never granted.
+/// Asks every round for two Laplacian smoothings, of a class each: the second, of an interface
+/// vertex, is never granted.
 class Counted final : public hooks::Improvement {
 public:
     struct Params {};
     static void declare(config::ParamSchema<Params>&) {}
     Counted(const Params&, const plugin::Setup&) {}
-    void propose(const hooks::StepContext&, const repair::RepairRound& round, std::vector<repair::Request>& out) override {
+    void propose(const hooks::StepContext&, const repair::RepairRound& round,
+                 std::vector<repair::Request>& out) override {
         const mesh::Complex& c = round.complex;
         ask(c, out, 1, [&c](mesh::VertexId v) { return !c.on_interface(v) && !c.on_box(v); });
         ask(c, out, 2, [&c](mesh::VertexId v) { return c.on_interface(v); });
     }
-    repair::TopologyLimits topology_limits() const override { return {.thickness = 0.0, .min_component = 0.0}; }
-    std::vector<std::string> repair_classes() const override { return {"never", "inside", "surface"}; }
+    repair::TopologyLimits topology_limits() const override {
+        return {.thickness = 0.0, .min_component = 0.0};
+    }
+    std::vector<std::string> repair_classes() const override {
+        return {"never", "inside", "surface"};
+    }
 
 private:
     template <class Wanted>
-    static void ask(const mesh::Complex& c, std::vector<repair::Request>& out, std::uint8_t repair_class, const Wanted& wanted) {
+    static void ask(const mesh::Complex& c, std::vector<repair::Request>& out,
+                    std::uint8_t repair_class, const Wanted& wanted) {
         mesh::VertexId v = 0;
         while (!c.vertex_alive(v) || !wanted(v)) ++v;
         repair::Request& request = out.emplace_back();
@@ -234,7 +252,10 @@ public:
         std::size_t nth = 2;
     };
     static void declare(config::ParamSchema<Params>& s) {
-        s.integer("nth", &Params::nth).range(1, 1000).unit("points").doc("Of so many points one stays.");
+        s.integer("nth", &Params::nth)
+            .range(1, 1000)
+            .unit("points")
+            .doc("Of so many points one stays.");
     }
     EveryNth(const Params& params, const plugin::Setup&) : params_(params) {}
     cloud::Filtered apply(const cloud::Cloud& cloud, const hooks::FilterContext&) override {
@@ -244,7 +265,8 @@ public:
         result.report.kept = kept.size();
         result.report.removed = cloud.points.size() - kept.size();
         result.report.reasons = {{"in between", result.report.removed}};
-        result.report.figures = {{"part_kept", static_cast<double>(kept.size()) / static_cast<double>(cloud.points.size())}};
+        result.report.figures = {{"part_kept", static_cast<double>(kept.size()) /
+                                                   static_cast<double>(cloud.points.size())}};
         return result;
     }
 
@@ -290,9 +312,8 @@ public:
     mutable std::vector<std::string> asked;
 };
 
-inline const std::string minimal =
-    "dsc: 1\ninitial_mesh: {type: box}\nvelocity: {type: linear}\nimprovement: {type: none}\nschedule: "
-    "[{steps: 2}]\n";
+inline const std::string minimal = "dsc: 1\ninitial_mesh: {type: box}\nvelocity: {type: "
+                                   "linear}\nimprovement: {type: none}\nschedule: [{steps: 2}]\n";
 
 /// The experiment `text`, with overrides.
 inline run::LoadedExperiment load_text(const std::string& text,

@@ -1,9 +1,10 @@
 // Inputs, run folders, measures and tables: everything of a run that needs no kernel.
+#include <cmath>
+
 #include <unistd.h>
 
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/run/figures.hpp>
@@ -67,7 +68,8 @@ TEST_CASE("input: the same sample for the same seed, filters in order, normalise
     CHECK(small.cloud.points[1] == plain.cloud.points[2]);
     REQUIRE(small.report.filters[1].reasons.size() == 1);
     CHECK(small.report.filters[1].reasons[0].count == 250);
-    CHECK(small.report.filters[1].figures == std::vector<std::pair<std::string, double>>{{"part_kept", 0.5}});
+    CHECK(small.report.filters[1].figures ==
+          std::vector<std::pair<std::string, double>>{{"part_kept", 0.5}});
     CHECK(small.target.box().high.maxCoeff() == doctest::Approx(0.5));
     const Vec3 back = small.target.transform().inverse(small.target[0]);
     CHECK((back - small.cloud.points[0]).norm() < 1e-14);
@@ -82,7 +84,9 @@ TEST_CASE("input: a filter that cannot be made is told before the cloud is read"
         FAIL("no error");
     } catch (const PluginError& error) {
         CHECK(error.code() == "plugin.unknown_strategy");
-        CHECK(std::string(error.what()).find("input.cloud.filters.1: there is no filter 'voxels'") == 0);
+        CHECK(
+            std::string(error.what()).find("input.cloud.filters.1: there is no filter 'voxels'") ==
+            0);
     }
 }
 
@@ -103,9 +107,9 @@ TEST_CASE("input: without normalize a cloud outside the box is refused") {
 TEST_CASE("input: the columns of a text cloud, and its colours all the way to the target") {
     const Folder folder;
     run::Input input;
-    input.cloud.file = folder.write("a.csv",
-                                    "id,north,east,up,r,g,b\n1,0,0,0,255,0,0\n2,0,1,0,0,255,0\n3,1,0,0,0,0,255\n"
-                                    "4,0,0,1,9,8,7\n5,0,0,1,1,2,3\n");
+    input.cloud.file = folder.write(
+        "a.csv", "id,north,east,up,r,g,b\n1,0,0,0,255,0,0\n2,0,1,0,0,255,0\n3,1,0,0,0,0,255\n"
+                 "4,0,0,1,9,8,7\n5,0,0,1,1,2,3\n");
     input.cloud.columns = {"east", "north", "4", "r", "g", "b"};
     input.cloud.filters = {filter("distinct")};
     input.normalize = run::NormalizeInput{};
@@ -145,7 +149,9 @@ TEST_CASE("run folder: takes an empty folder or one of ours, refuses all others 
     // A run that is killed at its very first moment leaves this and no status.json.
     folder.write("killed/.status.json.4711-0.tmp", "{\"for");
     folder.write("killed/checkpoint/.step_3.dscstate.4711-9.tmp", "dsc");
-    CHECK_THROWS_AS(run::RunFolder(folder.path() / "killed"), UsageError);  // no run makes a checkpoint before its status
+    CHECK_THROWS_AS(run::RunFolder(folder.path() / "killed"), UsageError);  // no run makes a
+                                                                            // checkpoint before its
+                                                                            // status
     fs::remove_all(folder.path() / "killed/checkpoint");
     folder.write("killed/.lock", "4711 elsewhere\n");  // stale: no process holds it
     {
@@ -164,7 +170,8 @@ TEST_CASE("run folder: takes an empty folder or one of ours, refuses all others 
     CHECK(fs::exists(resumed.file("checkpoint/step_3.dscstate")));
     CHECK_FALSE(fs::exists(resumed.file("checkpoint/.step_3.dscstate.4711-9.tmp")));
     CHECK_FALSE(fs::exists(resumed.file("series/.step_3.vtp.4711-3.tmp")));
-    for (const std::string name : {".notes.tmp", ".notes.1-2x.tmp", "notes.1-2.tmp", ".1-2.tmp", "a.tmp", ".tmp"}) {
+    for (const std::string name :
+         {".notes.tmp", ".notes.1-2x.tmp", "notes.1-2.tmp", ".1-2.tmp", "a.tmp", ".tmp"}) {
         CAPTURE(name);
         folder.write("notes_" + name + "/" + name, "mine");
         CHECK_THROWS_AS(run::RunFolder(folder.path() / ("notes_" + name)), UsageError);
@@ -216,7 +223,9 @@ TEST_CASE("metrics: empty cells without a cloud, columns of observers") {
     CHECK(run::csv_row(row) == "3,0,0,0,0,0.1,0,0,,,,0,0,0,0,0,0,0,0,0,0,0,0.5\n");
     row.observers.clear();
     CHECK(run::csv_row(row, 1) == "3,0,0,0,0,0.1,0,0,,,,0,0,0,0,0,0,0,0,0,0,0,\n");
-    const auto commas = [](const std::string& text) { return std::count(text.begin(), text.end(), ','); };
+    const auto commas = [](const std::string& text) {
+        return std::count(text.begin(), text.end(), ',');
+    };
     CHECK(commas(header) == commas(run::csv_row(row, 1)));
 }
 
@@ -231,7 +240,8 @@ TEST_CASE("metrics: a column has the cell of its figure, and a row of the docume
     const std::string page = read_file(std::string(DSC_SOURCE_DIR) + "/share/doc/experiment.md");
     std::string table;
     for (const run::MetricsColumn& column : run::metrics_columns) {
-        table += "| `" + std::string(column.name) + "` | " + std::string(column.unit) + " | " + std::string(column.meaning) + " |\n";
+        table += "| `" + std::string(column.name) + "` | " + std::string(column.unit) + " | " +
+                 std::string(column.meaning) + " |\n";
     }
     CHECK(page.find(table) != std::string::npos);
 }
@@ -246,10 +256,11 @@ TEST_CASE("events are told in the input's coordinates") {
     event.volume = 1.0;
     event.thickness = 0.25;
     const cloud::Transform transform{Vec3(10, 20, 30), 2.0};
-    CHECK(run::event_line(event, transform) ==
-          "{\"kind\":\"handle_opened\",\"step\":12,\"place\":[10.25,20,29.5],\"label\":1,\"tets\":4,"
-          "\"volume\":0.125,"
-          "\"thickness\":0.25}\n");
+    CHECK(
+        run::event_line(event, transform) ==
+        "{\"kind\":\"handle_opened\",\"step\":12,\"place\":[10.25,20,29.5],\"label\":1,\"tets\":4,"
+        "\"volume\":0.125,"
+        "\"thickness\":0.25}\n");
 }
 
 TEST_CASE("measure: a sound box, and each of its possible defects") {

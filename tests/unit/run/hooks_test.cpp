@@ -1,13 +1,15 @@
-// What the simulation promises strategies: how often it calls them, what they are told, and what becomes of what they publish.
+// What the simulation promises strategies: how often it calls them, what they are told, and what
+// becomes of what they publish.
+#include <cmath>
+#include <map>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/error.hpp>
 #include <dsc/io/series.hpp>
-#include <dsc/run/simulation.hpp>
 #include <dsc/run/measure.hpp>
 #include <dsc/run/run_experiment.hpp>
-#include <map>
+#include <dsc/run/simulation.hpp>
 
 #include "fakes.hpp"
 
@@ -17,7 +19,8 @@ using dsc::test::minimal;
 
 namespace {
 
-// Counts its calls. The first steps move everything, the later ones nothing; it is done after `last` steps.
+// Counts its calls. The first steps move everything, the later ones nothing; it is done after
+// `last` steps.
 class Staged final : public hooks::VelocityField {
 public:
     explicit Staged(std::uint64_t last) : last_(last) {}
@@ -32,7 +35,8 @@ public:
         order += 'p';
     }
     void evaluate(hooks::Range range, std::span<Vec3> out) const override {
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = -0.01 * surface_->positions[range.begin + i];
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = -0.01 * surface_->positions[range.begin + i];
     }
     bool can_sample() const override { return true; }
     void sample(std::span<const Vec3>, std::span<const Vec3>, std::span<Vec3> out) const override {
@@ -74,7 +78,8 @@ public:
         const surface::SurfaceView& view = context.step.surface;
         passes_seen.push_back(context.pass);
         with_velocity += context.velocity != nullptr ? 1 : 0;
-        with_height += !context.step.attributes.empty() && context.step.attributes[0].name == "height" ? 1 : 0;
+        with_height +=
+            !context.step.attributes.empty() && context.step.attributes[0].name == "height" ? 1 : 0;
         grown += view.vertex_count() > vertices ? 1 : 0;
         vertices = view.vertex_count();
         lengths_seen.push_back(context.step.target_length);
@@ -88,7 +93,8 @@ struct Fixture {
     run::Strategies strategies;
     Staged* velocity;
     Remesher* refinement = nullptr;
-    explicit Fixture(const std::string& schedule, std::uint64_t last = 3) : loaded(load_text(minimal, {"schedule=" + schedule})) {
+    explicit Fixture(const std::string& schedule, std::uint64_t last = 3)
+        : loaded(load_text(minimal, {"schedule=" + schedule})) {
         static const dsc::test::Strategies catalogue;
         strategies = run::make_strategies(loaded.experiment, catalogue);
         auto staged = std::make_unique<Staged>(last);
@@ -101,12 +107,15 @@ struct Fixture {
             r = std::move(remesher);
         }
     }
-    run::SimulationResult simulate(const run::SimulationOptions& options = {}) { return run::simulate(loaded.experiment, strategies, nullptr, options); }
+    run::SimulationResult simulate(const run::SimulationOptions& options = {}) {
+        return run::simulate(loaded.experiment, strategies, nullptr, options);
+    }
 };
 
 }  // namespace
 
-TEST_CASE("advance runs once per step, and only a refinement that samples prepares the velocity again") {
+TEST_CASE(
+    "advance runs once per step, and only a refinement that samples prepares the velocity again") {
     for (const bool sampling : {false, true}) {
         Fixture f("[{steps: 3, every: 1, refine: {type: all}}, {refine: {type: all}}]");
         for (auto& r : f.strategies.refinements) static_cast<Remesher&>(*r).sampling = sampling;
@@ -128,11 +137,13 @@ TEST_CASE("until: finished ends a series as converged, and belongs to one with s
     CHECK(h.simulate().totals.status == run::Status::max_steps);
     Fixture deaf("[{steps: 9}]");
     CHECK(deaf.simulate().totals.steps == 9);
-    CHECK_THROWS_AS(load_text(minimal, {"schedule=[{refine: {type: all}, until: finished}]"}), ConfigError);
+    CHECK_THROWS_AS(load_text(minimal, {"schedule=[{refine: {type: all}, until: finished}]"}),
+                    ConfigError);
     CHECK_THROWS_AS(load_text(minimal, {"schedule=[{steps: 2, until: tomorrow}]"}), ConfigError);
 }
 
-TEST_CASE("a refinement is called with fresh views until it asks for nothing, or its passes are over") {
+TEST_CASE(
+    "a refinement is called with fresh views until it asks for nothing, or its passes are over") {
     Fixture f("[{refine: {type: all}}]");
     f.refinement->most = 8;
     f.refinement->wanted = 3;
@@ -172,18 +183,23 @@ TEST_CASE("where a refinement owns the sizing, steps leave no tet below 0.02; el
         const mesh::TetMesh mesh = f.simulate().mesh;
         double least = 1.0;
         for (const auto& [a, b, c, d] : mesh.tets) {
-            least = std::min(least, geometry::tet_quality(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]));
+            least = std::min(least, geometry::tet_quality(mesh.points[a], mesh.points[b],
+                                                          mesh.points[c], mesh.points[d]));
         }
         CHECK((least >= 0.02) == owns);
     }
 }
 
-TEST_CASE("attributes are carried to the end of the run, and a run that was stopped goes on to the same bytes") {
-    const std::string schedule = "[{steps: 4, every: 2, refine: {type: all}}, {refine: {type: all}}]";
+TEST_CASE("attributes are carried to the end of the run, and a run that was stopped goes on to the "
+          "same bytes") {
+    const std::string schedule =
+        "[{steps: 4, every: 2, refine: {type: all}}, {refine: {type: all}}]";
     std::map<std::uint64_t, std::string> states;
     run::SimulationOptions options;
     options.checkpoint_every = 1;
-    options.on_checkpoint = [&](std::string state, std::uint64_t steps) { states[steps] = std::move(state); };
+    options.on_checkpoint = [&](std::string state, std::uint64_t steps) {
+        states[steps] = std::move(state);
+    };
     std::size_t with_attributes = 0;
     options.on_state = [&](const hooks::StepContext& context, const mesh::Complex&) {
         if (context.attributes.empty()) return;
@@ -223,7 +239,9 @@ TEST_CASE("attributes are carried to the end of the run, and a run that was stop
         on.resume = states[from];
         const run::SimulationResult end = resumed.simulate(on);
         CHECK(end.mesh.points == whole.mesh.points);
-        CHECK(std::equal(end.attributes[0].values.begin(), end.attributes[0].values.end(), whole.attributes[0].values.begin(),
-                         [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }));
+        CHECK(std::equal(end.attributes[0].values.begin(), end.attributes[0].values.end(),
+                         whole.attributes[0].values.begin(), [](double a, double b) {
+                             return a == b || (std::isnan(a) && std::isnan(b));
+                         }));
     }
 }

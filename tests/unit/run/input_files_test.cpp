@@ -1,10 +1,10 @@
-#include <dsc/base/error.hpp>
-#include <dsc/run/input_files.hpp>
-#include <dsc/run/sha256.hpp>
+#include <filesystem>
 
 #include <doctest/doctest.h>
 
-#include <filesystem>
+#include <dsc/base/error.hpp>
+#include <dsc/run/input_files.hpp>
+#include <dsc/run/sha256.hpp>
 
 #include "fakes.hpp"
 

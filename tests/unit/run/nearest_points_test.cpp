@@ -1,4 +1,5 @@
-// The nearest points of a view's vertices: those of a search for all, and none is searched for twice.
+// The nearest points of a view's vertices: those of a search for all, and none is searched for
+// twice.
 #include "run/nearest_points.hpp"
 
 #include <doctest/doctest.h>
@@ -12,11 +13,13 @@ namespace {
 std::vector<Vec3> cloud_points(std::uint64_t seed) {
     RandomStream random(RandomKey{seed, 0, 0, 0});
     std::vector<Vec3> points;
-    for (int i = 0; i < 500; ++i) points.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    for (int i = 0; i < 500; ++i)
+        points.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     return points;
 }
 
-void check_all(const run::NearestPoints& nearest, const surface::SurfaceView& view, const cloud::NearestSearch& search) {
+void check_all(const run::NearestPoints& nearest, const surface::SurfaceView& view,
+               const cloud::NearestSearch& search) {
     REQUIRE(nearest.all().size() == view.vertex_count());
     for (std::size_t v = 0; v < view.vertex_count(); ++v) {
         CHECK(nearest.all()[v].index == search.nearest(view.positions[v]).index);
@@ -26,7 +29,8 @@ void check_all(const run::NearestPoints& nearest, const surface::SurfaceView& vi
 
 }  // namespace
 
-TEST_CASE("after moves, births and deaths of vertices the nearest points are those of a search for all") {
+TEST_CASE(
+    "after moves, births and deaths of vertices the nearest points are those of a search for all") {
     const std::vector<Vec3> points = cloud_points(1);
     const cloud::NearestSearch search(points);
     RandomStream random(RandomKey{2, 0, 0, 0});
@@ -47,14 +51,17 @@ TEST_CASE("after moves, births and deaths of vertices the nearest points are tho
             if (fate < 0.2) continue;
             add(view.births[v], fate < 0.4 ? Vec3(view.positions[v] + shift) : view.positions[v]);
         }
-        for (int k = 0; k < 60; ++k) add(next_birth++, Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+        for (int k = 0; k < 60; ++k)
+            add(next_birth++,
+                Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
         view = next;
         nearest.refresh(view, search, round % 2 == 0 ? nullptr : &two);
         check_all(nearest, view, search);
     }
 }
 
-TEST_CASE("a vertex that has not moved keeps its point without a search, one that has moved is searched for") {
+TEST_CASE("a vertex that has not moved keeps its point without a search, one that has moved is "
+          "searched for") {
     const std::vector<Vec3> points = cloud_points(3), others = cloud_points(4);
     const cloud::NearestSearch first(points), second(others);
     surface::SurfaceView view;

@@ -1,16 +1,17 @@
 // What a result says about where it comes from, and what it keeps to itself.
-#include <doctest/doctest.h>
+#include <algorithm>
+#include <cctype>
 
 #include <pwd.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cctype>
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
 #include <dsc/base/read_file.hpp>
 #include <dsc/run/provenance.hpp>
 #include <dsc/run/sha256.hpp>
-#include <nlohmann/json.hpp>
 
 #include "fakes.hpp"
 
@@ -24,10 +25,13 @@ namespace {
 
 /// Whether `word` stands in `text` as a word of its own.
 bool has_word(const std::string& text, const std::string& word) {
-    const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    const auto letter = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+    };
     for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
         const std::size_t end = at + word.size();
-        if ((at == 0 || !letter(text[at - 1])) && (end == text.size() || !letter(text[end]))) return true;
+        if ((at == 0 || !letter(text[at - 1])) && (end == text.size() || !letter(text[end])))
+            return true;
     }
     return false;
 }
@@ -59,7 +63,8 @@ TEST_CASE("the home folder becomes ~ where a path begins with it, and nowhere el
     const std::string home = "/home/ann";
     CHECK(run::without_home("/home/ann/a.ply", home) == "~/a.ply");
     CHECK(run::without_home("/home/ann", home) == "~");
-    CHECK(run::without_home("input.cloud.file=/home/ann/a.ply", home) == "input.cloud.file=~/a.ply");
+    CHECK(run::without_home("input.cloud.file=/home/ann/a.ply", home) ==
+          "input.cloud.file=~/a.ply");
     CHECK(run::without_home("/home/ann/x:/home/ann/y", home) == "~/x:~/y");
     CHECK(run::without_home("/home/anna/a.ply", home) == "/home/anna/a.ply");
     CHECK(run::without_home("/home/ann.old/a", home) == "/home/ann.old/a");
@@ -83,9 +88,11 @@ TEST_CASE("provenance: everything that made the result, nobody who made it") {
 
     for (const std::string& file : {near, far}) {
         CAPTURE(file);
-        const run::LoadedExperiment loaded = load_text(minimal + "seed: 77\ninput: {cloud: {file: " + file + "}}\n");
+        const run::LoadedExperiment loaded =
+            load_text(minimal + "seed: 77\ninput: {cloud: {file: " + file + "}}\n");
         const std::string text = run::provenance_json(
-            loaded, catalogue, "the hash", {home.string() + "/bin/dsc", "run", "a.yaml", "input.cloud.file=" + file}, 3,
+            loaded, catalogue, "the hash",
+            {home.string() + "/bin/dsc", "run", "a.yaml", "input.cloud.file=" + file}, 3,
             "2024-05-06T07:08:09Z", "2024-05-06T07:08:19Z", 10.25);
         const auto json = nlohmann::json::parse(text);
 
@@ -99,7 +106,8 @@ TEST_CASE("provenance: everything that made the result, nobody who made it") {
         CHECK(json["usage"]["wall_s"] == 10.25);
         CHECK(json["usage"]["cpu_s"].get<double>() > 0.0);
         CHECK(json["usage"]["peak_rss_mb"].get<double>() > 1.0);
-        for (const char* name : {"dsc", "compiler", "build", "eigen", "boost", "pcl", "openmesh", "vtk", "embree", "yaml-cpp", "fmt"}) {
+        for (const char* name : {"dsc", "compiler", "build", "eigen", "boost", "pcl", "openmesh",
+                                 "vtk", "embree", "yaml-cpp", "fmt"}) {
             CAPTURE(name);
             CHECK_FALSE(json["versions"][name].get<std::string>().empty());
         }
@@ -121,6 +129,7 @@ TEST_CASE("provenance: everything that made the result, nobody who made it") {
         CHECK_FALSE(has_word(text, machine.nodename));
         if (user != nullptr) CHECK_FALSE(has_word(text, user->pw_name));
     }
-    CHECK(nlohmann::json::parse(run::provenance_json(load_text(minimal), catalogue, "", {}, 1, "now", "", 0.0))["finished"]
+    CHECK(nlohmann::json::parse(run::provenance_json(load_text(minimal), catalogue, "", {}, 1,
+                                                     "now", "", 0.0))["finished"]
               .is_null());
 }

@@ -1,13 +1,14 @@
 // The simulation with the real kernel and small strategies.
-#include <doctest/doctest.h>
-
 #include <cmath>
+#include <map>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
 #include <dsc/base/error.hpp>
-#include <dsc/run/simulation.hpp>
 #include <dsc/run/measure.hpp>
 #include <dsc/run/run_experiment.hpp>
-#include <map>
-#include <nlohmann/json.hpp>
+#include <dsc/run/simulation.hpp>
 
 #include "fakes.hpp"
 
@@ -31,12 +32,15 @@ Simulated simulate(const std::vector<std::string>& overrides, Workers* workers =
     Simulated simulated;
     run::SimulationOptions options;
     options.workers = workers;
-    options.on_step = [&](const run::StepMetrics& row, std::uint64_t) { simulated.rows.push_back(row); };
+    options.on_step = [&](const run::StepMetrics& row, std::uint64_t) {
+        simulated.rows.push_back(row);
+    };
     simulated.result = run::simulate(loaded.experiment, strategies, nullptr, options);
     return simulated;
 }
 
-// Goes half of the way to the nearest point, and counts where the host's answer is not the search's.
+// Goes half of the way to the nearest point, and counts where the host's answer is not the
+// search's.
 class Homing final : public hooks::VelocityField {
 public:
     void prepare(const hooks::StepContext& context) override {
@@ -46,7 +50,8 @@ public:
         wrong += nearest_.size() == surface_->vertex_count() ? 0 : 1;
         for (std::size_t i = 0; i < nearest_.size(); ++i) {
             const cloud::Neighbour asked = cloud_->search().nearest(surface_->positions[i]);
-            wrong += nearest_[i].index == asked.index && nearest_[i].distance == asked.distance ? 0 : 1;
+            wrong +=
+                nearest_[i].index == asked.index && nearest_[i].distance == asked.distance ? 0 : 1;
         }
     }
     void evaluate(hooks::Range range, std::span<Vec3> out) const override {
@@ -65,7 +70,8 @@ private:
 
 }  // namespace
 
-TEST_CASE("strategies find the cloud point nearest to each vertex, also after a refinement, and the figures are theirs") {
+TEST_CASE("strategies find the cloud point nearest to each vertex, also after a refinement, and "
+          "the figures are theirs") {
     cloud::Normalized points;
     for (const double x : {-0.4, 0.0, 0.4}) {
         for (const double y : {-0.4, 0.0, 0.4}) points.points.emplace_back(x, y, 0.1 * x - 0.3);
@@ -89,7 +95,10 @@ TEST_CASE("strategies find the cloud point nearest to each vertex, also after a 
             sum += distance;
             largest = std::max(largest, distance);
         }
-        wrong += last.vertex_to_cloud_mean == sum / static_cast<double>(context.surface.vertex_count()) ? 0 : 1;
+        wrong +=
+            last.vertex_to_cloud_mean == sum / static_cast<double>(context.surface.vertex_count())
+                ? 0
+                : 1;
         wrong += last.vertex_to_cloud_max == largest ? 0 : 1;
         ++states;
     };
@@ -116,7 +125,8 @@ TEST_CASE("steps shrink the cube as the velocity says") {
 }
 
 TEST_CASE("converged: the last series ended slow, further items still run") {
-    const std::vector<std::string> slow = {"velocity.factor=0", "stop={speed: 1.0e-3, patience: 2}"};
+    const std::vector<std::string> slow = {"velocity.factor=0",
+                                           "stop={speed: 1.0e-3, patience: 2}"};
     const Simulated one = simulate({slow[0], slow[1], "schedule.0.steps=9"});
     CHECK(one.result.totals.status == run::Status::converged);
     CHECK(one.result.totals.steps == 2);
@@ -130,7 +140,8 @@ TEST_CASE("converged: the last series ended slow, further items still run") {
 }
 
 TEST_CASE("stalled: without repair the motion is blocked in the end") {
-    const Simulated d = simulate({"velocity.factor=0", "velocity.shift=[0.2, 0, 0]", "schedule.0.steps=100"});
+    const Simulated d =
+        simulate({"velocity.factor=0", "velocity.shift=[0.2, 0, 0]", "schedule.0.steps=100"});
     CHECK(d.result.totals.status == run::Status::stalled);
     CHECK(d.result.totals.steps < 100);
     CHECK(run::measure(d.result.mesh).solid());
@@ -144,8 +155,8 @@ TEST_CASE("refinement: by faces, by a sizing field, every so many steps") {
     // Edges are 0.25 and 0.354 long: 0.3 splits each diagonal once.
     const Simulated fine = simulate({"schedule=[{refine: {type: all, sizing: 0.3}}]"});
     CHECK(fine.result.totals.refine_committed == 96);
-    const Simulated often =
-        simulate({"velocity.factor=0", "schedule=[{steps: 4, every: 2, refine: {type: all, sizing: 5}}]"});
+    const Simulated often = simulate(
+        {"velocity.factor=0", "schedule=[{steps: 4, every: 2, refine: {type: all, sizing: 5}}]"});
     CHECK(often.result.totals.refinements == 2);
 }
 
@@ -163,15 +174,16 @@ TEST_CASE("cancelled: before the first step nothing has moved") {
     token.cancel();
     run::SimulationOptions options;
     options.cancel = &token;
-    const run::SimulationResult result = run::simulate(loaded.experiment, strategies, nullptr, options);
+    const run::SimulationResult result =
+        run::simulate(loaded.experiment, strategies, nullptr, options);
     CHECK(result.totals.status == run::Status::cancelled);
     CHECK(result.totals.steps == 0);
 }
 
 TEST_CASE("the result does not depend on the number of threads") {
     Workers three(3);
-    const std::vector<std::string> overrides = {"velocity.factor=-0.08",
-                                                "schedule=[{steps: 3}, {refine: {type: all}}, {steps: 3}]"};
+    const std::vector<std::string> overrides = {
+        "velocity.factor=-0.08", "schedule=[{steps: 3}, {refine: {type: all}}, {steps: 3}]"};
     const Simulated a = simulate(overrides), b = simulate(overrides, &three);
     CHECK(run::identical(a.result.surface, b.result.surface));
     CHECK(a.result.mesh.tets == b.result.mesh.tets);
@@ -199,8 +211,8 @@ TEST_CASE("a whole run: the folder holds what it should, a second run the same b
     CHECK(outcome.conforms);
     CHECK(outcome.surface.solid());
     for (const char* name :
-         {"result/surface.obj", "result/surface.ply", "result/volume.vtu", "result/volume.dsc", "metrics.csv",
-          "events.jsonl", "preview.png", "config.resolved.yaml"}) {
+         {"result/surface.obj", "result/surface.ply", "result/volume.vtu", "result/volume.dsc",
+          "metrics.csv", "events.jsonl", "preview.png", "config.resolved.yaml"}) {
         CAPTURE(name);
         CHECK(fs::exists(folder.path() / "one" / name));
         CHECK(folder.read(std::string("one/") + name) == folder.read(std::string("two/") + name));
@@ -252,7 +264,8 @@ TEST_CASE("a whole run: the folder holds what it should, a second run the same b
     CHECK_FALSE(provenance["finished"].is_null());
 }
 
-TEST_CASE("an improvement's requests are counted by its classes, in events.jsonl and in the summary") {
+TEST_CASE(
+    "an improvement's requests are counted by its classes, in events.jsonl and in the summary") {
     const Folder folder;
     const dsc::test::Strategies catalogue;
     const fs::path here = fs::current_path();
@@ -260,8 +273,9 @@ TEST_CASE("an improvement's requests are counted by its classes, in events.jsonl
     folder.write("libdsc_fake.so", "stands for a plugin");
     run::RunOptions options;
     options.folder = folder.path() / "out";
-    const run::RunOutcome outcome =
-        run::run_experiment(load_text(minimal, {"improvement.type=counted", "velocity.factor=-0.05"}), catalogue, options);
+    const run::RunOutcome outcome = run::run_experiment(
+        load_text(minimal, {"improvement.type=counted", "velocity.factor=-0.05"}), catalogue,
+        options);
     fs::current_path(here);
 
     std::map<std::string, std::array<std::uint64_t, 2>> lines;
@@ -299,8 +313,8 @@ TEST_CASE("a run that fails leaves no result and says why") {
     options.folder = folder.path() / "run";
     run::run_experiment(load_text(minimal), catalogue, options);
     CHECK(fs::exists(folder.path() / "run/result/surface.obj"));
-    const auto bad =
-        load_text(minimal + "input: {cloud: {file: " + (folder.path() / "flat.xyz").string() + "}}\n");
+    const auto bad = load_text(
+        minimal + "input: {cloud: {file: " + (folder.path() / "flat.xyz").string() + "}}\n");
     CHECK_THROWS_AS(run::run_experiment(bad, catalogue, options), GeometryError);
     fs::current_path(here);
     for (const char* name : {"result", "summary.json", "preview.png", ".result.part"}) {

@@ -1,10 +1,10 @@
-#include <dsc/base/random.hpp>
-#include <dsc/surface/analysis.hpp>
+#include <cmath>
+#include <limits>
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <limits>
+#include <dsc/base/random.hpp>
+#include <dsc/surface/analysis.hpp>
 
 #include "shapes.hpp"
 
@@ -29,7 +29,8 @@ TriangleMesh band(std::uint32_t n, bool twist) {
         for (const double s : {-0.3, 0.3}) {
             const double half = twist ? u / 2 : 0.0;
             const double r = 1 + s * std::cos(half);
-            m.points.emplace_back(r * std::cos(u), r * std::sin(u), s * std::sin(half) + (twist ? 0.0 : s));
+            m.points.emplace_back(r * std::cos(u), r * std::sin(u),
+                                  s * std::sin(half) + (twist ? 0.0 : s));
         }
     }
     for (std::uint32_t i = 0; i < n; ++i) {
@@ -103,7 +104,8 @@ TEST_CASE("a cavity has negative volume") {
 TEST_CASE("bow-tie: two tetrahedra on one vertex are two shells") {
     TriangleMesh m;
     m.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
-    m.faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}};
+    m.faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3},
+               {0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}};
     const SurfaceReport r = analyse(m);
     CHECK_FALSE(r.closed_manifold());
     CHECK(r.nonmanifold_vertices == 1);

@@ -1,16 +1,16 @@
 #include "cgal_judge.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/intersections.h>
-
-#include <algorithm>
-#include <iterator>
-#include <stdexcept>
-#include <utility>
 
 namespace dsc::surface::test {
 namespace {
@@ -30,7 +30,8 @@ std::vector<std::uint32_t> common(const Face& f, const Face& g) {
 bool meet(const std::vector<Exact::Point_3>& points, const Face& f, const Face& g) {
     const Exact::Triangle_3 s(points[f[0]], points[f[1]], points[f[2]]),
         t(points[g[0]], points[g[1]], points[g[2]]);
-    if (s.is_degenerate() || t.is_degenerate() || !CGAL::do_overlap(s.bbox(), t.bbox())) return false;
+    if (s.is_degenerate() || t.is_degenerate() || !CGAL::do_overlap(s.bbox(), t.bbox()))
+        return false;
     const auto shared = common(f, g);
     if (shared.empty()) return CGAL::do_intersect(s, t);
     const auto result = CGAL::intersection(s, t);
@@ -88,7 +89,8 @@ double cgal_squared_distance(const Vec3& p, const TriangleMesh& mesh) {
     bool first = true;
     Exact::FT best;
     for (const auto& [a, b, c] : mesh.faces) {
-        const Exact::Triangle_3 triangle(point(mesh.points[a]), point(mesh.points[b]), point(mesh.points[c]));
+        const Exact::Triangle_3 triangle(point(mesh.points[a]), point(mesh.points[b]),
+                                         point(mesh.points[c]));
         const Exact::FT d = CGAL::squared_distance(point(p), triangle);
         if (first || d < best) best = d;
         first = false;

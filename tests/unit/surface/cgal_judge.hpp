@@ -11,8 +11,8 @@ namespace dsc::surface::test {
 
 using FacePairs = std::vector<std::array<std::uint32_t, 2>>;
 
-/// Pairs of faces whose intersection, constructed exactly, is more than what they share by index. Any soup;
-/// degenerate faces are left out. Quadratic.
+/// Pairs of faces whose intersection, constructed exactly, is more than what they share by index.
+/// Any soup; degenerate faces are left out. Quadratic.
 FacePairs cgal_soup_intersections(const TriangleMesh& mesh);
 
 /// The same from Polygon_mesh_processing::self_intersections. Manifold meshes only.

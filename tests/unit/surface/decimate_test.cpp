@@ -1,9 +1,9 @@
+#include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/decimate.hpp>
 #include <dsc/surface/distance.hpp>
-
-#include <doctest/doctest.h>
 
 #include "shapes.hpp"
 
@@ -39,8 +39,8 @@ TEST_CASE("decimation far from the origin and of an open sheet") {
     CHECK(after.shell_reports[0].boundary_loops == before.shell_reports[0].boundary_loops);
 }
 
-TEST_CASE(
-    "decimation never goes below what the topology needs, and changes nothing when there is nothing to do") {
+TEST_CASE("decimation never goes below what the topology needs, and changes nothing when there is "
+          "nothing to do") {
     const TriangleMesh m = test::sphere(2);
     CHECK(decimate(m, m.faces.size()).points == m.points);
     const SurfaceReport least = analyse(decimate(m, 0));
@@ -54,7 +54,7 @@ TEST_CASE("decimation refuses what half-edges cannot hold") {
     m.faces.push_back(m.faces[3]);
     CHECK_THROWS_WITH_AS(
         decimate(m, 4),
-        "decimate: 3 non-manifold edges, 3 edges used twice in one direction, 0 non-manifold vertices, 0 "
-        "faces that use a point twice; repair the surface first",
+        "decimate: 3 non-manifold edges, 3 edges used twice in one direction, 0 non-manifold "
+        "vertices, 0 faces that use a point twice; repair the surface first",
         GeometryError);
 }

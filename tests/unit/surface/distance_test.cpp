@@ -1,14 +1,14 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/distance.hpp>
 #include <dsc/surface/measure.hpp>
-
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "cgal_judge.hpp"
 #include "shapes.hpp"
@@ -63,7 +63,8 @@ TEST_CASE("nearest face against exact arithmetic, slivers and degenerate faces i
     TriangleMesh segment;
     segment.points = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}};
     segment.faces = {{0, 1, 2}};
-    CHECK(TriangleTree(segment).nearest({0.5, 1, 0}).distance == doctest::Approx(1.0).epsilon(1e-15));
+    CHECK(TriangleTree(segment).nearest({0.5, 1, 0}).distance ==
+          doctest::Approx(1.0).epsilon(1e-15));
     const TriangleTree tree(m);
     for (int i = 0; i < 200; ++i) {
         const Vec3 p = random_point(random, 1.5);
@@ -79,10 +80,12 @@ TEST_CASE("nearest point against brute force, ties to the lowest index") {
     for (int i = 0; i < 100; ++i) points.push_back(points[static_cast<std::size_t>(4 * i)]);
     const PointTree tree(points);
     for (int i = 0; i < 500; ++i) {
-        const Vec3 p = i < 100 ? points[static_cast<std::size_t>(400 + i)] : random_point(random, 1.5);
-        const auto best = std::min_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
-            return (a - p).squaredNorm() < (b - p).squaredNorm();
-        });
+        const Vec3 p =
+            i < 100 ? points[static_cast<std::size_t>(400 + i)] : random_point(random, 1.5);
+        const auto best =
+            std::min_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
+                return (a - p).squaredNorm() < (b - p).squaredNorm();
+            });
         const NearestHit hit = tree.nearest(p);
         CHECK(hit.index == static_cast<std::uint32_t>(best - points.begin()));
         CHECK(hit.distance == (*best - p).norm());
@@ -92,7 +95,8 @@ TEST_CASE("nearest point against brute force, ties to the lowest index") {
 TEST_CASE("millimetres survive at coordinates of 5e6") {
     const Vec3 far(5e6, 5e6, 5e6);
     const TriangleMesh m = test::cube(far, 1.0);
-    CHECK(TriangleTree(m).nearest(far + Vec3(0, 0, 1.001)).distance == doctest::Approx(1e-3).epsilon(1e-5));
+    CHECK(TriangleTree(m).nearest(far + Vec3(0, 0, 1.001)).distance ==
+          doctest::Approx(1e-3).epsilon(1e-5));
 }
 
 TEST_CASE("samples are uniform by area and independent of the count") {
@@ -171,8 +175,8 @@ TEST_CASE("a surface against the cloud it came from") {
     const CloudEvaluation e = evaluate_cloud(m, cloud);
     CHECK(e.vertex_to_cloud.min == doctest::Approx(0.25));
     const double same = std::sqrt(4 + 0.25), low = std::sqrt(4 + 0.0625);
-    // Top: 0.5, two at (2, 0.5), one 2.25 above the second point; bottom: 0.25, two at (2, 0.25), one 2.5
-    // below the first.
+    // Top: 0.5, two at (2, 0.5), one 2.25 above the second point; bottom: 0.25, two at (2, 0.25),
+    // one 2.5 below the first.
     const double top_far = 2.25, bottom_far = 2.5;
     CHECK(e.vertex_to_cloud.mean ==
           doctest::Approx((0.5 + 2 * same + top_far + 0.25 + 2 * low + bottom_far) / 8));
@@ -185,8 +189,10 @@ TEST_CASE("a surface against the cloud it came from") {
 TEST_CASE("nothing to measure is an error") {
     const TriangleMesh m = test::cube();
     CHECK_THROWS_WITH_AS(TriangleTree(TriangleMesh{}),
-                         "surface: the mesh has no faces; at least one is needed for a distance", GeometryError);
-    CHECK_THROWS_WITH_AS(evaluate_cloud(m, {}), "points: the set is empty; at least one point is needed for a distance",
+                         "surface: the mesh has no faces; at least one is needed for a distance",
+                         GeometryError);
+    CHECK_THROWS_WITH_AS(evaluate_cloud(m, {}),
+                         "points: the set is empty; at least one point is needed for a distance",
                          GeometryError);
     TriangleMesh flat;
     flat.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
@@ -196,6 +202,7 @@ TEST_CASE("nothing to measure is an error") {
         "surface: the mesh has no area to sample; provide at least one face that is not degenerate",
         GeometryError);
     const std::vector<Vec3> bad = {{0, 0, 0}, {0, std::numeric_limits<double>::infinity(), 0}};
-    CHECK_THROWS_WITH_AS(PointTree{bad}, "points: point 1 is NaN or infinite; remove it", GeometryError);
+    CHECK_THROWS_WITH_AS(PointTree{bad}, "points: point 1 is NaN or infinite; remove it",
+                         GeometryError);
     CHECK_THROWS_AS(evaluate(m, m, {0, 7, nullptr}), UsageError);
 }

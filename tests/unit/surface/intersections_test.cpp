@@ -1,11 +1,11 @@
+#include <limits>
+
+#include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/surface/intersections.hpp>
-
-#include <doctest/doctest.h>
-
-#include <limits>
 
 #include "cgal_judge.hpp"
 #include "shapes.hpp"
@@ -66,43 +66,61 @@ TEST_CASE("two cubes with a common wall overlap in their plane") {
 
 TEST_CASE("pairs of single triangles") {
     SUBCASE("piercing") {
-        CHECK(judged(two({Vec3{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {3, 3, 0}})) ==
-              1);
+        CHECK(
+            judged(two(
+                {Vec3{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {3, 3, 0}})) ==
+            1);
     }
     SUBCASE("vertex touches the inside") {
-        CHECK(judged(two({Vec3{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, 0}, {0, 0, 1}, {1, 1, 1}})) == 1);
+        CHECK(judged(two(
+                  {Vec3{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, 0}, {0, 0, 1}, {1, 1, 1}})) ==
+              1);
     }
     SUBCASE("vertex touches an edge") {
-        CHECK(judged(two({Vec3{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0, 0}, {1, -1, 1}, {1, -1, 2}})) == 1);
+        CHECK(judged(two(
+                  {Vec3{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0, 0}, {1, -1, 1}, {1, -1, 2}})) == 1);
     }
     SUBCASE("vertices touch, different indices") {
-        CHECK(judged(two({Vec3{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 0}, {-1, 0, 1}, {0, -1, 1}})) == 1);
+        CHECK(judged(two(
+                  {Vec3{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 0}, {-1, 0, 1}, {0, -1, 1}})) == 1);
     }
     SUBCASE("edges cross") {
-        CHECK(judged(two({Vec3{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0, -1}, {1, 0, 1}, {1, -2, 0}})) == 1);
+        CHECK(judged(two(
+                  {Vec3{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0, -1}, {1, 0, 1}, {1, -2, 0}})) == 1);
     }
     SUBCASE("one ulp above") {
-        CHECK(judged(two(
-                  {Vec3{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, 0x1p-1040}, {0, 0, 1}, {1, 1, 1}})) == 0);
+        CHECK(judged(two({Vec3{0, 0, 0},
+                          {2, 0, 0},
+                          {0, 2, 0},
+                          {0.5, 0.5, 0x1p-1040},
+                          {0, 0, 1},
+                          {1, 1, 1}})) == 0);
     }
     SUBCASE("coplanar, one inside the other") {
-        CHECK(judged(two({Vec3{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {1, 1, 0}, {2, 1, 0}, {1, 2, 0}})) == 1);
+        CHECK(judged(two({Vec3{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {1, 1, 0}, {2, 1, 0}, {1, 2, 0}})) ==
+              1);
     }
     SUBCASE("coplanar, crossing without a vertex inside") {
-        CHECK(judged(two({Vec3{0, 0, 0}, {4, 0, 0}, {2, 4, 0}, {0, 3, 0}, {4, 3, 0}, {2, -1, 0}})) == 1);
+        CHECK(judged(two(
+                  {Vec3{0, 0, 0}, {4, 0, 0}, {2, 4, 0}, {0, 3, 0}, {4, 3, 0}, {2, -1, 0}})) == 1);
     }
     SUBCASE("coplanar, apart") {
-        CHECK(judged(two({Vec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {1, 2, 0}})) == 0);
+        CHECK(judged(two({Vec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {1, 2, 0}})) ==
+              0);
     }
     SUBCASE("coplanar, boxes overlap, apart") {
-        CHECK(judged(two({Vec3{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0}, {4, 3, 0}, {3, 4, 0}})) == 0);
+        CHECK(judged(two({Vec3{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0}, {4, 3, 0}, {3, 4, 0}})) ==
+              0);
     }
     SUBCASE("vertical coplanar overlap") {
-        CHECK(judged(two({Vec3{0, 0, 0}, {0, 4, 0}, {0, 0, 4}, {0, 1, 1}, {0, 5, 1}, {0, 1, 5}})) == 1);
+        CHECK(judged(two({Vec3{0, 0, 0}, {0, 4, 0}, {0, 0, 4}, {0, 1, 1}, {0, 5, 1}, {0, 1, 5}})) ==
+              1);
     }
     SUBCASE("the line meets, the segment does not") {
-        CHECK(judged(two({Vec3{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, 1}, {0.5, 0.5, 2}, {3, 3, 1}})) ==
-              0);
+        CHECK(
+            judged(two(
+                {Vec3{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, 1}, {0.5, 0.5, 2}, {3, 3, 1}})) ==
+            0);
     }
 }
 
@@ -152,8 +170,8 @@ TEST_CASE("random soups agree with CGAL pair by pair") {
     for (std::uint64_t seed = 0; seed < 24; ++seed) {
         RandomStream random(RandomKey{seed, 2, 0, 0});
         TriangleMesh m;
-        // Even seeds: points of a small integer lattice, so that coplanar, touching and degenerate cases
-        // abound.
+        // Even seeds: points of a small integer lattice, so that coplanar, touching and degenerate
+        // cases abound.
         for (int i = 0; i < 40; ++i) {
             if (seed % 2 == 0) {
                 const auto c = [&] { return static_cast<double>(random.index(4)); };
@@ -185,7 +203,8 @@ TEST_CASE("near-touching sheets agree with CGAL") {
             const auto base = static_cast<std::uint32_t>(m.points.size());
             for (std::uint32_t i = 0; i < n * n; ++i) {
                 const double z = seed % 3 == 0 ? 0.0 : 0.1 * wave.uniform();
-                m.points.push_back(turn * Vec3(i % n, static_cast<double>(i / n), z + lift));  // NOLINT
+                m.points.push_back(turn *
+                                   Vec3(i % n, static_cast<double>(i / n), z + lift));  // NOLINT
             }
             for (std::uint32_t i = 0; i + 1 < n; ++i) {
                 for (std::uint32_t j = 0; j + 1 < n; ++j) {

@@ -1,10 +1,10 @@
-#include <dsc/base/error.hpp>
-#include <dsc/surface/measure.hpp>
+#include <cmath>
+#include <limits>
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <limits>
+#include <dsc/base/error.hpp>
+#include <dsc/surface/measure.hpp>
 
 #include "shapes.hpp"
 
@@ -35,7 +35,8 @@ TEST_CASE("normals of a sphere point outwards") {
     const auto at_points = vertex_normals(m), at_faces = face_normals(m);
     for (std::size_t i = 0; i < m.points.size(); ++i) CHECK(at_points[i].dot(m.points[i]) > 0.999);
     for (std::size_t f = 0; f < m.faces.size(); ++f) {
-        const Vec3 centre = m.points[m.faces[f][0]] + m.points[m.faces[f][1]] + m.points[m.faces[f][2]];
+        const Vec3 centre =
+            m.points[m.faces[f][0]] + m.points[m.faces[f][1]] + m.points[m.faces[f][2]];
         CHECK(at_faces[f].dot(centre.normalized()) > 0.99);
     }
 }
@@ -68,7 +69,8 @@ TEST_CASE("welding a soup of triangles gives the mesh back") {
     CHECK(back.points.size() == m.points.size());
     REQUIRE(back.faces.size() == m.faces.size());
     for (std::size_t f = 0; f < m.faces.size(); ++f) {
-        for (std::size_t k = 0; k < 3; ++k) CHECK(back.points[back.faces[f][k]] == m.points[m.faces[f][k]]);
+        for (std::size_t k = 0; k < 3; ++k)
+            CHECK(back.points[back.faces[f][k]] == m.points[m.faces[f][k]]);
     }
 }
 
@@ -83,10 +85,11 @@ TEST_CASE("welding takes -0 and 0 for the same place and neighbouring doubles fo
 TEST_CASE("what is not sound is named") {
     TriangleMesh m = test::cube();
     m.faces.push_back({0, 1, 8});
-    CHECK_THROWS_WITH_AS(require_sound(m),
-                         "surface: face 12 refers to point 8 of 8; remove the face or add the point",
-                         GeometryError);
+    CHECK_THROWS_WITH_AS(
+        require_sound(m),
+        "surface: face 12 refers to point 8 of 8; remove the face or add the point", GeometryError);
     m.points[3].y() = std::numeric_limits<double>::quiet_NaN();
     CHECK_THROWS_WITH_AS(require_sound(m),
-                         "surface: point 3 is NaN or infinite; remove it or repair the file", GeometryError);
+                         "surface: point 3 is NaN or infinite; remove it or repair the file",
+                         GeometryError);
 }

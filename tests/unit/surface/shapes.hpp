@@ -16,8 +16,8 @@ using Index = std::uint32_t;
 inline TriangleMesh cube(const Vec3& centre = Vec3::Zero(), double half = 1.0) {
     TriangleMesh m;
     for (int i = 0; i < 8; ++i) {
-        m.points.push_back(centre +
-                           half * Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1));
+        m.points.push_back(centre + half * Vec3((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1,
+                                                (i & 4) != 0 ? 1 : -1));
     }
     m.faces = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
@@ -28,12 +28,13 @@ inline TriangleMesh cube(const Vec3& centre = Vec3::Zero(), double half = 1.0) {
 inline TriangleMesh sphere(int levels, double radius = 1.0, const Vec3& centre = Vec3::Zero()) {
     TriangleMesh m;
     m.points = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    m.faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    m.faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+               {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     for (int level = 0; level < levels; ++level) {
         std::map<std::pair<Index, Index>, Index> middles;
         const auto middle = [&](Index a, Index b) {
-            const auto [entry, fresh] =
-                middles.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<Index>(m.points.size()));
+            const auto [entry, fresh] = middles.try_emplace({std::min(a, b), std::max(a, b)},
+                                                            static_cast<Index>(m.points.size()));
             if (fresh) m.points.push_back((m.points[a] + m.points[b]).normalized());
             return entry->second;
         };
@@ -67,7 +68,8 @@ inline TriangleMesh torus(int n = 24, int m = 12, double big = 1.0, double small
 inline void append(TriangleMesh& to, const TriangleMesh& from) {
     const auto offset = static_cast<Index>(to.points.size());
     to.points.insert(to.points.end(), from.points.begin(), from.points.end());
-    for (const auto& [a, b, c] : from.faces) to.faces.push_back({a + offset, b + offset, c + offset});
+    for (const auto& [a, b, c] : from.faces)
+        to.faces.push_back({a + offset, b + offset, c + offset});
 }
 
 inline TriangleMesh inside_out(TriangleMesh m) {

@@ -1,7 +1,8 @@
 // Thickness under the vertices of surfaces whose thickness is known.
+#include <cmath>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/thickness.hpp>
 
@@ -26,7 +27,8 @@ void finish(SurfaceView& view) {
     view.vertex_ids.resize(view.positions.size());
     view.normals.assign(view.positions.size(), Vec3::Zero());
     for (const auto& [a, b, c] : view.faces) {
-        const Vec3 n = geometry::triangle_normal(view.positions[a], view.positions[b], view.positions[c]);
+        const Vec3 n =
+            geometry::triangle_normal(view.positions[a], view.positions[b], view.positions[c]);
         view.face_normals.push_back(n);
         for (const auto v : {a, b, c}) view.normals[v] += n;
     }
@@ -41,7 +43,8 @@ std::vector<double> thickness(const SurfaceView& view, double most, Workers* wor
 
 }  // namespace
 
-TEST_CASE("a hollow ball is as thick as its wall, seen from both sides, for any number of threads") {
+TEST_CASE(
+    "a hollow ball is as thick as its wall, seen from both sides, for any number of threads") {
     SurfaceView view;
     add(view, surface::test::sphere(4, 1.0), false);
     add(view, surface::test::sphere(4, 0.8), true);
@@ -70,17 +73,21 @@ TEST_CASE("a ball is as thick as it is wide, a void inside does not count the ot
 TEST_CASE("the sides of a wedge are not opposite to each other") {
     // Two planes from the z axis, 60 degrees apart, the solid between them.
     SurfaceView view;
-    const auto at = [](double angle, double r, double z) { return Vec3(r * std::cos(angle), r * std::sin(angle), z); };
+    const auto at = [](double angle, double r, double z) {
+        return Vec3(r * std::cos(angle), r * std::sin(angle), z);
+    };
     constexpr int n = 20;
     for (const double angle : {0.0, 1.0471975511965976}) {
         const auto first = static_cast<std::uint32_t>(view.positions.size());
         for (int i = 0; i <= n; ++i) {
-            for (int j = 0; j <= n; ++j) view.positions.push_back(at(angle, 0.05 * (i + 1), 0.05 * j - 0.5));
+            for (int j = 0; j <= n; ++j)
+                view.positions.push_back(at(angle, 0.05 * (i + 1), 0.05 * j - 0.5));
         }
         for (std::uint32_t i = 0; i < n; ++i) {
             for (std::uint32_t j = 0; j < n; ++j) {
                 const std::uint32_t a = first + i * (n + 1) + j, b = a + n + 1;
-                std::array<std::array<std::uint32_t, 3>, 2> faces = {{{a, b, b + 1}, {a, b + 1, a + 1}}};
+                std::array<std::array<std::uint32_t, 3>, 2> faces = {
+                    {{a, b, b + 1}, {a, b + 1, a + 1}}};
                 for (auto& face : faces) {
                     if (angle > 0.0) std::swap(face[0], face[1]);
                     view.faces.push_back(face);

@@ -1,14 +1,14 @@
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/measure.hpp>
 #include <dsc/surface/trim.hpp>
-
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <functional>
-#include <numbers>
 
 #include "shapes.hpp"
 
@@ -17,7 +17,8 @@ using namespace dsc::surface;
 
 namespace {
 
-std::vector<double> values_of(const TriangleMesh& mesh, const std::function<double(const Vec3&)>& f) {
+std::vector<double> values_of(const TriangleMesh& mesh,
+                              const std::function<double(const Vec3&)>& f) {
     std::vector<double> out;
     for (const Vec3& p : mesh.points) out.push_back(f(p));
     return out;
@@ -38,7 +39,9 @@ TEST_CASE("the half of a ball that points support is a disc") {
     const TriangleMesh ball = test::sphere(4);
     TrimReport report;
     std::vector<std::uint32_t> points_of;
-    const TriangleMesh half = trim(ball, values_of(ball, [](const Vec3& p) { return p.z() > 0.0 ? 0.3 : 5.0; }), {}, {}, &points_of, &report);
+    const TriangleMesh half =
+        trim(ball, values_of(ball, [](const Vec3& p) { return p.z() > 0.0 ? 0.3 : 5.0; }), {}, {},
+             &points_of, &report);
     check_sheet(half);
     const SurfaceReport r = analyse(half);
     REQUIRE(r.shells == 1);
@@ -48,25 +51,30 @@ TEST_CASE("the half of a ball that points support is a disc") {
     CHECK(report.faces == ball.faces.size() - half.faces.size());
     CHECK(report.area_share == doctest::Approx(1.0 - r.area / analyse(ball).area));
     REQUIRE(points_of.size() == half.points.size());
-    for (std::size_t i = 0; i < points_of.size(); ++i) CHECK(half.points[i] == ball.points[points_of[i]]);
+    for (std::size_t i = 0; i < points_of.size(); ++i)
+        CHECK(half.points[i] == ball.points[points_of[i]]);
 }
 
 TEST_CASE("the border moves back to where points are near") {
     const TriangleMesh ball = test::sphere(4);
-    // Gaps grow with the depth below the equator, up to 4: from 1 on they go, as they lie next to those above 2.
-    const TriangleMesh part = trim(ball, values_of(ball, [](const Vec3& p) { return std::max(0.0, -4.0 * p.z()); }), {});
+    // Gaps grow with the depth below the equator, up to 4: from 1 on they go, as they lie next to
+    // those above 2.
+    const TriangleMesh part =
+        trim(ball, values_of(ball, [](const Vec3& p) { return std::max(0.0, -4.0 * p.z()); }), {});
     double lowest = 1.0;
     for (const Vec3& p : part.points) lowest = std::min(lowest, p.z());
     CHECK(lowest > -0.25 - 1e-12);
     CHECK(lowest < -0.1);
     // The same gap stays where nothing farther away touches it.
-    CHECK(trim(ball, values_of(ball, [](const Vec3& p) { return std::max(0.0, -1.9 * p.z()); }), {}).faces.size() == ball.faces.size());
+    CHECK(trim(ball, values_of(ball, [](const Vec3& p) { return std::max(0.0, -1.9 * p.z()); }), {})
+              .faces.size() == ball.faces.size());
 }
 
 TEST_CASE("small islands go, large pieces stay") {
     const TriangleMesh ball = test::sphere(5);
     const auto gap = [](const Vec3& p) {
-        const bool cap = p.z() > 0.3, other = p.z() < -0.5, speck = (p - Vec3(1, 0, 0)).norm() < 0.12;
+        const bool cap = p.z() > 0.3, other = p.z() < -0.5,
+                   speck = (p - Vec3(1, 0, 0)).norm() < 0.12;
         return cap || other || speck ? 0.0 : 9.0;
     };
     TrimReport report;
@@ -108,5 +116,7 @@ TEST_CASE("nothing is near: nothing is left; all is near: all stays, colours too
     // A value that is not a number supports nothing.
     CHECK(trim(ball, std::vector<double>(ball.points.size(), std::nan("")), {}).faces.empty());
     CHECK_THROWS_AS(trim(ball, std::vector<double>(3, 0.0), {}), GeometryError);
-    CHECK_THROWS_AS(trim(ball, std::vector<double>(ball.points.size(), 0.0), std::vector<double>(2, 1.0)), GeometryError);
+    CHECK_THROWS_AS(
+        trim(ball, std::vector<double>(ball.points.size(), 0.0), std::vector<double>(2, 1.0)),
+        GeometryError);
 }

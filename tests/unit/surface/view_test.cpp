@@ -1,7 +1,8 @@
 // What is derived from a view: its edges with their faces, and the nearest faces of points.
+#include <cmath>
+
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <dsc/base/random.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/face_points.hpp>
@@ -13,9 +14,11 @@ namespace {
 
 SurfaceView octahedron() {
     SurfaceView view;
-    view.positions = {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1), Vec3(0, 0, -1)};
+    view.positions = {Vec3(1, 0, 0),  Vec3(-1, 0, 0), Vec3(0, 1, 0),
+                      Vec3(0, -1, 0), Vec3(0, 0, 1),  Vec3(0, 0, -1)};
     view.vertex_ids = {0, 1, 2, 3, 4, 5};
-    view.faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+    view.faces = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                  {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     return view;
 }
 
@@ -33,7 +36,8 @@ TEST_CASE("every edge of a closed surface is there once, with its two faces") {
         CHECK(e.face_count == 2);
         CHECK(e.faces[0] < e.faces[1]);
         for (const std::uint32_t f : e.faces) {
-            for (const std::uint32_t v : e.vertices) CHECK(std::count(view.faces[f].begin(), view.faces[f].end(), v) == 1);
+            for (const std::uint32_t v : e.vertices)
+                CHECK(std::count(view.faces[f].begin(), view.faces[f].end(), v) == 1);
         }
     }
 }
@@ -53,11 +57,14 @@ TEST_CASE("edges at a rim have one face, where sheets meet they have more") {
     CHECK(edges[0].faces == std::array<std::uint32_t, 2>{0, 1});
 }
 
-TEST_CASE("the nearest face, the place in it and the distance are those of a search over all faces, for any number of threads") {
+TEST_CASE("the nearest face, the place in it and the distance are those of a search over all "
+          "faces, for any number of threads") {
     const SurfaceView view = octahedron();
     RandomStream random(RandomKey{11, 0, 0, 0});
     std::vector<Vec3> points;
-    for (int i = 0; i < 700; ++i) points.emplace_back(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5));
+    for (int i = 0; i < 700; ++i)
+        points.emplace_back(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5),
+                            random.uniform(-1.5, 1.5));
     points.emplace_back(0, 0, 2);  // equally near to four faces
     std::vector<surface::FacePoint> found;
     surface::nearest_faces(view, points, found);
@@ -65,7 +72,8 @@ TEST_CASE("the nearest face, the place in it and the distance are those of a sea
     for (std::size_t i = 0; i < points.size(); ++i) {
         double least = INFINITY;
         for (const auto& [a, b, c] : view.faces) {
-            const Vec3 q = geometry::closest_point_on_triangle(points[i], view.positions[a], view.positions[b], view.positions[c]);
+            const Vec3 q = geometry::closest_point_on_triangle(
+                points[i], view.positions[a], view.positions[b], view.positions[c]);
             least = std::min(least, (q - points[i]).norm());
         }
         const surface::FacePoint& f = found[i];

@@ -10,11 +10,13 @@ using namespace dsc::surface;
 
 namespace {
 
-/// Inside a polyhedron whose faces all look away from its middle: below every face's plane by more than rounding.
+/// Inside a polyhedron whose faces all look away from its middle: below every face's plane by more
+/// than rounding.
 bool inside_convex(const TriangleMesh& mesh, const Vec3& p, double margin, bool& sure) {
     double highest = -1e300;
     for (const auto& [a, b, c] : mesh.faces) {
-        const Vec3 normal = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).normalized();
+        const Vec3 normal =
+            (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).normalized();
         highest = std::max(highest, normal.dot(p - mesh.points[a]));
     }
     sure = std::abs(highest) > margin;
@@ -44,7 +46,8 @@ TEST_CASE("a torus, analytically, with rays through its vertices and along its e
     const int n = 48, m = 24;
     const TriangleMesh mesh = test::torus(n, m, 1.0, 0.4);
     const WindingNumber winding(mesh);
-    // Points at the heights and depths of vertices: their rays pass exactly through vertices and along edges.
+    // Points at the heights and depths of vertices: their rays pass exactly through vertices and
+    // along edges.
     std::size_t exact = 0;
     for (const Vec3& v : mesh.points) {
         for (const double x : {-1.8, -0.9, -0.31, 0.0, 0.47, 1.1, 1.9}) {
@@ -58,7 +61,8 @@ TEST_CASE("a torus, analytically, with rays through its vertices and along its e
     CHECK(exact > 5000);
 }
 
-TEST_CASE("a cube: points on its planes, edges and corners belong to one side, each place to the same") {
+TEST_CASE(
+    "a cube: points on its planes, edges and corners belong to one side, each place to the same") {
     const WindingNumber winding(test::cube());
     // As if moved by a little along +x, less along +y, less still along +z.
     for (const double x : {-1.5, -1.0, 0.0, 0.3, 1.0, 1.5}) {

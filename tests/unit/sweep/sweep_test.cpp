@@ -1,12 +1,13 @@
-#include <doctest/doctest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+
+#include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/sweep/sweep.hpp>
-#include <set>
 
 #include "../run/fakes.hpp"
 
@@ -42,7 +43,8 @@ struct Bench {
         } catch (const Error& error) {
             std::string text = error.what();
             const std::string path = folder.path().string();
-            for (std::size_t at = 0; (at = text.find(path)) != std::string::npos;) text.replace(at, path.size(), "DIR");
+            for (std::size_t at = 0; (at = text.find(path)) != std::string::npos;)
+                text.replace(at, path.size(), "DIR");
             return text;
         }
         return "no error";
@@ -57,7 +59,8 @@ struct Bench {
 
 std::vector<std::string> texts(const sweep::Sweep& sweep) {
     std::vector<std::string> all;
-    for (const sweep::SweepPoint& point : sweep.points) all.push_back(config::flow_text(point.overrides));
+    for (const sweep::SweepPoint& point : sweep.points)
+        all.push_back(config::flow_text(point.overrides));
     return all;
 }
 
@@ -67,11 +70,16 @@ std::vector<std::string> names(const sweep::Sweep& sweep) {
     return all;
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
-std::size_t lines(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
+std::size_t lines(const std::string& text) {
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
 
-const std::string six = "axes: [{grid: {velocity.factor: [0.1, 0.2, 0.3], initial_mesh.cells: [6, 8]}}]\n";
+const std::string six =
+    "axes: [{grid: {velocity.factor: [0.1, 0.2, 0.3], initial_mesh.cells: [6, 8]}}]\n";
 
 }  // namespace
 
@@ -82,32 +90,40 @@ TEST_CASE("axes: grid, zip and list, multiplied, the last fastest") {
     CHECK(texts(bench.load("axes:\n"
                            "  - zip: {velocity.factor: [0.1, 0.2], initial_mesh.half: [0.5, 1]}\n"
                            "  - list: [{seed: 3}, {seed: 4, initial_mesh.cells: 6}]\n")) ==
-          std::vector<std::string>{"{velocity.factor: 0.1, initial_mesh.half: 0.5, seed: 3}",
-                                   "{velocity.factor: 0.1, initial_mesh.half: 0.5, seed: 4, initial_mesh.cells: 6}",
-                                   "{velocity.factor: 0.2, initial_mesh.half: 1, seed: 3}",
-                                   "{velocity.factor: 0.2, initial_mesh.half: 1, seed: 4, initial_mesh.cells: 6}"});
+          std::vector<std::string>{
+              "{velocity.factor: 0.1, initial_mesh.half: 0.5, seed: 3}",
+              "{velocity.factor: 0.1, initial_mesh.half: 0.5, seed: 4, initial_mesh.cells: 6}",
+              "{velocity.factor: 0.2, initial_mesh.half: 1, seed: 3}",
+              "{velocity.factor: 0.2, initial_mesh.half: 1, seed: 4, initial_mesh.cells: 6}"});
     CHECK(bench.load(six).points.size() == 6);
-    CHECK(texts(bench.load("repeat: 3\n")) == std::vector<std::string>{"{seed: 1}", "{seed: 2}", "{seed: 3}"});
-    CHECK(texts(bench.load("seeds: [7, 5]\n")) == std::vector<std::string>{"{seed: 7}", "{seed: 5}"});
+    CHECK(texts(bench.load("repeat: 3\n")) ==
+          std::vector<std::string>{"{seed: 1}", "{seed: 2}", "{seed: 3}"});
+    CHECK(texts(bench.load("seeds: [7, 5]\n")) ==
+          std::vector<std::string>{"{seed: 7}", "{seed: 5}"});
 }
 
 TEST_CASE("a grid takes ranges, linear and logarithmic, both ends in them") {
     const Bench bench;
-    CHECK(texts(bench.load("axes: [{grid: {velocity.factor: {from: 1.0e-5, to: 1.0e-2, count: 4, scale: log}}}]\n")) ==
+    CHECK(texts(bench.load("axes: [{grid: {velocity.factor: {from: 1.0e-5, to: 1.0e-2, count: 4, "
+                           "scale: log}}}]\n")) ==
           std::vector<std::string>{"{velocity.factor: 0.00001}", "{velocity.factor: 0.0001}",
                                    "{velocity.factor: 0.001}", "{velocity.factor: 0.01}"});
-    CHECK(texts(bench.load("axes: [{grid: {initial_mesh.cells: {from: 6, to: 8, count: 3, integer: true}}}]\n")) ==
-          std::vector<std::string>{"{initial_mesh.cells: 6}", "{initial_mesh.cells: 7}", "{initial_mesh.cells: 8}"});
+    CHECK(
+        texts(bench.load(
+            "axes: [{grid: {initial_mesh.cells: {from: 6, to: 8, count: 3, integer: true}}}]\n")) ==
+        std::vector<std::string>{"{initial_mesh.cells: 6}", "{initial_mesh.cells: 7}",
+                                 "{initial_mesh.cells: 8}"});
 }
 
 TEST_CASE("random draws lie in their range, spread over it, and stay when there are more of them") {
     const Bench bench;
     const auto sweep = [&](int n, int seed, const std::string& range) {
-        return bench.load("axes: [{random: {n: " + std::to_string(n) + ", seed: " + std::to_string(seed) +
-                          ", ranges: {velocity.factor: " + range + "}}}]\n");
+        return bench.load("axes: [{random: {n: " + std::to_string(n) + ", seed: " +
+                          std::to_string(seed) + ", ranges: {velocity.factor: " + range + "}}}]\n");
     };
     const std::string log = "{from: 1.0e-4, to: 1.0, scale: log}";
-    const sweep::Sweep few = sweep(20, 1, log), many = sweep(400, 1, log), other = sweep(20, 2, log);
+    const sweep::Sweep few = sweep(20, 1, log), many = sweep(400, 1, log),
+                       other = sweep(20, 2, log);
     REQUIRE(many.points.size() == 400);
     const std::vector<std::string> start = names(many);
     CHECK(std::equal(few.points.begin(), few.points.end(), many.points.begin(),
@@ -123,11 +139,13 @@ TEST_CASE("random draws lie in their range, spread over it, and stay when there 
     for (const int count : decades) CHECK(std::abs(count - 100) < 35);  // four deviations
 
     std::array<int, 3> cells{};
-    const sweep::Sweep integers = bench.load(
-        "axes: [{random: {n: 300, ranges: {initial_mesh.cells: {from: 6, to: 8, integer: true}, velocity.factor: {from: "
-        "0, to: 1}}}}]\n");
+    const sweep::Sweep integers =
+        bench.load("axes: [{random: {n: 300, ranges: {initial_mesh.cells: {from: 6, to: 8, "
+                   "integer: true}, velocity.factor: {from: "
+                   "0, to: 1}}}}]\n");
     for (const sweep::SweepPoint& point : integers.points)
-        ++cells.at(static_cast<std::size_t>(point.overrides.at("initial_mesh.cells").as_integer() - 6));
+        ++cells.at(
+            static_cast<std::size_t>(point.overrides.at("initial_mesh.cells").as_integer() - 6));
     for (const int count : cells) CHECK(std::abs(count - 100) < 35);
 }
 
@@ -139,11 +157,14 @@ TEST_CASE("a point's name depends on its overrides alone") {
         CHECK(name.size() == 12);
         CHECK(name.find_first_not_of("0123456789abcdef") == std::string::npos);
     }
-    // Other order of keys and values, another way to write a number, another axis, something set for all.
-    const std::vector<std::string> again = names(bench.load(
-        "set: {initial_mesh.half: 0.6}\naxes: [{list: [{initial_mesh.cells: 6.0, velocity.factor: 1.0e-1}]}]\n"));
+    // Other order of keys and values, another way to write a number, another axis, something set
+    // for all.
+    const std::vector<std::string> again =
+        names(bench.load("set: {initial_mesh.half: 0.6}\naxes: [{list: [{initial_mesh.cells: 6.0, "
+                         "velocity.factor: 1.0e-1}]}]\n"));
     CHECK(again == std::vector<std::string>{all[0]});
-    CHECK(names(bench.load("axes: [{list: [{velocity.factor: 0.1, initial_mesh.cells: 7}]}]\n"))[0] != all[0]);
+    CHECK(names(bench.load(
+              "axes: [{list: [{velocity.factor: 0.1, initial_mesh.cells: 7}]}]\n"))[0] != all[0]);
 }
 
 TEST_CASE("equal points are one") {
@@ -169,56 +190,71 @@ TEST_CASE("faults of a sweep file, all at once, with their places") {
         "axes:\n"
         "  - grid: {velocity.factor: 0.1, seed: []}\n"
         "  - zip: {initial_mesh.cells: [6, 7], initial_mesh.half: [0.5, 0.6, 0.7]}\n"
-        "  - random: {ranges: {name: {from: 2, to: 1}, x: {from: 0, to: 1, scale: log}, y: {to: 1, size: 2}}}\n");
+        "  - random: {ranges: {name: {from: 2, to: 1}, x: {from: 0, to: 1, scale: log}, y: {to: 1, "
+        "size: 2}}}\n");
     for (const char* part :
-         {":4:29: error: the values of 'velocity.factor' must be a list", ":4:40: error: 'seed' has no values",
+         {":4:29: error: the values of 'velocity.factor' must be a list",
+          ":4:40: error: 'seed' has no values",
           ":5:58: error: 'initial_mesh.half' has 3 values and 'initial_mesh.cells' has 2",
           "the range of 'name': 'to' must be above 'from'",
           "the range of 'x': 'from' must be above 0 on a logarithmic scale",
-          "unknown key 'size' in the range of 'y'", "y.from' is missing in the range of 'y'", "7 errors"}) {
+          "unknown key 'size' in the range of 'y'", "y.from' is missing in the range of 'y'",
+          "7 errors"}) {
         CAPTURE(several);
         CHECK_MESSAGE(contains(several, part), part);
     }
     CHECK(contains(bench.load_fault("axes: [{grid: {a: [1]}, list: [{b: 1}]}]\n"),
                    "'axes.0': an axis is exactly one of 'grid', 'zip', 'list' and 'random'"));
     CHECK(contains(bench.load_fault(""), "a sweep needs 'axes', 'seeds' or 'repeat'"));
-    CHECK(contains(bench.load_fault("repeat: 2\nseeds: [1]\n"), "'seeds' and 'repeat' must not both be given"));
+    CHECK(contains(bench.load_fault("repeat: 2\nseeds: [1]\n"),
+                   "'seeds' and 'repeat' must not both be given"));
     CHECK(contains(bench.load_fault("axes: [{grid: {}}]\n"), "grid names no key"));
-    CHECK(contains(bench.load_fault("axes: [{grid: {a: {from: 1, to: 2, count: 300}, b: {from: 1, to: 2, count: 300}}}]\n"),
-                   "more than 20000 combinations"));
+    CHECK(contains(
+        bench.load_fault(
+            "axes: [{grid: {a: {from: 1, to: 2, count: 300}, b: {from: 1, to: 2, count: 300}}}]\n"),
+        "more than 20000 combinations"));
 }
 
 TEST_CASE("an override that would undo an earlier one is refused") {
     const Bench bench;
     CHECK(contains(bench.load_fault("axes: [{grid: {seed: [1, 2]}}]\nrepeat: 2\n"),
                    ":4:9: error: 'seed' is already set by an earlier axis"));
-    CHECK(contains(bench.load_fault("set: {velocity.factor: 1}\naxes: [{list: [{velocity: {type: linear}}]}]\n"),
-                   ":4:17: error: 'velocity' would undo 'velocity.factor', which is set before it"));
-    CHECK(contains(bench.load_fault("axes: [{grid: {velocity.factor: [1], velocity: [{type: linear}]}}]\n"),
-                   "'velocity' would undo 'velocity.factor'"));
-    CHECK(bench.load("axes: [{grid: {velocity: [{type: linear}], velocity.factor: [1, 2]}}]\n").points.size() == 2);
-    CHECK(bench.load("axes: [{list: [{velocity.factor: 1}, {velocity: {type: linear}}]}]\n").points.size() == 2);
+    CHECK(
+        contains(bench.load_fault(
+                     "set: {velocity.factor: 1}\naxes: [{list: [{velocity: {type: linear}}]}]\n"),
+                 ":4:17: error: 'velocity' would undo 'velocity.factor', which is set before it"));
+    CHECK(contains(
+        bench.load_fault("axes: [{grid: {velocity.factor: [1], velocity: [{type: linear}]}}]\n"),
+        "'velocity' would undo 'velocity.factor'"));
+    CHECK(bench.load("axes: [{grid: {velocity: [{type: linear}], velocity.factor: [1, 2]}}]\n")
+              .points.size() == 2);
+    CHECK(bench.load("axes: [{list: [{velocity.factor: 1}, {velocity: {type: linear}}]}]\n")
+              .points.size() == 2);
 }
 
 TEST_CASE("expand: a folder a point that loads as the experiment, and a table") {
     const Bench bench;
     const sweep::Sweep sweep = bench.load("set: {schedule.0.steps: 3}\n" + six);
-    const sweep::Expansion done = sweep::expand_sweep(sweep, bench.experiments(sweep), bench.folder.path() / "out");
+    const sweep::Expansion done =
+        sweep::expand_sweep(sweep, bench.experiments(sweep), bench.folder.path() / "out");
     CHECK(done.added == 6);
     CHECK(done.kept == 0);
     CHECK(done.others == 0);
     CHECK(lines(bench.table()) == 7);
     const std::string first = sweep.points[0].name;
-    CHECK(contains(bench.table(), "index\tfolder\toverrides\n0\tpoints/" + first +
-                                      "\t{velocity.factor: 0.1, initial_mesh.cells: 6}\n1\tpoints/"));
-    const std::string file = (bench.folder.path() / "out/points" / first / "experiment.yaml").string();
+    CHECK(
+        contains(bench.table(), "index\tfolder\toverrides\n0\tpoints/" + first +
+                                    "\t{velocity.factor: 0.1, initial_mesh.cells: 6}\n1\tpoints/"));
+    const std::string file =
+        (bench.folder.path() / "out/points" / first / "experiment.yaml").string();
     const run::LoadedExperiment loaded = run::load_experiment(file, {}, bench.strategies.loader());
     CHECK(loaded.experiment.name == "base");
     CHECK(loaded.experiment.schedule.at(0).steps == 3U);
     CHECK(loaded.resolved.at("velocity").at("factor").as_real() == 0.1);
     CHECK(loaded.resolved.at("initial_mesh").at("cells").as_integer() == 6);
-    CHECK(contains(bench.folder.read("out/points/" + first + "/experiment.yaml"),
-                   "# Point " + first + " of a sweep: {velocity.factor: 0.1, initial_mesh.cells: 6}\n"));
+    CHECK(contains(
+        bench.folder.read("out/points/" + first + "/experiment.yaml"),
+        "# Point " + first + " of a sweep: {velocity.factor: 0.1, initial_mesh.cells: 6}\n"));
 }
 
 TEST_CASE("expand again: nothing is touched; with more points the table grows at its end") {
@@ -230,14 +266,15 @@ TEST_CASE("expand again: nothing is touched; with more points the table grows at
     CHECK(bench.table() == table);
     CHECK(std::filesystem::last_write_time(bench.folder.path() / "out/jobs.tsv") == written);
 
-    const sweep::Expansion more =
-        bench.expand("axes: [{grid: {initial_mesh.cells: [5, 6, 8], velocity.factor: [0.1, 0.2, 0.3]}}]\n");
+    const sweep::Expansion more = bench.expand(
+        "axes: [{grid: {initial_mesh.cells: [5, 6, 8], velocity.factor: [0.1, 0.2, 0.3]}}]\n");
     CHECK(more.added == 3);
     CHECK(more.kept == 6);
     CHECK(bench.table().substr(0, table.size()) == table);
     CHECK(lines(bench.table()) == 10);
 
-    const sweep::Expansion fewer = bench.expand("axes: [{grid: {initial_mesh.cells: [5], velocity.factor: [0.1]}}]\n");
+    const sweep::Expansion fewer =
+        bench.expand("axes: [{grid: {initial_mesh.cells: [5], velocity.factor: [0.1]}}]\n");
     CHECK(fewer.kept == 1);
     CHECK(fewer.others == 8);
     CHECK(lines(bench.table()) == 10);
@@ -253,24 +290,30 @@ TEST_CASE("a point that was started stays the experiment that it is") {
     const std::string nine = bench.folder.read(file);
     CHECK(contains(nine, "seed: 9\n"));
 
-    bench.folder.write("out/points/" + name + "/run/status.json", R"({"format": "dsc-run-1", "state": "running"})");
+    bench.folder.write("out/points/" + name + "/run/status.json",
+                       R"({"format": "dsc-run-1", "state": "running"})");
     CHECK(bench.expand(six).kept == 6);
     bench.folder.write("base.yaml", minimal + "seed: 10\n");
     const std::string message = bench.expand_fault(six);
     CHECK(contains(message, "1 point was started (DIR/out/points/" + name + ")"));
     CHECK(bench.folder.read(file) == nine);
-    CHECK(contains(bench.folder.read("out/points/" + bench.load(six).points[0].name + "/experiment.yaml"), "seed: 9\n"));
+    CHECK(contains(
+        bench.folder.read("out/points/" + bench.load(six).points[0].name + "/experiment.yaml"),
+        "seed: 9\n"));
 }
 
-TEST_CASE("faults of points: all at once, each once, at the value in the sweep file; nothing is written") {
+TEST_CASE("faults of points: all at once, each once, at the value in the sweep file; nothing is "
+          "written") {
     const Bench bench;
     const std::string message = bench.expand_fault(
         "axes:\n"
         "  - grid: {initial_mesh.cells: [6, 600, many], velocity.facter: [1, 2]}\n"
         "  - grid: {schedule.4.steps: [3]}\n");
     CAPTURE(message);
-    CHECK(contains(message, "DIR/sweep.yaml:5:12: error: 'schedule' is a list of 1; it has no item '4'"));
-    CHECK(contains(message, "in the point {initial_mesh.cells: 6, velocity.facter: 1, schedule.4.steps: 3} and 5 others"));
+    CHECK(contains(message,
+                   "DIR/sweep.yaml:5:12: error: 'schedule' is a list of 1; it has no item '4'"));
+    CHECK(contains(message, "in the point {initial_mesh.cells: 6, velocity.facter: 1, "
+                            "schedule.4.steps: 3} and 5 others"));
     CHECK(contains(message, "DIR/sweep.yaml:4:48: error: unknown key 'facter'"));
     CHECK(contains(message, "4 errors; nothing was written"));
     CHECK_FALSE(std::filesystem::exists(bench.folder.path() / "out"));
@@ -278,8 +321,10 @@ TEST_CASE("faults of points: all at once, each once, at the value in the sweep f
     const std::string three = bench.expand_fault(
         "axes: [{grid: {initial_mesh.cells: [6, 600, many], velocity.facter: [1, 2]}}]\n");
     CAPTURE(three);
-    CHECK(contains(three, "DIR/sweep.yaml:3:40: error: 'initial_mesh.cells': 600 is above the maximum 100"));
-    CHECK(contains(three, "DIR/sweep.yaml:3:45: error: 'initial_mesh.cells' must be an integer, not the string 'many'"));
+    CHECK(contains(
+        three, "DIR/sweep.yaml:3:40: error: 'initial_mesh.cells': 600 is above the maximum 100"));
+    CHECK(contains(three, "DIR/sweep.yaml:3:45: error: 'initial_mesh.cells' must be an integer, "
+                          "not the string 'many'"));
     CHECK(contains(three, "DIR/sweep.yaml:3:52: error: unknown key 'facter' in velocity 'linear'"));
     CHECK(contains(three, "did you mean 'factor'?"));
     CHECK(contains(three, "3 errors; nothing was written"));
@@ -296,7 +341,9 @@ TEST_CASE("a file that is not there is a fault of input and output") {
     bench.folder.write("b.txt", "");
     CHECK(bench.expand(text).added == 2);
     bench.folder.write("sweep.yaml", "sweep: 1\nbase: nowhere.yaml\nrepeat: 1\n");
-    CHECK(contains(bench.fault([&] { bench.experiments(sweep::load_sweep((bench.folder.path() / "sweep.yaml").string())); }),
+    CHECK(contains(bench.fault([&] {
+        bench.experiments(sweep::load_sweep((bench.folder.path() / "sweep.yaml").string()));
+    }),
                    "nowhere.yaml"));
 }
 
@@ -310,10 +357,11 @@ TEST_CASE("a folder with something else in it, or a damaged table, is refused") 
     CHECK(bench.expand(six).added == 6);
     CHECK_FALSE(std::filesystem::exists(bench.folder.path() / "out/.jobs.tsv.4711-0.tmp"));
     std::filesystem::remove_all(bench.folder.path() / "out");
-    for (const char* text : {"", "index\tfolder\n", "index\tfolder\toverrides\n1\tpoints/0123456789ab\t{a: 1}\n",
-                             "index\tfolder\toverrides\n0\t../0123456789ab\t{a: 1}\n",
-                             "index\tfolder\toverrides\n0\tpoints/0123456789ab\t[1]\n",
-                             "index\tfolder\toverrides\n0\tpoints/0123456789ab\t{a: 1}"}) {
+    for (const char* text :
+         {"", "index\tfolder\n", "index\tfolder\toverrides\n1\tpoints/0123456789ab\t{a: 1}\n",
+          "index\tfolder\toverrides\n0\t../0123456789ab\t{a: 1}\n",
+          "index\tfolder\toverrides\n0\tpoints/0123456789ab\t[1]\n",
+          "index\tfolder\toverrides\n0\tpoints/0123456789ab\t{a: 1}"}) {
         CAPTURE(text);
         bench.folder.write("out/jobs.tsv", text);
         CHECK(contains(bench.expand_fault(six), "DIR/out/jobs.tsv:"));
@@ -326,8 +374,8 @@ TEST_CASE("a folder with something else in it, or a damaged table, is refused") 
 
 TEST_CASE("collect: a row a point, whatever its state") {
     const Bench bench;
-    const std::string text =
-        "axes: [{list: [{seed: 1}, {seed: 2}, {seed: 3, output.surface: [obj, ply]}, {seed: 4}, {seed: 5}, {seed: 6}]}]\n";
+    const std::string text = "axes: [{list: [{seed: 1}, {seed: 2}, {seed: 3, output.surface: [obj, "
+                             "ply]}, {seed: 4}, {seed: 5}, {seed: 6}]}]\n";
     bench.expand(text);
     const std::vector<std::string> all = names(bench.load(text));
     const auto write = [&](std::size_t point, const std::string& file, const std::string& content) {
@@ -337,12 +385,17 @@ TEST_CASE("collect: a row a point, whatever its state") {
     write(0, "summary.json",
           R"({"status": "max_steps", "steps": 2, "volume": 0.1, "genus": 0, "vertex_to_cloud": null,
               "observers": {"analytic": {"radius_error": 1e-3}}, "wall_s": 0.5})");
-    write(1, "status.json", R"({"format": "dsc-run-1", "state": "failed", "error_code": "run.vanished", "exit_code": 5})");
+    write(
+        1, "status.json",
+        R"({"format": "dsc-run-1", "state": "failed", "error_code": "run.vanished", "exit_code": 5})");
     write(2, "status.json", R"({"format": "dsc-run-1", "state": "running"})");
-    write(2, "summary.json", R"({"status": "max_steps", "steps": 99})");  // cannot be: of another run
-    write(4, "status.json", R"({"format": "dsc-run-1", "state": "done"})");  // its summary was taken away
+    write(2, "summary.json", R"({"status": "max_steps", "steps": 99})");  // cannot be: of another
+                                                                          // run
+    write(4, "status.json", R"({"format": "dsc-run-1", "state": "done"})");  // its summary was
+                                                                             // taken away
     write(5, "status.json", R"({"format": "dsc-run-1", "state": "stopped", "exit_code": 75})");
-    write(5, "summary.json", R"({"status": "cancelled", "steps": 1, "vertex_to_cloud": {"mean": 0.25}})");
+    write(5, "summary.json",
+          R"({"status": "cancelled", "steps": 1, "vertex_to_cloud": {"mean": 0.25}})");
 
     sweep::SweepStates states;
     const std::string table = sweep::collect_sweep(bench.folder.path() / "out", states);
@@ -354,17 +407,22 @@ TEST_CASE("collect: a row a point, whatever its state") {
     CHECK(states.missing == 1);
     CHECK(lines(table) == 7);
     CHECK(table.substr(0, table.find('\n')) ==
-          "index,folder,status,ended,error,seed,output.surface,steps,interface_vertices,interface_faces,tets,"
-          "min_tet_quality,inverted_tets,components,genus,volume,volume_initial,boundary_edges,nonmanifold_edges,"
-          "nonmanifold_vertices,self_intersections,vertex_to_cloud.mean,vertex_to_cloud.max,cloud_to_surface.mean,"
+          "index,folder,status,ended,error,seed,output.surface,steps,interface_vertices,interface_"
+          "faces,tets,"
+          "min_tet_quality,inverted_tets,components,genus,volume,volume_initial,boundary_edges,"
+          "nonmanifold_edges,"
+          "nonmanifold_vertices,self_intersections,vertex_to_cloud.mean,vertex_to_cloud.max,cloud_"
+          "to_surface.mean,"
           "cloud_to_surface.max,observers.analytic.radius_error,wall_s,cpu_s,peak_rss_mb");
     const std::string none(15, ',');
-    CHECK(contains(table, "\n0,points/" + all[0] + ",done,max_steps,,1,,2,,,,,,,0,0.1,,,,,,,,,,0.001,0.5,,\n"));
+    CHECK(contains(table, "\n0,points/" + all[0] +
+                              ",done,max_steps,,1,,2,,,,,,,0,0.1,,,,,,,,,,0.001,0.5,,\n"));
     CHECK(contains(table, "\n1,points/" + all[1] + ",failed,,run.vanished,2,,"));
     CHECK(contains(table, "\n2,points/" + all[2] + ",unfinished,,,3,\"[obj, ply]\"," + none));
     CHECK(contains(table, "\n3,points/" + all[3] + ",missing,,,4,," + none));
     CHECK(contains(table, "\n4,points/" + all[4] + ",unfinished,,,5,,"));
     CHECK(contains(table, "\n5,points/" + all[5] + ",stopped,cancelled,,6,,1,"));
     CHECK(contains(table, ",0.25,"));
-    CHECK(contains(bench.fault([&] { sweep::collect_sweep(bench.folder.path(), states); }), "DIR has no jobs.tsv"));
+    CHECK(contains(bench.fault([&] { sweep::collect_sweep(bench.folder.path(), states); }),
+                   "DIR has no jobs.tsv"));
 }

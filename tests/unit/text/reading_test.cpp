@@ -1,9 +1,10 @@
 // Lines, fields and tokens, and the places in errors.
+#include <vector>
+
 #include <doctest/doctest.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/text/reading.hpp>
-
-#include <vector>
 
 namespace text = dsc::text;
 
@@ -12,7 +13,8 @@ namespace {
 std::vector<std::string> lines_of(std::string_view content, bool join = false) {
     text::Lines lines(content, "f", join);
     std::vector<std::string> out;
-    for (std::string_view line; lines.next(line);) out.push_back(std::to_string(lines.number()) + ":" + std::string(line));
+    for (std::string_view line; lines.next(line);)
+        out.push_back(std::to_string(lines.number()) + ":" + std::string(line));
     return out;
 }
 
@@ -35,7 +37,8 @@ TEST_CASE("lines end with LF, CR LF or CR") {
 }
 
 TEST_CASE("a backslash joins lines on request") {
-    CHECK(lines_of("v 1 \\\n2 \\\r\n3\nnext", true) == std::vector<std::string>{"1:v 1  2  3", "4:next"});
+    CHECK(lines_of("v 1 \\\n2 \\\r\n3\nnext", true) ==
+          std::vector<std::string>{"1:v 1  2  3", "4:next"});
     CHECK(lines_of("a\\\nb") == std::vector<std::string>{"1:a\\", "2:b"});
     CHECK(lines_of("a\\", true) == std::vector<std::string>{"1:a "});
 }
@@ -59,20 +62,24 @@ TEST_CASE("tokens know their line") {
     CHECK(tokens.coordinate() == 2.5);
     CHECK_FALSE(tokens.more_on_line());
     CHECK(error_of([&] { tokens.coordinate(); }) ==
-          "io.not_finite f:3: coordinate 'nan' is NaN or infinite; remove the point and its faces or export the file again");
+          "io.not_finite f:3: coordinate 'nan' is NaN or infinite; remove the point and its faces "
+          "or export the file again");
     CHECK(error_of([&] { tokens.value(); }) ==
-          "io.truncated f:3: the file ends where a number should be; the file is incomplete: copy or export it again");
+          "io.truncated f:3: the file ends where a number should be; the file is incomplete: copy "
+          "or export it again");
 }
 
 TEST_CASE("numbers that are not accepted name their place") {
     const text::Place place{"f", 7};
     CHECK(error_of([&] { text::read_value("1e999", place); }) ==
-          "io.not_finite f:7: '1e999' is out of the range of a double; correct the line or export the file again");
+          "io.not_finite f:7: '1e999' is out of the range of a double; correct the line or export "
+          "the file again");
     CHECK(error_of([&] { text::read_value("x", place); }) ==
           "io.syntax f:7: 'x' is not a number; correct the line or export the file again");
     CHECK(error_of([&] { text::read_value("1,5", place); }) ==
           "io.syntax f:7: '1,5' is not a number; write decimals with a point, not with a comma");
-    CHECK(error_of([&] { text::read_integer("1.0", {"f", 0}); }) ==
-          "io.syntax f: '1.0' is not an integer; correct the line or export the file again");
+    CHECK(error_of([&] {
+              text::read_integer("1.0", {"f", 0});
+          }) == "io.syntax f: '1.0' is not an integer; correct the line or export the file again");
     CHECK(text::read_value("1e-999", place) == 0.0);
 }

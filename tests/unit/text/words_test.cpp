@@ -1,5 +1,6 @@
 // Blanks, case, names, quotes, plurals, UTF-8.
 #include <doctest/doctest.h>
+
 #include <dsc/text/utf8.hpp>
 #include <dsc/text/words.hpp>
 
@@ -28,7 +29,8 @@ TEST_CASE("lower case changes ASCII letters only") {
 
 TEST_CASE("names") {
     for (const char* name : {"a", "a_1", "_a", "1a"}) CHECK(text::is_snake_case(name));
-    for (const char* name : {"", "A", "a b", "a-b", "\xC3\xA4"}) CHECK_FALSE(text::is_snake_case(name));
+    for (const char* name : {"", "A", "a b", "a-b", "\xC3\xA4"})
+        CHECK_FALSE(text::is_snake_case(name));
     for (const char* name : {"a", "A1", "_"}) CHECK(text::is_identifier(name));
     for (const char* name : {"", "1a", "a.b"}) CHECK_FALSE(text::is_identifier(name));
     for (const char* name : {"a", "a_1"}) CHECK(text::is_id(name));
@@ -52,9 +54,11 @@ TEST_CASE("counts have their plural") {
 }
 
 TEST_CASE("UTF-8 is well-formed or not") {
-    for (const char* good : {"a", "\xC3\xA4", "\xE2\x82\xAC", "\xF0\x9F\x98\x80", "\x01"}) CHECK(text::is_utf8(good));
+    for (const char* good : {"a", "\xC3\xA4", "\xE2\x82\xAC", "\xF0\x9F\x98\x80", "\x01"})
+        CHECK(text::is_utf8(good));
     // Alone, overlong, a surrogate, beyond the last character, cut off.
-    for (const char* bad : {"\x80", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE2\x82"})
+    for (const char* bad :
+         {"\x80", "\xC0\x80", "\xE0\x80\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE2\x82"})
         CHECK_FALSE(text::is_utf8(bad));
     CHECK(text::character_count("\xC3\xA4\xE2\x82\xAC.") == 3);
     CHECK(text::first_characters("\xC3\xA4\xE2\x82\xAC.", 2) == "\xC3\xA4\xE2\x82\xAC");

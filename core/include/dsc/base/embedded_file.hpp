@@ -1,5 +1,6 @@
 #pragma once
-// Files that share/cmake/dsc_embed.cmake compiles into a program or library, so that an installation can be moved.
+// Files that share/cmake/dsc_embed.cmake compiles into a program or library, so that an
+// installation can be moved.
 
 #include <string_view>
 

@@ -9,17 +9,30 @@
 namespace dsc {
 
 /// Exit codes of the `dsc` command; each error class belongs to one.
-enum class ExitCode : int { ok = 0, internal = 1, usage = 2, config = 3, plugin = 4, geometry = 5, io = 6, stopped = 75 };
+enum class ExitCode : int {
+    ok = 0,
+    internal = 1,
+    usage = 2,
+    config = 3,
+    plugin = 4,
+    geometry = 5,
+    io = 6,
+    stopped = 75
+};
 
-/// Base of all errors. `code` is stable and documented ("io.truncated"). `what()` is one message for a person:
-/// "PLACE: CAUSE; REMEDY". The place is a file with its line, the name of a cloud or of a strategy; it and the remedy may be
-/// empty.
+/// Base of all errors. `code` is stable and documented ("io.truncated"). `what()` is one message
+/// for a person: "PLACE: CAUSE; REMEDY". The place is a file with its line, the name of a cloud or
+/// of a strategy; it and the remedy may be empty.
 class Error : public std::runtime_error {
 public:
-    Error(ExitCode exit_code, std::string code, std::string_view place, std::string_view cause, std::string_view remedy);
+    Error(ExitCode exit_code, std::string code, std::string_view place, std::string_view cause,
+          std::string_view remedy);
     /// A message without parts, such as a list of diagnostics: all of it is the cause.
     Error(ExitCode exit_code, std::string code, const std::string& message)
-        : std::runtime_error(message), exit_code_(exit_code), code_(std::move(code)), cause_(message) {}
+        : std::runtime_error(message),
+          exit_code_(exit_code),
+          code_(std::move(code)),
+          cause_(message) {}
     ~Error() override;
     ExitCode exit_code() const noexcept { return exit_code_; }
     const std::string& code() const noexcept { return code_; }
@@ -35,8 +48,10 @@ private:
 /// A wrong call on the command line.
 class UsageError : public Error {
 public:
-    UsageError(std::string code, const std::string& message) : Error(ExitCode::usage, std::move(code), message) {}
-    UsageError(std::string code, std::string_view place, std::string_view cause, std::string_view remedy)
+    UsageError(std::string code, const std::string& message)
+        : Error(ExitCode::usage, std::move(code), message) {}
+    UsageError(std::string code, std::string_view place, std::string_view cause,
+               std::string_view remedy)
         : Error(ExitCode::usage, std::move(code), place, cause, remedy) {}
     ~UsageError() override;
 };
@@ -44,8 +59,10 @@ public:
 /// A wrong experiment. The message may contain several diagnostics of one or more lines each.
 class ConfigError : public Error {
 public:
-    ConfigError(std::string code, const std::string& message) : Error(ExitCode::config, std::move(code), message) {}
-    ConfigError(std::string code, std::string_view place, std::string_view cause, std::string_view remedy)
+    ConfigError(std::string code, const std::string& message)
+        : Error(ExitCode::config, std::move(code), message) {}
+    ConfigError(std::string code, std::string_view place, std::string_view cause,
+                std::string_view remedy)
         : Error(ExitCode::config, std::move(code), place, cause, remedy) {}
     ~ConfigError() override;
 };
@@ -53,8 +70,10 @@ public:
 /// A plugin that does not load or does not fit this build.
 class PluginError : public Error {
 public:
-    PluginError(std::string code, const std::string& message) : Error(ExitCode::plugin, std::move(code), message) {}
-    PluginError(std::string code, std::string_view place, std::string_view cause, std::string_view remedy)
+    PluginError(std::string code, const std::string& message)
+        : Error(ExitCode::plugin, std::move(code), message) {}
+    PluginError(std::string code, std::string_view place, std::string_view cause,
+                std::string_view remedy)
         : Error(ExitCode::plugin, std::move(code), place, cause, remedy) {}
     ~PluginError() override;
 };
@@ -62,17 +81,22 @@ public:
 /// A strategy that threw, returned NaN or returned the wrong size.
 class StrategyError : public Error {
 public:
-    StrategyError(std::string code, const std::string& message) : Error(ExitCode::plugin, std::move(code), message) {}
-    StrategyError(std::string code, std::string_view place, std::string_view cause, std::string_view remedy)
+    StrategyError(std::string code, const std::string& message)
+        : Error(ExitCode::plugin, std::move(code), message) {}
+    StrategyError(std::string code, std::string_view place, std::string_view cause,
+                  std::string_view remedy)
         : Error(ExitCode::plugin, std::move(code), place, cause, remedy) {}
     ~StrategyError() override;
 };
 
-/// Geometry or numbers that the program cannot use: inverted tets, coplanar clouds, non-manifold labels.
+/// Geometry or numbers that the program cannot use: inverted tets, coplanar clouds, non-manifold
+/// labels.
 class GeometryError : public Error {
 public:
-    GeometryError(std::string code, const std::string& message) : Error(ExitCode::geometry, std::move(code), message) {}
-    GeometryError(std::string code, std::string_view place, std::string_view cause, std::string_view remedy)
+    GeometryError(std::string code, const std::string& message)
+        : Error(ExitCode::geometry, std::move(code), message) {}
+    GeometryError(std::string code, std::string_view place, std::string_view cause,
+                  std::string_view remedy)
         : Error(ExitCode::geometry, std::move(code), place, cause, remedy) {}
     ~GeometryError() override;
 };
@@ -80,16 +104,19 @@ public:
 /// A file that cannot be read or written.
 class IoError : public Error {
 public:
-    IoError(std::string code, const std::string& message) : Error(ExitCode::io, std::move(code), message) {}
+    IoError(std::string code, const std::string& message)
+        : Error(ExitCode::io, std::move(code), message) {}
     /// Message "FILE:LINE: CAUSE; REMEDY". `line` may also be a byte range, or empty.
-    IoError(std::string code, std::string_view file, std::string_view line, std::string_view cause, std::string_view remedy);
+    IoError(std::string code, std::string_view file, std::string_view line, std::string_view cause,
+            std::string_view remedy);
     ~IoError() override;
 };
 
 /// The caller asked to stop.
 class CancelledError : public Error {
 public:
-    explicit CancelledError(const std::string& message) : Error(ExitCode::stopped, "run.cancelled", message) {}
+    explicit CancelledError(const std::string& message)
+        : Error(ExitCode::stopped, "run.cancelled", message) {}
     ~CancelledError() override;
 };
 

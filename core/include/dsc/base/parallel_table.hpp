@@ -2,13 +2,14 @@
 // Computes one value per element, in parallel.
 
 #include <cstddef>
-#include <dsc/base/workers.hpp>
 #include <vector>
+
+#include <dsc/base/workers.hpp>
 
 namespace dsc {
 
-/// value(i) for all i below `count`, computed in blocks that do not depend on the number of threads; `workers` null: one
-/// thread.
+/// value(i) for all i below `count`, computed in blocks that do not depend on the number of
+/// threads; `workers` null: one thread.
 template <class Value>
 std::vector<double> parallel_table(Workers* workers, std::size_t count, const Value& value) {
     std::vector<double> values(count);

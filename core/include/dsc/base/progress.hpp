@@ -1,5 +1,6 @@
 #pragma once
-// Cooperative cancellation: the caller of a long job creates a token and may set it from a signal handler.
+// Cooperative cancellation: the caller of a long job creates a token and may set it from a signal
+// handler.
 
 #include <atomic>
 

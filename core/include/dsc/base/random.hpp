@@ -1,5 +1,6 @@
 #pragma once
-// Counter-based random numbers: a value depends only on its key and its index, not on the order of the calls.
+// Counter-based random numbers: a value depends only on its key and its index, not on the order of
+// the calls.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +11,8 @@ namespace dsc {
 /// Identifies a stream. Two streams with different keys are independent.
 struct RandomKey {
     std::uint64_t seed = 0;      ///< the experiment's seed
-    std::uint64_t instance = 0;  ///< hash of the strategy's place in the experiment, see stream_id()
+    std::uint64_t instance = 0;  ///< hash of the strategy's place in the experiment, see
+                                 ///< stream_id()
     std::uint64_t step = 0;
     std::uint64_t element = 0;  ///< birth id of a vertex, index of a sample, ...
 };

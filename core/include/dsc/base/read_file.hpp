@@ -6,7 +6,8 @@
 
 namespace dsc {
 
-/// The bytes of a regular file. Throws IoError "io.missing", "io.directory", "io.unreadable". [parallel]
+/// The bytes of a regular file. Throws IoError "io.missing", "io.directory", "io.unreadable".
+/// [parallel]
 std::string read_file(const std::filesystem::path& file);
 
 }  // namespace dsc

@@ -1,5 +1,6 @@
 #pragma once
-// The saved state of an object as bytes, for checkpoints. Valid for the same build on the same kind of machine.
+// The saved state of an object as bytes, for checkpoints. Valid for the same build on the same kind
+// of machine.
 
 #include <cstdint>
 #include <cstring>
@@ -11,7 +12,8 @@
 
 namespace dsc {
 
-/// Types that may be copied byte by byte: plain values, and Eigen vectors of fixed size (their copy constructors only copy).
+/// Types that may be copied byte by byte: plain values, and Eigen vectors of fixed size (their copy
+/// constructors only copy).
 template <class T>
 inline constexpr bool is_plain_state =
     std::is_standard_layout_v<T>&& std::is_trivially_destructible_v<T> && !std::is_pointer_v<T>;
@@ -38,12 +40,14 @@ public:
     std::string take() { return std::move(bytes_); }
 
 private:
-    void append(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
+    void append(const void* data, std::size_t size) {
+        bytes_.append(static_cast<const char*>(data), size);
+    }
     std::string bytes_;
 };
 
-/// Reads the values back in the same order. Throws IoError "state.damaged" if the bytes end too early. The text must outlive
-/// the reader. [step]
+/// Reads the values back in the same order. Throws IoError "state.damaged" if the bytes end too
+/// early. The text must outlive the reader. [step]
 class StateReader {
 public:
     explicit StateReader(std::string_view bytes) : bytes_(bytes) {}

@@ -8,7 +8,8 @@
 
 namespace dsc {
 
-/// Disjoint sets. The root of a set is its smallest index, so it does not depend on the order of the unions.
+/// Disjoint sets. The root of a set is its smallest index, so it does not depend on the order of
+/// the unions.
 class UnionFind {
 public:
     /// Each index is a separate set at first. [parallel]

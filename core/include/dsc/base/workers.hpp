@@ -1,5 +1,6 @@
 #pragma once
-// Threads that work on fixed blocks. The blocks do not depend on the number of threads, and neither do the results.
+// Threads that work on fixed blocks. The blocks do not depend on the number of threads, and neither
+// do the results.
 
 #include <cstddef>
 #include <functional>
@@ -18,9 +19,11 @@ public:
 
     unsigned threads() const noexcept;
 
-    /// Calls body(begin, end) for the blocks [0, block), [block, 2 block), ... of [0, count), in any order, possibly at the
-    /// same time. After all blocks have ended it rethrows the exception of the block with the lowest index.
-    void for_blocks(std::size_t count, std::size_t block, const std::function<void(std::size_t, std::size_t)>& body);
+    /// Calls body(begin, end) for the blocks [0, block), [block, 2 block), ... of [0, count), in
+    /// any order, possibly at the same time. After all blocks have ended it rethrows the exception
+    /// of the block with the lowest index.
+    void for_blocks(std::size_t count, std::size_t block,
+                    const std::function<void(std::size_t, std::size_t)>& body);
 
 private:
     struct Pool;
@@ -34,7 +37,8 @@ void for_blocks(Workers* workers, std::size_t count, std::size_t block, const Bo
         workers->for_blocks(count, block, body);
         return;
     }
-    for (std::size_t begin = 0; begin < count; begin += block) body(begin, begin + block < count ? begin + block : count);
+    for (std::size_t begin = 0; begin < count; begin += block)
+        body(begin, begin + block < count ? begin + block : count);
 }
 
 }  // namespace dsc

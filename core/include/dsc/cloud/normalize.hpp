@@ -26,25 +26,26 @@ inline Box3 simulation_box() { return {Vec3::Constant(-1.5), Vec3::Constant(1.5)
 struct Normalized {
     std::vector<Vec3> points;  ///< in normalised units, in the order of the cloud
     Transform transform;
-    std::vector<Colour> colours{};  ///< empty, or one per point
+    std::vector<Colour> colours{};     ///< empty, or one per point
     std::vector<Vec3> normals{};       ///< empty, or one per point; unit vectors
     std::vector<Vec3> areas{};         ///< empty, or one per point, in squared normalised units
     std::vector<double> confidence{};  ///< empty, or one per point
     Orientation orientation{};         ///< in normalised units
 };
 
-/// Refuses points that bound no volume: fewer than 4, all equal, all on a line, all on a plane. Exact predicates decide this.
-/// Clouds thinner than 1e-9 of their diagonal, or than the rounding of their coordinates, also count as flat. The message
-/// begins with `name`. Throws GeometryError "cloud.few", "cloud.equal", "cloud.collinear", "cloud.coplanar",
-/// "cloud.non_finite". [setup]
+/// Refuses points that bound no volume: fewer than 4, all equal, all on a line, all on a plane.
+/// Exact predicates decide this. Clouds thinner than 1e-9 of their diagonal, or than the rounding
+/// of their coordinates, also count as flat. The message begins with `name`. Throws GeometryError
+/// "cloud.few", "cloud.equal", "cloud.collinear", "cloud.coplanar", "cloud.non_finite". [setup]
 void require_volume(std::span<const Vec3> points, std::string_view name);
 
-/// The normalisation of the thesis: moves the centre of the cloud's box to the origin and scales its largest half-extent to
-/// `scale_target`. Throws as require_volume, and GeometryError "cloud.scale" unless it is above 0 and at most 1.5. [setup]
+/// The normalisation of the thesis: moves the centre of the cloud's box to the origin and scales
+/// its largest half-extent to `scale_target`. Throws as require_volume, and GeometryError
+/// "cloud.scale" unless it is above 0 and at most 1.5. [setup]
 Normalized normalize(const Cloud& cloud, double scale_target = 0.9);
 
-/// Keeps the coordinates, with the identity as transform. Throws as require_volume, and GeometryError "cloud.outside_box"
-/// unless `box` contains every point. [setup]
+/// Keeps the coordinates, with the identity as transform. Throws as require_volume, and
+/// GeometryError "cloud.outside_box" unless `box` contains every point. [setup]
 Normalized keep_coordinates(const Cloud& cloud, const Box3& box = simulation_box());
 
 }  // namespace dsc::cloud

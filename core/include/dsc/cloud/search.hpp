@@ -17,11 +17,13 @@ struct Neighbour {
     double distance = 0.0;
 };
 
-/// A kd-tree. Distances are sqrt(dx*dx + dy*dy + dz*dz) in double. Points are ordered by the squares; of equal ones the lowest
-/// index comes first. Queries must be finite. All const methods may be called from several threads at once.
+/// A kd-tree. Distances are sqrt(dx*dx + dy*dy + dz*dz) in double. Points are ordered by the
+/// squares; of equal ones the lowest index comes first. Queries must be finite. All const methods
+/// may be called from several threads at once.
 class NearestSearch {
 public:
-    /// Copies the points. Throws GeometryError "cloud.empty" without points, "cloud.non_finite". [setup]
+    /// Copies the points. Throws GeometryError "cloud.empty" without points, "cloud.non_finite".
+    /// [setup]
     explicit NearestSearch(std::span<const Vec3> points);
     ~NearestSearch();
     NearestSearch(NearestSearch&&) noexcept;
@@ -32,7 +34,8 @@ public:
     /// The point nearest to p. [parallel]
     Neighbour nearest(const Vec3& p) const;
 
-    /// The k nearest points (all, if there are fewer), by distance then index, into `out`. [parallel]
+    /// The k nearest points (all, if there are fewer), by distance then index, into `out`.
+    /// [parallel]
     void k_nearest(const Vec3& p, std::size_t k, std::vector<Neighbour>& out) const;
 
     /// All points at most `radius` away, by distance then index, into `out`. [parallel]
@@ -46,7 +49,8 @@ private:
     std::unique_ptr<Tree> tree_;
 };
 
-/// Per point of the search: the distance to the nearest other point; 0 for a point that is the only one. [setup]
+/// Per point of the search: the distance to the nearest other point; 0 for a point that is the only
+/// one. [setup]
 std::vector<double> distances_to_nearest(const NearestSearch& search, Workers* workers);
 
 }  // namespace dsc::cloud

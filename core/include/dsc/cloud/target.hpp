@@ -1,5 +1,6 @@
 #pragma once
-// The cloud as strategies see it: normalised points, a search in them, and the transform from the input's units.
+// The cloud as strategies see it: normalised points, a search in them, and the transform from the
+// input's units.
 
 #include <cstddef>
 #include <memory>
@@ -12,10 +13,12 @@
 
 namespace dsc::cloud {
 
-/// Immutable; copies share the points and the tree. All methods may be called from several threads at once.
+/// Immutable; copies share the points and the tree. All methods may be called from several threads
+/// at once.
 class TargetCloud {
 public:
-    /// Builds the search tree. Attributes that do not have one entry per point are left out. Throws as NearestSearch. [setup]
+    /// Builds the search tree. Attributes that do not have one entry per point are left out. Throws
+    /// as NearestSearch. [setup]
     explicit TargetCloud(const Normalized& normalized);
 
     /// Normalised points, in the order of the cloud. [parallel]
@@ -24,26 +27,29 @@ public:
     const Vec3& operator[](std::size_t index) const { return points()[index]; }
     /// Search for nearest points. [parallel]
     const NearestSearch& search() const noexcept { return *search_; }
-    /// Local distance of the points: the distance from a point to its sixth neighbour (a vertex of a triangulated surface has
-    /// about six). Coinciding points count once. 0 if fewer than two points are distinct. The first call computes all values.
-    /// [parallel]
+    /// Local distance of the points: the distance from a point to its sixth neighbour (a vertex of
+    /// a triangulated surface has about six). Coinciding points count once. 0 if fewer than two
+    /// points are distinct. The first call computes all values. [parallel]
     double spacing(std::size_t index) const;
     /// From the input's units to normalised units. [parallel]
     const Transform& transform() const noexcept { return transform_; }
     /// Colours in the order of the points; empty if the input has none. [parallel]
     std::span<const Colour> colours() const noexcept { return attributes_->colours; }
-    /// Unit vectors that point out of the solid, areas in squared normalised units, and the confidence of the normals, 0 to 1;
-    /// one per point, or empty if no filter added them. [parallel]
+    /// Unit vectors that point out of the solid, areas in squared normalised units, and the
+    /// confidence of the normals, 0 to 1; one per point, or empty if no filter added them.
+    /// [parallel]
     std::span<const Vec3> normals() const noexcept { return attributes_->normals; }
     std::span<const Vec3> areas() const noexcept { return attributes_->areas; }
     std::span<const double> confidence() const noexcept { return attributes_->confidence; }
     /// The orientation in normalised units; empty without the filter `orient`. [parallel]
     const Orientation& orientation() const noexcept { return attributes_->orientation; }
 
-    /// Statistics of the points, in normalised units. The first call computes all of them, with the given workers; a call from
-    /// inside a parallel block must not pass workers. The result does not depend on them. [parallel]
+    /// Statistics of the points, in normalised units. The first call computes all of them, with the
+    /// given workers; a call from inside a parallel block must not pass workers. The result does
+    /// not depend on them. [parallel]
     const Statistics& statistics(Workers* workers = nullptr) const;
-    /// Square root of the area per point at a point, from its 12th neighbour and from its 8th; see Statistics. [parallel]
+    /// Square root of the area per point at a point, from its 12th neighbour and from its 8th; see
+    /// Statistics. [parallel]
     double point_width(std::size_t index) const { return statistics().point_width[index]; }
     double label_width(std::size_t index) const { return statistics().label_width[index]; }
     /// Standard deviation of the points across the surface. [parallel]

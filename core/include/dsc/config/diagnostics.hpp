@@ -2,10 +2,11 @@
 // Diagnostics: collects every fault of a configuration, so that a user sees all faults at once.
 
 #include <cstddef>
-#include <dsc/config/source.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <dsc/config/source.hpp>
 
 namespace dsc::config {
 
@@ -34,19 +35,21 @@ std::string format(const Diagnostic& diagnostic);
 /// Collects diagnostics. [setup]
 class Diagnostics {
 public:
-    void error(std::string code, SourcePosition position, std::string message, std::string hint = {},
-               std::vector<std::string> notes = {});
-    void warning(std::string code, SourcePosition position, std::string message, std::string hint = {},
-                 std::vector<std::string> notes = {});
+    void error(std::string code, SourcePosition position, std::string message,
+               std::string hint = {}, std::vector<std::string> notes = {});
+    void warning(std::string code, SourcePosition position, std::string message,
+                 std::string hint = {}, std::vector<std::string> notes = {});
 
     std::size_t error_count() const noexcept { return errors_; }
     bool has_errors() const noexcept { return errors_ > 0; }
     /// In the order in which they were found.
     const std::vector<Diagnostic>& all() const noexcept { return all_; }
-    /// Texts of all diagnostics of one severity, sorted by place within each file; after 100 only their number.
+    /// Texts of all diagnostics of one severity, sorted by place within each file; after 100 only
+    /// their number.
     std::string text(Severity severity) const;
-    /// Throws ConfigError with all errors and the last line "N errors; nothing was run". Its code is the code of the only
-    /// error, or "config.invalid" for several. Does nothing if there is no error.
+    /// Throws ConfigError with all errors and the last line "N errors; nothing was run". Its code
+    /// is the code of the only error, or "config.invalid" for several. Does nothing if there is no
+    /// error.
     void throw_if_errors() const;
 
 private:
@@ -54,8 +57,9 @@ private:
     std::size_t errors_ = 0;
 };
 
-/// Throws ConfigError with this one diagnostic, in the same form. For a fault after which nothing else can be checked.
-[[noreturn]] void fail(std::string code, SourcePosition position, std::string message, std::string hint = {},
-                       std::vector<std::string> notes = {});
+/// Throws ConfigError with this one diagnostic, in the same form. For a fault after which nothing
+/// else can be checked.
+[[noreturn]] void fail(std::string code, SourcePosition position, std::string message,
+                       std::string hint = {}, std::vector<std::string> notes = {});
 
 }  // namespace dsc::config

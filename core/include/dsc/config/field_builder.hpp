@@ -2,11 +2,12 @@
 // FieldBuilder: completes the declaration of one parameter. ParamSchema (params.hpp) returns it.
 
 #include <cstddef>
-#include <dsc/config/schema.hpp>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <dsc/config/schema.hpp>
 
 namespace dsc::config {
 
@@ -24,8 +25,10 @@ public:
     FieldBuilder& open_low() { return field().minimum.value().open = true, *this; }
     FieldBuilder& open_high() { return field().maximum.value().open = true, *this; }
     /// Smallest and largest number of items of a list.
-    FieldBuilder& size(std::size_t least, std::size_t greatest = std::numeric_limits<std::size_t>::max());
-    /// "1" for a pure number, "length" for normalised units, "target lengths (L)", "steps", "radians", "seconds", ...
+    FieldBuilder& size(std::size_t least,
+                       std::size_t greatest = std::numeric_limits<std::size_t>::max());
+    /// "1" for a pure number, "length" for normalised units, "target lengths (L)", "steps",
+    /// "radians", "seconds", ...
     FieldBuilder& unit(std::string text) { return field().unit = std::move(text), *this; }
     /// What the parameter does, for the person who writes the experiment.
     FieldBuilder& doc(std::string text) { return field().doc = std::move(text), *this; }
@@ -38,7 +41,9 @@ public:
         return field().extensions = std::move(list), *this;
     }
     /// Accepted items of a list of strings.
-    FieldBuilder& choices(std::vector<std::string> list) { return field().choices = std::move(list), *this; }
+    FieldBuilder& choices(std::vector<std::string> list) {
+        return field().choices = std::move(list), *this;
+    }
     /// A list of strings also accepts integers, as their digits.
     FieldBuilder& or_integers() { return tag("or_integers"); }
     FieldBuilder& tag(std::string name) { return field().tags.push_back(std::move(name)), *this; }

@@ -1,15 +1,17 @@
 #pragma once
-// ConfigNode: an immutable tree of configuration values that remembers where each value was written.
+// ConfigNode: an immutable tree of configuration values that remembers where each value was
+// written.
 
 #include <cstddef>
 #include <cstdint>
-#include <dsc/config/source.hpp>
 #include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
+
+#include <dsc/config/source.hpp>
 
 namespace dsc::config {
 
@@ -21,9 +23,10 @@ std::string_view type_name(NodeType type);
 struct ConfigEntry;
 struct NodeFactory;
 
-/// A value of a configuration: null, a scalar, a list, or a map that keeps the order of its keys. Copies share the tree;
-/// nothing can change it. Plain types convert to nodes:
-/// `ConfigNode::map({{"type", "grid"}, {"cells", 30}, {"axis", ConfigNode::list({0.0, 0.0, 1.0})}})`. [setup]
+/// A value of a configuration: null, a scalar, a list, or a map that keeps the order of its keys.
+/// Copies share the tree; nothing can change it. Plain types convert to nodes:
+/// `ConfigNode::map({{"type", "grid"}, {"cells", 30}, {"axis", ConfigNode::list({0.0,
+/// 0.0, 1.0})}})`. [setup]
 class ConfigNode {
 public:
     /// Null.
@@ -35,7 +38,8 @@ public:
     ConfigNode(std::string_view value);  // NOLINT(google-explicit-constructor)
     /// Any integer type; a value above the largest std::int64_t throws ConfigError "config.range".
     template <class Integer>
-    requires(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>) ConfigNode(Integer value)
+    requires(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>)
+        ConfigNode(Integer value)
         : ConfigNode(from_integer(value)) {}  // NOLINT(google-explicit-constructor)
 
     static ConfigNode list(std::vector<ConfigNode> items);
@@ -66,7 +70,8 @@ public:
 
     /// Number of items or entries, 0 for a scalar.
     std::size_t size() const noexcept;
-    /// The value at `key` of a map; nullptr if it is absent or this is not a map. Valid as long as this node.
+    /// The value at `key` of a map; nullptr if it is absent or this is not a map. Valid as long as
+    /// this node.
     const ConfigNode* find(std::string_view key) const noexcept;
     const ConfigEntry* find_entry(std::string_view key) const noexcept;
     /// The value at `key`; throws ConfigError "config.missing" with the position of this node.
@@ -84,13 +89,14 @@ public:
     ConfigNode placed(SourcePosition position, bool quoted = false) const;
     /// The same tree with the paths of all its nodes starting at `path`.
     ConfigNode with_path(const std::string& path) const;
-    /// A copy of a map with `key` replaced at its place, or added at the end. Null counts as an empty map.
+    /// A copy of a map with `key` replaced at its place, or added at the end. Null counts as an
+    /// empty map.
     ConfigNode with(const std::string& key, ConfigNode value) const;
     ConfigNode with(const std::string& key, ConfigNode value, SourcePosition key_position) const;
     /// A copy of a map without `key`.
     ConfigNode without(std::string_view key) const;
-    /// A copy of a list with the item at `index` replaced; throws ConfigError "config.missing" beyond the
-    /// end.
+    /// A copy of a list with the item at `index` replaced; throws ConfigError "config.missing"
+    /// beyond the end.
     ConfigNode with_item(std::size_t index, ConfigNode value) const;
 
     /// Equal values in equal order. An integer differs from a real number. Places are not compared.
@@ -107,7 +113,8 @@ private:
     template <class Integer>
     static ConfigNode from_integer(Integer value) {
         if constexpr (std::is_unsigned_v<Integer> && sizeof(Integer) >= sizeof(std::int64_t)) {
-            if (value > static_cast<Integer>(std::numeric_limits<std::int64_t>::max())) integer_too_large();
+            if (value > static_cast<Integer>(std::numeric_limits<std::int64_t>::max()))
+                integer_too_large();
         }
         return integer_node(static_cast<std::int64_t>(value));
     }
@@ -121,7 +128,9 @@ private:
 /// A key of a map with its value.
 struct ConfigEntry {
     ConfigEntry(std::string entry_key, ConfigNode entry_value, SourcePosition entry_position = {})
-        : key(std::move(entry_key)), value(std::move(entry_value)), position(std::move(entry_position)) {}
+        : key(std::move(entry_key)),
+          value(std::move(entry_value)),
+          position(std::move(entry_position)) {}
 
     std::string key;
     ConfigNode value;

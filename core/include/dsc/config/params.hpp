@@ -1,12 +1,10 @@
 #pragma once
-// ParamSchema<T>: declares the parameters of a strategy once, bound to the members of a plain struct. Validation,
-// documentation, the editor's schema and the strategy's struct all come from this one declaration.
+// ParamSchema<T>: declares the parameters of a strategy once, bound to the members of a plain
+// struct. Validation, documentation, the editor's schema and the strategy's struct all come from
+// this one declaration.
 
 #include <array>
 #include <cstdint>
-#include <dsc/config/field_builder.hpp>
-#include <dsc/config/node.hpp>
-#include <dsc/config/schema.hpp>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -15,6 +13,10 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include <dsc/config/field_builder.hpp>
+#include <dsc/config/node.hpp>
+#include <dsc/config/schema.hpp>
 
 namespace dsc::config {
 
@@ -35,8 +37,8 @@ void require_sound(const Schema& schema);
 /// Binds the members of `T` to named parameters.
 ///
 /// ```
-/// struct Params { double alpha = 0.2; std::optional<double> radius; config::StrategyConfig curvature; };
-/// static void declare(config::ParamSchema<Params>& s) {
+/// struct Params { double alpha = 0.2; std::optional<double> radius; config::StrategyConfig
+/// curvature; }; static void declare(config::ParamSchema<Params>& s) {
 ///     s.real("alpha", &Params::alpha)
 ///         .range(0, 1)
 ///         .open_low()
@@ -52,8 +54,8 @@ void require_sound(const Schema& schema);
 ///     s.check([](const Params& p) { return p.alpha < 1 || p.radius; }, "alpha 1 needs a radius");
 /// }
 /// ```
-/// Defaults are the members of `defaults`, by default a value-initialised T. A member of type std::optional may stay unset. The
-/// parameters of a strategy must not be called "type". [setup]
+/// Defaults are the members of `defaults`, by default a value-initialised T. A member of type
+/// std::optional may stay unset. The parameters of a strategy must not be called "type". [setup]
 template <class T>
 class ParamSchema {
 public:
@@ -127,7 +129,8 @@ public:
         return scalar(std::move(name), member, FieldType::string_list);
     }
 
-    /// A nested struct, declared by `declare(ParamSchema<U>&)`; its defaults are the values inside T.
+    /// A nested struct, declared by `declare(ParamSchema<U>&)`; its defaults are the values inside
+    /// T.
     template <class U, class Declare>
     FieldBuilder object(std::string name, U T::*member, Declare declare) {
         auto inner = nested<U>(bindings_->defaults.*member, declare);
@@ -151,7 +154,9 @@ public:
                     t.*member = inner->read(node);
                 }
             },
-            [member, inner](const T& t) { return t.*member ? inner->write(*(t.*member)) : ConfigNode(); });
+            [member, inner](const T& t) {
+                return t.*member ? inner->write(*(t.*member)) : ConfigNode();
+            });
     }
 
     /// A list of structs, each declared by `declare(ParamSchema<U>&)`.
@@ -162,7 +167,8 @@ public:
             field(std::move(name), FieldType::object_list, inner->shared_schema()),
             [member, inner](T& t, const ConfigNode& node) {
                 (t.*member).clear();
-                for (const ConfigNode& item : node.items()) (t.*member).push_back(inner->read(item));
+                for (const ConfigNode& item : node.items())
+                    (t.*member).push_back(inner->read(item));
             },
             [member, inner](const T& t) {
                 std::vector<ConfigNode> items;
@@ -177,18 +183,21 @@ public:
         f.kind = std::move(kind);
         f.required = (bindings_->defaults.*member).empty();
         return add(
-            std::move(f), [member](T& t, const ConfigNode& node) { t.*member = strategy_from(node); },
+            std::move(f),
+            [member](T& t, const ConfigNode& node) { t.*member = strategy_from(node); },
             [member](const T& t) { return strategy_node(t.*member); });
     }
     /// A list of strategies of `kind`.
-    FieldBuilder strategies(std::string name, std::vector<StrategyConfig> T::*member, std::string kind) {
+    FieldBuilder strategies(std::string name, std::vector<StrategyConfig> T::*member,
+                            std::string kind) {
         Field f = field(std::move(name), FieldType::strategy_list);
         f.kind = std::move(kind);
         return add(
             std::move(f),
             [member](T& t, const ConfigNode& node) {
                 (t.*member).clear();
-                for (const ConfigNode& item : node.items()) (t.*member).push_back(strategy_from(item));
+                for (const ConfigNode& item : node.items())
+                    (t.*member).push_back(strategy_from(item));
             },
             [member](const T& t) {
                 std::vector<ConfigNode> items;
@@ -220,7 +229,8 @@ public:
         return schema_;
     }
 
-    /// The struct of a resolved map; members that the map lacks keep their defaults. Keys that are not parameters are ignored.
+    /// The struct of a resolved map; members that the map lacks keep their defaults. Keys that are
+    /// not parameters are ignored.
     T read(const ConfigNode& resolved) const { return bindings_->read(resolved); }
     /// The map of a struct with all members written out.
     ConfigNode write(const T& value) const { return bindings_->write(value); }
@@ -244,7 +254,8 @@ private:
         }
         ConfigNode write(const T& value) const {
             std::vector<ConfigEntry> entries;
-            for (const Binding& binding : all) entries.emplace_back(binding.name, binding.write(value));
+            for (const Binding& binding : all)
+                entries.emplace_back(binding.name, binding.write(value));
             return ConfigNode::map(std::move(entries));
         }
         T defaults{};
@@ -280,7 +291,8 @@ private:
             return list;
         } else {
             V vector{};
-            for (std::size_t i = 0; i < 3; ++i) vector[static_cast<IndexOf<V>>(i)] = node.at(i).as_real();
+            for (std::size_t i = 0; i < 3; ++i)
+                vector[static_cast<IndexOf<V>>(i)] = node.at(i).as_real();
             return vector;
         }
     }
@@ -294,8 +306,8 @@ private:
         } else if constexpr (std::is_constructible_v<ConfigNode, const V&>) {
             return ConfigNode(value);
         } else {
-            return ConfigNode::list(
-                {ConfigNode(double(value[0])), ConfigNode(double(value[1])), ConfigNode(double(value[2]))});
+            return ConfigNode::list({ConfigNode(double(value[0])), ConfigNode(double(value[1])),
+                                     ConfigNode(double(value[2]))});
         }
     }
 
@@ -322,7 +334,8 @@ private:
         return inner;
     }
 
-    static Field field(std::string name, FieldType type, std::shared_ptr<const Schema> object = nullptr) {
+    static Field field(std::string name, FieldType type,
+                       std::shared_ptr<const Schema> object = nullptr) {
         Field f;
         f.name = std::move(name);
         f.type = type;
@@ -358,11 +371,15 @@ private:
                         t.*member = from_node<Value>(node, type);
                     }
                 },
-                [member](const T& t) { return t.*member ? to_node<Value>(*(t.*member)) : ConfigNode(); });
+                [member](const T& t) {
+                    return t.*member ? to_node<Value>(*(t.*member)) : ConfigNode();
+                });
         } else {
             return add(
                 std::move(f),
-                [member, type](T& t, const ConfigNode& node) { t.*member = from_node<Value>(node, type); },
+                [member, type](T& t, const ConfigNode& node) {
+                    t.*member = from_node<Value>(node, type);
+                },
                 [member](const T& t) { return to_node<Value>(t.*member); });
         }
     }
@@ -417,8 +434,8 @@ private:
     friend class ParamSchema;
 };
 
-/// Validates `given` against the struct's declaration and reads it. Throws ConfigError with all faults. For tests and for
-/// programs that use a strategy without an experiment. [setup]
+/// Validates `given` against the struct's declaration and reads it. Throws ConfigError with all
+/// faults. For tests and for programs that use a strategy without an experiment. [setup]
 template <class T>
 T read_params(const ConfigNode& given, const StrategyLookup& lookup = NoStrategies(),
               const std::string& owner = "the parameters") {

@@ -9,13 +9,14 @@
 
 namespace dsc::config {
 
-/// Damerau-Levenshtein distance (optimal string alignment): insertions, deletions, substitutions and swaps of
-/// two neighbouring characters.
+/// Damerau-Levenshtein distance (optimal string alignment): insertions, deletions, substitutions
+/// and swaps of two neighbouring characters.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to `word`: the distance is at most max(2, length / 3) and less than the length of the word; of equal
-/// distances the first. Empty if no candidate is near.
-std::optional<std::string> closest(std::string_view word, const std::vector<std::string>& candidates);
+/// The candidate nearest to `word`: the distance is at most max(2, length / 3) and less than the
+/// length of the word; of equal distances the first. Empty if no candidate is near.
+std::optional<std::string> closest(std::string_view word,
+                                   const std::vector<std::string>& candidates);
 
 /// "a, b, c".
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");

@@ -2,13 +2,14 @@
 // Conversion between YAML and ConfigNode. Only the sources of this header use the YAML library.
 
 #include <cstddef>
-#include <dsc/config/node.hpp>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include <dsc/config/node.hpp>
 
 namespace dsc::config {
 
@@ -30,33 +31,40 @@ struct YamlOptions {
 
 /// Reads a file and what it includes.
 ///
-/// Differences from plain YAML: numbers and booleans are written as in JSON (`0123`, `0x10`, `.5`, `yes` are strings; `.inf`,
-/// `.nan` are errors). A duplicate key, a merge key `<<`, a tag and a second document are errors. `${NAME}` in a string is
-/// replaced by the environment variable; `$${` gives a literal `${`. A top-level `include:` names a file or a list of files
-/// relative to the including file: maps are merged deeply, lists are replaced, later files win, the including file is last. If
-/// two merged maps name different strategies (`type`), the later map replaces the earlier one completely, because the
-/// parameters belong to different strategies.
+/// Differences from plain YAML: numbers and booleans are written as in JSON (`0123`, `0x10`, `.5`,
+/// `yes` are strings; `.inf`,
+/// `.nan` are errors). A duplicate key, a merge key `<<`, a tag and a second document are errors.
+/// `${NAME}` in a string is replaced by the environment variable; `$${` gives a literal `${`. A
+/// top-level `include:` names a file or a list of files relative to the including file: maps are
+/// merged deeply, lists are replaced, later files win, the including file is last. If two merged
+/// maps name different strategies (`type`), the later map replaces the earlier one completely,
+/// because the parameters belong to different strategies.
 ///
-/// Throws IoError "io.open" for an unreadable file; for everything else ConfigError with position, line and caret. [setup]
+/// Throws IoError "io.open" for an unreadable file; for everything else ConfigError with position,
+/// line and caret. [setup]
 ConfigNode load_yaml(const std::filesystem::path& file, const YamlOptions& options = {});
 
-/// The same for a text. Messages use `name` as the file name, and includes are relative to its folder. [setup]
-ConfigNode parse_yaml(std::string_view text, const std::string& name, const YamlOptions& options = {});
+/// The same for a text. Messages use `name` as the file name, and includes are relative to its
+/// folder. [setup]
+ConfigNode parse_yaml(std::string_view text, const std::string& name,
+                      const YamlOptions& options = {});
 
-/// One value as written to the right of `key=`: a scalar, or a flow list or map on one line. Positions name `source`. Used by
-/// overrides. Throws ConfigError. [setup]
+/// One value as written to the right of `key=`: a scalar, or a flow list or map on one line.
+/// Positions name `source`. Used by overrides. Throws ConfigError. [setup]
 ConfigNode parse_value(const std::shared_ptr<const SourceText>& source, std::size_t begin,
                        const YamlOptions& options = {});
 
 /// Merges `later` over `earlier` by the rules of include. [setup]
 ConfigNode merge(const ConfigNode& earlier, const ConfigNode& later);
 
-/// Writes a tree as YAML that reads back as an equal tree: block style, indentation of two blanks, strings quoted if necessary,
-/// real numbers in the shortest form that reads back to the same double. Ends with a newline. Throws ConfigError "config.range"
-/// for a number that is not finite. [setup]
+/// Writes a tree as YAML that reads back as an equal tree: block style, indentation of two blanks,
+/// strings quoted if necessary, real numbers in the shortest form that reads back to the same
+/// double. Ends with a newline. Throws ConfigError "config.range" for a number that is not finite.
+/// [setup]
 std::string to_yaml(const ConfigNode& node);
 
-/// Shortest text that reads back as the same double and never as an integer: "0.1", "1.0", "0.0003".
+/// Shortest text that reads back as the same double and never as an integer: "0.1", "1.0",
+/// "0.0003".
 std::string real_text(double value);
 
 }  // namespace dsc::config

@@ -1,11 +1,12 @@
 #pragma once
 // Moves the vertices of the stair-stepped interface of labelled lattice tets onto a smooth surface.
 
-#include <dsc/mesh/complex.hpp>
-#include <dsc/generate/shapes.hpp>
 #include <functional>
 #include <string_view>
 #include <vector>
+
+#include <dsc/generate/shapes.hpp>
+#include <dsc/mesh/complex.hpp>
 
 namespace dsc::generate {
 
@@ -23,18 +24,21 @@ struct ProjectReport {
     double min_quality = 0.0;     ///< of all tets
 };
 
-/// Moves every movable interface vertex to `nearest(position)`, a point of the surface. First, if a tet with four interface
-/// vertices would become flat, one of its vertices leaves the interface by a relabelling that keeps all vertices regular and
-/// the topology unchanged. Then the vertices approach the surface as far as the quality of the tets allows. Vertices around
-/// them make room: free ones move towards the mean of their neighbours, those on the surface move along it. Every tet stays
-/// positive. A vertex that cannot reach the surface stays as near as possible. [setup]
-ProjectReport project_interface(mesh::Complex& complex, const std::function<Vec3(const Vec3&)>& nearest,
+/// Moves every movable interface vertex to `nearest(position)`, a point of the surface. First, if a
+/// tet with four interface vertices would become flat, one of its vertices leaves the interface by
+/// a relabelling that keeps all vertices regular and the topology unchanged. Then the vertices
+/// approach the surface as far as the quality of the tets allows. Vertices around them make room:
+/// free ones move towards the mean of their neighbours, those on the surface move along it. Every
+/// tet stays positive. A vertex that cannot reach the surface stays as near as possible. [setup]
+ProjectReport project_interface(mesh::Complex& complex,
+                                const std::function<Vec3(const Vec3&)>& nearest,
                                 const ProjectOptions& options = {});
 
-/// A generator's mesh with its interface on the surface of the shapes. `make` labels a lattice by the shapes that it receives:
-/// the given shapes, grown by a fraction of `cell` (the edge of the lattice's cells at the surface), with the rule that all
-/// four vertices are inside. Messages use `name` for the generator. Throws as adopt(). [setup]
+/// A generator's mesh with its interface on the surface of the shapes. `make` labels a lattice by
+/// the shapes that it receives: the given shapes, grown by a fraction of `cell` (the edge of the
+/// lattice's cells at the surface), with the rule that all four vertices are inside. Messages use
+/// `name` for the generator. Throws as adopt(). [setup]
 mesh::TetMesh make_projected(const std::function<mesh::TetMesh(std::span<const Shape>)>& make,
-                       std::span<const Shape> shapes, double cell, std::string_view name);
+                             std::span<const Shape> shapes, double cell, std::string_view name);
 
 }  // namespace dsc::generate

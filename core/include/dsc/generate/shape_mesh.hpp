@@ -17,10 +17,11 @@ enum class ShapeSurface {
     stepped,    ///< it consists of faces of the lattice
 };
 
-/// Makes a lattice that is finest at the surface of the shapes; the shapes define the labels of its tets. Messages use `name`
-/// for the generator. Throws as make_lattice() and make_projected(), and ConfigError "lattice.box" if a shape reaches the faces
-/// of the box. [setup]
-mesh::TetMesh make_shape_mesh(const LatticeOptions& options, std::span<const Shape> shapes, std::string_view name,
-                        ShapeSurface surface = ShapeSurface::projected, const CancelToken* cancel = nullptr);
+/// Makes a lattice that is finest at the surface of the shapes; the shapes define the labels of its
+/// tets. Messages use `name` for the generator. Throws as make_lattice() and make_projected(), and
+/// ConfigError "lattice.box" if a shape reaches the faces of the box. [setup]
+mesh::TetMesh make_shape_mesh(const LatticeOptions& options, std::span<const Shape> shapes,
+                              std::string_view name, ShapeSurface surface = ShapeSurface::projected,
+                              const CancelToken* cancel = nullptr);
 
 }  // namespace dsc::generate

@@ -2,6 +2,7 @@
 // An order of points that depends on their coordinates alone.
 
 #include <algorithm>
+
 #include <dsc/geometry/vec.hpp>
 
 namespace dsc::geometry {

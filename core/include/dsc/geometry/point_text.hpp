@@ -10,7 +10,8 @@ namespace dsc::geometry {
 
 /// "(0.1, 2, -3.5)": every coordinate with at most `digits` significant digits.
 inline std::string point_text(const Vec3& p, int digits = 6) {
-    return "(" + text::rounded(p.x(), digits) + ", " + text::rounded(p.y(), digits) + ", " + text::rounded(p.z(), digits) + ")";
+    return "(" + text::rounded(p.x(), digits) + ", " + text::rounded(p.y(), digits) + ", " +
+           text::rounded(p.z(), digits) + ")";
 }
 
 }  // namespace dsc::geometry

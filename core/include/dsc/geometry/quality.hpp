@@ -12,13 +12,15 @@ inline double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
     return (b - a).cross(c - a).dot(d - a) / 6.0;
 }
 
-/// Signed volume-length quality 6 sqrt(2) V / l_rms^3 [Parthasarathy1994]: 1 for a regular tet, 0 for a flat one, negative for
-/// an inverted one, 0 if all four points are equal (method.md, section 1.1).
+/// Signed volume-length quality 6 sqrt(2) V / l_rms^3 [Parthasarathy1994]: 1 for a regular tet, 0
+/// for a flat one, negative for an inverted one, 0 if all four points are equal (method.md,
+/// section 1.1).
 inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const Vec3 ab = b - a, ac = c - a, ad = d - a;
-    const double mean_square = (ab.squaredNorm() + ac.squaredNorm() + ad.squaredNorm() + (c - b).squaredNorm() +
-                                (d - b).squaredNorm() + (d - c).squaredNorm()) /
-                               6.0;
+    const double mean_square =
+        (ab.squaredNorm() + ac.squaredNorm() + ad.squaredNorm() + (c - b).squaredNorm() +
+         (d - b).squaredNorm() + (d - c).squaredNorm()) /
+        6.0;
     if (!(mean_square > 0.0)) return 0.0;
     // 6 sqrt(2) V with 6 V = det
     return 1.4142135623730951 * ab.cross(ac).dot(ad) / (mean_square * std::sqrt(mean_square));
@@ -30,7 +32,9 @@ inline double regular_tet_volume(double edge) { return edge * edge * edge * 0.11
 /// Area of the equilateral triangle with the given edge length.
 inline double regular_triangle_area(double edge) { return edge * edge * 0.4330127018922193; }
 
-inline double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * (b - a).cross(c - a).norm(); }
+inline double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return 0.5 * (b - a).cross(c - a).norm();
+}
 
 /// Unit normal by the right-hand rule; zero for a degenerate triangle.
 Vec3 triangle_normal(const Vec3& a, const Vec3& b, const Vec3& c);

@@ -1,13 +1,15 @@
 #pragma once
 // Vectors and boxes that the whole project uses.
 
+#include <limits>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <limits>
 
 namespace dsc {
 
-/// A point or a vector in space. 24 bytes without over-alignment, so std::vector and plain structs can store it.
+/// A point or a vector in space. 24 bytes without over-alignment, so std::vector and plain structs
+/// can store it.
 using Vec3 = Eigen::Vector3d;
 
 /// Axis-parallel box; empty when low > high.
@@ -24,7 +26,9 @@ struct Box3 {
     Vec3 size() const { return high - low; }
     /// Length of the diagonal; 0 when empty.
     double diagonal() const { return empty() ? 0.0 : size().norm(); }
-    bool contains(const Vec3& p) const { return (low.array() <= p.array()).all() && (p.array() <= high.array()).all(); }
+    bool contains(const Vec3& p) const {
+        return (low.array() <= p.array()).all() && (p.array() <= high.array()).all();
+    }
 };
 
 /// Box of a range of points.

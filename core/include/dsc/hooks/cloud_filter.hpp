@@ -19,14 +19,15 @@ struct FilterContext {
     Workers* workers = nullptr;  ///< for the filter's own loops (dsc::for_blocks); null: one thread
 };
 
-/// Drops points (and reports how many and why), moves them, or adds attributes. Lengths are in the units of the file.
+/// Drops points (and reports how many and why), moves them, or adds attributes. Lengths are in the
+/// units of the file.
 class CloudFilter : public Strategy {
 public:
     ~CloudFilter() override;
 
-    /// Returns the filtered cloud. Every attribute is empty or has one entry per point; points are finite; at least one point
-    /// is left. report.kept is the number of returned points; report.kept + report.removed is the number of given points.
-    /// [setup]
+    /// Returns the filtered cloud. Every attribute is empty or has one entry per point; points are
+    /// finite; at least one point is left. report.kept is the number of returned points;
+    /// report.kept + report.removed is the number of given points. [setup]
     virtual cloud::Filtered apply(const cloud::Cloud& cloud, const FilterContext& context) = 0;
 };
 

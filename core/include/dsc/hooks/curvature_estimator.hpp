@@ -13,8 +13,9 @@ public:
     /// Called once per step; the context outlives the evaluate() calls. [step]
     virtual void prepare(const StepContext& context) = 0;
 
-    /// `scalar[i]` is the signed curvature of vertex range.begin + i. `vector[i]` is its curvature vector: scalar * outward
-    /// direction (unit 1/length for mean curvatures). Both spans have range.size() entries. [parallel]
+    /// `scalar[i]` is the signed curvature of vertex range.begin + i. `vector[i]` is its curvature
+    /// vector: scalar * outward direction (unit 1/length for mean curvatures). Both spans have
+    /// range.size() entries. [parallel]
     virtual void evaluate(Range range, std::span<double> scalar, std::span<Vec3> vector) const = 0;
 };
 

@@ -10,13 +10,16 @@
 
 namespace dsc::hooks {
 
-/// Reads the files that a generator's parameters name, in any format that the host supports. The host provides it.
+/// Reads the files that a generator's parameters name, in any format that the host supports. The
+/// host provides it.
 class MeshFiles {
 public:
     virtual ~MeshFiles();
-    /// Returns a labelled tet mesh (.dsc, .vtu) exactly as the file contains it. Throws IoError. [setup]
+    /// Returns a labelled tet mesh (.dsc, .vtu) exactly as the file contains it. Throws IoError.
+    /// [setup]
     virtual mesh::TetMesh read_volume(const std::string& file) const = 0;
-    /// Returns a surface (.obj, .ply, .off, .stl) exactly as the file contains it. Throws IoError. [setup]
+    /// Returns a surface (.obj, .ply, .off, .stl) exactly as the file contains it. Throws IoError.
+    /// [setup]
     virtual surface::TriangleMesh read_surface(const std::string& file) const = 0;
 };
 
@@ -27,7 +30,8 @@ struct InitialMeshContext {
     std::uint64_t instance = 0;
     const CancelToken* cancel = nullptr;
     const MeshFiles* files = nullptr;  ///< null if the host reads no files
-    Workers* workers = nullptr;        ///< for the generator's own loops (dsc::for_blocks); null: one thread
+    Workers* workers = nullptr;  ///< for the generator's own loops (dsc::for_blocks); null: one
+                                 ///< thread
 };
 
 /// Returns plain arrays; the kernel validates and adopts them. [setup]

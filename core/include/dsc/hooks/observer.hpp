@@ -1,5 +1,6 @@
 #pragma once
-// Hook `observer`: reads the state after each step, adds figures to metrics.csv and summary.json, changes nothing.
+// Hook `observer`: reads the state after each step, adds figures to metrics.csv and summary.json,
+// changes nothing.
 
 #include <dsc/hooks/context.hpp>
 #include <dsc/hooks/figures.hpp>

@@ -13,8 +13,8 @@ struct Format {
     std::string_view extension;  ///< lower case with its dot: ".obj"
     std::string_view name;       ///< for a person: "Wavefront OBJ"
     bool surface = false;        ///< read_surface and write_surface support it
-    bool volume = false;         ///< write_volume supports it, and so does read_volume unless write_only
-    bool write_only = false;     ///< only other programs read it (share/doc/formats.md)
+    bool volume = false;  ///< write_volume supports it, and so does read_volume unless write_only
+    bool write_only = false;  ///< only other programs read it (share/doc/formats.md)
 };
 
 /// All rows, in the order in which a person sees them. [parallel]

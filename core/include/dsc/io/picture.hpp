@@ -3,12 +3,13 @@
 
 #include <array>
 #include <cstdint>
-#include <dsc/surface/triangle_mesh.hpp>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include <dsc/surface/triangle_mesh.hpp>
 
 namespace dsc {
 class Workers;
@@ -23,8 +24,8 @@ struct Image {
     std::vector<std::uint8_t> pixels;
 
     std::array<std::uint8_t, 3> at(int x, int y) const {
-        const auto i =
-            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+        const auto i = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                            static_cast<std::size_t>(x));
         return {pixels[i], pixels[i + 1], pixels[i + 2]};
     }
 };
@@ -42,11 +43,12 @@ struct ColourBounds {
     double high = 0.0;
 };
 
-/// The quantiles 0.01 and 0.99 of the finite values, so that a few extreme values do not give all others the same colour; zeros
-/// if no value is finite.
+/// The quantiles 0.01 and 0.99 of the finite values, so that a few extreme values do not give all
+/// others the same colour; zeros if no value is finite.
 ColourBounds colour_bounds(std::span<const double> values);
 
-/// Position of a finite value between the bounds: 0 at `low` and below, 1 at `high` and above. [parallel]
+/// Position of a finite value between the bounds: 0 at `low` and below, 1 at `high` and above.
+/// [parallel]
 double colour_part(double value, const ColourBounds& bounds);
 
 struct RenderOptions {
@@ -56,15 +58,16 @@ struct RenderOptions {
     bool edges = false;     ///< draw the edges of the triangles
     UpAxis up = UpAxis::y;  ///< the axis that points up
     bool ambient_occlusion = true;
-    /// One value per point, or none. The outside gets the colours of the report's viewer between colour_bounds() of the values:
-    /// blue for low, red for high, the plain colour where a value is not finite.
+    /// One value per point, or none. The outside gets the colours of the report's viewer between
+    /// colour_bounds() of the values: blue for low, red for high, the plain colour where a value is
+    /// not finite.
     std::span<const double> values = {};
     Workers* workers = nullptr;  ///< the picture does not depend on it
 };
 
-/// Orthographic picture of the mesh, fitted to the frame; the bytes are always the same. Throws GeometryError as
-/// surface::require_sound(), "surface.empty" without faces, "surface.size" for a wrong number of values, UsageError
-/// "picture.size". [step]
+/// Orthographic picture of the mesh, fitted to the frame; the bytes are always the same. Throws
+/// GeometryError as surface::require_sound(), "surface.empty" without faces, "surface.size" for a
+/// wrong number of values, UsageError "picture.size". [step]
 Image render(const surface::TriangleMesh& mesh, const RenderOptions& options = {});
 
 /// Writes a PNG, atomically. Throws IoError "io.write". [step]

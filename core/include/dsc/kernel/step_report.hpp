@@ -26,7 +26,15 @@ using RepairClassTable = std::array<OperationCounts, repair::repair_class_limit>
 
 /// A change of topology; one line of events.jsonl.
 struct Event {
-    enum class Kind : std::uint8_t { merge, split, handle_opened, handle_closed, vanished, born, unpinched };
+    enum class Kind : std::uint8_t {
+        merge,
+        split,
+        handle_opened,
+        handle_closed,
+        vanished,
+        born,
+        unpinched
+    };
     Kind kind = Kind::merge;
     std::uint64_t step = 0;
     Vec3 place = Vec3::Zero();  ///< centroid of the relabelled tets, normalised units
@@ -40,19 +48,21 @@ std::string_view name(Event::Kind kind);
 /// What one step of the Deformer did; the counts do not depend on the CPU.
 struct StepReport {
     unsigned rounds = 0;
-    std::size_t requested = 0;       ///< vertices with a displacement
+    std::size_t requested = 0;  ///< vertices with a displacement
     std::size_t arrived = 0;
     std::size_t clamped = 0;         ///< destinations moved back into the box shrunk by 2 L
     double dropped_motion = 0.0;     ///< sum of the distances to destinations that were not reached
     double edit_distance = 0.0;      ///< sum of the distances by which edits moved the interface
     double edit_volume = 0.0;        ///< sum of the volumes by which edits changed phases
-    double relabelled_volume = 0.0;  ///< sum of the volumes of relabelled tets, topology changes included
-    std::uint64_t crease_exceptions = 0;  ///< edits that ignored the rule for creases because a tet was close to the quality floor
+    double relabelled_volume = 0.0;  ///< sum of the volumes of relabelled tets, topology changes
+                                     ///< included
+    std::uint64_t crease_exceptions = 0;  ///< edits that ignored the rule for creases because a tet
+                                          ///< was close to the quality floor
     OperationTable operations{};
     RepairClassTable repair_classes{};
     std::vector<Event> events;
     repair::EventCounts event_counts;
-    double move_seconds = 0.0;       ///< wall time, for phase_s only
+    double move_seconds = 0.0;  ///< wall time, for phase_s only
     double repair_seconds = 0.0;
 };
 
@@ -60,9 +70,11 @@ struct StepReport {
 struct RefineReport {
     std::size_t requested = 0;
     std::size_t committed = 0;
-    OperationCounts splits, collapses, flips, moves;  ///< counts of each kind of request, and why requests were refused
+    OperationCounts splits, collapses, flips, moves;  ///< counts of each kind of request, and why
+                                                      ///< requests were refused
     bool length_changed = false;
-    std::uint64_t crease_exceptions = 0;  ///< edits that ignored the rule because a tet was close to the quality floor
+    std::uint64_t crease_exceptions = 0;  ///< edits that ignored the rule because a tet was close
+                                          ///< to the quality floor
 };
 
 }  // namespace dsc::kernel

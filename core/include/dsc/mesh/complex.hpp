@@ -1,10 +1,11 @@
 #pragma once
-// The labelled tetrahedral complex (method.md, sections 1 and 2): compact tets with neighbours, vertices with a seed tet. It
-// stores no edges or faces.
+// The labelled tetrahedral complex (method.md, sections 1 and 2): compact tets with neighbours,
+// vertices with a seed tet. It stores no edges or faces.
 //
-// A tet (v0,v1,v2,v3) is positive: orient3d(v0,v1,v2,v3) == 1, always and exactly. Face i is opposite vertex i. Labels define
-// the interface: a face belongs to it if its two tets have different labels, a face on the box if its tet's label is not 0.
-// Three primitives change a complex: replace(), move() and relabel(). Each keeps it valid.
+// A tet (v0,v1,v2,v3) is positive: orient3d(v0,v1,v2,v3) == 1, always and exactly. Face i is
+// opposite vertex i. Labels define the interface: a face belongs to it if its two tets have
+// different labels, a face on the box if its tet's label is not 0. Three primitives change a
+// complex: replace(), move() and relabel(). Each keeps it valid.
 
 #include <array>
 #include <cstdint>
@@ -32,9 +33,11 @@ inline constexpr std::uint32_t none = 0xffffffffU;
 inline constexpr VertexId created_vertex = 0xfffffffeU;
 
 /// Local vertex indices of face i, counter-clockwise seen from outside a positive tet.
-inline constexpr std::array<std::array<std::uint8_t, 3>, 4> face_vertices = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+inline constexpr std::array<std::array<std::uint8_t, 3>, 4> face_vertices = {
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 /// Local vertex indices of the six edges.
-inline constexpr std::array<std::array<std::uint8_t, 2>, 6> edge_vertices = {{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+inline constexpr std::array<std::array<std::uint8_t, 2>, 6> edge_vertices = {
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
 /// Four vertices and, for each face, 4 * neighbour + its face index there, or none. 32 bytes.
 struct Tet {
@@ -54,9 +57,9 @@ inline unsigned index_of(const Tet& tet, VertexId v) {
 }
 inline bool has_vertex(const Tet& tet, VertexId v) { return index_of(tet, v) < 4; }
 
-/// The tets round an edge ab in rotation order. tets[i] has the vertices a, b, link[i], link[i+1], and orient3d(a, b, link[i],
-/// link[i+1]) == 1. A closed ring has as many link entries as tets (indices wrap); an open ring (an edge on the box) has one
-/// more.
+/// The tets round an edge ab in rotation order. tets[i] has the vertices a, b, link[i], link[i+1],
+/// and orient3d(a, b, link[i], link[i+1]) == 1. A closed ring has as many link entries as tets
+/// (indices wrap); an open ring (an edge on the box) has one more.
 struct EdgeRing {
     std::vector<TetId> tets;
     std::vector<VertexId> link;
@@ -69,19 +72,20 @@ struct NewTet {
     Label label;
 };
 
-/// A cavity and the tets that fill it (method.md, section 4.1); every local operation is one edit. Reuse one object: nothing is
-/// allocated after its arrays have grown.
+/// A cavity and the tets that fill it (method.md, section 4.1); every local operation is one edit.
+/// Reuse one object: nothing is allocated after its arrays have grown.
 struct Edit {
     std::vector<TetId> removed;
     std::vector<NewTet> added;
-    VertexId moved = none;  ///< an existing vertex whose position changes with the edit; all its tets must be removed
+    VertexId moved = none;  ///< an existing vertex whose position changes with the edit; all its
+                            ///< tets must be removed
     Vec3 moved_to = Vec3::Zero();
     bool creates = false;  ///< the edit makes one vertex
     Vec3 created_at = Vec3::Zero();
     VertexId deleted = none;  ///< a vertex that no added tet uses; all its tets must be removed
 
-    // Filled by Complex::link(): neighbours of the added tets. An entry is a code 4*tet+face outside the cavity, none,
-    // or virtual_code + 4*i+face for added tet i.
+    // Filled by Complex::link(): neighbours of the added tets. An entry is a code 4*tet+face
+    // outside the cavity, none, or virtual_code + 4*i+face for added tet i.
     std::vector<std::array<std::uint32_t, 4>> neighbours;
     // Filled by the caller's evaluation. If it is empty, replace() computes them.
     std::vector<float> qualities;
@@ -113,7 +117,8 @@ public:
     float least_quality() const;
     /// Value of the change clock when the tet was last made, moved or relabelled.
     std::uint32_t date(TetId t) const { return dates_[t]; }
-    /// Value of the change clock when the tet's slot was last filled; it differs if another tet took the slot.
+    /// Value of the change clock when the tet's slot was last filled; it differs if another tet
+    /// took the slot.
     std::uint32_t birth_date(TetId t) const { return birth_dates_[t]; }
     /// Value of the change clock when a tet of the vertex' star last changed.
     std::uint32_t vertex_date(VertexId v) const { return vertices_[v].date; }
@@ -136,11 +141,14 @@ public:
         const std::uint32_t code = tets_[t].n[face];
         return code == none ? 0 : labels_[neighbour_tet(code)];
     }
-    bool interface_face(TetId t, unsigned face) const { return labels_[t] != label_across(t, face); }
+    bool interface_face(TetId t, unsigned face) const {
+        return labels_[t] != label_across(t, face);
+    }
     double volume(TetId t) const;
 
     // ---- walks ----------------------------------------------------------------------------------
-    /// All tets that contain v, the seed first; `places` maps a tet to its place in `out`. [parallel]
+    /// All tets that contain v, the seed first; `places` maps a tet to its place in `out`.
+    /// [parallel]
     void star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
     /// The same with a table that belongs to the complex. [step]
     void star(VertexId v, std::vector<TetId>& out) const { star(v, out, places_); }
@@ -151,23 +159,29 @@ public:
     TetId find_edge(VertexId a, VertexId b) const;
 
     // ---- the three primitives -------------------------------------------------------------------
-    /// Computes the neighbours of the added tets. False if the added tets do not fill the boundary of the cavity exactly (a
-    /// face used twice, a hole, a change of the box). Changes only the edit. [step]
+    /// Computes the neighbours of the added tets. False if the added tets do not fill the boundary
+    /// of the cavity exactly (a face used twice, a hole, a change of the box). Changes only the
+    /// edit. [step]
     bool link(Edit& edit) const;
-    /// Commits a linked edit; its tets must be positive. Returns the id of the created vertex, or none. [step]
+    /// Commits a linked edit; its tets must be positive. Returns the id of the created vertex, or
+    /// none. [step]
     VertexId replace(Edit& edit);
     /// Moves a vertex; `star` are its tets, which must all be positive at the new position. [step]
     void move(VertexId v, const Vec3& position, std::span<const TetId> star);
-    /// The same with known qualities of the tets at the new position, in the order of the star. [step]
-    void move(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities) {
+    /// The same with known qualities of the tets at the new position, in the order of the star.
+    /// [step]
+    void move(VertexId v, const Vec3& position, std::span<const TetId> star,
+              std::span<const float> qualities) {
         place(v, position, star, qualities);
         note_change(star);
     }
-    /// The parts of move(), for many vertices without common tets. First place the vertices, which may run in parallel
-    /// [parallel]. Then date their stars, also in parallel: each with a value of the clock that is later than now; tets that
-    /// are not yet in the change list go to `changed` [parallel]. Finally note_changes() sets the clock and takes the lists,
-    /// one after the other [step].
-    void place(VertexId v, const Vec3& position, std::span<const TetId> star, std::span<const float> qualities);
+    /// The parts of move(), for many vertices without common tets. First place the vertices, which
+    /// may run in parallel [parallel]. Then date their stars, also in parallel: each with a value
+    /// of the clock that is later than now; tets that are not yet in the change list go to
+    /// `changed` [parallel]. Finally note_changes() sets the clock and takes the lists, one after
+    /// the other [step].
+    void place(VertexId v, const Vec3& position, std::span<const TetId> star,
+               std::span<const float> qualities);
     void date_star(std::span<const TetId> star, std::uint32_t clock, std::vector<TetId>& changed);
     void note_changes(std::uint32_t clock, std::span<const TetId> changed);
     /// Gives tets another label. [step]
@@ -177,21 +191,23 @@ public:
     std::span<const TetId> last_added() const { return last_added_; }
 
     // ---- change tracking ------------------------------------------------------------------------
-    /// Tets made, moved or relabelled since the last call of take_changes(), each once; may include dead ids.
+    /// Tets made, moved or relabelled since the last call of take_changes(), each once; may include
+    /// dead ids.
     std::span<const TetId> changes() const { return changes_; }
     /// Moves the change list to `out` and starts a new one.
     void take_changes(std::vector<TetId>& out);
 
     // ---- making and copying ---------------------------------------------------------------------
-    /// Builds a complex from arrays that are already positive, conforming and box-filling (for files see adopt()). `neighbours`
-    /// as in Tet::n.
-    static Complex assemble(std::vector<Vec3> points, std::vector<Tet> tets, std::span<const Label> labels,
-                            Workers* workers = nullptr);
-    /// Compact arrays: vertices in birth order, tets in the order of their sorted births. The same complex gives the same
-    /// bytes, whatever its slots. `ids`, if given, receives the complex' vertex of each point.
+    /// Builds a complex from arrays that are already positive, conforming and box-filling (for
+    /// files see adopt()). `neighbours` as in Tet::n.
+    static Complex assemble(std::vector<Vec3> points, std::vector<Tet> tets,
+                            std::span<const Label> labels, Workers* workers = nullptr);
+    /// Compact arrays: vertices in birth order, tets in the order of their sorted births. The same
+    /// complex gives the same bytes, whatever its slots. `ids`, if given, receives the complex'
+    /// vertex of each point.
     TetMesh to_mesh(std::vector<VertexId>* ids = nullptr) const;
-    /// Saves everything, including slots, clocks and the change list: a loaded complex continues exactly as the saved one.
-    /// [step]
+    /// Saves everything, including slots, clocks and the change list: a loaded complex continues
+    /// exactly as the saved one. [step]
     void save(StateWriter& out) const;
     /// Throws IoError "state.damaged" if the bytes are not a complex. [setup]
     static Complex load(StateReader& in);
@@ -237,7 +253,8 @@ private:
     std::vector<VertexId> relabelled_;
     mutable std::vector<TetId> star_scratch_;
     mutable TetIndex places_;
-    std::uint32_t taken_clock_ = 0;  // clock when the change list was last taken; tets of a later date are in the list
+    std::uint32_t taken_clock_ = 0;  // clock when the change list was last taken; tets of a later
+                                     // date are in the list
     std::uint32_t clock_ = 0;
     std::uint32_t next_birth_ = 0;
     Box3 box_;

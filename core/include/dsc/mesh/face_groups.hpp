@@ -19,26 +19,29 @@ using FaceKey = std::array<std::uint32_t, 3>;
 struct FaceUse {
     std::uint32_t second, third;  ///< of the key
     std::uint32_t code;           ///< 4 * tet + face
-    bool odd;                     ///< the key is an odd permutation of the vertices in face_vertices
+    bool odd;  ///< the key is an odd permutation of the vertices in face_vertices
 };
 
 /// All faces of a tet mesh, grouped by their first vertex; 64 bytes per tet.
 struct FaceTable {
-    std::vector<std::size_t> start;  ///< uses of the faces with first vertex v: uses[start[v] .. start[v + 1])
+    std::vector<std::size_t> start;  ///< uses of the faces with first vertex v: uses[start[v] ..
+                                     ///< start[v + 1])
     std::vector<FaceUse> uses;
 };
 
-/// Groups the faces by their first vertex, unsorted. `corners(t)` points to the four vertices of tet t, all below `points`, or
-/// is null if the tet has no faces. There are `tets` tets.
+/// Groups the faces by their first vertex, unsorted. `corners(t)` points to the four vertices of
+/// tet t, all below `points`, or is null if the tet has no faces. There are `tets` tets.
 template <class Corners>
 FaceTable deal_faces(std::size_t points, std::size_t tets, const Corners& corners) {
     FaceTable table;
     std::vector<std::size_t>& start = table.start;
-    start.assign(points + 2, 0);  // number of uses with first vertex v, stored at v + 1 while the faces are grouped
+    start.assign(points + 2, 0);  // number of uses with first vertex v, stored at v + 1 while the
+                                  // faces are grouped
     for (std::size_t t = 0; t < tets; ++t) {
         const std::array<std::uint32_t, 4>* v = corners(t);
         if (v == nullptr) continue;
-        for (const auto& face : face_vertices) ++start[std::min({(*v)[face[0]], (*v)[face[1]], (*v)[face[2]]}) + 2];
+        for (const auto& face : face_vertices)
+            ++start[std::min({(*v)[face[0]], (*v)[face[1]], (*v)[face[2]]}) + 2];
     }
     for (std::size_t i = 2; i < start.size(); ++i) start[i] += start[i - 1];
     table.uses.resize(start.back());
@@ -57,26 +60,33 @@ FaceTable deal_faces(std::size_t points, std::size_t tets, const Corners& corner
             exchange(0, 1);
             exchange(1, 2);
             exchange(0, 1);
-            table.uses[start[key[0] + 1]++] = {key[1], key[2], static_cast<std::uint32_t>(4 * t + f), odd};
+            table.uses[start[key[0] + 1]++] = {key[1], key[2],
+                                               static_cast<std::uint32_t>(4 * t + f), odd};
         }
     }
     return table;
 }
 
-/// Calls visit(FaceKey, std::span<const FaceUse>) once for every face whose first vertex is in [begin, end): the faces in the
-/// order of the keys, the uses in the order of their codes. Ranges that do not overlap may be visited at the same time.
-/// [parallel]
+/// Calls visit(FaceKey, std::span<const FaceUse>) once for every face whose first vertex is in
+/// [begin, end): the faces in the order of the keys, the uses in the order of their codes. Ranges
+/// that do not overlap may be visited at the same time. [parallel]
 template <class Visit>
 void visit_faces(FaceTable& table, std::size_t begin, std::size_t end, const Visit& visit) {
     for (std::size_t first = begin; first < end; ++first) {
-        const auto group = std::span(table.uses).subspan(table.start[first], table.start[first + 1] - table.start[first]);
+        const auto group =
+            std::span(table.uses)
+                .subspan(table.start[first], table.start[first + 1] - table.start[first]);
         std::sort(group.begin(), group.end(), [](const FaceUse& a, const FaceUse& b) {
-            const auto ends = [](const FaceUse& use) { return std::uint64_t{use.second} << 32U | use.third; };
+            const auto ends = [](const FaceUse& use) {
+                return std::uint64_t{use.second} << 32U | use.third;
+            };
             return ends(a) != ends(b) ? ends(a) < ends(b) : a.code < b.code;
         });
         for (std::size_t from = 0, to = 0; from < group.size(); from = to) {
             to = from + 1;
-            while (to < group.size() && group[to].second == group[from].second && group[to].third == group[from].third) ++to;
+            while (to < group.size() && group[to].second == group[from].second &&
+                   group[to].third == group[from].third)
+                ++to;
             visit(FaceKey{static_cast<std::uint32_t>(first), group[from].second, group[from].third},
                   std::span<const FaceUse>(group.subspan(from, to - from)));
         }
@@ -85,7 +95,8 @@ void visit_faces(FaceTable& table, std::size_t begin, std::size_t end, const Vis
 
 /// Calls visit() as above for every face of the mesh, `corners` as in deal_faces().
 template <class Corners, class Visit>
-void for_each_face(std::size_t points, std::size_t tets, const Corners& corners, const Visit& visit) {
+void for_each_face(std::size_t points, std::size_t tets, const Corners& corners,
+                   const Visit& visit) {
     FaceTable table = deal_faces(points, tets, corners);
     visit_faces(table, 0, points, visit);
 }

@@ -1,6 +1,7 @@
 #pragma once
-// The star of one vertex as a labelled graph: in the complex as it is, with trial labels, or as it would be after an edit. It
-// answers whether the vertex is regular and what it adds to the interface's Euler number (method.md, sections 2 and 4.1).
+// The star of one vertex as a labelled graph: in the complex as it is, with trial labels, or as it
+// would be after an edit. It answers whether the vertex is regular and what it adds to the
+// interface's Euler number (method.md, sections 2 and 4.1).
 
 #include <cstdint>
 #include <span>
@@ -10,8 +11,9 @@
 
 namespace dsc::mesh {
 
-/// Nodes are the tets of the star; faces that contain the vertex join them. A box vertex has one more node: the outside, with
-/// label 0. Reuse one object: nothing is allocated after its arrays have grown.
+/// Nodes are the tets of the star; faces that contain the vertex join them. A box vertex has one
+/// more node: the outside, with label 0. Reuse one object: nothing is allocated after its arrays
+/// have grown.
 class LocalStar {
 public:
     explicit LocalStar(const Complex& complex) : complex_(complex) {}
@@ -23,7 +25,8 @@ public:
     /// The star of v (which may be created_vertex) after a linked edit.
     void build(VertexId v, const Edit& edit);
 
-    /// Whether, for every label in the star, its tets form one face-connected group and all other tets form one group.
+    /// Whether, for every label in the star, its tets form one face-connected group and all other
+    /// tets form one group.
     bool regular();
     /// Number of groups of face-connected equal labels.
     unsigned groups();
@@ -33,11 +36,13 @@ public:
     std::span<const TetId> nodes() const { return tets_; }
     Label label(std::size_t node) const { return labels_[node]; }
     /// Neighbouring nodes by face; none where the face does not contain the vertex.
-    const std::array<std::uint32_t, 4>& neighbours(std::size_t node) const { return adjacent_[node]; }
+    const std::array<std::uint32_t, 4>& neighbours(std::size_t node) const {
+        return adjacent_[node];
+    }
 
     bool on_interface() const;
-    /// Six times the vertex' share of V - E + F of the interface: 6 - 3 (interface edges) + 2 (interface faces); 0 off the
-    /// interface.
+    /// Six times the vertex' share of V - E + F of the interface: 6 - 3 (interface edges) + 2
+    /// (interface faces); 0 off the interface.
     int euler_share() const;
 
 private:
@@ -52,7 +57,7 @@ private:
     std::vector<std::uint32_t> group_;
     std::vector<std::uint32_t> stack_;
     mutable std::vector<VertexId> ends_;
-    TetIndex places_;                     // of the star's tets
+    TetIndex places_;  // of the star's tets
     std::vector<TetId> star_;
     std::vector<std::uint32_t> node_of_;  // by place; none where an edit removes the tet
 };

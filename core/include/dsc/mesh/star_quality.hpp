@@ -1,5 +1,6 @@
 #pragma once
-// What the tets round a vertex would be if the vertex were at another place (method.md, sections 4.2 and 5.2).
+// What the tets round a vertex would be if the vertex were at another place (method.md,
+// sections 4.2 and 5.2).
 
 #include <algorithm>
 #include <array>
@@ -13,19 +14,26 @@
 namespace dsc::mesh {
 
 /// The corners of a tet, with v at `place`. Valid as long as the place and the complex. [parallel]
-inline std::array<const Vec3*, 4> corners_at(const Complex& complex, TetId t, VertexId v, const Vec3& place) {
+inline std::array<const Vec3*, 4> corners_at(const Complex& complex, TetId t, VertexId v,
+                                             const Vec3& place) {
     std::array<const Vec3*, 4> corners{};
     const auto& ids = complex.tet(t).v;
     for (unsigned i = 0; i < 4; ++i) corners[i] = ids[i] == v ? &place : &complex.position(ids[i]);
     return corners;
 }
 /// The quality of the tet with these corners.
-inline double quality_of(const std::array<const Vec3*, 4>& p) { return geometry::tet_quality(*p[0], *p[1], *p[2], *p[3]); }
+inline double quality_of(const std::array<const Vec3*, 4>& p) {
+    return geometry::tet_quality(*p[0], *p[1], *p[2], *p[3]);
+}
 /// Whether the tet with these corners is exactly positive.
-inline bool exactly_positive(const std::array<const Vec3*, 4>& p) { return geometry::orient3d(*p[0], *p[1], *p[2], *p[3]) == 1; }
+inline bool exactly_positive(const std::array<const Vec3*, 4>& p) {
+    return geometry::orient3d(*p[0], *p[1], *p[2], *p[3]) == 1;
+}
 
-/// The least quality of the tets with v at `place`, at most 1; 0 if a tet would not be exactly positive. [parallel]
-inline double star_quality(const Complex& complex, std::span<const TetId> star, VertexId v, const Vec3& place) {
+/// The least quality of the tets with v at `place`, at most 1; 0 if a tet would not be exactly
+/// positive. [parallel]
+inline double star_quality(const Complex& complex, std::span<const TetId> star, VertexId v,
+                           const Vec3& place) {
     double least = 1.0;
     for (const TetId t : star) {
         const auto corners = corners_at(complex, t, v, place);
@@ -35,12 +43,13 @@ inline double star_quality(const Complex& complex, std::span<const TetId> star, 
     return least;
 }
 
-/// The least quality of the tets with v at `place`, without the exact test; 2 if there is no tet, -1 as soon as one is not above
-/// `bound`. Tets for which `counts(t)` is false are left out. `qualities`, if given, receives the others in the order of the
-/// star. [parallel]
+/// The least quality of the tets with v at `place`, without the exact test; 2 if there is no tet,
+/// -1 as soon as one is not above `bound`. Tets for which `counts(t)` is false are left out.
+/// `qualities`, if given, receives the others in the order of the star. [parallel]
 template <class Counts>
-float star_quality_above(float bound, const Complex& complex, std::span<const TetId> star, VertexId v, const Vec3& place,
-                         std::vector<float>* qualities, const Counts& counts) {
+float star_quality_above(float bound, const Complex& complex, std::span<const TetId> star,
+                         VertexId v, const Vec3& place, std::vector<float>* qualities,
+                         const Counts& counts) {
     float least = 2.0F;
     if (qualities != nullptr) qualities->clear();
     for (const TetId t : star) {
@@ -52,9 +61,11 @@ float star_quality_above(float bound, const Complex& complex, std::span<const Te
     }
     return least;
 }
-inline float star_quality_above(float bound, const Complex& complex, std::span<const TetId> star, VertexId v, const Vec3& place,
+inline float star_quality_above(float bound, const Complex& complex, std::span<const TetId> star,
+                                VertexId v, const Vec3& place,
                                 std::vector<float>* qualities = nullptr) {
-    return star_quality_above(bound, complex, star, v, place, qualities, [](TetId) { return true; });
+    return star_quality_above(bound, complex, star, v, place, qualities,
+                              [](TetId) { return true; });
 }
 
 }  // namespace dsc::mesh

@@ -1,13 +1,15 @@
 #pragma once
-// A small table from tets to their places in a list. The table of a star fits into the first-level cache; a mark per tet of the
-// mesh would not. If each thread has its own table, several threads can walk through the same complex.
+// A small table from tets to their places in a list. The table of a star fits into the first-level
+// cache; a mark per tet of the mesh would not. If each thread has its own table, several threads
+// can walk through the same complex.
 
 #include <cstdint>
 #include <vector>
 
 namespace dsc::mesh {
 
-/// Open addressing, at most half full. Reuse one object: clear() costs nothing, and memory grows only with the longest list.
+/// Open addressing, at most half full. Reuse one object: clear() costs nothing, and memory grows
+/// only with the longest list.
 class TetIndex {
 public:
     static constexpr std::uint32_t absent = 0xffffffffU;
@@ -43,7 +45,8 @@ private:
     // A key is the tet's id plus the stamp of its list; keys with another stamp are free slots.
     static constexpr std::uint64_t stamp_step = std::uint64_t{1} << 32U;
 
-    // The slot of t, or the free slot for it. Multiplication by 2^32 / golden ratio spreads neighbouring ids.
+    // The slot of t, or the free slot for it. Multiplication by 2^32 / golden ratio spreads
+    // neighbouring ids.
     std::size_t slot_of(std::uint32_t t) const {
         const std::size_t mask = keys_.size() - 1;
         std::size_t at = ((t * std::uint64_t{0x9e3779b1U}) >> 12U) & mask;

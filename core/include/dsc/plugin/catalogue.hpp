@@ -1,14 +1,16 @@
 #pragma once
-// Catalogue: all strategies of a host, and how to create one. Setup: what a strategy's constructor receives.
+// Catalogue: all strategies of a host, and how to create one. Setup: what a strategy's constructor
+// receives.
 
 #include <cstdint>
-#include <dsc/config/params.hpp>
-#include <dsc/plugin/registrar.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <dsc/config/params.hpp>
+#include <dsc/plugin/registrar.hpp>
 
 namespace dsc::plugin {
 
@@ -42,19 +44,24 @@ public:
     virtual std::vector<PluginInfo> plugins() const = 0;
 
     /// nullptr for an unknown kind or id. [setup]
-    const config::Schema* find_schema(const std::string& kind, const std::string& id) const override;
+    const config::Schema* find_schema(const std::string& kind,
+                                      const std::string& id) const override;
     /// Sorted; empty for an unknown kind. [setup]
     std::vector<std::string> ids(const std::string& kind) const override;
 
-    /// Creates the strategy `config.type` with its parameters; missing parameters get their defaults. `path` is its place in
-    /// the experiment ("velocity", "velocity.curvature"); messages name it and random streams depend on it.
+    /// Creates the strategy `config.type` with its parameters; missing parameters get their
+    /// defaults. `path` is its place in the experiment ("velocity", "velocity.curvature"); messages
+    /// name it and random streams depend on it.
     ///
-    /// The result is guarded: whatever the strategy throws or returns wrongly becomes a StrategyError that names it (see
-    /// guarded.hpp), and its contexts contain its own instance number. Throws PluginError "plugin.unknown_strategy",
-    /// ConfigError for wrong parameters, StrategyError. [setup]
+    /// The result is guarded: whatever the strategy throws or returns wrongly becomes a
+    /// StrategyError that names it (see guarded.hpp), and its contexts contain its own instance
+    /// number. Throws PluginError "plugin.unknown_strategy", ConfigError for wrong parameters,
+    /// StrategyError. [setup]
     template <class Hook>
-    std::unique_ptr<Hook> create(const config::StrategyConfig& config, const std::string& path) const {
-        return std::unique_ptr<Hook>(static_cast<Hook*>(create(kind_of<Hook>(), config, path).release()));
+    std::unique_ptr<Hook> create(const config::StrategyConfig& config,
+                                 const std::string& path) const {
+        return std::unique_ptr<Hook>(
+            static_cast<Hook*>(create(kind_of<Hook>(), config, path).release()));
     }
     std::unique_ptr<hooks::Strategy> create(Kind kind, const config::StrategyConfig& config,
                                             const std::string& path) const;
@@ -70,10 +77,11 @@ public:
     /// The number of this place; the random streams depend on it.
     std::uint64_t instance() const noexcept { return instance_; }
 
-    /// Creates a nested strategy; `name` is the parameter that contains it. nullptr if `config` is empty. Throws as
-    /// Catalogue::create.
+    /// Creates a nested strategy; `name` is the parameter that contains it. nullptr if `config` is
+    /// empty. Throws as Catalogue::create.
     template <class Hook>
-    std::unique_ptr<Hook> create(std::string_view name, const config::StrategyConfig& config) const {
+    std::unique_ptr<Hook> create(std::string_view name,
+                                 const config::StrategyConfig& config) const {
         if (config.empty()) return nullptr;
         return catalogue_->create<Hook>(config, config::join_path(path_, name));
     }

@@ -1,11 +1,13 @@
 #pragma once
-// The entry of a plugin: one constant of plain bytes that the host reads before any code of the plugin runs.
+// The entry of a plugin: one constant of plain bytes that the host reads before any code of the
+// plugin runs.
 
 #include <cstddef>
 #include <cstdint>
-#include <dsc/plugin/fingerprint.hpp>
 #include <stdexcept>
 #include <string_view>
+
+#include <dsc/plugin/fingerprint.hpp>
 
 #define DSC_PLUGIN_EXPORT __attribute__((visibility("default")))
 
@@ -18,8 +20,8 @@ inline constexpr std::uint32_t entry_magic = 0x31435344U;
 /// Name of the symbol that every plugin exports.
 inline constexpr const char* entry_symbol = "dsc_plugin_entry";
 
-/// What a plugin declares about itself. Texts are stored inside the struct and end with a zero byte, so that the host can read
-/// everything except `enroll` from the file without loading it.
+/// What a plugin declares about itself. Texts are stored inside the struct and end with a zero
+/// byte, so that the host can read everything except `enroll` from the file without loading it.
 struct PluginEntry {
     std::uint32_t magic;        ///< entry_magic
     std::uint32_t struct_size;  ///< sizeof(PluginEntry) in the plugin's build
@@ -44,9 +46,9 @@ constexpr void set_text(char (&to)[N], std::string_view text) {
 }  // namespace detail
 
 /// The entry for the calling translation unit; used by DSC_PLUGIN.
-constexpr PluginEntry make_entry(void (*enroll)(Registrar&), std::string_view name, std::string_view version,
-                                 std::string_view license, std::string_view summary,
-                                 std::string_view authors = {}) {
+constexpr PluginEntry make_entry(void (*enroll)(Registrar&), std::string_view name,
+                                 std::string_view version, std::string_view license,
+                                 std::string_view summary, std::string_view authors = {}) {
     PluginEntry entry{};
     entry.magic = entry_magic;
     entry.struct_size = sizeof(PluginEntry);
@@ -66,8 +68,8 @@ constexpr PluginEntry make_entry(void (*enroll)(Registrar&), std::string_view na
 
 extern "C" DSC_PLUGIN_EXPORT const dsc::plugin::PluginEntry dsc_plugin_entry;
 
-/// Makes a library a plugin. Write it once per library, outside all namespaces. The name is [a-z][a-z0-9_]*, the library is
-/// libdsc_NAME.so.
+/// Makes a library a plugin. Write it once per library, outside all namespaces. The name is
+/// [a-z][a-z0-9_]*, the library is libdsc_NAME.so.
 ///
 /// ```
 /// DSC_PLUGIN("my_flow", "1.0.0", "MIT", "what it is for", "its authors, optional") {

@@ -1,10 +1,12 @@
 #pragma once
-// The fingerprint: properties that the builds of a plugin and of its host must share, as text "key=value;key=value".
+// The fingerprint: properties that the builds of a plugin and of its host must share, as text
+// "key=value;key=value".
 
-#include <Eigen/Core>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <Eigen/Core>
 
 #define DSC_TEXT_OF(x) #x
 #define DSC_TEXT(x) DSC_TEXT_OF(x)
@@ -52,7 +54,8 @@
 #define DSC_ABI_MAJOR 2
 #define DSC_ABI_MINOR 0
 
-/// The fingerprint of the translation unit that contains it. `align` changes with -mavx, which moves every Eigen member.
+/// The fingerprint of the translation unit that contains it. `align` changes with -mavx, which
+/// moves every Eigen member.
 // clang-format off
 #define DSC_FINGERPRINT                                                        \
     "abi_major=" DSC_TEXT(DSC_ABI_MAJOR)                                       \
@@ -72,7 +75,8 @@ namespace dsc::plugin {
 /// The fingerprint of the core library. [parallel]
 std::string_view core_fingerprint() noexcept;
 
-/// One key with different values in two fingerprints; the value is empty on a side that lacks the key.
+/// One key with different values in two fingerprints; the value is empty on a side that lacks the
+/// key.
 struct FingerprintDifference {
     std::string key;
     std::string plugin;
@@ -80,9 +84,11 @@ struct FingerprintDifference {
     bool hard = false;  ///< memory layouts may differ: the plugin must not be used
 };
 
-/// The keys that differ, in the order of the host's text, then the keys that only the plugin has. Hard keys are abi_major,
-/// cxx11abi, eigen, align, real, index, dbgstl and san; all others are soft. [parallel]
-std::vector<FingerprintDifference> compare_fingerprints(std::string_view plugin, std::string_view host);
+/// The keys that differ, in the order of the host's text, then the keys that only the plugin has.
+/// Hard keys are abi_major, cxx11abi, eigen, align, real, index, dbgstl and san; all others are
+/// soft. [parallel]
+std::vector<FingerprintDifference> compare_fingerprints(std::string_view plugin,
+                                                        std::string_view host);
 
 /// An address inside the core library; it serves to find the library's file at run time. [parallel]
 const void* core_address() noexcept;

@@ -1,13 +1,15 @@
 #pragma once
-// Guarded calls into strategies: whatever a strategy throws or returns wrongly becomes an error that names the strategy, its
-// plugin, the hook and the step. Catalogue::create wraps every strategy this way.
+// Guarded calls into strategies: whatever a strategy throws or returns wrongly becomes an error
+// that names the strategy, its plugin, the hook and the step. Catalogue::create wraps every
+// strategy this way.
 
 #include <cstdint>
-#include <dsc/base/error.hpp>
-#include <dsc/plugin/kind.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include <dsc/base/error.hpp>
+#include <dsc/plugin/kind.hpp>
 
 namespace dsc::plugin {
 
@@ -19,9 +21,11 @@ struct Identity {
     std::string plugin;   ///< name
     std::string version;  ///< of the plugin
     std::string file;     ///< of the plugin
-    std::string place;    ///< "a.yaml:6:11", the place of its parameters; empty for parameters made by code
+    std::string place;    ///< "a.yaml:6:11", the place of its parameters; empty for parameters made
+                          ///< by code
 
-    /// "velocity 'point_cloud' (plugin point_cloud 0.1.0, FILE, at 'velocity' in the experiment, a.yaml:6:11)".
+    /// "velocity 'point_cloud' (plugin point_cloud 0.1.0, FILE, at 'velocity' in the experiment,
+    /// a.yaml:6:11)".
     std::string describe() const;
 };
 
@@ -41,10 +45,12 @@ public:
 
 /// Throws StrategyFailure "DESCRIPTION HOOK at step N CAUSE; REMEDY". Codes: "strategy.threw",
 /// "strategy.not_finite", "strategy.size", "strategy.range", "strategy.outside".
-[[noreturn]] void fail(const Call& call, std::string code, std::string_view cause, std::string_view remedy);
+[[noreturn]] void fail(const Call& call, std::string code, std::string_view cause,
+                       std::string_view remedy);
 
-/// Call it in a catch block. CancelledError, ConfigError and StrategyFailure are rethrown unchanged; outside steps so are
-/// IoError and GeometryError, because they concern the user's files. Everything else becomes StrategyFailure "strategy.threw".
+/// Call it in a catch block. CancelledError, ConfigError and StrategyFailure are rethrown
+/// unchanged; outside steps so are IoError and GeometryError, because they concern the user's
+/// files. Everything else becomes StrategyFailure "strategy.threw".
 [[noreturn]] void rethrow_attributed(const Call& call);
 
 /// Marks that this thread is inside that call, during the lifetime of the object. [parallel]
@@ -59,7 +65,8 @@ private:
     const Call* outer_;
 };
 
-/// The innermost call into a strategy that this thread is in: "DESCRIPTION: HOOK at step N"; empty outside a call. [parallel]
+/// The innermost call into a strategy that this thread is in: "DESCRIPTION: HOOK at step N"; empty
+/// outside a call. [parallel]
 std::string current_call();
 
 /// Runs `body`, a call into a strategy. [parallel]

@@ -1,19 +1,21 @@
 #pragma once
 // Registrar: a plugin's enroll function registers the strategies of the library with it.
 
-#include <dsc/config/params.hpp>
-#include <dsc/hooks/traits.hpp>
-#include <dsc/plugin/kind.hpp>
 #include <memory>
 #include <string>
 #include <utility>
+
+#include <dsc/config/params.hpp>
+#include <dsc/hooks/traits.hpp>
+#include <dsc/plugin/kind.hpp>
 
 namespace dsc::plugin {
 
 class Setup;
 
 /// Makes a strategy from its resolved parameters.
-using Factory = std::unique_ptr<hooks::Strategy> (*)(const config::ConfigNode& resolved, const Setup& setup);
+using Factory = std::unique_ptr<hooks::Strategy> (*)(const config::ConfigNode& resolved,
+                                                     const Setup& setup);
 
 /// One strategy as its plugin declares it.
 struct StrategyRecord {
@@ -30,15 +32,16 @@ class Registrar {
 public:
     virtual ~Registrar();
 
-    /// Registers `T`: a class derived from one hook, with a struct `T::Params`, a function `static void
-    /// T::declare(config::ParamSchema<Params>&)` and a constructor `T(const Params&, const Setup&)`. It may have a member
-    /// `static constexpr hooks::Traits traits`. Throws PluginError for a malformed or repeated id and for a faulty declaration.
-    /// [setup]
+    /// Registers `T`: a class derived from one hook, with a struct `T::Params`, a function `static
+    /// void T::declare(config::ParamSchema<Params>&)` and a constructor `T(const Params&, const
+    /// Setup&)`. It may have a member `static constexpr hooks::Traits traits`. Throws PluginError
+    /// for a malformed or repeated id and for a faulty declaration. [setup]
     template <class T>
     void add(std::string id, std::string summary) {
         config::ParamSchema<typename T::Params> params;
         T::declare(params);
-        enroll({kind_of<T>(), std::move(id), std::move(summary), params.shared_schema(), &make<T>, traits_of<T>()});
+        enroll({kind_of<T>(), std::move(id), std::move(summary), params.shared_schema(), &make<T>,
+                traits_of<T>()});
     }
 
 protected:
@@ -56,7 +59,8 @@ private:
     }
 
     template <class T>
-    static std::unique_ptr<hooks::Strategy> make(const config::ConfigNode& resolved, const Setup& setup) {
+    static std::unique_ptr<hooks::Strategy> make(const config::ConfigNode& resolved,
+                                                 const Setup& setup) {
         config::ParamSchema<typename T::Params> params;
         T::declare(params);
         return std::make_unique<T>(params.read(resolved), setup);

@@ -1,18 +1,20 @@
 #pragma once
-// An experiment: the typed form of a configuration, and how a file with overrides is turned into it.
+// An experiment: the typed form of a configuration, and how a file with overrides is turned into
+// it.
 
 #include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/config/node.hpp>
 #include <dsc/config/params.hpp>
 #include <dsc/config/schema.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/run/input_files.hpp>
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
 namespace dsc::run {
 
@@ -26,10 +28,12 @@ struct SampleInput {
 
 /// Source of the points: exactly one of `file` and `sample`.
 struct CloudInput {
-    std::optional<std::string> file;  ///< absolute
-    std::vector<std::string> columns;  ///< of a text cloud (cloud::ReadOptions); empty: by the header, else the first three
+    std::optional<std::string> file;   ///< absolute
+    std::vector<std::string> columns;  ///< of a text cloud (cloud::ReadOptions); empty: by the
+                                       ///< header, else the first three
     std::optional<SampleInput> sample;
-    std::vector<config::StrategyConfig> filters;  ///< of kind "filter", in the order in which they are applied
+    std::vector<config::StrategyConfig> filters;  ///< of kind "filter", in the order in which they
+                                                  ///< are applied
 };
 
 /// The thesis' normalisation.
@@ -69,8 +73,8 @@ struct SeriesOutput {
     std::uint32_t every = 10;
 };
 
-/// The part of the surface that is written: without faces that have a vertex too far from the points or with too little
-/// support.
+/// The part of the surface that is written: without faces that have a vertex too far from the
+/// points or with too little support.
 struct TrimOutput {
     double distance = 2.0;  ///< spacings of the points
     double support = 0.0;   ///< least value of the velocity's attribute of this name
@@ -112,33 +116,41 @@ struct LoadedExperiment {
     Experiment experiment;
     config::ConfigNode resolved;  ///< all defaults written out, file names absolute
     std::string warnings;         ///< text of the warnings; empty if there are none
-    std::shared_ptr<InputFiles> files = std::make_shared<InputFiles>();  ///< the files that the experiment reads, each read once
+    std::shared_ptr<InputFiles> files = std::make_shared<InputFiles>();  ///< the files that the
+                                                                         ///< experiment reads, each
+                                                                         ///< read once
 };
 
-/// Provides the lookup of strategies after the plugins of the experiment are loaded: receives the absolute paths of `plugins:`
-/// and returns a lookup that outlives the call.
+/// Provides the lookup of strategies after the plugins of the experiment are loaded: receives the
+/// absolute paths of `plugins:` and returns a lookup that outlives the call.
 using PluginLoader = std::function<const config::StrategyLookup&(const std::vector<std::string>&)>;
 
-/// Reads `file`, applies the overrides, loads the plugins and validates. Throws ConfigError with every fault found, IoError for
-/// an unreadable file, and what the loader throws. [setup]
+/// Reads `file`, applies the overrides, loads the plugins and validates. Throws ConfigError with
+/// every fault found, IoError for an unreadable file, and what the loader throws. [setup]
 LoadedExperiment load_experiment(const std::string& file, std::span<const std::string> overrides,
-                                 const PluginLoader& load_plugins, const config::YamlOptions& options = {});
+                                 const PluginLoader& load_plugins,
+                                 const config::YamlOptions& options = {});
 
 /// The same for a tree made by code. [setup]
-LoadedExperiment resolve_experiment(const config::ConfigNode& root, const PluginLoader& load_plugins);
+LoadedExperiment resolve_experiment(const config::ConfigNode& root,
+                                    const PluginLoader& load_plugins);
 
-/// The input of a resolved configuration; `lookup` knows its filters. Empty if there is no input. Throws ConfigError, also for
-/// a filter that the lookup does not know. [setup]
-std::optional<Input> input_of(const config::ConfigNode& resolved, const config::StrategyLookup& lookup);
+/// The input of a resolved configuration; `lookup` knows its filters. Empty if there is no input.
+/// Throws ConfigError, also for a filter that the lookup does not know. [setup]
+std::optional<Input> input_of(const config::ConfigNode& resolved,
+                              const config::StrategyLookup& lookup);
 
 /// The text that `--print-config` prints and config.resolved.yaml contains.
 std::string resolved_text(const LoadedExperiment& loaded);
 
-/// SHA-256 (64 hex digits) of the canonical resolved configuration. A file parameter is hashed by its content instead of its
-/// name, and so are plugins. Throws IoError for a file that cannot be read. [setup]
+/// SHA-256 (64 hex digits) of the canonical resolved configuration. A file parameter is hashed by
+/// its content instead of its name, and so are plugins. Throws IoError for a file that cannot be
+/// read. [setup]
 std::string config_hash(const LoadedExperiment& loaded, const config::StrategyLookup& lookup);
 
-/// Files that the experiment names in its input and its strategies' parameters, in the order of the schema. [setup]
-std::vector<std::string> input_files(const LoadedExperiment& loaded, const config::StrategyLookup& lookup);
+/// Files that the experiment names in its input and its strategies' parameters, in the order of the
+/// schema. [setup]
+std::vector<std::string> input_files(const LoadedExperiment& loaded,
+                                     const config::StrategyLookup& lookup);
 
 }  // namespace dsc::run

@@ -2,15 +2,16 @@
 // The figures of a run: the lines of events.jsonl, and the sums that summary.json contains.
 
 #include <cstdint>
-#include <dsc/cloud/normalize.hpp>
-#include <dsc/hooks/figures.hpp>
-#include <dsc/kernel/step_report.hpp>
-#include <dsc/mesh/adopt.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include <dsc/cloud/normalize.hpp>
+#include <dsc/hooks/figures.hpp>
+#include <dsc/kernel/step_report.hpp>
+#include <dsc/mesh/adopt.hpp>
 
 namespace dsc::run {
 
@@ -74,11 +75,12 @@ struct RunTotals {
     std::vector<std::string> repair_class_names;  ///< names of the first entries of repair_classes
     repair::EventCounts events;
     mesh::AdoptReport adopted;
-    hooks::Figures initial_mesh;  ///< from the generator
+    hooks::Figures initial_mesh;          ///< from the generator
     hooks::Figures initial_mesh_seconds;  ///< CPU seconds of the generator's parts
-    hooks::Warnings warnings;     ///< from the strategies
+    hooks::Warnings warnings;             ///< from the strategies
     PhaseSeconds seconds;
-    std::vector<std::pair<std::string, hooks::Figures>> observers;  ///< by observer id, from its end()
+    std::vector<std::pair<std::string, hooks::Figures>> observers;  ///< by observer id, from its
+                                                                    ///< end()
 
     void add(const kernel::StepReport& report);
     /// Counts one more event that no step report contains.

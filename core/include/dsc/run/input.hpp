@@ -2,6 +2,10 @@
 // Makes the cloud that strategies see from the input of an experiment.
 
 #include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include <dsc/base/progress.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/cloud.hpp>
@@ -9,9 +13,6 @@
 #include <dsc/cloud/target.hpp>
 #include <dsc/plugin/catalogue.hpp>
 #include <dsc/run/experiment.hpp>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace dsc::run {
 
@@ -32,14 +33,17 @@ struct LoadedInput {
     cloud::Cloud cloud;  ///< filtered, in the input's units
     cloud::TargetCloud target;
     InputReport report;
-    std::vector<Vec3> removed{};  ///< points of the file that a filter removed or moved, in normalised units
+    std::vector<Vec3> removed{};  ///< points of the file that a filter removed or moved, in
+                                  ///< normalised units
 };
 
-/// Reads (through `files`) or samples, filters and normalises. `seed` is the seed of the experiment. `catalogue` creates the
-/// filters, which may use `workers` (null: one thread) and `cancel` (may be null). The result depends on neither. Throws
-/// IoError, GeometryError as the parts of the cloud module, and as Catalogue::create and the filters: PluginError,
-/// StrategyError, CancelledError. [setup]
-LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Catalogue& catalogue, InputFiles& files,
-                       Workers* workers = nullptr, const CancelToken* cancel = nullptr);
+/// Reads (through `files`) or samples, filters and normalises. `seed` is the seed of the
+/// experiment. `catalogue` creates the filters, which may use `workers` (null: one thread) and
+/// `cancel` (may be null). The result depends on neither. Throws IoError, GeometryError as the
+/// parts of the cloud module, and as Catalogue::create and the filters: PluginError, StrategyError,
+/// CancelledError. [setup]
+LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Catalogue& catalogue,
+                       InputFiles& files, Workers* workers = nullptr,
+                       const CancelToken* cancel = nullptr);
 
 }  // namespace dsc::run

@@ -13,8 +13,8 @@
 
 namespace dsc::run {
 
-/// A row of metrics.csv, normalised units; metrics_columns says what each figure means. Row 0 is the state before the first
-/// step.
+/// A row of metrics.csv, normalised units; metrics_columns says what each figure means. Row 0 is
+/// the state before the first step.
 struct StepMetrics {
     std::uint64_t step = 0;
     std::size_t interface_vertices = 0;
@@ -38,13 +38,15 @@ struct StepMetrics {
     double relabelled_volume = 0.0;
     std::uint64_t committed = 0;
     std::size_t events = 0;
-    std::vector<std::pair<std::string, double>> observers;  ///< "observers.ID.figure"; the last columns
+    std::vector<std::pair<std::string, double>> observers;  ///< "observers.ID.figure"; the last
+                                                            ///< columns
 };
 
 /// Cloud points at which cloud_to_surface_mean is measured per step; the summary uses all of them.
 inline constexpr std::size_t cloud_probes = 150;
 
-/// Appends a cell: an integer, or a number in the shortest form that reads back to the same double; nothing if it is empty.
+/// Appends a cell: an integer, or a number in the shortest form that reads back to the same double;
+/// nothing if it is empty.
 void append_cell(std::string& text, std::uint64_t value);
 void append_cell(std::string& text, double value);
 void append_cell(std::string& text, const std::optional<double>& value);
@@ -68,38 +70,56 @@ struct MetricsColumn {
     void (*append)(std::string& text, const StepMetrics& row);  ///< appends the row's cell
 };
 
-/// The columns in their order; the figures of observers follow. Header line, rows, reports and documentation use this table.
+/// The columns in their order; the figures of observers follow. Header line, rows, reports and
+/// documentation use this table.
 inline constexpr std::array<MetricsColumn, 22> metrics_columns = {{
-    {"step", "-", "number of the step; 0 is the state before the first step", append_figure<&StepMetrics::step>},
-    {"interface_vertices", "-", "vertices of the interface", append_figure<&StepMetrics::interface_vertices>},
-    {"interface_faces", "-", "faces of the interface", append_figure<&StepMetrics::interface_faces>},
-    {"junction_vertices", "-", "interface vertices where three labels or more meet; they do not move",
+    {"step", "-", "number of the step; 0 is the state before the first step",
+     append_figure<&StepMetrics::step>},
+    {"interface_vertices", "-", "vertices of the interface",
+     append_figure<&StepMetrics::interface_vertices>},
+    {"interface_faces", "-", "faces of the interface",
+     append_figure<&StepMetrics::interface_faces>},
+    {"junction_vertices", "-",
+     "interface vertices where three labels or more meet; they do not move",
      append_figure<&StepMetrics::junction_vertices>},
     {"tets", "-", "tets, inside and outside", append_figure<&StepMetrics::tets>},
-    {"mean_edge", "n", "mean length of the interface edges", append_figure<&StepMetrics::mean_edge>},
-    {"mean_speed", "n per step", "mean length of the displacements of the movable vertices", append_figure<&StepMetrics::mean_speed>},
-    {"max_speed", "n per step", "largest length of these displacements", append_figure<&StepMetrics::max_speed>},
-    {"vertex_to_cloud_mean", "n", "mean distance of the interface vertices to their nearest cloud points; empty without a cloud",
+    {"mean_edge", "n", "mean length of the interface edges",
+     append_figure<&StepMetrics::mean_edge>},
+    {"mean_speed", "n per step", "mean length of the displacements of the movable vertices",
+     append_figure<&StepMetrics::mean_speed>},
+    {"max_speed", "n per step", "largest length of these displacements",
+     append_figure<&StepMetrics::max_speed>},
+    {"vertex_to_cloud_mean", "n",
+     "mean distance of the interface vertices to their nearest cloud points; empty without a cloud",
      append_figure<&StepMetrics::vertex_to_cloud_mean>},
-    {"vertex_to_cloud_max", "n", "largest of these distances; empty without a cloud", append_figure<&StepMetrics::vertex_to_cloud_max>},
-    {"cloud_to_surface_mean", "n", "mean distance of at most 150 cloud points, evenly selected, to the surface; empty without a cloud",
+    {"vertex_to_cloud_max", "n", "largest of these distances; empty without a cloud",
+     append_figure<&StepMetrics::vertex_to_cloud_max>},
+    {"cloud_to_surface_mean", "n",
+     "mean distance of at most 150 cloud points, evenly selected, to the surface; empty without a "
+     "cloud",
      append_figure<&StepMetrics::cloud_to_surface_mean>},
     {"volume", "n^3", "volume of all labels above 0", append_figure<&StepMetrics::volume>},
-    {"min_tet_quality", "-", "least quality of a tet", append_figure<&StepMetrics::min_tet_quality>},
+    {"min_tet_quality", "-", "least quality of a tet",
+     append_figure<&StepMetrics::min_tet_quality>},
     {"rounds", "-", "repair rounds of the step", append_figure<&StepMetrics::rounds>},
     {"requested", "-", "vertices with a displacement", append_figure<&StepMetrics::requested>},
-    {"arrived", "-", "vertices that reached their destination", append_figure<&StepMetrics::arrived>},
-    {"clamped", "-", "destinations moved back into the box shrunk by 2 L", append_figure<&StepMetrics::clamped>},
-    {"dropped_motion", "n", "sum of the distances to destinations that were not reached", append_figure<&StepMetrics::dropped_motion>},
-    {"edit_volume", "n^3", "sum of the volumes by which edits changed phases", append_figure<&StepMetrics::edit_volume>},
+    {"arrived", "-", "vertices that reached their destination",
+     append_figure<&StepMetrics::arrived>},
+    {"clamped", "-", "destinations moved back into the box shrunk by 2 L",
+     append_figure<&StepMetrics::clamped>},
+    {"dropped_motion", "n", "sum of the distances to destinations that were not reached",
+     append_figure<&StepMetrics::dropped_motion>},
+    {"edit_volume", "n^3", "sum of the volumes by which edits changed phases",
+     append_figure<&StepMetrics::edit_volume>},
     {"relabelled_volume", "n^3", "sum of the volumes of relabelled tets, topology changes included",
      append_figure<&StepMetrics::relabelled_volume>},
-    {"committed", "-", "operations that were committed in the step", append_figure<&StepMetrics::committed>},
+    {"committed", "-", "operations that were committed in the step",
+     append_figure<&StepMetrics::committed>},
     {"events", "-", "topology changes in the step", append_figure<&StepMetrics::events>},
 }};
 
-/// The name of the column of a figure, for code that reads metrics.csv: column_name<&StepMetrics::volume>. It does not compile
-/// for a figure that has no column.
+/// The name of the column of a figure, for code that reads metrics.csv:
+/// column_name<&StepMetrics::volume>. It does not compile for a figure that has no column.
 template <auto Figure>
 inline constexpr std::string_view column_name = [] {
     std::size_t i = 0;
@@ -109,7 +129,8 @@ inline constexpr std::string_view column_name = [] {
 
 /// First line of metrics.csv for rows like `row`, with its newline.
 std::string csv_header(const StepMetrics& row);
-/// The row with its newline. Missing figures of observers, as in row 0, become empty cells up to `observer_columns`.
+/// The row with its newline. Missing figures of observers, as in row 0, become empty cells up to
+/// `observer_columns`.
 std::string csv_row(const StepMetrics& row, std::size_t observer_columns = 0);
 
 }  // namespace dsc::run

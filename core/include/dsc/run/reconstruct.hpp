@@ -2,12 +2,13 @@
 // The main task: the experiment that turns a cloud into a surface and a volume, with few options.
 
 #include <cstdint>
-#include <dsc/cloud/statistics.hpp>
-#include <dsc/config/node.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <dsc/cloud/statistics.hpp>
+#include <dsc/config/node.hpp>
 
 namespace dsc::run {
 
@@ -19,14 +20,18 @@ std::string_view detail_name(Detail detail);
 
 struct ReconstructOptions {
     Detail detail = Detail::medium;
-    std::vector<std::string> columns{};  ///< of a text cloud (cloud::ReadOptions)
-    std::optional<double> edge_length{};    ///< in the units of the input; replaces `detail`
-    std::optional<std::uint64_t> vertices{};  ///< wanted number of vertices of the surface; replaces `detail`
-    std::optional<double> noise{};          ///< standard deviation of the points across the surface, in spacings; empty: it is measured
-    bool trim = false;                      ///< write the surface without the parts that no points support
+    std::vector<std::string> columns{};       ///< of a text cloud (cloud::ReadOptions)
+    std::optional<double> edge_length{};      ///< in the units of the input; replaces `detail`
+    std::optional<std::uint64_t> vertices{};  ///< wanted number of vertices of the surface;
+                                              ///< replaces `detail`
+    std::optional<double> noise{};  ///< standard deviation of the points across the surface, in
+                                    ///< spacings; empty: it is measured
+    bool trim = false;              ///< write the surface without the parts that no points support
 };
 
-/// The experiment in configs/reconstruct (low.yaml, medium.yaml or high.yaml) with the cloud `file`, an absolute name. [setup]
-config::ConfigNode reconstruction_of(const std::string& file, const ReconstructOptions& options = {});
+/// The experiment in configs/reconstruct (low.yaml, medium.yaml or high.yaml) with the cloud
+/// `file`, an absolute name. [setup]
+config::ConfigNode reconstruction_of(const std::string& file,
+                                     const ReconstructOptions& options = {});
 
 }  // namespace dsc::run

@@ -6,8 +6,9 @@
 
 namespace dsc::run {
 
-/// The policy with which a step asks the improvement: for repairs, and which changes of topology to accept. Both references must
-/// outlive the policy. [step]
-kernel::RepairPolicy repair_policy(hooks::Improvement& improvement, const hooks::StepContext& context);
+/// The policy with which a step asks the improvement: for repairs, and which changes of topology to
+/// accept. Both references must outlive the policy. [step]
+kernel::RepairPolicy repair_policy(hooks::Improvement& improvement,
+                                   const hooks::StepContext& context);
 
 }  // namespace dsc::run

@@ -1,13 +1,6 @@
 #pragma once
 // A complete run: from a loaded experiment to a run folder.
 
-#include <dsc/base/error.hpp>
-#include <dsc/run/coverage.hpp>
-#include <dsc/run/simulation.hpp>
-#include <dsc/run/experiment.hpp>
-#include <dsc/run/input.hpp>
-#include <dsc/run/measure.hpp>
-#include <dsc/surface/trim.hpp>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -15,20 +8,32 @@
 #include <string>
 #include <vector>
 
+#include <dsc/base/error.hpp>
+#include <dsc/run/coverage.hpp>
+#include <dsc/run/experiment.hpp>
+#include <dsc/run/input.hpp>
+#include <dsc/run/measure.hpp>
+#include <dsc/run/simulation.hpp>
+#include <dsc/surface/trim.hpp>
+
 namespace dsc::run {
 
 struct RunOptions {
     std::filesystem::path folder;  ///< empty: runs/NAME/HASH, with 12 digits of the hash
     unsigned threads = 1;
-    std::optional<double> time_budget{};  ///< seconds; the run ends after the step in which this time is exceeded
+    std::optional<double> time_budget{};  ///< seconds; the run ends after the step in which this
+                                          ///< time is exceeded
     const CancelToken* cancel = nullptr;
     bool picture = true;  ///< draw preview.png; not useful for a temporary folder
-    bool resume = false;  ///< continue from the last checkpoint in the folder; in a new folder, start at the beginning
+    bool resume = false;  ///< continue from the last checkpoint in the folder; in a new folder,
+                          ///< start at the beginning
     std::vector<std::string> command{};  ///< as typed, for provenance.json
     std::function<void(const StepMetrics&, std::uint64_t planned)> on_step{};
-    /// Makes the text of report.html from the folder of the run, if the experiment requests a report: report::report_html.
-    /// Empty: no report is written. `input` is the input that the run has loaded, null if it has none.
-    std::function<std::string(const std::filesystem::path& folder, const plugin::Catalogue& catalogue, Workers* workers,
+    /// Makes the text of report.html from the folder of the run, if the experiment requests a
+    /// report: report::report_html. Empty: no report is written. `input` is the input that the run
+    /// has loaded, null if it has none.
+    std::function<std::string(const std::filesystem::path& folder,
+                              const plugin::Catalogue& catalogue, Workers* workers,
                               const LoadedInput* input)>
         make_report{};
 };
@@ -39,31 +44,40 @@ struct RunOutcome {
     std::vector<std::filesystem::path> surfaces;  ///< in result/
     std::vector<std::filesystem::path> volumes;
     std::filesystem::path picture;  ///< empty if no picture was requested
-    std::filesystem::path report;  ///< empty if none was requested or written
+    std::filesystem::path report;   ///< empty if none was requested or written
     RunTotals totals;
     SurfaceMeasure surface;
-    std::map<mesh::Label, SurfaceMeasure> label_surfaces;  ///< of surface_LABEL.*, if there are two labels above 0 or more
+    std::map<mesh::Label, SurfaceMeasure> label_surfaces;  ///< of surface_LABEL.*, if there are two
+                                                           ///< labels above 0 or more
     VolumeMeasure volume;
-    std::optional<Coverage> coverage;  ///< of the whole surface, in normalised units; empty without a cloud
-    std::optional<surface::TrimReport> trimmed;  ///< if the surface was written without the parts that no points support
-    bool conforms = false;  ///< the surface is, bit for bit, the label interface of the volume, or the part that trimming keeps
+    std::optional<Coverage> coverage;  ///< of the whole surface, in normalised units; empty without
+                                       ///< a cloud
+    std::optional<surface::TrimReport> trimmed;  ///< if the surface was written without the parts
+                                                 ///< that no points support
+    bool conforms = false;  ///< the surface is, bit for bit, the label interface of the volume, or
+                            ///< the part that trimming keeps
 };
 
-/// Runs the experiment. On an error the folder says "failed" and contains no result, and the error is rethrown. A result that
-/// is not valid as written (inverted tets, self-intersections, a surface that is not the volume's interface) is a GeometryError
-/// "run.invalid_result". Throws UsageError "run.busy" for a folder in which another run is active, and "run.resume" for a
-/// folder that contains something other than the run to resume; neither changes the folder. [setup]
+/// Runs the experiment. On an error the folder says "failed" and contains no result, and the error
+/// is rethrown. A result that is not valid as written (inverted tets, self-intersections, a surface
+/// that is not the volume's interface) is a GeometryError "run.invalid_result". Throws UsageError
+/// "run.busy" for a folder in which another run is active, and "run.resume" for a folder that
+/// contains something other than the run to resume; neither changes the folder. [setup]
 RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
                           const RunOptions& options);
 
-/// To be called when the process ends during its runs: their folders then say "failed", and why. [setup]
+/// To be called when the process ends during its runs: their folders then say "failed", and why.
+/// [setup]
 void abandon_runs(const Error& error);
 
-/// Whether the folder contains the finished run of this experiment, so that there is nothing to resume. [setup]
-bool is_finished(const std::filesystem::path& folder, const LoadedExperiment& loaded, const plugin::Catalogue& catalogue);
+/// Whether the folder contains the finished run of this experiment, so that there is nothing to
+/// resume. [setup]
+bool is_finished(const std::filesystem::path& folder, const LoadedExperiment& loaded,
+                 const plugin::Catalogue& catalogue);
 
 /// The folder of a run without `-o`. [setup]
-std::filesystem::path default_folder(const LoadedExperiment& loaded, const config::StrategyLookup& lookup);
+std::filesystem::path default_folder(const LoadedExperiment& loaded,
+                                     const config::StrategyLookup& lookup);
 
 /// The mesh in the input's coordinates. [setup]
 mesh::TetMesh to_input(const mesh::TetMesh& mesh, const cloud::Transform& to_normalised);

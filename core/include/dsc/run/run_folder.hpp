@@ -1,5 +1,6 @@
 #pragma once
-// The folder of a run: which folders may be replaced, what they contain, and when a result counts as finished.
+// The folder of a run: which folders may be replaced, what they contain, and when a result counts
+// as finished.
 
 #include <filesystem>
 #include <fstream>
@@ -12,23 +13,26 @@ namespace dsc::run {
 
 class RunLock;
 
-/// Writes in an order that never makes an incomplete run look finished: status.json says "running" first and "done" last;
-/// result/ appears complete by a rename. The folder of a failed run contains no result, no summary and no picture.
+/// Writes in an order that never makes an incomplete run look finished: status.json says "running"
+/// first and "done" last; result/ appears complete by a rename. The folder of a failed run contains
+/// no result, no summary and no picture.
 class RunFolder {
 public:
     /// claimed() and clear(Keep::nothing). [setup]
     explicit RunFolder(std::filesystem::path folder);
 
-    /// Creates the folder, or takes over an existing run folder, and owns it from then on; changes nothing in it. Throws
-    /// UsageError "run.folder" for a file or any other folder that is not empty, UsageError "run.busy" if another run owns it,
-    /// IoError "run.folder" if it cannot be created. [setup]
+    /// Creates the folder, or takes over an existing run folder, and owns it from then on; changes
+    /// nothing in it. Throws UsageError "run.folder" for a file or any other folder that is not
+    /// empty, UsageError "run.busy" if another run owns it, IoError "run.folder" if it cannot be
+    /// created. [setup]
     static RunFolder claimed(std::filesystem::path folder);
     ~RunFolder();
     RunFolder(RunFolder&&) noexcept;
     RunFolder& operator=(RunFolder&&) = delete;
 
-    /// What to keep of an earlier run: nothing, or, for a run that is continued, everything except results. Files that no run
-    /// writes are always kept; temporary files of a killed run never are. [setup]
+    /// What to keep of an earlier run: nothing, or, for a run that is continued, everything except
+    /// results. Files that no run writes are always kept; temporary files of a killed run never
+    /// are. [setup]
     enum class Keep { nothing, progress };
     void clear(Keep keep) const;
 

@@ -1,13 +1,15 @@
 #pragma once
-// Distances to meshes and clouds, area-uniform sampling, and the figures that evaluate a reconstruction.
+// Distances to meshes and clouds, area-uniform sampling, and the figures that evaluate a
+// reconstruction.
 
 #include <cstddef>
 #include <cstdint>
-#include <dsc/base/random.hpp>
-#include <dsc/surface/triangle_mesh.hpp>
 #include <memory>
 #include <span>
 #include <vector>
+
+#include <dsc/base/random.hpp>
+#include <dsc/surface/triangle_mesh.hpp>
 
 namespace dsc {
 class Workers;
@@ -41,7 +43,8 @@ private:
 /// Finds the nearest point of a set of points. Keeps a copy.
 class PointTree {
 public:
-    /// Throws GeometryError "surface.empty" without points, "surface.not_finite" for NaN or infinity. [setup]
+    /// Throws GeometryError "surface.empty" without points, "surface.not_finite" for NaN or
+    /// infinity. [setup]
     explicit PointTree(std::span<const Vec3> points);
     ~PointTree();
     PointTree(PointTree&&) noexcept;
@@ -60,8 +63,9 @@ struct SurfaceSamples {
     std::vector<std::uint32_t> faces;  ///< the face of each point
 };
 
-/// `count` points, uniform by area. Sample i depends only on the key and i (key.element is replaced by i). Throws as
-/// require_sound(), and GeometryError "surface.empty" if the mesh has no area. [setup]
+/// `count` points, uniform by area. Sample i depends only on the key and i (key.element is replaced
+/// by i). Throws as require_sound(), and GeometryError "surface.empty" if the mesh has no area.
+/// [setup]
 SurfaceSamples sample_surface(const TriangleMesh& mesh, std::size_t count, RandomKey key);
 
 struct EvaluateOptions {
@@ -70,11 +74,13 @@ struct EvaluateOptions {
     Workers* workers = nullptr;  ///< the figures do not depend on them
 };
 
-/// Distances are fractions of the diagonal of the box of the true surface; multiply by 100 for per cent.
+/// Distances are fractions of the diagonal of the box of the true surface; multiply by 100 for per
+/// cent.
 struct Evaluation {
-    double diagonal = 0.0;            ///< of the true surface, in its units
-    double accuracy = 0.0;            ///< mean distance from the reconstruction's samples to the true surface
-    double completeness = 0.0;        ///< mean distance from the true surface's samples to the reconstruction
+    double diagonal = 0.0;  ///< of the true surface, in its units
+    double accuracy = 0.0;  ///< mean distance from the reconstruction's samples to the true surface
+    double completeness = 0.0;        ///< mean distance from the true surface's samples to the
+                                      ///< reconstruction
     double chamfer = 0.0;             ///< mean of accuracy and completeness
     double hausdorff = 0.0;           ///< largest distance of a sample, in both directions
     double hausdorff99 = 0.0;         ///< the larger 99 % quantile of both directions
@@ -83,8 +89,8 @@ struct Evaluation {
     double normal_consistency = 0.0;  ///< mean of |n.n'| over both directions
 };
 
-/// Two-way comparison of a reconstruction with the true surface. Throws as TriangleTree and sample_surface().
-/// [step]
+/// Two-way comparison of a reconstruction with the true surface. Throws as TriangleTree and
+/// sample_surface(). [step]
 Evaluation evaluate(const TriangleMesh& recon, const TriangleMesh& truth,
                     const EvaluateOptions& options = {});
 
@@ -96,21 +102,27 @@ struct DistanceFigures {
 
 /// In the units of the arguments.
 struct CloudEvaluation {
-    DistanceFigures vertex_to_cloud;   ///< surface vertices to the nearest cloud point: table 6.2 of the thesis
+    DistanceFigures vertex_to_cloud;  ///< surface vertices to the nearest cloud point: table 6.2 of
+                                      ///< the thesis
     DistanceFigures cloud_to_surface;  ///< cloud points to the nearest point of the surface
 };
 
 /// Nearest neighbours in both directions, in the units of the arguments.
 struct CloudDistances {
-    std::vector<NearestHit> of_vertices;  ///< per point of the mesh that a face uses: the nearest point of the cloud
+    std::vector<NearestHit> of_vertices;  ///< per point of the mesh that a face uses: the nearest
+                                          ///< point of the cloud
     std::vector<std::uint32_t> vertices;  ///< those points of the mesh
-    std::vector<NearestHit> of_points;    ///< per point of the cloud: the nearest place on the surface; its index is a face
+    std::vector<NearestHit> of_points;    ///< per point of the cloud: the nearest place on the
+                                          ///< surface; its index is a face
 };
 
-/// Throws as TriangleTree and PointTree. The result does not depend on the number of threads. [step]
-CloudDistances cloud_distances(const TriangleMesh& surface, std::span<const Vec3> cloud, Workers* workers = nullptr);
+/// Throws as TriangleTree and PointTree. The result does not depend on the number of threads.
+/// [step]
+CloudDistances cloud_distances(const TriangleMesh& surface, std::span<const Vec3> cloud,
+                               Workers* workers = nullptr);
 
-/// Evaluates a surface by the cloud that it was made from; points that no face uses are left out. [parallel]
+/// Evaluates a surface by the cloud that it was made from; points that no face uses are left out.
+/// [parallel]
 CloudEvaluation evaluate_cloud(const CloudDistances& distances);
 /// The same from the meshes. Throws as cloud_distances. [step]
 CloudEvaluation evaluate_cloud(const TriangleMesh& surface, std::span<const Vec3> cloud,

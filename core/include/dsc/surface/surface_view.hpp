@@ -12,44 +12,53 @@
 
 namespace dsc::surface {
 
-/// A snapshot of the interface of a complex. Vertices are in birth order; faces are in the order of their least vertex and then
-/// of the other two. The same complex gives the same view, whatever its slots. Indices below are view indices.
+/// A snapshot of the interface of a complex. Vertices are in birth order; faces are in the order of
+/// their least vertex and then of the other two. The same complex gives the same view, whatever its
+/// slots. Indices below are view indices.
 struct SurfaceView {
-    std::vector<mesh::VertexId> vertex_ids;       ///< complex vertex of each view vertex
-    std::vector<std::uint32_t> births;            ///< birth id of each view vertex, ascending; keys of random streams
+    std::vector<mesh::VertexId> vertex_ids;  ///< complex vertex of each view vertex
+    std::vector<std::uint32_t> births;  ///< birth id of each view vertex, ascending; keys of random
+                                        ///< streams
     std::vector<Vec3> positions;
-    std::vector<Vec3> normals;                    ///< unit, out of the larger label; mean of the unit normals of the faces
-                                                  ///< round the vertex; zero if they cancel
-    std::vector<std::uint8_t> movable;            ///< 0 on the box and where three labels or more meet
-    std::vector<std::array<std::uint32_t, 3>> faces;  ///< counter-clockwise seen from the smaller label
-    std::vector<mesh::TetId> face_tets;           ///< the tet with the larger label behind each face
-    std::vector<Vec3> face_normals;               ///< unit
+    std::vector<Vec3> normals;  ///< unit, out of the larger label; mean of the unit normals of the
+                                ///< faces round the vertex; zero if they cancel
+    std::vector<std::uint8_t> movable;  ///< 0 on the box and where three labels or more meet
+    std::vector<std::array<std::uint32_t, 3>> faces;  ///< counter-clockwise seen from the smaller
+                                                      ///< label
+    std::vector<mesh::TetId> face_tets;  ///< the tet with the larger label behind each face
+    std::vector<Vec3> face_normals;      ///< unit
     std::vector<double> face_areas;
-    std::vector<std::uint32_t> face_offsets;      ///< faces of vertex i: vertex_faces[face_offsets[i] .. face_offsets[i+1])
+    std::vector<std::uint32_t> face_offsets;  ///< faces of vertex i: vertex_faces[face_offsets[i]
+                                              ///< .. face_offsets[i+1])
     std::vector<std::uint32_t> vertex_faces;
     double mean_edge = 0.0;
 
     std::size_t vertex_count() const { return vertex_ids.size(); }
     std::size_t face_count() const { return faces.size(); }
     std::span<const std::uint32_t> faces_of(std::size_t vertex) const {
-        return std::span(vertex_faces).subspan(face_offsets[vertex], face_offsets[vertex + 1] - face_offsets[vertex]);
+        return std::span(vertex_faces)
+            .subspan(face_offsets[vertex], face_offsets[vertex + 1] - face_offsets[vertex]);
     }
 };
 
-/// What the last view of a complex found round each vertex, and the arrays that build_view() reuses. It belongs to one complex;
-/// a new or loaded complex needs a new memory.
+/// What the last view of a complex found round each vertex, and the arrays that build_view()
+/// reuses. It belongs to one complex; a new or loaded complex needs a new memory.
 class ViewMemory {
 public:
-    /// A face of the interface, its vertex of least birth first, and the tet with the larger label behind it.
+    /// A face of the interface, its vertex of least birth first, and the tet with the larger label
+    /// behind it.
     struct Face {
         std::array<mesh::VertexId, 3> vertices;
         mesh::TetId tet;
     };
 
-    /// The faces that the vertex leads, in the order of a view, if its star has not changed; `known` says whether.
-    std::span<const Face> faces_led_by(const mesh::Complex& complex, mesh::VertexId v, bool& known) const;
+    /// The faces that the vertex leads, in the order of a view, if its star has not changed;
+    /// `known` says whether.
+    std::span<const Face> faces_led_by(const mesh::Complex& complex, mesh::VertexId v,
+                                       bool& known) const;
     /// Stores the faces of a view of this complex; vertex i leads `counts[i]` of them.
-    void keep(const mesh::Complex& complex, const SurfaceView& view, std::span<const std::uint32_t> counts);
+    void keep(const mesh::Complex& complex, const SurfaceView& view,
+              std::span<const std::uint32_t> counts);
 
     /// Arrays of build_view().
     struct Arrays {
@@ -67,32 +76,39 @@ public:
 
 private:
     Arrays arrays_;
-    std::uint32_t clock_ = 0;                 // of the complex when the view was made
-    std::vector<std::uint32_t> births_;       // of the view's vertices
-    std::vector<std::uint32_t> starts_;       // first face that vertex i leads
-    std::vector<std::uint32_t> index_;        // view index per complex vertex; undefined for vertices that were not in the view
+    std::uint32_t clock_ = 0;            // of the complex when the view was made
+    std::vector<std::uint32_t> births_;  // of the view's vertices
+    std::vector<std::uint32_t> starts_;  // first face that vertex i leads
+    std::vector<std::uint32_t> index_;   // view index per complex vertex; undefined for vertices
+                                         // that were not in the view
     std::vector<Face> faces_;
 };
 
-/// Fills `view` and reuses its memory. The cost grows with the interface, not with the volume. `workers`, null for one thread,
-/// share the walks. With `memory`, only vertices whose star has changed since the last view are visited; the view is the same.
-/// [step]
-void build_view(const mesh::Complex& complex, SurfaceView& view, Workers* workers = nullptr, ViewMemory* memory = nullptr);
+/// Fills `view` and reuses its memory. The cost grows with the interface, not with the volume.
+/// `workers`, null for one thread, share the walks. With `memory`, only vertices whose star has
+/// changed since the last view are visited; the view is the same. [step]
+void build_view(const mesh::Complex& complex, SurfaceView& view, Workers* workers = nullptr,
+                ViewMemory* memory = nullptr);
 
-/// The label interface of plain arrays as a triangle mesh; points are in the order of the arrays. It checks results
-/// independently of Complex. `vertex_of`, if given, receives each point's index in `mesh.points`.
-TriangleMesh extract_interface(const mesh::TetMesh& mesh, std::vector<std::uint32_t>* vertex_of = nullptr);
+/// The label interface of plain arrays as a triangle mesh; points are in the order of the arrays.
+/// It checks results independently of Complex. `vertex_of`, if given, receives each point's index
+/// in `mesh.points`.
+TriangleMesh extract_interface(const mesh::TetMesh& mesh,
+                               std::vector<std::uint32_t>* vertex_of = nullptr);
 
-/// The surface of one label above 0: all faces between its tets and other tets or the outside of the box, counter-clockwise
-/// seen from outside. Where more than two labels meet, the interface is not a manifold, but this surface is. `vertex_of` as
-/// above.
-TriangleMesh extract_phase(const mesh::TetMesh& mesh, mesh::Label phase, std::vector<std::uint32_t>* vertex_of = nullptr);
+/// The surface of one label above 0: all faces between its tets and other tets or the outside of
+/// the box, counter-clockwise seen from outside. Where more than two labels meet, the interface is
+/// not a manifold, but this surface is. `vertex_of` as above.
+TriangleMesh extract_phase(const mesh::TetMesh& mesh, mesh::Label phase,
+                           std::vector<std::uint32_t>* vertex_of = nullptr);
 
 /// An edge of a view with its faces.
 struct ViewEdge {
     std::array<std::uint32_t, 2> vertices;  ///< ascending
-    std::array<std::uint32_t, 2> faces;     ///< its two faces with the lowest indices; mesh::none for a missing face
-    std::uint32_t face_count;               ///< 2, except where three labels or more meet and at the border of open meshes
+    std::array<std::uint32_t, 2> faces;  ///< its two faces with the lowest indices; mesh::none for
+                                         ///< a missing face
+    std::uint32_t face_count;  ///< 2, except where three labels or more meet and at the border of
+                               ///< open meshes
 };
 
 /// Writes all edges, in ascending order of their vertices, to `edges` and reuses its memory. [step]

@@ -1,14 +1,16 @@
 #pragma once
-// Expands a parameter sweep into run folders and collects their results; an existing engine executes the runs.
+// Expands a parameter sweep into run folders and collects their results; an existing engine
+// executes the runs.
 
 #include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include <dsc/config/node.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/plugin/catalogue.hpp>
 #include <dsc/run/experiment.hpp>
-#include <filesystem>
-#include <string>
-#include <vector>
 
 namespace dsc::sweep {
 
@@ -29,16 +31,19 @@ struct Sweep {
 /// Largest number of points of a sweep.
 constexpr std::size_t most_sweep_points = 20000;
 
-/// The schema of a sweep file. In it, the maps from dotted paths to values are maps without keys. [setup]
+/// The schema of a sweep file. In it, the maps from dotted paths to values are maps without keys.
+/// [setup]
 std::shared_ptr<const config::Schema> sweep_schema();
 
-/// Reads a sweep file. Throws ConfigError with every fault found, IoError for an unreadable file. [setup]
+/// Reads a sweep file. Throws ConfigError with every fault found, IoError for an unreadable file.
+/// [setup]
 Sweep load_sweep(const std::string& file, const config::YamlOptions& options = {});
 
-/// Validates every point as `dsc run --check` does and returns the texts of their experiment.yaml, with all defaults written
-/// out. Throws one ConfigError (IoError if only files are missing) with the faults of all points: each fault once, with the
-/// first point that has it. [setup]
-std::vector<std::string> sweep_experiments(const Sweep& sweep, const run::PluginLoader& load_plugins,
+/// Validates every point as `dsc run --check` does and returns the texts of their experiment.yaml,
+/// with all defaults written out. Throws one ConfigError (IoError if only files are missing) with
+/// the faults of all points: each fault once, with the first point that has it. [setup]
+std::vector<std::string> sweep_experiments(const Sweep& sweep,
+                                           const run::PluginLoader& load_plugins,
                                            const plugin::Catalogue& catalogue,
                                            const config::YamlOptions& options = {});
 
@@ -49,9 +54,10 @@ struct Expansion {
     std::size_t others = 0;  ///< points of the table that are no longer in the sweep; they are kept
 };
 
-/// Writes FOLDER/points/NAME/experiment.yaml for every point, then FOLDER/jobs.tsv (index, folder, overrides). Lines of
-/// jobs.tsv are never removed, and an existing folder of a point is kept. Throws UsageError "sweep.folder" for a folder with
-/// other content, "sweep.changed" if a point that was started would become another experiment. [setup]
+/// Writes FOLDER/points/NAME/experiment.yaml for every point, then FOLDER/jobs.tsv (index, folder,
+/// overrides). Lines of jobs.tsv are never removed, and an existing folder of a point is kept.
+/// Throws UsageError "sweep.folder" for a folder with other content, "sweep.changed" if a point
+/// that was started would become another experiment. [setup]
 Expansion expand_sweep(const Sweep& sweep, const std::vector<std::string>& experiments,
                        const std::filesystem::path& folder);
 
@@ -64,8 +70,9 @@ struct SweepStates {
     std::size_t missing = 0;     ///< not started
 };
 
-/// One CSV table: index, folder and status of each point, its overrides and the main figures of its summary.json, empty if
-/// there are none. Throws UsageError "sweep.folder" for a folder without a job table. [setup]
+/// One CSV table: index, folder and status of each point, its overrides and the main figures of its
+/// summary.json, empty if there are none. Throws UsageError "sweep.folder" for a folder without a
+/// job table. [setup]
 std::string collect_sweep(const std::filesystem::path& folder, SweepStates& states);
 
 }  // namespace dsc::sweep

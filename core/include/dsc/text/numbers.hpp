@@ -24,8 +24,9 @@ std::string fixed(double value, int digits);
 
 enum class Number { ok, not_a_number, not_finite, too_large };
 
-/// Reads the whole of `word` as a number. A leading + is allowed, and numbers that are too small become 0. "nan" and
-/// "inf" are not_finite and set `value`; numbers beyond the range of a double are too_large and do not.
+/// Reads the whole of `word` as a number. A leading + is allowed, and numbers that are too small
+/// become 0. "nan" and "inf" are not_finite and set `value`; numbers beyond the range of a double
+/// are too_large and do not.
 Number parse_number(std::string_view word, double& value);
 
 /// Whether the word is a number apart from commas inside it: "1,5", "-2,5e3", "1,234.5".

@@ -17,14 +17,16 @@ struct Place {
 };
 
 /// Throws IoError "FILE:LINE: cause; remedy".
-[[noreturn]] void fail(const char* code, const Place& place, std::string_view cause, std::string_view remedy);
+[[noreturn]] void fail(const char* code, const Place& place, std::string_view cause,
+                       std::string_view remedy);
 
 /// The usual remedy for a malformed file.
 inline constexpr std::string_view export_again = "correct the line or export the file again";
 /// The usual remedy for a truncated file.
 inline constexpr std::string_view copy_again = "the file is incomplete: copy or export it again";
 
-/// The whole word as a double; NaN and infinity are allowed. Throws "io.syntax", and "io.not_finite" beyond the range.
+/// The whole word as a double; NaN and infinity are allowed. Throws "io.syntax", and
+/// "io.not_finite" beyond the range.
 double read_value(std::string_view word, const Place& place);
 
 /// The whole word as a finite double. Throws "io.syntax" or "io.not_finite".
@@ -44,8 +46,8 @@ private:
     std::string_view rest_;
 };
 
-/// Iterates over the lines of a text with line ends LF, CR LF or CR; the ends are not part of a line. If requested, a backslash
-/// at the end of a line joins it with the next one.
+/// Iterates over the lines of a text with line ends LF, CR LF or CR; the ends are not part of a
+/// line. If requested, a backslash at the end of a line joins it with the next one.
 class Lines {
 public:
     explicit Lines(std::string_view text, std::string_view file = {}, bool join_backslash = false)

@@ -1,17 +1,18 @@
 #pragma once
-// `dsc plugin check`: runs the conformance tests on a plugin. Every test runs in its own process, so that
-// a plugin can at worst end that process, and the report states this.
+// `dsc plugin check`: runs the conformance tests on a plugin. Every test runs in its own process,
+// so that a plugin can at worst end that process, and the report states this.
 
 #include <chrono>
 #include <cstdint>
-#include <dsc/host/search_path.hpp>
-#include <dsc/plugin/kind.hpp>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <dsc/host/search_path.hpp>
+#include <dsc/plugin/kind.hpp>
 
 namespace dsc::conformance {
 
@@ -55,12 +56,13 @@ struct CheckOptions {
     Level level = Level::standard;
     std::uint64_t seed = 1;                  ///< random seed of the tests
     unsigned fuzz = 20;                      ///< number of random parameter sets
-    std::chrono::milliseconds limit{30000};  ///< time limit per test; ten times as much under a sanitizer
+    std::chrono::milliseconds limit{30000};  ///< time limit per test; ten times as much under a
+                                             ///< sanitizer
     std::vector<std::string> only;           ///< ids of tests; empty: all tests of the level
     std::vector<StrategyName> strategies;    ///< empty: all strategies of the library
     std::filesystem::path notes;  ///< empty: libdsc_NAME.check.yaml beside the plugin, if it exists
-    std::vector<host::SearchEntry> search;           ///< where to find plugins for nested strategies
-    bool in_process = false;                         ///< all tests run in this process, for debugging
+    std::vector<host::SearchEntry> search;  ///< where to find plugins for nested strategies
+    bool in_process = false;                ///< all tests run in this process, for debugging
     std::function<void(const Outcome&)> on_outcome;  ///< called as soon as an outcome is known
 };
 
@@ -75,9 +77,10 @@ struct Report {
     std::size_t count(Status status) const;
 };
 
-/// Checks the plugin in `file`. The notes contain values for parameters without a default, and waive
-/// tests with a reason (share/doc/write-a-strategy.md). Throws PluginError "plugin.open", UsageError for an unknown test or
-/// strategy, ConfigError for faulty notes; everything that the plugin does becomes an outcome. [setup]
+/// Checks the plugin in `file`. The notes contain values for parameters without a default, and
+/// waive tests with a reason (share/doc/write-a-strategy.md). Throws PluginError "plugin.open",
+/// UsageError for an unknown test or strategy, ConfigError for faulty notes; everything that the
+/// plugin does becomes an outcome. [setup]
 Report check(const std::filesystem::path& file, const CheckOptions& options);
 
 /// A table with one line per test, and a last line with sums. [setup]

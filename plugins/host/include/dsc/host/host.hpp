@@ -1,9 +1,6 @@
 #pragma once
 // Host: opens plugins, refuses those that do not fit, and owns the registry of their strategies.
 
-#include <dsc/host/scan.hpp>
-#include <dsc/host/search_path.hpp>
-#include <dsc/plugin/catalogue.hpp>
 #include <map>
 #include <memory>
 #include <set>
@@ -11,6 +8,10 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <dsc/host/scan.hpp>
+#include <dsc/host/search_path.hpp>
+#include <dsc/plugin/catalogue.hpp>
 
 namespace dsc::host {
 
@@ -20,8 +21,8 @@ enum class OnFault {
     collect,           ///< never throws; see faults()
 };
 
-/// Two hosts in a process are independent of each other. Libraries are never unloaded. One thread at a time.
-/// [setup]
+/// Two hosts in a process are independent of each other. Libraries are never unloaded. One thread
+/// at a time. [setup]
 class Host : public plugin::Catalogue {
 public:
     Host();
@@ -29,8 +30,8 @@ public:
     Host(const Host&) = delete;
     Host& operator=(const Host&) = delete;
 
-    /// Loads one library. A file that is already loaded is skipped. All or nothing: a refused library
-    /// leaves no strategy behind. Throws PluginError naming file, reason and remedy:
+    /// Loads one library. A file that is already loaded is skipped. All or nothing: a refused
+    /// library leaves no strategy behind. Throws PluginError naming file, reason and remedy:
     ///
     /// | code | reason |
     /// | --- | --- |
@@ -45,19 +46,23 @@ public:
     /// | plugin.enroll | enroll threw, or registered nothing or something malformed |
     /// | plugin.duplicate | a strategy's id is taken; both files are named |
     ///
-    /// Up to plugin.fingerprint no code of the library has run: the host reads only the file. Then it is loaded in
-    /// a child process (scan.hpp), and only a library that loads there without a fault is loaded into this process.
+    /// Up to plugin.fingerprint no code of the library has run: the host reads only the file. Then
+    /// it is loaded in a child process (scan.hpp), and only a library that loads there without a
+    /// fault is loaded into this process.
     void load(const std::filesystem::path& file);
 
-    /// Loads the entries in order. In folders every libdsc_*.so is loaded, in the order of the names; a name that an earlier
-    /// entry had is skipped, so that a user's own build is used instead of an installed one.
-    /// May be called again with more entries: libraries that are loaded or were refused already are skipped.
-    void load_all(std::span<const SearchEntry> entries, OnFault on_fault = OnFault::stop_if_required);
+    /// Loads the entries in order. In folders every libdsc_*.so is loaded, in the order of the
+    /// names; a name that an earlier entry had is skipped, so that a user's own build is used
+    /// instead of an installed one. May be called again with more entries: libraries that are
+    /// loaded or were refused already are skipped.
+    void load_all(std::span<const SearchEntry> entries,
+                  OnFault on_fault = OnFault::stop_if_required);
 
     /// Libraries that load_all refused.
     const std::vector<Fault>& faults() const noexcept { return faults_; }
 
-    std::optional<plugin::StrategyInfo> find(plugin::Kind kind, const std::string& id) const override;
+    std::optional<plugin::StrategyInfo> find(plugin::Kind kind,
+                                             const std::string& id) const override;
     std::vector<plugin::StrategyInfo> list() const override;
     std::vector<plugin::PluginInfo> plugins() const override;
 
@@ -68,11 +73,14 @@ private:
     void rehearse_folder(const std::set<std::filesystem::path>& files);
     void load_folder(const SearchEntry& entry, OnFault on_fault);
     template <class Load>
-    void attempt(const SearchEntry& entry, const std::filesystem::path& file, OnFault on_fault, Load&& load);
+    void attempt(const SearchEntry& entry, const std::filesystem::path& file, OnFault on_fault,
+                 Load&& load);
 
     std::vector<std::unique_ptr<Loaded>> loaded_;
     std::map<std::pair<plugin::Kind, std::string>, plugin::StrategyInfo> strategies_;
-    std::map<std::filesystem::path, std::optional<Fault>> rehearsed_;  ///< by real path; nothing: it loaded without a fault
+    std::map<std::filesystem::path, std::optional<Fault>> rehearsed_;  ///< by real path; nothing:
+                                                                       ///< it loaded without a
+                                                                       ///< fault
     std::vector<Fault> faults_;
 };
 
