@@ -201,9 +201,9 @@ def header_guards(tree):
 
 
 def short_files(tree):
-    """A source file has at most 900 lines."""
+    """A source file has at most 450 lines."""
     for path, lines in tree.files.items():
-        if PurePosixPath(path).suffix in SOURCE | {".py", ".sh"} and len(lines) > 900:
+        if PurePosixPath(path).suffix in SOURCE | {".py", ".sh"} and len(lines) > 450:
             yield path, len(lines), f"{len(lines)} lines; split it by purpose"
 
 

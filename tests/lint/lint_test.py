@@ -89,7 +89,7 @@ PLANTED = {
         ("tests/unit/mesh/adopt_test.cpp", "int f() {\n  return 1;\n}"),
     ],
     "header_guards": [("core/include/dsc/mesh/new.hpp", "// a header\n#pragma once"), (NORMAL[:-3] + "hpp", "")],
-    "short_files": [("core/src/mesh/long.cpp", "\n" * 901)],
+    "short_files": [("core/src/mesh/long.cpp", "\n" * 451)],
     "file_local_names": [
         ("core/src/mesh/zones.cpp", f"namespace dsc::mesh {{\nnamespace {{\n{line}\n}}  // namespace")
         for line in ("constexpr double most = 1.0;", "struct Row {", "using Row = double;", "double turn(int angle) {")
