@@ -39,7 +39,10 @@ public:
         double gain = 0.5;
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
-        schema.real("gain", &Params::gain).range(0, 1).unit("1").doc("How far along the normals.");
+        schema.real("gain", &Params::gain)
+            .range(0, 1)
+            .unit("dimensionless")
+            .doc("How far along the normals.");
     }
     Gained(const Params& params, const dsc::plugin::Setup&) : gain_(params.gain) {}
 

@@ -171,7 +171,7 @@ std::string Field::range_text() const {
 
 std::string Field::summary() const {
     std::string out = held_text(*this);
-    if (!unit.empty() && unit != "1") out += " in " + unit;
+    if (!unit.empty() && unit != "dimensionless") out += " in " + unit;
     out += limits_text(*this);
     if (required) return out + ", required";
     if (optional && default_value.is_null()) return out + ", optional";

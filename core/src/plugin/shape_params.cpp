@@ -49,7 +49,7 @@ void declare_shape(config::ParamSchema<Shape>& schema) {
         .unit("length")
         .doc("Half the edges of a box along the coordinate axes.");
     schema.vec3("axis", &Shape::axis)
-        .unit("1")
+        .unit("dimensionless")
         .doc("Direction of a cylinder's axis; its length does not matter.");
     schema.real("half_length", &Shape::half_length)
         .greater(0)

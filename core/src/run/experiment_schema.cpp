@@ -34,7 +34,7 @@ void declare_sample(config::ParamSchema<SampleInput>& s) {
     s.real("outliers", &SampleInput::outliers)
         .range(0, 1)
         .open_high()
-        .unit("1")
+        .unit("dimensionless")
         .doc("Fraction of the points that lie anywhere in the shape's box, enlarged 1.2 times.");
 }
 
@@ -116,7 +116,7 @@ void declare_checkpoint(config::ParamSchema<CheckpointOutput>& s) {
         .doc("Steps between checkpoints.");
     s.integer("keep", &CheckpointOutput::keep)
         .range(1, 1000)
-        .unit("1")
+        .unit("dimensionless")
         .doc("Number of checkpoints that are kept.");
 }
 
@@ -135,7 +135,7 @@ void declare_trim(config::ParamSchema<TrimOutput>& s) {
              "is the square root of the area per point there.");
     s.real("support", &TrimOutput::support)
         .range(0, 1)
-        .unit("1")
+        .unit("dimensionless")
         .doc("Faces with a vertex of less support are also removed, if the velocity publishes the "
              "support of vertices, as surface_fit does. 0: none.");
 }
@@ -180,11 +180,14 @@ void Experiment::declare(config::ParamSchema<Experiment>& s) {
     s.integer("dsc", &Experiment::format)
         .range(1, 1)
         .required()
-        .unit("1")
+        .unit("dimensionless")
         .doc("Version of the format: 1.");
     s.string("name", &Experiment::name)
         .doc("Names the run's folder: letters, digits, '.', '_', '-'.");
-    s.integer("seed", &Experiment::seed).at_least(0).unit("1").doc("Seed of all random streams.");
+    s.integer("seed", &Experiment::seed)
+        .at_least(0)
+        .unit("dimensionless")
+        .doc("Seed of all random streams.");
     s.strings("plugins", &Experiment::plugins)
         .doc("Plugin libraries, or folders that contain them, relative to the experiment's file.");
     s.object("input", &Experiment::input, declare_input)

@@ -48,7 +48,7 @@ void declare_range(config::ParamSchema<Range>& s, bool counted) {
         s.integer("count", &Range::count)
             .range(2, most_sweep_points)
             .required()
-            .unit("1")
+            .unit("dimensionless")
             .doc("Number of values.");
     s.check([](const Range& p) { return p.from < p.to; }, "'to' must be above 'from'");
     s.check([](const Range& p) { return p.scale == Scale::linear || p.from > 0; },

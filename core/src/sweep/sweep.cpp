@@ -53,7 +53,7 @@ void declare_random(config::ParamSchema<RandomAxis>& s) {
         .doc("Number of draws. A larger number only adds points.");
     s.integer("seed", &RandomAxis::seed)
         .at_least(0)
-        .unit("1")
+        .unit("dimensionless")
         .doc("Seed of the draws, not of the experiments.");
     s.object("ranges", &RandomAxis::ranges, declare_paths)
         .doc("Dotted path to {from, to, scale: linear or log, integer}.");
@@ -81,7 +81,7 @@ void declare_sweep(config::ParamSchema<SweepFile>& s) {
     s.integer("sweep", &SweepFile::format)
         .range(1, 1)
         .required()
-        .unit("1")
+        .unit("dimensionless")
         .doc("Version of the format: 1.");
     s.file("base", &SweepFile::base)
         .required()
@@ -95,7 +95,7 @@ void declare_sweep(config::ParamSchema<SweepFile>& s) {
         .doc("Repeats every point with each of these seeds.");
     s.integer("repeat", &SweepFile::repeat)
         .range(1, most_sweep_points)
-        .unit("1")
+        .unit("dimensionless")
         .doc("Number of repetitions of every point, with the seeds 1, 2, ...");
     s.check([](const SweepFile& p) { return p.seeds.empty() || !p.repeat; },
             "'seeds' and 'repeat' must not both be given");

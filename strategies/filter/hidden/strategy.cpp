@@ -33,7 +33,7 @@ public:
         schema.real("share", &Params::share)
             .range(0, 1)
             .open_high()
-            .unit("1")
+            .unit("dimensionless")
             .doc("Fraction of the views; a point that this fraction of the views or fewer see is "
                  "removed.");
     }

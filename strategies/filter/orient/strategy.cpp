@@ -77,7 +77,7 @@ public:
                  "estimate; slower, but better for parts thinner than a few points.");
         schema.integer("iterations", &Params::iterations)
             .range(1, 1000)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Number of iterations of the coarse stage of the estimate.");
         schema
             .choice("one_sided", &Params::one_sided,

@@ -23,7 +23,7 @@ public:
             .doc("Number of nearest points whose mean distance is used.");
         schema.real("deviations", &Params::deviations)
             .range(0, 1000)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Number of standard deviations above the mean of all points that the mean "
                  "distance of a point may have.");
     }

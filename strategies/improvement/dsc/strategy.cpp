@@ -42,13 +42,13 @@ public:
                 .doc("Distance from the centre of a change within which a cloud point forbids it.");
             schema.real("spacing", &Topology::spacing)
                 .range(0, 10)
-                .unit("1")
+                .unit("dimensionless")
                 .doc("Distance from necks and rims of sheets within which a cloud point forbids a "
                      "change, in distances from the point to its sixth neighbour: where the cloud "
                      "is sparse, few points lie on a thin part of the object.");
             schema.real("min_component", &Topology::min_component)
                 .range(0, 1000)
-                .unit("1")
+                .unit("dimensionless")
                 .doc("Volume below which components are removed, in regular tets with edges of the "
                      "target length.");
         }
@@ -62,16 +62,16 @@ public:
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("min_tet_quality", &Params::min_tet_quality)
             .range(0, 1)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Volume-length quality below which tets are repaired.");
         schema.real("degenerate_tet_quality", &Params::degenerate_tet_quality)
             .range(0, 1)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Quality below which tets are removed, even if this changes the shape of the "
                  "interface within the kernel's bounds.");
         schema.real("smooth_below", &Params::smooth_below)
             .range(0, 1)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Quality of tets below which their free vertices are smoothed.");
         schema.real("min_edge_length", &Params::min_edge_length)
             .range(0, 1)
@@ -83,7 +83,7 @@ public:
             .doc("Length above which interface edges are split where the interface is not flat.");
         schema.real("min_tet_volume", &Params::min_tet_volume)
             .range(0, 1)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Volume below which tets are collapsed, in regular tets with edges of the target "
                  "length.");
         schema.real("max_free_edge", &Params::max_free_edge)
@@ -104,34 +104,34 @@ public:
                  "switches this off.");
         schema.real("degenerate_face_quality", &Params::degenerate_face_quality)
             .range(0, 0.5)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Quality, 1 - max |cos| over the corners, below which faces are removed, even if "
                  "this changes the shape of the interface within the kernel's bounds; 0 switches "
                  "this off.");
         schema.real("min_face_quality", &Params::min_face_quality)
             .range(0, 0.5)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Quality below which faces are removed if neither shape nor quality is lost; 0 "
                  "switches this off.");
         schema.real("min_face_area", &Params::min_face_area)
             .range(0, 1)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Area below which the shortest edge of an interface face is collapsed, in regular "
                  "triangles with edges of the target length; 0 switches this off.");
         schema.real("max_face_area", &Params::max_face_area)
             .range(0, 1000)
-            .unit("1")
+            .unit("dimensionless")
             .doc(
                 "Area above which interface faces, also flat ones, are split at their longest "
                 "edge, in regular triangles with edges of the target length; 0 switches this off.");
         schema.real("max_tet_volume", &Params::max_tet_volume)
             .range(0, 1e9)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Volume above which tets are split at their longest edge, in regular tets with "
                  "edges of the target length; 0 switches this off.");
         schema.real("flatness", &Params::flatness)
             .range(0, 1)
-            .unit("1")
+            .unit("dimensionless")
             .advanced()
             .doc("Cosine between the normals of neighbouring interface faces above which they "
                  "count as flat.");

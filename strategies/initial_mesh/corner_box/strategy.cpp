@@ -122,7 +122,7 @@ public:
         schema.vec3("centre", &Params::centre).unit("length").doc("Centre of the solid.");
         schema.integer("divisions", &Params::divisions)
             .range(1, 200)
-            .unit("1")
+            .unit("dimensionless")
             .costly()
             .doc("Number of edges along an axis from the centre of the solid to its surface.");
         schema.real("box", &Params::box)

@@ -103,7 +103,7 @@ public:
                  "box; unset: the surface is not moved.");
         schema.integer("label", &Params::label)
             .range(1, 1000)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Label of the tets inside.");
         schema.real("tolerance", &Params::tolerance)
             .greater(0)
@@ -117,7 +117,7 @@ public:
                  "moved onto the edge and its corners; 180: none are.");
         schema.integer("intersections", &Params::intersections)
             .range(0, 1000000)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Number of pairs of faces that may intersect; the solid contains all points that "
                  "the surface winds around.");
         dsc::plugin::declare_lattice(schema, "the surface");

@@ -57,7 +57,7 @@ public:
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.integer("cells", &Params::cells)
             .range(1, 200)
-            .unit("1")
+            .unit("dimensionless")
             .costly()
             .doc("Number of cells along each edge of the box.");
         schema.real("box", &Params::box)

@@ -97,7 +97,7 @@ public:
             .range(0, 0.5)
             .open_low()
             .open_high()
-            .unit("1")
+            .unit("dimensionless")
             .doc("Difference of the winding number from 1/2 from which a label is certain. A "
                  "handle is kept only if its body and its hole are certain everywhere along it, or "
                  "if the samples round it confirm it.");

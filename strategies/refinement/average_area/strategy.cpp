@@ -17,7 +17,7 @@ public:
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("factor", &Params::factor)
             .greater(0)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Area from which faces are split, in average areas.");
     }
 

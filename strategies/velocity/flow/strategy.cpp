@@ -42,10 +42,10 @@ public:
             .unit("length")
             .doc("Point where the speed of 'rotate', 'shear' and 'part' is 0.");
         schema.vec3("axis", static_cast<Vec3 Params::*>(&Params::axis))
-            .unit("1")
+            .unit("dimensionless")
             .doc("Direction of the field; its length does not matter.");
         schema.vec3("across", static_cast<Vec3 Params::*>(&Params::across))
-            .unit("1")
+            .unit("dimensionless")
             .doc("Direction in which the speed of 'shear' grows; perpendicular to axis.");
         schema.real("speed", &Params::speed)
             .unit("length/time, radians/time or 1/time")
@@ -64,7 +64,7 @@ public:
         schema.real("time_step", &Params::time_step).greater(0).unit("time").doc("Time per step.");
         schema.integer("substeps", &Params::substeps)
             .range(1, 1000)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Number of Runge-Kutta steps per step.");
         schema.check([](const Params& p) { return p.axis.norm() > 1e-9; },
                      "axis must not be the zero vector");

@@ -85,7 +85,7 @@ public:
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("alpha", &Params::alpha)
             .range(0, 2)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Fraction of the normal distance to the nearest point that a vertex moves per "
                  "step.");
         schema.real("beta", &Params::beta)

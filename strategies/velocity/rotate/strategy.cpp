@@ -38,7 +38,7 @@ public:
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.vec3("centre", &Params::centre).unit("length").doc("Point on the axis.");
         schema.vec3("axis", &Params::axis)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Direction of the axis; its length does not matter.");
         schema.real("degrees", &Params::degrees)
             .range(-180, 180)

@@ -72,7 +72,7 @@ public:
         schema.real("smoothing", &Params::smoothing)
             .range(0, 100)
             .open_low()
-            .unit("1")
+            .unit("dimensionless")
             .doc("Factor of the final bending length, over which the surface is smooth; the length "
                  "itself follows from the noise.");
         schema.real("crease_angle", &Params::crease_angle)

@@ -22,7 +22,7 @@ struct Inner {
             .range(0, 1)
             .open_low()
             .required()
-            .unit("1")
+            .unit("dimensionless")
             .doc("Must be given.");
         s.boolean("on", &Inner::on).doc("Need not be given.");
         s.check([](const Inner& p) { return p.on || p.weight < 1; }, "a weight of 1 must be on");
@@ -80,7 +80,7 @@ void declare_scalars(dsc::config::ParamSchema<Params>& s) {
         .range(0, 1)
         .open_low()
         .open_high()
-        .unit("1")
+        .unit("dimensionless")
         .advanced()
         .doc("Both ends open.");
     s.real("below", &Params::below).at_most(0).unit("length").doc("One end, closed.");
@@ -101,7 +101,10 @@ void declare_scalars(dsc::config::ParamSchema<Params>& s) {
 }
 
 void declare_others(dsc::config::ParamSchema<Params>& s) {
-    s.vec3("axis", &Params::axis).range(-1, 1).unit("1").doc("Three numbers, bounded each.");
+    s.vec3("axis", &Params::axis)
+        .range(-1, 1)
+        .unit("dimensionless")
+        .doc("Three numbers, bounded each.");
     s.integers("sizes", &Params::sizes)
         .at_least(1)
         .size(1, 3)

@@ -55,7 +55,10 @@ public:
         double gain;
     };
     static void declare(ParamSchema<Params>& schema) {
-        schema.real("gain", &Params::gain).range(0, 1).unit("1").doc("How far along the normals.");
+        schema.real("gain", &Params::gain)
+            .range(0, 1)
+            .unit("dimensionless")
+            .doc("How far along the normals.");
     }
     MovingDefault(const Params& params, const dsc::plugin::Setup&) : gain_(params.gain) {}
 

@@ -14,7 +14,9 @@ public:
         double value = 1.0;
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
-        schema.real("value", &Params::value).unit("1").doc("The curvature of every vertex.");
+        schema.real("value", &Params::value)
+            .unit("dimensionless")
+            .doc("The curvature of every vertex.");
     }
     Constant(const Params& params, const dsc::plugin::Setup&) : value_(params.value) {}
     void prepare(const dsc::hooks::StepContext&) override {}

@@ -123,7 +123,7 @@ struct PointCloud {
         s.real("alpha", &PointCloud::alpha)
             .range(0, 1)
             .open_low()
-            .unit("1")
+            .unit("dimensionless")
             .doc("Part of the way in a step.");
         s.real("beta", &PointCloud::beta).at_least(0).doc("Weight of the curvature.");
         s.integer("k", &PointCloud::k).range(1, 512).doc("Neighbours.");

@@ -27,7 +27,7 @@ public:
         double value = 2.0;
     };
     static void declare(dsc::config::ParamSchema<Params>& s) {
-        s.real("value", &Params::value).at_least(0).unit("1").doc("A number.");
+        s.real("value", &Params::value).at_least(0).unit("dimensionless").doc("A number.");
     }
     Inner(const Params& params, const dsc::plugin::Setup& setup) {
         seen_inner = {setup.path(), setup.instance(), 0, params.value};
@@ -46,7 +46,7 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& s) {
         s.strategy("curvature", &Params::curvature, "curvature").optional().doc("Nested.");
-        s.real("alpha", &Params::alpha).unit("1").doc("A number.");
+        s.real("alpha", &Params::alpha).unit("dimensionless").doc("A number.");
     }
     Outer(const Params& params, const dsc::plugin::Setup& setup)
         : inner_(setup.create<dsc::hooks::CurvatureEstimator>("curvature", params.curvature)) {

@@ -32,7 +32,7 @@ public:
         int names = 1;
     };
     static void declare(config::ParamSchema<Params>& s) {
-        s.integer("names", &Params::names).range(0, 9).unit("1").doc("Attributes.");
+        s.integer("names", &Params::names).range(0, 9).unit("dimensionless").doc("Attributes.");
     }
     Heights(const Params& params, const plugin::Setup&) : names_(params.names) {}
     void prepare(const hooks::StepContext& context) override { surface_ = &context.surface; }

@@ -59,7 +59,10 @@ public:
         std::optional<std::string> file;
     };
     static void declare(config::ParamSchema<Params>& s) {
-        s.integer("cells", &Params::cells).range(1, 100).unit("1").doc("Cells along an edge.");
+        s.integer("cells", &Params::cells)
+            .range(1, 100)
+            .unit("dimensionless")
+            .doc("Cells along an edge.");
         s.real("half", &Params::half)
             .range(0, 2)
             .unit("length")
@@ -129,7 +132,10 @@ public:
         config::StrategyConfig curvature;
     };
     static void declare(config::ParamSchema<Params>& s) {
-        s.real("factor", &Params::factor).range(-1, 1).unit("1").doc("Part of the position.");
+        s.real("factor", &Params::factor)
+            .range(-1, 1)
+            .unit("dimensionless")
+            .doc("Part of the position.");
         s.vec3("shift", &Params::shift).unit("length").doc("Added to it.");
         s.boolean("sampled", &Params::sampled).doc("Whether it can be sampled.");
         s.strategy("curvature", &Params::curvature, "curvature").optional().doc("Never asked.");

@@ -27,8 +27,8 @@ public:
     /// Smallest and largest number of items of a list.
     FieldBuilder& size(std::size_t least,
                        std::size_t greatest = std::numeric_limits<std::size_t>::max());
-    /// "1" for a pure number, "length" for normalised units, "target lengths (L)", "steps",
-    /// "radians", "seconds", ...
+    /// "dimensionless" for a pure number, "length" for normalised units, "target lengths (L)",
+    /// "steps", "radians", "seconds", ...
     FieldBuilder& unit(std::string text) { return field().unit = std::move(text), *this; }
     /// What the parameter does, for the person who writes the experiment.
     FieldBuilder& doc(std::string text) { return field().doc = std::move(text), *this; }

@@ -42,7 +42,7 @@ void require_sound(const Schema& schema);
 ///     s.real("alpha", &Params::alpha)
 ///         .range(0, 1)
 ///         .open_low()
-///         .unit("1")
+///         .unit("dimensionless")
 ///         .doc("Fraction of the distance per step.");
 ///     s.real("radius", &Params::radius)
 ///         .greater(0)

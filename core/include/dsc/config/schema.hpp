@@ -50,8 +50,8 @@ struct Field {
     std::string name;
     FieldType type = FieldType::string;
     std::string doc;   ///< one or more sentences, never empty
-    std::string unit;  ///< "1", "length", "target lengths (L)", "steps", "radians", ...; empty if
-                       ///< it does not apply
+    std::string unit;  ///< "dimensionless", "length", "target lengths (L)", "steps", "radians",
+                       ///< ...; empty if it does not apply
     std::optional<Bound> minimum;  ///< of a number, of every component or item
     std::optional<Bound> maximum;
     std::optional<std::size_t> min_size;  ///< of a list

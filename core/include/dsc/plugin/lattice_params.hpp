@@ -17,7 +17,7 @@ void declare_lattice(config::ParamSchema<Params>& schema, const std::string& whe
     static_assert(std::is_base_of_v<Options, Params>);
     schema.integer("cells", static_cast<int Params::*>(&Options::cells))
         .range(generate::least_lattice_cells, generate::most_lattice_cells)
-        .unit("1")
+        .unit("dimensionless")
         .costly()
         .doc("Number of finest cells along the box. The box grows to the next number that the "
              "octree allows.");
@@ -34,11 +34,11 @@ void declare_lattice(config::ParamSchema<Params>& schema, const std::string& whe
         .doc("Centre of the box.");
     schema.integer("layers", static_cast<int Params::*>(&Options::layers))
         .range(2, 64)
-        .unit("1")
+        .unit("dimensionless")
         .doc("Number of layers of finest cells on each side of " + where + ".");
     schema.real("growth", static_cast<double Params::*>(&Options::growth))
         .range(1, 2)
-        .unit("1")
+        .unit("dimensionless")
         .doc("How much larger the cells become from one layer to the next, on average: 2 doubles "
              "them with every layer, 1.26 with every third layer; 1 keeps all cells at the finest "
              "size.");

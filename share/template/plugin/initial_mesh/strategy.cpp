@@ -25,7 +25,7 @@ public:
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.integer("cells", &Params::cells)
             .range(4, 100)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Number of cells along each edge of the box.");
         schema.real("ring", &Params::ring)
             .range(0, 1.4)

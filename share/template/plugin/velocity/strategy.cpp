@@ -25,7 +25,7 @@ public:
             .doc("Distance that a vertex moves outwards per step; negative: inwards.");
         schema.real("tension", &Params::tension)
             .range(0, 1)
-            .unit("1")
+            .unit("dimensionless")
             .doc("Fraction of the way to the mean of its neighbours that a vertex moves per step.");
     }
 
