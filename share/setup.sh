@@ -4,8 +4,8 @@
 #   share/setup.sh run                    build, reconstruct the built-in teapot scan, say where the results are
 #   share/setup.sh run CLOUD [options]    the same with your own point cloud; options are those of `dsc reconstruct`
 #   share/setup.sh test [--full]          build with warnings as errors and run the test suite;
-#                                         --full also installs the tools that only a few tests need, and runs the
-#                                         gate on instruction counts and the comparison with the release build
+#                                         --full builds each source alone, also installs the tools that only a few tests need,
+#                                         and runs the gate on instruction counts and the comparison with the release build
 #
 # Works from any folder, never changes to another one: relative paths mean what they mean to the caller.
 set -euo pipefail
@@ -180,16 +180,16 @@ case "$command" in
             (install_missing "${full_packages[@]}") ||
                 say "setup: not all of ${full_packages[*]} could be installed; the tests that need them will be skipped"
         fi
-        build dev
-        # valgrind makes the gate on instructions slow, and the comparison with the release build compiles it.
-        left_out=(-LE '^(gate|slow)$')
+        # valgrind makes the gate on instructions slow, and the comparison of the jumbo sources with single ones compiles both.
+        preset=test left_out=(-LE '^(gate|slow)$')
         if [ "$full" = yes ]; then
-            left_out=()
+            preset=dev left_out=()
         else
             say "setup: without the gate on instruction counts and the comparison with the release build (ctest labels gate and" \
                 "slow), which test --full runs"
         fi
-        exec ctest --test-dir "$root/build/dev" --output-on-failure -j2 "${left_out[@]}"
+        build "$preset"
+        exec ctest --test-dir "$root/build/$preset" --output-on-failure -j2 "${left_out[@]}"
         ;;
     -h | --help) usage ;;
     '') usage >&2 && exit 2 ;;

@@ -177,10 +177,11 @@ class Setup(unittest.TestCase):
         installed = set((self.fake / "installed").read_text().split())
         self.assertLessEqual({"doctest-dev", "clang-format-14"}, installed)
         self.assertNotIn("chromium", (self.fake / "installed").read_text())
-        self.assertTrue(any("--preset dev" in call for call in self.calls("cmake")))
+        self.assertTrue(any("--preset test" in call for call in self.calls("cmake")))
 
     def test_full_installs_the_tools_of_the_rare_tests(self):
         self.assertEqual(self.setup("test", "--full").returncode, 0)
+        self.assertTrue(any("--preset dev" in call for call in self.calls("cmake")))
         installed = set((self.fake / "installed").read_text().split())
         self.assertLessEqual({"valgrind", "chromium", "chromium-driver", "python3-meshio", "snakemake", "slurm-wlm"}, installed)
 
