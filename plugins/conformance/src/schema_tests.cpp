@@ -19,13 +19,13 @@ using config::FieldType;
 
 // The words of units; / or ^ joins them.
 constexpr std::array unit_words = {
+    "dimensionless",
     "1",
     "length",
     "curvature",
     "time",
     "radians",
     "degrees",
-    "mean edges",
     "target lengths (L)",
     "current mean edges",
     "steps",
