@@ -52,7 +52,6 @@ int main() {
         requests.collapses.insert(requests.collapses.begin(), undo);
     }
     print("all edges split", complex);
-
     // The Deformer commits a collapse only if all tets stay positive and the interface a manifold.
     kernel::Deformer deformer(std::move(complex));
     const kernel::RefineReport report = deformer.refine(requests);
