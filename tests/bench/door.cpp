@@ -4,13 +4,13 @@
 #include <cstdio>
 #include <string>
 
-#include <velocity/point_cloud/strategy.hpp>
-
 #include <dsc/base/error.hpp>
 #include <dsc/run/input.hpp>
 
 #include "pipeline.hpp"
 #include "resources.hpp"
+// The class is local to its source.
+#include "velocity/point_cloud/strategy.cpp"
 
 namespace {
 
@@ -23,8 +23,8 @@ constexpr std::size_t block = 256;  // as in the simulation
 std::unique_ptr<hooks::VelocityField> field(const Plugins& plugins, bool linked) {
     if (!linked)
         return plugins.host().create<hooks::VelocityField>({"point_cloud", {}}, "velocity");
-    return std::make_unique<strategies::PointCloud>(strategies::PointCloud::Params{},
-                                                    plugin::Setup(plugins.host(), "velocity"));
+    return std::make_unique<PointCloud>(PointCloud::Params{},
+                                        plugin::Setup(plugins.host(), "velocity"));
 }
 
 std::string outcome(bool linked) {
