@@ -66,7 +66,7 @@ Body::Body(mesh::Complex complex, std::unique_ptr<hooks::Improvement> improvemen
     refresh();
 }
 
-void Body::refresh() { surface::build_view(deformer_.complex(), view_, workers_); }
+void Body::refresh() { surface::build_view(deformer_.complex(), view_, workers_, &view_memory_); }
 
 hooks::StepContext Body::context() const {
     return {.step = deformer_.step_count() + 1,

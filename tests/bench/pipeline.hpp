@@ -91,6 +91,7 @@ private:
     kernel::Deformer deformer_;
     kernel::RepairPolicy policy_;
     surface::SurfaceView view_;
+    surface::ViewMemory view_memory_;
     std::vector<Vec3> displacements_;
     const hooks::StepContext* context_ = nullptr;  // of the step under way
     bool counting_ = false;

@@ -20,6 +20,9 @@ struct CollapseScratch {
     End a, b;
     std::vector<std::array<VertexId, 3>> fan, faces;
     std::vector<VertexId> concerned;  // vertices whose topology is tested
+
+    // Few collapses need the list, so without this it could still grow in a settled step.
+    CollapseScratch() { concerned.reserve(64); }
 };
 
 namespace {
