@@ -121,11 +121,7 @@ void add_plugin_check(CLI::App& plugin, Context& context) {
         ->check(CLI::IsMember({"smoke", "standard", "strict"}))
         ->capture_default_str();
     command->add_option("--only", arguments->only, "Run only this test; may be repeated");
-    command
-        ->add_option("--plugin", arguments->plugins,
-                     "Plugin library or folder of libraries; may be repeated")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_plugins(*command, arguments->plugins);
     command->add_option("--notes", arguments->notes,
                         "File with parameters without a default and waived tests; default: "
                         "libdsc_NAME.check.yaml beside the plugin");

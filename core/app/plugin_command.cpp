@@ -114,10 +114,7 @@ void add_plugin(CLI::App& app, Context& context) {
     const auto add = [&](const char* name, const char* text,
                          int (*action)(const PluginArguments&)) {
         CLI::App* sub = command->add_subcommand(name, text);
-        sub->add_option("--plugin", arguments->plugins,
-                        "Plugin library or folder of libraries; may be repeated")
-            ->expected(1)
-            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        add_plugins(*sub, arguments->plugins);
         sub->callback([arguments, action, &context] {
             context.action = [arguments, action] { return action(*arguments); };
         });

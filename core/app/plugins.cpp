@@ -2,6 +2,13 @@
 
 namespace dsc::app {
 
+void add_plugins(CLI::App& command, std::vector<std::string>& plugins) {
+    command
+        .add_option("--plugin", plugins, "Plugin library or folder of libraries; may be repeated")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 Plugins::Plugins(std::vector<std::string> command_line) : command_line_(std::move(command_line)) {}
 
 std::vector<host::SearchEntry> Plugins::search_path(

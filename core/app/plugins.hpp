@@ -5,12 +5,17 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
 #include <dsc/host/host.hpp>
 #include <dsc/run/experiment.hpp>
 
 #include "describe.hpp"
 
 namespace dsc::app {
+
+/// Adds the option --plugin to a command that uses strategies.
+void add_plugins(CLI::App& command, std::vector<std::string>& plugins);
 
 /// Owns the host of a command.
 class Plugins {

@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 #include <sstream>
-#include <thread>
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
@@ -26,6 +25,7 @@
 #include "reconstruct_remedies.hpp"
 #include "standard_streams.hpp"
 #include "temporary_folder.hpp"
+#include "threads.hpp"
 
 namespace dsc::app {
 namespace {
@@ -225,8 +225,7 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     run::RunOptions options;
     options.folder = kept ? fs::path(arguments.keep_run) : temporary->path() / "run";
     options.picture = kept;
-    options.threads = arguments.threads != 0 ? arguments.threads
-                                             : std::max(1U, std::thread::hardware_concurrency());
+    options.threads = thread_count(arguments.threads);
     options.cancel = &cancel_on_signals();
     options.command = command;
     options.on_step = progress_reporter(arguments.terminal, loaded.experiment);
@@ -288,15 +287,8 @@ void add_reconstruct(CLI::App& app, Context& context) {
     command->add_flag("--print-config", arguments->print_config,
                       "Print the experiment that would be run, and run nothing");
     command->add_option("--keep-run", arguments->keep_run, "Keep the run folder under this name");
-    command
-        ->add_option("--threads", arguments->threads,
-                     "Number of threads; default: all. The result does not depend on it")
-        ->check(CLI::Range(1U, 1024U));
-    command
-        ->add_option("--plugin", arguments->plugins,
-                     "Plugin library or folder of libraries; may be repeated")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_threads(*command, arguments->threads);
+    add_plugins(*command, arguments->plugins);
     add_progress(*command, arguments->terminal);
     add_verbosity(*command, arguments->terminal);
     command->callback([arguments, &context] {

@@ -57,11 +57,7 @@ void add_report(CLI::App& app, Context& context) {
                      "Page to write; default: DIR/report.html, for several runs comparison.html in "
                      "the current folder")
         ->expected(1);
-    command
-        ->add_option("--plugin", arguments->plugins,
-                     "Plugin library or folder of libraries; may be repeated")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_plugins(*command, arguments->plugins);
     command->callback(
         [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
 }

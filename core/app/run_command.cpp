@@ -1,7 +1,6 @@
 // dsc run
 #include <cmath>
 #include <memory>
-#include <thread>
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
@@ -15,6 +14,7 @@
 #include "plugins.hpp"
 #include "progress.hpp"
 #include "standard_streams.hpp"
+#include "threads.hpp"
 
 namespace dsc::app {
 namespace {
@@ -69,8 +69,7 @@ int execute(const RunArguments& arguments, const std::vector<std::string>& comma
     run::RunOptions options;
     options.folder = folder;
     options.resume = arguments.resume;
-    options.threads = arguments.threads != 0 ? arguments.threads
-                                             : std::max(1U, std::thread::hardware_concurrency());
+    options.threads = thread_count(arguments.threads);
     options.time_budget = budget;
     options.cancel = &cancel_on_signals();
     options.command = command;
@@ -91,15 +90,8 @@ void add_run(CLI::App& app, Context& context) {
     command->add_option("KEY=VALUE", arguments->overrides,
                         "Values that replace those of the file, by dotted path");
     command->add_option("-o,--output", arguments->folder, "Run folder; default: runs/NAME/HASH");
-    command
-        ->add_option("--threads", arguments->threads,
-                     "Number of threads; default: all. The result does not depend on it")
-        ->check(CLI::Range(1U, 1024U));
-    command
-        ->add_option("--plugin", arguments->plugins,
-                     "Plugin library or folder of libraries; may be repeated")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_threads(*command, arguments->threads);
+    add_plugins(*command, arguments->plugins);
     command->add_flag("--check", arguments->check, "Check the experiment and run nothing");
     command->add_flag("--print-config", arguments->print_config,
                       "Print the experiment with all defaults, and run nothing");

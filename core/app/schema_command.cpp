@@ -13,10 +13,7 @@ void add_schema(CLI::App& app, Context& context) {
         "schema",
         "Print the JSON Schema (draft-07) of an experiment, for editors and other checkers");
     const auto paths = std::make_shared<std::vector<std::string>>();
-    command
-        ->add_option("--plugin", *paths, "Plugin library or folder of libraries; may be repeated")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_plugins(*command, *paths);
     command->callback([paths, &context] {
         context.action = [paths] {
             Plugins plugins(*paths);

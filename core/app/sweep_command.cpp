@@ -84,11 +84,7 @@ void add_expand(CLI::App& sweep, Context& context) {
     command->add_option("SWEEP", arguments->file, "Sweep, a YAML file")->required();
     command->add_option("-o,--output", arguments->folder,
                         "Folder for the points; points that it already contains are kept");
-    command
-        ->add_option("--plugin", arguments->plugins,
-                     "Plugin library or folder of libraries; may be repeated")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    add_plugins(*command, arguments->plugins);
     command->add_flag("--check", arguments->check, "Check all points and write nothing");
     command->callback(
         [arguments, &context] { context.action = [arguments] { return expand(*arguments); }; });

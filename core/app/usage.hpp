@@ -14,7 +14,7 @@ namespace dsc::app {
 std::string usage_text(const CLI::App& app, const std::vector<std::string>& words,
                        const CLI::ParseError& error);
 
-/// The help of the command that the words name, or of `app` if there are no words. Throws
+/// The help of the command that `words` names. If there are no words, the help of `app`. Throws
 /// UsageError "usage.command". [setup]
 std::string help_text(const CLI::App& app, const std::vector<std::string>& words);
 

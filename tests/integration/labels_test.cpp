@@ -138,8 +138,8 @@ TEST_CASE("a ball of two halves: the equator stays, the halves have closed surfa
     const json summary = run(cli, start, {1, 2}, "{type: average, part: 0.3}", 15);
     CHECK(summary["labels"]["1"]["volume"].get<double>() ==
           doctest::Approx(summary["labels"]["2"]["volume"].get<double>()).epsilon(0.02));
-    CHECK(summary["nonmanifold_edges"].get<int>() > 20);  // of the interface as a whole: the
-                                                          // equator
+    // of the interface as a whole: the equator
+    CHECK(summary["nonmanifold_edges"].get<int>() > 20);
     const auto info = json::parse(cli.dsc({"info", "out/result/volume.dsc", "--json"}).out);
     CHECK(info["junction_vertices"] == summary["junction_vertices"]);
     CHECK(info["labels"].size() == 3);

@@ -98,8 +98,8 @@ std::vector<FoundProperty> found_properties(std::span<const std::string> names,
 Vec3 direction_of(const Vec3& normal) {
     if (!normal.allFinite()) return Vec3::Zero();
     if (std::abs(normal.squaredNorm() - 1.0) < unit_squared_tolerance) return normal;
-    const double largest = normal.cwiseAbs().maxCoeff();  // first, so that squares neither
-                                                          // underflow nor overflow
+    // first, so that squares neither underflow nor overflow
+    const double largest = normal.cwiseAbs().maxCoeff();
     return largest > 0.0 ? Vec3((normal / largest).normalized()) : Vec3(Vec3::Zero());
 }
 

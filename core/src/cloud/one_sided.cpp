@@ -23,8 +23,8 @@ constexpr double least_area_ratio = 0.6;  // less for walls that are parallel to
 constexpr double most_area_ratio = 1.3;   // 1 for one layer; 2 for solids, somewhat less if sampled
                                           // sparsely
 constexpr double most_layered_share = 0.1;  // edges of roofs, and objects in front of others
-constexpr double rim_gap = 165.0 / 180.0 * std::numbers::pi;  // angle without neighbours: 180
-                                                              // degrees at a straight border
+// angle without neighbours: 180 degrees at a straight border
+constexpr double rim_gap = 165.0 / 180.0 * std::numbers::pi;
 constexpr double least_rim = 0.25;  // of the shortest possible border, the circumference of a disc
                                     // of equal area
 constexpr double least_depth = 20.0;     // widths
@@ -135,8 +135,8 @@ std::vector<Vec3> candidates(const ScaledSamples& samples, const Vec3& mean, con
     for (int x = -1; x <= 1; ++x)
         for (int y = -1; y <= 1; ++y)
             for (int z = 0; z <= 1; ++z) {
-                const bool half = z > 0 || y > 0 || (y == 0 && x > 0);  // one of each pair of
-                                                                        // opposite directions
+                // one of each pair of opposite directions
+                const bool half = z > 0 || y > 0 || (y == 0 && x > 0);
                 if (half) all.push_back(Vec3(x, y, z).normalized());
             }
     if ((mean - origin).norm() > 0.0) all.push_back((mean - origin).normalized());

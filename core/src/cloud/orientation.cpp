@@ -316,10 +316,8 @@ OrientedPoints orient_by_normals(std::span<const Vec3> points, std::span<const V
                             "let the filter orient estimate them");
     std::vector<Vec3> unit(normals.size());
     for (std::size_t i = 0; i < normals.size(); ++i) {
-        const bool already = std::abs(normals[i].squaredNorm() - 1.0) < unit_tolerance;  // then
-                                                                                         // every
-                                                                                         // bit is
-                                                                                         // kept
+        // then every bit is kept
+        const bool already = std::abs(normals[i].squaredNorm() - 1.0) < unit_tolerance;
         unit[i] = already ? normals[i] : direction_or(normals[i], Vec3::Zero());
         if (unit[i].isZero(0.0))
             throw GeometryError("cloud.normals", named(name),

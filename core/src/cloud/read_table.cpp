@@ -44,8 +44,8 @@ public:
             }
             refuse_decimal_commas(line);
             const char separator = separator_for(line);
-            split_columns(separator == '\t' ? whole : line, separator, words_);  // a tab may end an
-                                                                                 // empty column
+            // a tab may end an empty column
+            split_columns(separator == '\t' ? whole : line, separator, words_);
             if (count_line(line)) continue;
             if (cloud_.points.empty() && take_names()) continue;
             point();

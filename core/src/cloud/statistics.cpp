@@ -58,8 +58,8 @@ double quadric_residual(std::span<const Vec3> points, std::span<const Neighbour>
     const Eigen::RowVector3d mean = local.colwise().mean();
     local.rowwise() -= mean;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(local.transpose() * local);
-    const Eigen::MatrixX3d in_frame = local * axes.eigenvectors();  // columns: across the plane,
-                                                                    // then along it
+    // columns: across the plane, then along it
+    const Eigen::MatrixX3d in_frame = local * axes.eigenvectors();
     Eigen::MatrixXd terms(count, static_cast<Eigen::Index>(quadric_coefficients));
     for (Eigen::Index n = 0; n < count; ++n) {
         const double x = in_frame(n, 1), y = in_frame(n, 2);

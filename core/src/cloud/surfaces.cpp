@@ -155,12 +155,12 @@ public:
         }
         for (std::uint32_t i = 0; i < sides; ++i) {
             const std::uint32_t a = 4 * i,
-                                b = 4 * ((i + 1) % sides);  // inner low, inner high, outer low,
-                                                            // outer high
-            add_quad(mesh, a + 2, b + 2, b + 3, a + 3);     // outer wall
-            add_quad(mesh, b, a, a + 1, b + 1);             // tunnel, seen from its axis
-            add_quad(mesh, a + 1, a + 3, b + 3, b + 1);     // top
-            add_quad(mesh, b, b + 2, a + 2, a);             // bottom
+                                // inner low, inner high, outer low, outer high
+                b = 4 * ((i + 1) % sides);
+            add_quad(mesh, a + 2, b + 2, b + 3, a + 3);  // outer wall
+            add_quad(mesh, b, a, a + 1, b + 1);          // tunnel, seen from its axis
+            add_quad(mesh, a + 1, a + 3, b + 3, b + 1);  // top
+            add_quad(mesh, b, b + 2, a + 2, a);          // bottom
         }
         return mesh;
     }

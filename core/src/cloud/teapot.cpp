@@ -230,8 +230,8 @@ public:
 
     ShapeMesh mesh() const override {
         ShapeMesh mesh;
-        std::map<std::array<long long, 3>, std::uint32_t> known;  // joins the patches along their
-                                                                  // borders
+        // joins the patches along their borders
+        std::map<std::array<long long, 3>, std::uint32_t> known;
         const auto vertex = [&](const Vec3& p) {
             std::array<long long, 3> key;
             for (std::size_t k = 0; k < 3; ++k) key[k] = std::llround(p[static_cast<int>(k)] * 1e9);
@@ -252,8 +252,8 @@ public:
                     mesh.faces.push_back(ids);
             };
             for (std::size_t j = 0; j < cells; ++j)
-                for (std::size_t i = 0; i < cells; ++i) {  // u cross v points outwards in these
-                                                           // patches
+                // u cross v points outwards in these patches
+                for (std::size_t i = 0; i < cells; ++i) {
                     const Vec3 a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
                                d = corner(i, j + 1);
                     face(a, b, c);

@@ -388,8 +388,8 @@ private:
     const ReadJob& job_;
     Places places_;
     std::vector<Frame> frames_;
-    std::unordered_map<YAML::anchor_t, Anchored> anchors_;  // used for look-ups only; never
-                                                            // iterated
+    // used for look-ups only; never iterated
+    std::unordered_map<YAML::anchor_t, Anchored> anchors_;
     ConfigNode root_;
     bool only_document_read_ = false;
 };

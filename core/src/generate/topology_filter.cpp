@@ -58,8 +58,8 @@ public:
     void grow(double sign, const LoopWitness& witness, TopologyFilterReport& report) {
         UnionFind sets = certain_;
         std::vector<std::uint8_t> in(points_.size(), 0);
-        std::vector<std::uint32_t> certain(points_.size(), 0);  // number of vertices of the part
-                                                                // with this root
+        // number of vertices of the part with this root
+        std::vector<std::uint32_t> certain(points_.size(), 0);
         for (std::size_t v = 0; v < points_.size(); ++v) {
             if (slot_[v] != no_slot || inside(v) != (sign > 0)) continue;
             in[v] = 1;

@@ -96,10 +96,8 @@ void LocalStar::build(VertexId v, const Edit& edit) {
                 adjacent_[i][f] = outside_node;
                 outside = true;
             } else {
-                adjacent_[i][f] = node_of_[places_.find(neighbour_tet(tet.n[f]))];  // none if
-                                                                                    // removed: set
-                                                                                    // from the
-                                                                                    // other side
+                // none if removed: set from the other side
+                adjacent_[i][f] = node_of_[places_.find(neighbour_tet(tet.n[f]))];
             }
         }
     }

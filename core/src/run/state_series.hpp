@@ -37,10 +37,10 @@ private:
     std::vector<double> curvatures(const hooks::StepContext& context);
 
     std::filesystem::path folder_;
-    std::uint64_t every_ = 0;                               // of output.series
-    std::set<std::uint64_t> steps_{};                       // for the report
-    std::unique_ptr<hooks::CurvatureEstimator> curvature_;  // a copy of the velocity's; null if it
-                                                            // has none
+    std::uint64_t every_ = 0;          // of output.series
+    std::set<std::uint64_t> steps_{};  // for the report
+    // a copy of the velocity's; null if it has none
+    std::unique_ptr<hooks::CurvatureEstimator> curvature_;
     std::vector<io::SeriesEntry> surfaces_;
     std::vector<io::SeriesEntry> volumes_;
 };

@@ -9,8 +9,8 @@
 namespace dsc::conformance {
 namespace {
 
-constexpr std::uint64_t unwritten_bits = 0x7ff4dead0000beefULL;  // a signalling NaN with a special
-                                                                 // payload
+// a signalling NaN with a special payload
+constexpr std::uint64_t unwritten_bits = 0x7ff4dead0000beefULL;
 
 }  // namespace
 

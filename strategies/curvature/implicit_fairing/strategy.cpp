@@ -47,8 +47,8 @@ public:
 
 private:
     Vec3 at(std::size_t vertex) const {
-        constexpr double cotangent_limit = 57.28996163075943;  // cot 1 degree: smaller angles are
-                                                               // noise
+        // cot 1 degree: smaller angles are noise
+        constexpr double cotangent_limit = 57.28996163075943;
         const auto& positions = surface_->positions;
         Vec3 sum = Vec3::Zero();
         double area = 0;

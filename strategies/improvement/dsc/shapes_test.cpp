@@ -94,8 +94,8 @@ TEST_CASE("a needle loses its shortest edge, a cap its longest") {
     // 1 - cos of the sharpest angle, 0.5 for a regular triangle.
     limits.degenerate_face_quality = 0.0;
     limits.min_face_quality = 0.499;
-    CHECK(proposals(two_tets(left, right, top), limits).size() == 6);  // the faces at the apexes
-                                                                       // are not regular
+    // the faces at the apexes are not regular
+    CHECK(proposals(two_tets(left, right, top), limits).size() == 6);
     limits.degenerate_face_quality = 0.4999;
     CHECK(proposals(two_tets(left, right, top), limits).size() == 6);
     limits.degenerate_face_quality = 0.5;

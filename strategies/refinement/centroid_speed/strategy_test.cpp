@@ -150,17 +150,16 @@ TEST_CASE("faces finer than the cloud are not split") {
         for (int i = -20; i <= 20; ++i) lattice.points.emplace_back(0.1 * i, 0.1 * j, 0.3);
     }
     const dsc::cloud::TargetCloud cloud(lattice);
-    REQUIRE(cloud.spacing(20 * 41 + 20) == doctest::Approx(0.1 * std::sqrt(2.0)));  // four sides,
-                                                                                    // then
-                                                                                    // diagonals
+    // four sides, then diagonals
+    REQUIRE(cloud.spacing(20 * 41 + 20) == doctest::Approx(0.1 * std::sqrt(2.0)));
     const auto view = dsc::sdk::view_of(dsc::sdk::square(10, 1.0));  // longest edges 0.2 sqrt 2
     const Field field([](const Vec3& p) { return 0.1 * std::abs(std::sin(5 * pi * p.x())); });
     ConfigNode params = ConfigNode::map({{"finest", 1.99}});
     CHECK(split_faces(view, field, params, &cloud).size() == view.face_count());
     params = ConfigNode::map({{"finest", 2.01}});
     CHECK(split_faces(view, field, params, &cloud).empty());
-    CHECK(split_faces(view, field, params).size() == view.face_count());  // without a cloud there
-                                                                          // is no bound
+    // without a cloud there is no bound
+    CHECK(split_faces(view, field, params).size() == view.face_count());
 }
 
 TEST_CASE("without faces nothing is requested") {

@@ -79,8 +79,8 @@ TEST_CASE("fields with a solution in closed form reach it") {
     const Vec3 end = x + displacement(field, x, 0, 0.9, 64);
     const double s = 0.5 * std::asinh(std::exp(0.4 * 0.9 / 0.5) * std::sinh(0.6 / 0.5));
     CHECK(end.x() == doctest::Approx(s).epsilon(1e-9));
-    const double stretch = std::tanh(s / 0.5) / std::tanh(0.6 / 0.5);  // ds/ds0, velocities on one
-                                                                       // streamline
+    // ds/ds0, velocities on one streamline
+    const double stretch = std::tanh(s / 0.5) / std::tanh(0.6 / 0.5);
     CHECK(end.y() == doctest::Approx(-0.3 / std::sqrt(stretch)).epsilon(1e-8));
 }
 

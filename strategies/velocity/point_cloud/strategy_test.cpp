@@ -206,9 +206,8 @@ TEST_CASE("a lid whose nearest points lie in its plane does not move, and is car
     const auto rim = ring_cloud(0.8, 0.0, 100);
     const double spacing = rim.spacing(0);
     CHECK(spacing ==
-          doctest::Approx(2 * 0.8 * std::sin(3 * 3.14159265358979323846 / 100)));  // the third
-                                                                                   // point on each
-                                                                                   // side
+          // the third point on each side
+          doctest::Approx(2 * 0.8 * std::sin(3 * 3.14159265358979323846 / 100)));
     for (const Vec3& d : bench.displacements(*bench.make(ConfigNode::map()), &rim))
         CHECK(d == Vec3::Zero());
     const auto field = bench.make(carving(3.0, 0.2));
@@ -266,10 +265,8 @@ TEST_CASE("a curvature at unsupported places does not change supported ones, to 
             continue;
         }
         ++curved;
-        const double speed = std::min(plain[i].dot(bench.view.normals[i]), -0.1 * 0.1);  // carving,
-                                                                                         // target
-                                                                                         // length
-                                                                                         // 0.1
+        // carving, target length 0.1
+        const double speed = std::min(plain[i].dot(bench.view.normals[i]), -0.1 * 0.1);
         CHECK(out[i].dot(bench.view.normals[i]) ==
               doctest::Approx(speed - beta / radius).epsilon(0.01));
     }

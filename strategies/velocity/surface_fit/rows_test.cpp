@@ -109,9 +109,8 @@ TEST_CASE("a bending row measures the angle of its hinge, and no rigid motion ch
         const double sine = 2 * std::sin(angle / 2);
         CHECK(scale * scale == doctest::Approx(3.0 / area / std::pow(1 + sine * sine / 0.09, 2)));
         CHECK(bending.applied(row, view.positions) == doctest::Approx(-scale * sine).epsilon(1e-9));
-        CHECK(bending.system.wanted[0] == doctest::Approx(scale * sine).epsilon(1e-9));  // to
-                                                                                         // become
-                                                                                         // flat
+        // to become flat
+        CHECK(bending.system.wanted[0] == doctest::Approx(scale * sine).epsilon(1e-9));
         std::vector<Vec3> u(4, Vec3(0.3, -2, 1));
         CHECK(std::abs(bending.applied(row, u)) < 1e-12 * scale);
         for (std::size_t v = 0; v < 4; ++v) u[v] = Vec3(1, 2, -0.5).cross(view.positions[v]);
@@ -265,8 +264,8 @@ TEST_CASE("the offset by which noise moves the mean of a ball's points is subtra
         return sum / static_cast<double>(points.size());
     };
     const double plain = mean_pull(false);
-    CHECK(plain == doctest::Approx(noise * noise / radius).epsilon(0.4));  // sigma^2 H, and the
-                                                                           // sagitta of the faces
+    // sigma^2 H, and the sagitta of the faces
+    CHECK(plain == doctest::Approx(noise * noise / radius).epsilon(0.4));
     CHECK(std::abs(mean_pull(true)) < 0.4 * plain);
 }
 

@@ -29,9 +29,8 @@ TEST_CASE("little noise counts as none if the spacing is even, and in full if it
     CHECK(scales_of(statistics(0.1, 3.5), 0).ratio == doctest::Approx(0.1));
     CHECK(scales_of(statistics(0.7, 1.5), 0.1).ratio == doctest::Approx(0.1));
     CHECK(scales_of(statistics(0.7, 1.5), 0.1).noise == doctest::Approx(0.002));
-    CHECK(scales_of(statistics(0.1, 1.5), 0).noise == doctest::Approx(0.002));  // the noise that is
-                                                                                // corrected for is
-                                                                                // not reduced
+    // the noise that is corrected for is not reduced
+    CHECK(scales_of(statistics(0.1, 1.5), 0).noise == doctest::Approx(0.002));
     CHECK(scales_of(statistics(0.1, 2.9), 0).even);
     CHECK_FALSE(scales_of(statistics(0.1, 3.0), 0).even);
 }

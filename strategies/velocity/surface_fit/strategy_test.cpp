@@ -260,9 +260,8 @@ TEST_CASE("a hole is filled with the surface round it, beyond the usual length o
     const auto worst_after = [&](bool filled) {
         TriangleMesh mesh = start;
         const auto field =
-            bench.make(ConfigNode::map({{"iterations", 1}, {"fill_holes", filled}}));  // the first
-                                                                                       // step is
-                                                                                       // the one
+            // the first step is the one
+            bench.make(ConfigNode::map({{"iterations", 1}, {"fill_holes", filled}}));
         deform(*field, mesh, cloud, 1, 1);
         double largest = 0.0;
         for (const Vec3& p : mesh.points) largest = std::max(largest, std::abs(p.norm() - 0.9));

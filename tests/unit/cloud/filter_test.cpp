@@ -114,8 +114,8 @@ TEST_CASE("voxel grid: the point nearest to the centroid of each cell, the first
     CHECK(pairs > 10);
     check_kept(cloud, voxel_grid(cloud, {0.02}), keep, "voxel_grid");
     CHECK(voxel_grid(cloud, {1.0}).report.kept == 1);
-    CHECK(voxel_grid(cloud, {1e-9}).report.kept == 600);  // more cells than PCL's own grid can
-                                                          // count
+    // more cells than PCL's own grid can count
+    CHECK(voxel_grid(cloud, {1e-9}).report.kept == 600);
 }
 
 TEST_CASE("statistical outliers against brute force") {

@@ -82,8 +82,8 @@ TEST_CASE("clusters: of points that crowd together the first stays, even ones al
         CHECK(result.report.filter == "clusters");
         CHECK(result.report.removed == crowd.size());
     }
-    CHECK(remove_clusters(joined({crowd, even})).report.removed == crowd.size());  // another one of
-                                                                                   // each stays
+    // another one of each stays
+    CHECK(remove_clusters(joined({crowd, even})).report.removed == crowd.size());
 }
 
 TEST_CASE("clusters: the option is the distance that is close") {

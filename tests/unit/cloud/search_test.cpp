@@ -183,8 +183,8 @@ TEST_CASE("the spacing at a point is the distance to its sixth neighbour, points
             for (int j = 0; j < 7; ++j) lattice.points.emplace_back(i, j, 0);
     const dsc::cloud::TargetCloud target(lattice);
     CHECK(target.spacing(3 * 7 + 3) == doctest::Approx(std::sqrt(2.0)));
-    CHECK(target.spacing(0) == doctest::Approx(std::sqrt(5.0)));  // the corner: 1 1 sqrt2 2 2 sqrt5
-                                                                  // sqrt5
+    // the corner: 1 1 sqrt2 2 2 sqrt5 sqrt5
+    CHECK(target.spacing(0) == doctest::Approx(std::sqrt(5.0)));
     dsc::cloud::Normalized pair;
     pair.points = {Vec3(0, 0, 0), Vec3(0, 0, 2), Vec3(0, 0, 2)};
     CHECK(dsc::cloud::TargetCloud(pair).spacing(0) == 2.0);

@@ -32,8 +32,8 @@ TEST_CASE("what is written reads back bit for bit") {
         CHECK(test::slurp(folder.path(name)) == first);
     }
     cloud.colours.clear();
-    for (const std::string name : {"a.xyz", "a.csv", "a.obj", "a.ply", "a.pcd"}) {  // over the old
-                                                                                    // files
+    // over the old files
+    for (const std::string name : {"a.xyz", "a.csv", "a.obj", "a.ply", "a.pcd"}) {
         dsc::cloud::write_cloud(folder.path(name), cloud);
         const Cloud again = dsc::cloud::read_cloud(folder.path(name));
         CHECK(again.points == cloud.points);

@@ -227,8 +227,8 @@ TEST_CASE("a lattice made coarse keeps the leaves with both labels, the topology
         }
         CHECK(count_topology(coarse.points(), coarse.tets(), kept) ==
               count_topology(fine.points(), tets, values));
-        std::map<std::array<double, 3>, double> edges;  // of the coarse lattice's leaves, by their
-                                                        // centres
+        // of the coarse lattice's leaves, by their centres
+        std::map<std::array<double, 3>, double> edges;
         for (const Leaf& leaf : coarse.leaves()) {
             const Vec3& centre = coarse.points()[leaf.vertices[8]];
             edges[{centre.x(), centre.y(), centre.z()}] = leaf.edge;

@@ -103,8 +103,8 @@ TEST_CASE("whether a file can be replaced is known before, and nothing changes")
     constexpr auto require = [](const std::filesystem::path& f) { require_replaceable(f); };
     CHECK(test::refusal(folder / "none/a.txt", require).message ==
           test::refusal(folder / "none/a.txt", write_x).message);
-    CHECK(test::refusal("/sys/kernel/x.obj", require).code == "io.write");  // not even for the
-                                                                            // superuser
+    // not even for the superuser
+    CHECK(test::refusal("/sys/kernel/x.obj", require).code == "io.write");
     CHECK(test::refusal("/dev/null", require).code == "io.write");
 }
 

@@ -79,8 +79,8 @@ TEST_CASE("OBJ: bytes and fractions, and a surface has all colours or none") {
     CHECK(colours("v 0 0 0\nv 1 0 0 1 1 1\nv 0 1 0 1 1 1\n").empty());
     CHECK(colours("v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\n").empty());  // weights
     CHECK(colours("v 0 0 0 1 1 1 1\nv 1 0 0 1 1 1 1\nv 0 1 0 1 1 1 1\n").empty());
-    CHECK(colours("v 0 0 0 a b c\nv 1 0 0 nan 0 0\nv 0 1 0 1 1 1\n").empty());  // as before colours
-                                                                                // were read
+    // as before colours were read
+    CHECK(colours("v 0 0 0 a b c\nv 1 0 0 nan 0 0\nv 0 1 0 1 1 1\n").empty());
 }
 
 TEST_CASE("PLY: bytes only, and all three of them") {

@@ -149,9 +149,8 @@ TEST_CASE("run folder: takes an empty folder or one of ours, refuses all others 
     // A run that is killed at its very first moment leaves this and no status.json.
     folder.write("killed/.status.json.4711-0.tmp", "{\"for");
     folder.write("killed/checkpoint/.step_3.dscstate.4711-9.tmp", "dsc");
-    CHECK_THROWS_AS(run::RunFolder(folder.path() / "killed"), UsageError);  // no run makes a
-                                                                            // checkpoint before its
-                                                                            // status
+    // no run makes a checkpoint before its status
+    CHECK_THROWS_AS(run::RunFolder(folder.path() / "killed"), UsageError);
     fs::remove_all(folder.path() / "killed/checkpoint");
     folder.write("killed/.lock", "4711 elsewhere\n");  // stale: no process holds it
     {

@@ -389,10 +389,10 @@ TEST_CASE("collect: a row a point, whatever its state") {
         1, "status.json",
         R"({"format": "dsc-run-1", "state": "failed", "error_code": "run.vanished", "exit_code": 5})");
     write(2, "status.json", R"({"format": "dsc-run-1", "state": "running"})");
-    write(2, "summary.json", R"({"status": "max_steps", "steps": 99})");  // cannot be: of another
-                                                                          // run
-    write(4, "status.json", R"({"format": "dsc-run-1", "state": "done"})");  // its summary was
-                                                                             // taken away
+    // cannot be: of another run
+    write(2, "summary.json", R"({"status": "max_steps", "steps": 99})");
+    // its summary was taken away
+    write(4, "status.json", R"({"format": "dsc-run-1", "state": "done"})");
     write(5, "status.json", R"({"format": "dsc-run-1", "state": "stopped", "exit_code": 75})");
     write(5, "summary.json",
           R"({"status": "cancelled", "steps": 1, "vertex_to_cloud": {"mean": 0.25}})");

@@ -44,11 +44,11 @@ struct ReadOptions {
 ///   statements are skipped;
 /// - .xyz .txt .asc .pts .csv: columns separated by blanks, tabs, commas or semicolons, quoted or
 ///   not. The positions are the columns named x, y, z in a header line or in a comment before the
-///   first point, else the first three. Colours come from r, g, b or red, green, blue; normals from
-///   nx, ny, nz or normal_x, ...; greys from intensity if there are no colours. Without such a
-///   header, columns 4 to 6 of six, and 7 to 9 of nine, are colours if they contain only integers
-///   from 0 to 255 (at least one above 1), and normals if they are unit vectors in every line.
-///   Comments (# or //), empty lines and the count lines of .pts are skipped.
+///   first point, else the first three. Colours come from r, g, b or red, green, blue; normals
+///   come from nx, ny, nz or normal_x, ... If there are no colours, the intensity is read as grey.
+///   Without such a header, columns 4 to 6 of six, and 7 to 9 of nine, are colours if they contain
+///   only integers from 0 to 255 (at least one above 1), and normals if they are unit vectors in
+///   every line. Comments (# or //), empty lines and the count lines of .pts are skipped.
 ///
 /// A normal is scaled to a unit vector; a normal without a direction becomes zero. Whether normals
 /// agree with the points is not tested here. Throws IoError for bytes that are empty, without

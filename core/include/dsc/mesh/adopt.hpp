@@ -21,9 +21,9 @@ struct AdoptReport {
 /// Orients tets, drops unused vertices, unpinches, and removes components below `min_component`
 /// regular tets of the mean interface edge. Throws GeometryError (exit code 5) that names the first
 /// element and the count: index out of range, zero volume, a face with more than two tets, two tets
-/// on one side of a face, volumes that do not add up to the box (relative 1e-9), a vertex that
-/// cannot be unpinched. Messages use `name` for the file or generator. `workers`, null for one
-/// thread, share the work. [setup]
+/// on one side of a face, a sum of volumes that differs from the volume of the box by more than a
+/// relative 1e-9, a vertex that cannot be unpinched. Messages use `name` for the file or generator.
+/// `workers`, null for one thread, share the work. [setup]
 Complex adopt(const TetMesh& mesh, std::string_view name, AdoptReport* report = nullptr,
               double min_component = 2.0, Workers* workers = nullptr);
 

@@ -30,8 +30,8 @@ inline bool exactly_positive(const std::array<const Vec3*, 4>& p) {
     return geometry::orient3d(*p[0], *p[1], *p[2], *p[3]) == 1;
 }
 
-/// The least quality of the tets with v at `place`, at most 1; 0 if a tet would not be exactly
-/// positive. [parallel]
+/// The least quality of the tets if v is moved to `place`, at most 1. Returns 0 if a tet would not
+/// be exactly positive. [parallel]
 inline double star_quality(const Complex& complex, std::span<const TetId> star, VertexId v,
                            const Vec3& place) {
     double least = 1.0;
@@ -43,9 +43,10 @@ inline double star_quality(const Complex& complex, std::span<const TetId> star, 
     return least;
 }
 
-/// The least quality of the tets with v at `place`, without the exact test; 2 if there is no tet,
-/// -1 as soon as one is not above `bound`. Tets for which `counts(t)` is false are left out.
-/// `qualities`, if given, receives the others in the order of the star. [parallel]
+/// The least quality of the tets if v is moved to `place`, without the exact test. Returns 2 if
+/// there is no tet, and -1 if the quality of a tet is at most `bound`. Tets for which `counts(t)`
+/// is false are left out. `qualities`, if given, receives the others in the order of the star.
+/// [parallel]
 template <class Counts>
 float star_quality_above(float bound, const Complex& complex, std::span<const TetId> star,
                          VertexId v, const Vec3& place, std::vector<float>* qualities,

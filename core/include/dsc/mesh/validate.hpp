@@ -1,6 +1,6 @@
 #pragma once
-// Checks a complex by a full scan: for tests, `dsc info` and the audit. It is too slow for the
-// steps of a run.
+// Checks a complex by a full scan: for tests, `dsc info` and the audit. A step of a run
+// does not use it, because it is too slow.
 
 #include <string>
 #include <vector>

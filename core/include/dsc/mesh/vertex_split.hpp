@@ -1,6 +1,6 @@
 #pragma once
-// Splits a vertex: a group of its tets gets a vertex of its own, and the gap between the two
-// vertices is filled.
+// Splits a vertex: a group of its tets receives a new vertex. New tets fill the gap between the
+// two vertices.
 
 #include <span>
 #include <vector>
