@@ -1,8 +1,6 @@
 // Texts of events.jsonl, and the sums over the steps of a run.
 #include "dsc/run/figures.hpp"
 
-#include <array>
-
 #include <dsc/text/numbers.hpp>
 
 namespace dsc::run {

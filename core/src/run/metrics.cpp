@@ -5,9 +5,9 @@
 
 namespace dsc::run {
 
-void append_cell(std::string& text, std::uint64_t value) { text += std::to_string(value); }
+void append_cell(std::string& to, std::uint64_t value) { text::append_number(to, value); }
 
-void append_cell(std::string& to, double value) { to += text::exact(value); }
+void append_cell(std::string& to, double value) { text::append_number(to, value); }
 
 void append_cell(std::string& text, const std::optional<double>& value) {
     if (value) append_cell(text, *value);

@@ -6,13 +6,13 @@
 // the quality of the tets allows (features.cpp, snapping.cpp). At the end the distances between
 // interface and surface are measured (deviation.cpp).
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 #include <string>
 
 #include <dsc/base/version.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/generate/lattice.hpp>
+#include <dsc/geometry/point_text.hpp>
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/plugin/lattice_params.hpp>
@@ -20,6 +20,8 @@
 #include <dsc/plugin/plugin.hpp>
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/surface_view.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/words.hpp>
 
 #include "deviation.hpp"
 #include "features.hpp"
@@ -61,19 +63,8 @@ double mitre(const Features& features, const Vec3& on_surface) {
     return features.corner(on_surface) ? 1.7320508 : 1.4142136;
 }
 
-std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
-}
-
 std::string topology(const dsc::surface::SurfaceReport& report) {
-    return std::to_string(report.shells) + (report.shells == 1 ? " shell" : " shells") +
-           " of genus " + std::to_string(report.genus);
-}
-
-std::string place(const Vec3& p) {
-    return "(" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ")";
+    return dsc::text::counted(report.shells, "shell") + " of genus " + std::to_string(report.genus);
 }
 
 class FromSurface final : public dsc::hooks::InitialMesh {
@@ -195,11 +186,14 @@ private:
                         used = dsc::bounding_box(solid.surface().points);
         if ((used.low.array() <= box.low.array()).any() ||
             (used.high.array() >= box.high.array()).any()) {
-            throw dsc::ConfigError(
-                "lattice.box",
-                std::string(name) + ": " + params_.file + " extends from " + place(used.low) +
-                    " to " + place(used.high) + ", beyond the box from " + place(box.low) + " to " +
-                    place(box.high) + "; `fit` it into the box or make `box` larger");
+            throw dsc::ConfigError("lattice.box",
+                                   std::string(name) + ": " + params_.file + " extends from " +
+                                       dsc::geometry::point_text(used.low, 4) + " to " +
+                                       dsc::geometry::point_text(used.high, 4) +
+                                       ", beyond the box from " +
+                                       dsc::geometry::point_text(box.low, 4) + " to " +
+                                       dsc::geometry::point_text(box.high, 4) +
+                                       "; `fit` it into the box or make `box` larger");
         }
         const double outside = reach * dsc::generate::finest_cell(params_);
         dsc::mesh::TetMesh out = dsc::generate::make_lattice(
@@ -238,14 +232,16 @@ private:
     void judge(const Deviation& found, double cell) const {
         const double distance = found.greatest() / cell;
         dsc::log(dsc::LogLevel::info,
-                 std::string(name) + ": the surface and the mesh are at most " + number(distance) +
-                     " finest cells apart, " + number(found.greatest()));
+                 std::string(name) + ": the surface and the mesh are at most " +
+                     dsc::text::rounded(distance, 4) + " finest cells apart, " +
+                     dsc::text::rounded(found.greatest(), 4));
         if (distance <= params_.tolerance) return;
         throw dsc::GeometryError("from_surface.tolerance",
                                  std::string(name) + ": " + params_.file + " and the mesh are " +
-                                     number(distance) + " finest cells apart at " +
-                                     place(found.farthest) + ", more than the tolerance of " +
-                                     number(params_.tolerance) +
+                                     dsc::text::rounded(distance, 4) + " finest cells apart at " +
+                                     dsc::geometry::point_text(found.farthest, 4) +
+                                     ", more than the tolerance of " +
+                                     dsc::text::rounded(params_.tolerance, 4) +
                                      "; use more `cells`, or allow a larger `tolerance`");
     }
 

@@ -1,11 +1,12 @@
 #include "confidence.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 #include <dsc/cloud/search.hpp>
 #include <dsc/surface/surface_view.hpp>
+#include <dsc/text/numbers.hpp>
+#include <dsc/text/words.hpp>
 
 namespace dsc::indicator {
 namespace {
@@ -22,20 +23,10 @@ std::size_t changed(const Labels& labels, bool inside) {
         [&](const generate::LabelComponent& c) { return c.inside == inside && !c.kept; }));
 }
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 std::string in_words(const generate::TopologyCounts& counts) {
-    return counted(counts.components, "component", "components") + ", " +
-           counted(counts.cavities, "cavity", "cavities") + ", genus " +
+    return text::counted(counts.components, "component") + ", " +
+           text::counted(counts.cavities, "cavity", "cavities") + ", genus " +
            std::to_string(counts.genus());
-}
-
-std::string rounded(double value, int digits) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-    return text;
 }
 
 }  // namespace
@@ -84,9 +75,9 @@ hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orie
         out.push_back(
             {"cloud.open",
              "The cloud seems to be open, such as a scan of one side: the closed surface has " +
-                 rounded(area_ratio, 2) +
+                 text::fixed(area_ratio, 2) +
                  " times the area of the points, and the winding field has a residual of " +
-                 rounded(orientation.residual, 3) +
+                 text::fixed(orientation.residual, 3) +
                  ". Where there are no points, the surface is a guess. --trim (in an experiment "
                  "output: {trim: {}}) writes it without these parts."});
     }
@@ -94,10 +85,10 @@ hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orie
         out.push_back(
             {"topology.doubtful",
              "The topology is doubtful: at " +
-                 counted(
+                 text::counted(
                      labels.filter.clusters.size() + changed(labels, true) + changed(labels, false),
                      "place", "places") +
-                 " (" + rounded(100.0 * labels.changed_share(), 1) +
+                 " (" + text::fixed(100.0 * labels.changed_share(), 1) +
                  " vertices per 100 points) the solid or a gap is thinner than about one spacing "
                  "of the points. Without the filter: " +
                  in_words(labels.filter.before) + "; with it: " + in_words(labels.counts) +
@@ -105,7 +96,7 @@ hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orie
     } else if (orientation.residual > most_residual) {
         out.push_back(
             {"topology.doubtful", "The topology is doubtful: the winding field has a residual of " +
-                                      rounded(orientation.residual, 3) +
+                                      text::fixed(orientation.residual, 3) +
                                       " at the points, so the normals of some points may point to "
                                       "the wrong side. Use a denser or less noisy cloud."});
     }
