@@ -20,7 +20,7 @@ using namespace dsc;
 
 struct Outcome {
     mesh::InterfaceCounts counts;
-    repair::EventCounts events;
+    kernel::EventCounts events;
     std::uint64_t steps = 0;
 };
 
@@ -57,7 +57,7 @@ Outcome run_counting(const std::string& name) {
         };
         policy.topology = improvement.topology_limits();
         policy.flatness = improvement.flatness();
-        const repair::EventCounts e =
+        const kernel::EventCounts e =
             deformer.step(view.vertex_ids, displacements, policy).event_counts;
 
         CAPTURE(step);

@@ -24,7 +24,7 @@ using namespace dsc;
 
 struct Outcome {
     mesh::InterfaceCounts counts;
-    repair::EventCounts events;
+    kernel::EventCounts events;
     bool books_balance = true;
     bool valid = false;
 };

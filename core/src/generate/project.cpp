@@ -39,7 +39,7 @@ public:
 
     ProjectReport run() {
         collect();
-        scale_ = mean_edge();
+        scale_ = mean_star_edge();
         while (push_vertices()) collect();
         for (unsigned round = 0; round < options_.rounds; ++round) {
             const bool nearer = approach();
@@ -96,8 +96,9 @@ private:
         });
     }
 
-    /// Mean edge of the stars of the interface vertices.
-    double mean_edge() {
+    /// Mean length of the edges of all tets at the interface vertices that may move; an edge counts
+    /// once per tet.
+    double mean_star_edge() {
         double sum = 0.0;
         std::size_t count = 0;
         for (const mesh::VertexId v : interface_) {

@@ -52,7 +52,7 @@ RefineReport Deformer::refine(const RefineRequests& requests) {
     s.fields.settle();
     report.crease_exceptions = s.bench.crease_exceptions;
     report.length_changed = report.splits.committed > 0 && !requests.owns_sizing;
-    if (report.length_changed) s.set_length(s.mean_interface_edge());
+    if (report.length_changed) s.set_length(mesh::mean_interface_edge(s.complex));
     return report;
 }
 

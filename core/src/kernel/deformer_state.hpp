@@ -39,7 +39,6 @@ struct Deformer::State {
     State(mesh::Complex start, const DeformerOptions& wanted, Workers* given);
 
     void apply_limits(double flatness, const std::optional<repair::CreaseRule>& creases = {});
-    double mean_interface_edge() const;
     /// Must be called whenever the set of fields has changed.
     void fields_changed();
     /// Sets L for the whole surface.

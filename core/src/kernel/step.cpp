@@ -13,18 +13,6 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void count(const Event& event, repair::EventCounts& counts) {
-    switch (event.kind) {
-        case Event::Kind::merge: ++counts.merge; break;
-        case Event::Kind::split: ++counts.split; break;
-        case Event::Kind::handle_opened: ++counts.handle_opened; break;
-        case Event::Kind::handle_closed: ++counts.handle_closed; break;
-        case Event::Kind::vanished: ++counts.vanished; break;
-        case Event::Kind::born: ++counts.born; break;
-        case Event::Kind::unpinched: ++counts.unpinched; break;
-    }
-}
-
 }  // namespace
 
 void Deformer::State::begin_step(std::span<const VertexId> vertices,
@@ -216,7 +204,7 @@ void Deformer::State::change_topology(const RepairPolicy& policy, StepReport& re
 }
 
 void Deformer::State::sum_up(StepReport& report) const {
-    for (const Event& event : report.events) count(event, report.event_counts);
+    for (const Event& event : report.events) report.event_counts.add(event.kind);
     report.crease_exceptions = bench.crease_exceptions;
     report.edit_distance = bench.sums.distance;
     report.edit_volume = bench.sums.volume;

@@ -2,11 +2,32 @@
 #include "dsc/kernel/step_report.hpp"
 
 namespace dsc::kernel {
+namespace {
 
-std::string_view name(Event::Kind kind) {
-    constexpr std::array<std::string_view, 7> names = {
-        "merge", "split", "handle_opened", "handle_closed", "vanished", "born", "unpinched"};
-    return names[static_cast<std::size_t>(kind)];
+struct Kind {
+    std::string_view name;
+    std::uint64_t EventCounts::*count;
+};
+// In the order of Event::Kind.
+constexpr std::array kinds = {
+    Kind{"merge", &EventCounts::merge},
+    Kind{"split", &EventCounts::split},
+    Kind{"handle_opened", &EventCounts::handle_opened},
+    Kind{"handle_closed", &EventCounts::handle_closed},
+    Kind{"vanished", &EventCounts::vanished},
+    Kind{"born", &EventCounts::born},
+    Kind{"unpinched", &EventCounts::unpinched},
+};
+
+}  // namespace
+
+std::string_view name(Event::Kind kind) { return kinds[static_cast<std::size_t>(kind)].name; }
+
+void EventCounts::add(Event::Kind kind) { ++(this->*kinds[static_cast<std::size_t>(kind)].count); }
+
+EventCounts& EventCounts::operator+=(const EventCounts& other) {
+    for (const Kind& kind : kinds) this->*kind.count += other.*kind.count;
+    return *this;
 }
 
 void OperationCounts::add(repair::Outcome outcome) {

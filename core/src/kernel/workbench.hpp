@@ -29,7 +29,7 @@ struct Limits {
     double quality_floor = 1e-3;
     double edit_distance = 0.0;  ///< largest distance by which one edit may move the interface
     double edit_volume = 0.0;    ///< largest volume by which one edit may change a phase
-    double flatness = 0.995;     ///< cosine
+    double flatness = repair::default_flatness;  ///< cosine
     double crease = -2.0;  ///< an edge with a smaller cosine between its two faces is a crease and
                            ///< must stay; -2: no creases
     double turn = -2.0;    ///< least cosine between a face's normals before and after an edit

@@ -234,23 +234,6 @@ void check_stars(const Complex& c, std::string_view name) {
     }
 }
 
-double mean_interface_edge(const Complex& c) {
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (TetId t = 0; t < c.tet_slots(); ++t) {
-        for (unsigned f = 0; f < 4; ++f) {
-            if (!c.tet_alive(t) || !c.interface_face(t, f)) continue;
-            for (unsigned k = 0; k < 3; ++k) {
-                sum += (c.position(c.tet(t).v[face_vertices[f][k]]) -
-                        c.position(c.tet(t).v[face_vertices[f][(k + 1) % 3]]))
-                           .norm();
-                ++count;
-            }
-        }
-    }
-    return count > 0 ? sum / static_cast<double>(count) : 0.0;
-}
-
 // Marks the tets of face-connected components of equal label that are clearly larger than the
 // volume. Most tets belong to such components, and a union over the tets in their order uses the
 // memory better than a walk from tet to tet.

@@ -1,4 +1,8 @@
-// Walks through the complex: star of a vertex, ring of an edge (method.md, section 1.1).
+// Walks through the complex: star of a vertex, ring of an edge, edges of the interface (method.md,
+// section 1.1).
+#include <algorithm>
+#include <utility>
+
 #include <dsc/mesh/complex.hpp>
 
 namespace dsc::mesh {
@@ -94,6 +98,29 @@ TetId Complex::find_edge(VertexId a, VertexId b) const {
         if (has_vertex(tets_[t], b)) return t;
     }
     return none;
+}
+
+double mean_interface_edge(const Complex& c) {
+    // Each edge once, in the order of its births: the sum is the same for any slots.
+    std::vector<std::pair<std::uint64_t, double>> lengths;
+    for (TetId t = 0; t < c.tet_slots(); ++t) {
+        if (!c.tet_alive(t)) continue;
+        for (unsigned f = 0; f < 4; ++f) {
+            if (c.label(t) <= c.label_across(t, f)) continue;
+            for (unsigned k = 0; k < 3; ++k) {
+                const VertexId a = c.tet(t).v[face_vertices[f][k]],
+                               b = c.tet(t).v[face_vertices[f][(k + 1) % 3]];
+                const std::uint64_t first = std::min(c.birth(a), c.birth(b));
+                lengths.emplace_back(first << 32U | std::max(c.birth(a), c.birth(b)),
+                                     (c.position(a) - c.position(b)).norm());
+            }
+        }
+    }
+    std::sort(lengths.begin(), lengths.end());
+    lengths.erase(std::unique(lengths.begin(), lengths.end()), lengths.end());
+    double sum = 0.0;
+    for (const auto& edge : lengths) sum += edge.second;
+    return lengths.empty() ? 0.0 : sum / static_cast<double>(lengths.size());
 }
 
 }  // namespace dsc::mesh

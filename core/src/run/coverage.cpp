@@ -10,6 +10,7 @@
 #include <dsc/base/union_find.hpp>
 #include <dsc/cloud/search.hpp>
 #include <dsc/surface/distance.hpp>
+#include <dsc/surface/measure.hpp>
 
 namespace dsc::run {
 namespace {
@@ -105,7 +106,7 @@ void measure_support(const surface::TriangleMesh& surface, const surface::CloudD
         if (widths[hit.index] > 0.0)
             out.gaps[distances.vertices[i]] = hit.distance / widths[hit.index];
     }
-    double area = 0.0, unsupported = 0.0, edges = 0.0;
+    double area = 0.0, unsupported = 0.0;
     for (const auto& face : surface.faces) {
         const Vec3 &a = surface.points[face[0]], &b = surface.points[face[1]],
                    &c = surface.points[face[2]];
@@ -113,11 +114,9 @@ void measure_support(const surface::TriangleMesh& surface, const surface::CloudD
         for (const std::uint32_t v : face)
             unsupported += out.gaps[v] > unsupported_beyond ? third : 0.0;
         area += 3.0 * third;
-        edges += (b - a).norm() + (c - b).norm() + (a - c).norm();
     }
     out.unsupported_share = area > 0.0 ? unsupported / area : 0.0;
-    if (!surface.faces.empty())
-        out.mean_edge = edges / static_cast<double>(3 * surface.faces.size());
+    out.mean_edge = surface::mean_edge(surface.points, surface.faces);
 }
 
 }  // namespace

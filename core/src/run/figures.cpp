@@ -57,28 +57,9 @@ void RunTotals::add(const kernel::StepReport& report) {
     for (std::size_t i = 0; i < operations.size(); ++i) operations[i] += report.operations[i];
     for (std::size_t i = 0; i < repair_classes.size(); ++i)
         repair_classes[i] += report.repair_classes[i];
-    events.merge += report.event_counts.merge;
-    events.split += report.event_counts.split;
-    events.handle_opened += report.event_counts.handle_opened;
-    events.handle_closed += report.event_counts.handle_closed;
-    events.vanished += report.event_counts.vanished;
-    events.born += report.event_counts.born;
-    events.unpinched += report.event_counts.unpinched;
+    events += report.event_counts;
     seconds.move += report.move_seconds;
     seconds.improve += report.repair_seconds;
-}
-
-void RunTotals::count(kernel::Event::Kind kind) {
-    using Kind = kernel::Event::Kind;
-    switch (kind) {
-        case Kind::merge: ++events.merge; break;
-        case Kind::split: ++events.split; break;
-        case Kind::handle_opened: ++events.handle_opened; break;
-        case Kind::handle_closed: ++events.handle_closed; break;
-        case Kind::vanished: ++events.vanished; break;
-        case Kind::born: ++events.born; break;
-        case Kind::unpinched: ++events.unpinched; break;
-    }
 }
 
 std::uint64_t RunTotals::refused(repair::Refusal reason) const {

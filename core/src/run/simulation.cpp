@@ -316,7 +316,7 @@ private:
         result_.totals.refine_requested += tets.size();
         result_.totals.refine_committed += deformer_.relabel(tets, labels, policy(context), events);
         for (const kernel::Event& event : events) {
-            result_.totals.count(event.kind);
+            result_.totals.events.add(event.kind);
             tell(event);
         }
     }

@@ -23,7 +23,7 @@ ordered_json distances(const std::optional<surface::CloudEvaluation>& figures, b
 }
 
 ordered_json events(const RunTotals& totals) {
-    const repair::EventCounts& e = totals.events;
+    const kernel::EventCounts& e = totals.events;
     return {{"merge", e.merge},
             {"split", e.split},
             {"handle_opened", e.handle_opened},

@@ -49,6 +49,16 @@ double area(const TriangleMesh& mesh) {
     return sum;
 }
 
+double mean_edge(std::span<const Vec3> points,
+                 std::span<const std::array<std::uint32_t, 3>> faces) {
+    double sum = 0.0;
+    for (const auto& [a, b, c] : faces) {
+        sum += (points[b] - points[a]).norm() + (points[c] - points[b]).norm() +
+               (points[a] - points[c]).norm();
+    }
+    return faces.empty() ? 0.0 : sum / static_cast<double>(3 * faces.size());
+}
+
 double volume(const TriangleMesh& mesh) {
     if (mesh.faces.empty()) return 0.0;
     // Relative to the centre, so that a small mesh far from the origin keeps its digits.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <dsc/geometry/quality.hpp>
+#include <dsc/surface/measure.hpp>
 
 namespace dsc::surface {
 namespace {
@@ -133,7 +134,6 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
     view.face_normals.resize(m);
     view.face_areas.resize(m);
     view.face_offsets.assign(n + 1, 0);
-    double edges = 0.0;
     for (std::size_t f = 0; f < m; ++f) {
         const Vec3 &p = view.positions[view.faces[f][0]], &q = view.positions[view.faces[f][1]],
                    &r = view.positions[view.faces[f][2]];
@@ -141,10 +141,9 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
         const double length = cross.norm();
         view.face_areas[f] = 0.5 * length;
         view.face_normals[f] = length > 0.0 ? Vec3(cross / length) : Vec3(Vec3::Zero());
-        edges += (q - p).norm() + (r - q).norm() + (p - r).norm();
         for (const auto v : view.faces[f]) ++view.face_offsets[v + 1];
     }
-    view.mean_edge = m > 0 ? edges / static_cast<double>(3 * m) : 0.0;
+    view.mean_edge = mean_edge(view.positions, view.faces);
     for (std::size_t i = 0; i < n; ++i) view.face_offsets[i + 1] += view.face_offsets[i];
     view.vertex_faces.resize(3 * m);
     view.normals.assign(n, Vec3::Zero());

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <dsc/geometry/quality.hpp>
+#include <dsc/surface/measure.hpp>
 
 namespace dsc::sdk {
 namespace {
@@ -46,17 +47,14 @@ surface::TriangleMesh split_in_four(const surface::TriangleMesh& mesh) {
 void fill_faces(const surface::TriangleMesh& mesh, surface::SurfaceView& view) {
     view.faces = mesh.faces;
     view.face_tets.assign(mesh.faces.size(), mesh::none);
-    double edges = 0;
     for (const auto& [a, b, c] : mesh.faces) {
         const Vec3& p = mesh.points[a];
         const Vec3& q = mesh.points[b];
         const Vec3& r = mesh.points[c];
         view.face_normals.push_back(geometry::triangle_normal(p, q, r));
         view.face_areas.push_back(geometry::triangle_area(p, q, r));
-        edges += (q - p).norm() + (r - q).norm() + (p - r).norm();
     }
-    view.mean_edge =
-        mesh.faces.empty() ? 0.0 : edges / (3.0 * static_cast<double>(mesh.faces.size()));
+    view.mean_edge = surface::mean_edge(mesh.points, mesh.faces);
 }
 
 void fill_vertex_faces(surface::SurfaceView& view) {

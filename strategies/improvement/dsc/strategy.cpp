@@ -56,7 +56,7 @@ public:
 
     /// The parameters that an experiment may set; the values here are the defaults.
     struct Params : dsc::improvement::Thresholds {
-        double flatness = 0.995;
+        double flatness = dsc::repair::default_flatness;
         Topology topology;
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {

@@ -15,7 +15,7 @@ class IllinoisImprovement final : public dsc::hooks::Improvement {
 public:
     /// The parameters that an experiment may set; the values here are the defaults.
     struct Params : dsc::improvement::RepairLimits {
-        double flatness = 0.995;
+        double flatness = dsc::repair::default_flatness;
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("flat", &Params::flat)

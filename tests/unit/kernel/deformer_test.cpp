@@ -125,7 +125,7 @@ TEST_CASE("destinations are clamped to the box shrunk by 2 L") {
 
 TEST_CASE("a shrinking sphere vanishes as one counted event") {
     Deformer d(ball(12, 0.7));
-    repair::EventCounts counts;
+    kernel::EventCounts counts;
     for (int i = 0; i < 60 && !d.complex().interface_vertices().empty(); ++i) {
         const StepReport report = drive(d, test::quality_policy(),
                                         [](const Vec3& p) { return Vec3(-0.05 * p.normalized()); });

@@ -22,7 +22,7 @@ public:
                          std::vector<repair::Request>& out) = 0;
 
     /// Cosine between unit normals above which neighbouring interface faces count as flat.
-    virtual double flatness() const { return 0.995; }
+    virtual double flatness() const { return repair::default_flatness; }
 
     virtual repair::TopologyLimits topology_limits() const { return {}; }
     /// Receives all candidates of a step as one batch. Sets accept[i] to 1 for those that may be

@@ -34,7 +34,8 @@ struct CollapseRequest {
 /// An edge whose two faces shall get the other diagonal (method.md, section 4.5).
 struct FlipRequest {
     std::array<std::uint32_t, 2> edge = {0, 0};  ///< joined view vertices
-    double flatness = 0.995;  ///< least cosine between the normals of its faces; sharper edges stay
+    double flatness = repair::default_flatness;  ///< least cosine between the normals of its faces;
+                                                 ///< sharper edges stay
 };
 
 /// A vertex that shall move to another place.

@@ -41,7 +41,7 @@ struct RepairPolicy {
     /// Accepts topology candidates; empty: all are accepted.
     std::function<void(std::span<const repair::TopologyCandidate>, std::span<std::uint8_t>)> select;
     repair::TopologyLimits topology;
-    double flatness = 0.995;
+    double flatness = repair::default_flatness;
     bool size_edits = true;  ///< passed to `propose`: false if a refinement owns the sizing
     std::optional<repair::CreaseRule> creases;  ///< rule for creases that edits must keep; empty:
                                                 ///< edits may remove any crease
@@ -58,7 +58,7 @@ struct CollapseTo {
 /// least `flatness`.
 struct FlipTo {
     mesh::VertexId a = mesh::none, b = mesh::none;
-    double flatness = 0.995;
+    double flatness = repair::default_flatness;
 };
 
 /// A movable vertex and its destination.

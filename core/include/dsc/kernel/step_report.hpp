@@ -45,6 +45,15 @@ struct Event {
 };
 std::string_view name(Event::Kind kind);
 
+/// Number of events per kind.
+struct EventCounts {
+    std::uint64_t merge = 0, split = 0, handle_opened = 0, handle_closed = 0, vanished = 0,
+                  born = 0, unpinched = 0;
+
+    void add(Event::Kind kind);
+    EventCounts& operator+=(const EventCounts& other);
+};
+
 /// What one step of the Deformer did; the counts do not depend on the CPU.
 struct StepReport {
     unsigned rounds = 0;
@@ -61,7 +70,7 @@ struct StepReport {
     OperationTable operations{};
     RepairClassTable repair_classes{};
     std::vector<Event> events;
-    repair::EventCounts event_counts;
+    EventCounts event_counts;
     double move_seconds = 0.0;  ///< wall time, for phase_s only
     double repair_seconds = 0.0;
 };

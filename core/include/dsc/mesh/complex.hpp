@@ -269,4 +269,7 @@ private:
     mutable std::uint32_t face_stamp_ = 0;
 };
 
+/// Mean length of the interface's edges; 0 without an interface. It does not depend on the slots.
+double mean_interface_edge(const Complex& complex);
+
 }  // namespace dsc::mesh

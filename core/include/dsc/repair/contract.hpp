@@ -107,6 +107,10 @@ struct CreaseRule {
     double turn = 0.7954;   ///< largest angle in radians by which an edit may turn a face: acos 0.7
 };
 
+/// Cosine between the normals of two interface faces above which they count as flat, unless a
+/// strategy or the caller sets another value.
+inline constexpr double default_flatness = 0.995;
+
 /// What a repair round offers (method.md, section 6.2). Spans are valid during the call.
 struct RepairRound {
     const mesh::Complex& complex;
@@ -158,12 +162,6 @@ struct TopologyCandidate {
     Vec3 centroid = Vec3::Zero();
     double thickness = 0.0;  ///< in target lengths
     double volume = 0.0;     ///< in regular tets of edge L
-};
-
-/// Counters of topology changes.
-struct EventCounts {
-    std::uint64_t merge = 0, split = 0, handle_opened = 0, handle_closed = 0, vanished = 0,
-                  born = 0, unpinched = 0;
 };
 
 }  // namespace dsc::repair

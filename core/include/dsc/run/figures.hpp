@@ -73,7 +73,7 @@ struct RunTotals {
     kernel::OperationTable operations{};
     kernel::RepairClassTable repair_classes{};
     std::vector<std::string> repair_class_names;  ///< names of the first entries of repair_classes
-    repair::EventCounts events;
+    kernel::EventCounts events;
     mesh::AdoptReport adopted;
     hooks::Figures initial_mesh;          ///< from the generator
     hooks::Figures initial_mesh_seconds;  ///< CPU seconds of the generator's parts
@@ -83,8 +83,6 @@ struct RunTotals {
                                                                     ///< end()
 
     void add(const kernel::StepReport& report);
-    /// Counts one more event that no step report contains.
-    void count(kernel::Event::Kind kind);
     /// Refused operations by reason, over all operations.
     std::uint64_t refused(repair::Refusal reason) const;
 };

@@ -15,6 +15,11 @@ void require_sound(const TriangleMesh& mesh);
 /// Sum of the faces' areas, in squared units of the points. The mesh must be sound. [parallel]
 double area(const TriangleMesh& mesh);
 
+/// Mean length of the faces' edges: an edge counts once per face, so on a closed surface this is
+/// the mean over its edges. 0 without
+/// faces. Every index must exist. [parallel]
+double mean_edge(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> faces);
+
 /// Signed enclosed volume by the divergence theorem, positive if faces are oriented outwards; valid
 /// for closed meshes only. The mesh must be sound. [parallel]
 double volume(const TriangleMesh& mesh);
