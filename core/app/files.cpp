@@ -1,7 +1,5 @@
 #include "files.hpp"
 
-#include <algorithm>
-
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,6 @@
 // Writes the JSON Schema of the whole experiment.
 #include "json_schema.hpp"
 
-#include <algorithm>
 #include <map>
 
 #include <dsc/plugin/kind.hpp>

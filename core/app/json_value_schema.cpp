@@ -1,5 +1,4 @@
 // Writes the JSON Schema of fields and maps.
-#include <algorithm>
 #include <limits>
 
 #include "config_json.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 // Connects the plugin host and the run module.
 
-#include <memory>
 #include <string>
 #include <vector>
 

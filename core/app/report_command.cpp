@@ -2,7 +2,6 @@
 #include <memory>
 #include <thread>
 
-#include <dsc/base/error.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/report/report.hpp>
 

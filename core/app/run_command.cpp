@@ -1,5 +1,4 @@
 // dsc run
-#include <cmath>
 #include <memory>
 
 #include <dsc/base/error.hpp>

@@ -40,8 +40,7 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("gain", &Params::gain)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("How far along the normals.");
     }
     Gained(const Params& params, const dsc::plugin::Setup&) : gain_(params.gain) {}

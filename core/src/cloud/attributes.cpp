@@ -8,8 +8,6 @@
 #include <dsc/decode/obj.hpp>
 #include <dsc/text/words.hpp>
 
-#include "formats.hpp"
-
 namespace dsc::cloud {
 
 namespace {

@@ -2,7 +2,6 @@
 #include "cells.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace dsc::cloud {
 

@@ -10,8 +10,6 @@
 
 #include <dsc/cloud/read.hpp>
 
-#include "attributes.hpp"
-
 namespace dsc::cloud {
 
 /// How the columns of a line are divided: ';', ',', with `tabs` '\t', or ' ' for blanks and tabs.

@@ -1,10 +1,7 @@
 #pragma once
 // The readers used by read_cloud, one per format. Each throws IoError.
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -10,7 +10,6 @@
 #include <dsc/cloud/winding_field.hpp>
 #include <dsc/text/numbers.hpp>
 
-#include "checks.hpp"
 #include "normal_consistency.hpp"
 #include "one_sided.hpp"
 #include "orient_samples.hpp"

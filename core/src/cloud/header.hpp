@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <limits>
 #include <string>
-#include <string_view>
 
 namespace dsc::cloud {
 

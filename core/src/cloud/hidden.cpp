@@ -58,9 +58,9 @@ std::vector<Disc> discs_of(const Cloud& cloud, const Vec3& origin, const HiddenO
     std::vector<Neighbour> near;
     for (std::size_t i = 0; i < target.size(); ++i) {
         target.search().k_nearest(target[i], members, near);
-        const double spacing = target.spacing(i);
-        discs.push_back({target[i], plane_normal(target.points(), near), options.radius * spacing,
-                         options.depth * spacing});
+        const double distance = target.neighbour_distance(i);
+        discs.push_back({target[i], plane_normal(target.points(), near), options.radius * distance,
+                         options.depth * distance});
     }
     // Isolated points do not represent a surface of that width.
     constexpr double widest = 4.0;

@@ -1,7 +1,6 @@
 // Winding number normal consistency [Lin2024]: descent steps and turns.
 #include "normal_consistency.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <dsc/base/error.hpp>

@@ -2,7 +2,6 @@
 #include "one_sided.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <map>
 #include <vector>
 
 #include <fmt/core.h>

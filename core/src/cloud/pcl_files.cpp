@@ -1,5 +1,4 @@
 // Reads PCD and PLY files with PCL's PCLPointCloud2, which keeps fields of type double.
-#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>

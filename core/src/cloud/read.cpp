@@ -1,7 +1,6 @@
 // Reads point clouds: chooses the format and checks the columns.
 #include "dsc/cloud/read.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include <dsc/base/byte_order_mark.hpp>

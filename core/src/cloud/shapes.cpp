@@ -1,7 +1,6 @@
 // Samples and meshes of the built-in shapes.
 #include "dsc/cloud/shapes.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

@@ -2,7 +2,6 @@
 // The built-in shapes behind a common interface.
 
 #include <memory>
-#include <string_view>
 
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/shapes.hpp>

@@ -1,4 +1,4 @@
-// The cloud as strategies see it; spacings are computed on demand.
+// The cloud as strategies see it; the distances to the sixth neighbours are computed on demand.
 #include "dsc/cloud/target.hpp"
 
 #include <mutex>
@@ -6,7 +6,7 @@
 
 namespace dsc::cloud {
 
-struct TargetCloud::Spacings {
+struct TargetCloud::Distances {
     std::once_flag once;
     std::vector<double> values;
 };
@@ -26,9 +26,9 @@ std::vector<T> one_per_point(const std::vector<T>& values, const Normalized& nor
 constexpr std::size_t wanted = 6;
 constexpr std::size_t searched = 16, searched_again = 128;  // more if many points coincide
 
-// Distance to the sixth neighbour (to the last one if there are fewer), and the number of
-// neighbours. Coinciding points count once, and points that coincide with p do not count. Equal
-// points have equal distances, so only those are compared.
+// The neighbour distance: to the sixth neighbour (to the last one if there are fewer), and the
+// number of neighbours. Coinciding points count once, and points that coincide with p do not count.
+// Equal points have equal distances, so only those are compared.
 std::pair<double, std::size_t> sixth_neighbour_distance(std::span<const Vec3> points,
                                                         std::span<const Neighbour> around) {
     double last = 0.0;
@@ -51,7 +51,7 @@ std::pair<double, std::size_t> sixth_neighbour_distance(std::span<const Vec3> po
 
 TargetCloud::TargetCloud(const Normalized& normalized)
     : search_(std::make_shared<const NearestSearch>(normalized.points)),
-      spacings_(std::make_shared<Spacings>()),
+      distances_(std::make_shared<Distances>()),
       transform_(normalized.transform),
       box_(bounding_box(search_->points())),
       attributes_(attributes_of(normalized)),
@@ -71,10 +71,10 @@ const Statistics& TargetCloud::statistics(Workers* workers) const {
     return measured_->statistics;
 }
 
-double TargetCloud::spacing(std::size_t index) const {
-    std::call_once(spacings_->once, [this] {
+double TargetCloud::neighbour_distance(std::size_t index) const {
+    std::call_once(distances_->once, [this] {
         std::vector<Neighbour> around;
-        spacings_->values.reserve(size());
+        distances_->values.reserve(size());
         for (const Vec3& p : points()) {
             search_->k_nearest(p, searched, around);
             auto [distance, distinct] = sixth_neighbour_distance(points(), around);
@@ -82,10 +82,10 @@ double TargetCloud::spacing(std::size_t index) const {
                 search_->k_nearest(p, searched_again, around);
                 distance = sixth_neighbour_distance(points(), around).first;
             }
-            spacings_->values.push_back(distance);
+            distances_->values.push_back(distance);
         }
     });
-    return spacings_->values[index];
+    return distances_->values[index];
 }
 
 }  // namespace dsc::cloud

@@ -1,7 +1,6 @@
 // Writes point clouds.
 #include "dsc/cloud/write.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <string>

@@ -2,7 +2,6 @@
 #include "dsc/config/diagnostics.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 #include <fmt/core.h>

@@ -1,7 +1,6 @@
 #pragma once
 // Builds trees for the YAML reader: first without paths; one pass over the finished tree adds them.
 
-#include <string>
 #include <vector>
 
 #include <dsc/config/node.hpp>

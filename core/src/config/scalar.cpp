@@ -2,10 +2,8 @@
 #include "config/scalar.hpp"
 
 #include <charconv>
-#include <cmath>
 #include <system_error>
 
-#include <dsc/config/yaml.hpp>
 #include <dsc/text/words.hpp>
 
 namespace dsc::config {

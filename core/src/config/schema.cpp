@@ -9,7 +9,6 @@
 
 #include <dsc/config/field_text.hpp>
 #include <dsc/config/spelling.hpp>
-#include <dsc/config/yaml.hpp>
 #include <dsc/text/words.hpp>
 
 #include "config/field_value.hpp"

@@ -1,7 +1,6 @@
 // Replaces ${NAME} in strings.
 #include "config/variables.hpp"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>

@@ -18,7 +18,6 @@
 #include <dsc/text/words.hpp>
 
 #include "config/node_factory.hpp"
-#include "config/scalar.hpp"
 #include "config/yaml_reader.hpp"
 
 namespace dsc::config {

@@ -10,8 +10,6 @@
 #include <dsc/text/utf8.hpp>
 #include <dsc/text/words.hpp>
 
-#include "config/scalar.hpp"
-
 namespace dsc::config {
 namespace {
 

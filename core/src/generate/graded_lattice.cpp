@@ -2,7 +2,6 @@
 #include "dsc/generate/graded_lattice.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include <dsc/base/error.hpp>

@@ -2,7 +2,6 @@
 #include "generate/stuff_collapse.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include <dsc/base/error.hpp>

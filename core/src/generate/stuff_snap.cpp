@@ -2,7 +2,6 @@
 #include "generate/stuff_snap.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include <dsc/base/error.hpp>
 

@@ -2,7 +2,6 @@
 #include "dsc/geometry/quality.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace dsc::geometry {
 

@@ -2,7 +2,6 @@
 // normals are skipped.
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include <fmt/core.h>
 

@@ -7,7 +7,6 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <string>
 #include <utility>
 
 #include <fmt/core.h>

@@ -2,10 +2,7 @@
 // skipped.
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include <fmt/core.h>

@@ -3,7 +3,6 @@
 
 #include <cstring>
 #include <limits>
-#include <string>
 
 #include <embree3/rtcore.h>
 #include <fmt/core.h>

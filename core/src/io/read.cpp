@@ -2,9 +2,7 @@
 #include "dsc/io/read.hpp"
 
 #include <dsc/base/byte_order_mark.hpp>
-#include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
-#include <dsc/io/atomic_file.hpp>
 #include <dsc/io/formats.hpp>
 #include <dsc/text/reading.hpp>
 #include <dsc/text/words.hpp>

@@ -1,9 +1,7 @@
 // STL, text and binary: separate float triangles; the reader joins equal corners.
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <optional>
 
 #include <fmt/core.h>
 

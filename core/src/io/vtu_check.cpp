@@ -1,7 +1,6 @@
 // Checks a VTU or VTP file before VTK reads it.
 #include "io/vtu_check.hpp"
 
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cstdint>

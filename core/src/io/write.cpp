@@ -1,8 +1,6 @@
 // Writes surfaces and volumes: checks, and chooses the format.
 #include "dsc/io/write.hpp"
 
-#include <limits>
-
 #include <fmt/core.h>
 
 #include <dsc/base/error.hpp>

@@ -1,5 +1,4 @@
 // Edge collapse, with and without the interface (method.md, section 4.7).
-#include <cmath>
 #include <optional>
 
 #include <dsc/geometry/quality.hpp>

@@ -2,8 +2,6 @@
 // section 4.10).
 #include "kernel/creases.hpp"
 
-#include <cmath>
-
 #include <dsc/geometry/quality.hpp>
 
 namespace dsc::kernel {

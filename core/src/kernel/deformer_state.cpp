@@ -1,7 +1,6 @@
 // The state of a Deformer: construction, limits and lengths (method.md, section 3).
 #include "kernel/deformer_state.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <dsc/geometry/quality.hpp>

@@ -1,8 +1,6 @@
 // Moves one vertex towards its destination without inverting a tet (method.md, section 5.2).
 #include "kernel/movement.hpp"
 
-#include <cmath>
-
 #include <dsc/mesh/star_quality.hpp>
 
 namespace dsc::kernel {

@@ -1,6 +1,5 @@
 // The parts of a refinement: splits, collapses, flips and moves that it requests (method.md,
 // section 7).
-#include <cmath>
 
 #include "kernel/deformer_state.hpp"
 #include "kernel/movement.hpp"

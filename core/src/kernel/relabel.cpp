@@ -1,6 +1,5 @@
 // The interface shift: a tet, with others if necessary, takes the label around it; the topology
 // stays (method.md, section 4.8).
-#include <dsc/geometry/quality.hpp>
 
 #include "kernel/creases.hpp"
 #include "kernel/operations.hpp"

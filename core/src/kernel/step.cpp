@@ -1,7 +1,6 @@
 // The parts of a step: motion and repair in turn, then topology (method.md, sections 5, 6 and 8).
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "kernel/deformer_state.hpp"
 

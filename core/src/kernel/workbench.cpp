@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include <dsc/base/error.hpp>
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 

@@ -1,7 +1,6 @@
 // Turns plain arrays into a complex, or names the first fault (method.md, section 1.3).
 #include "dsc/mesh/adopt.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cassert>
-#include <numeric>
 
 #include <dsc/geometry/quality.hpp>
 

@@ -1,6 +1,5 @@
 // Linking a cavity: finds the neighbours of the added tets, among each other and across the
 // boundary of the cavity (method.md, section 4.1).
-#include <algorithm>
 #include <bit>
 
 #include <dsc/mesh/complex.hpp>

@@ -3,7 +3,6 @@
 #include "dsc/mesh/vertex_split.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>

@@ -1,5 +1,4 @@
 // Velocity and curvature: checks batches of values per vertex, which are computed concurrently.
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

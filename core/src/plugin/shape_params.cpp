@@ -41,19 +41,16 @@ void declare_shape(config::ParamSchema<Shape>& schema) {
              "inside.");
     schema.vec3("centre", &Shape::centre).unit("length").doc("The shape's centre.");
     schema.real("radius", &Shape::radius)
-        .greater(0)
-        .unit("length")
+        .greater(0, "length")
         .doc("Radius of a sphere or a cylinder.");
     schema.vec3("half_size", &Shape::half_size)
-        .greater(0)
-        .unit("length")
+        .greater(0, "length")
         .doc("Half the edges of a box along the coordinate axes.");
     schema.vec3("axis", &Shape::axis)
         .unit("dimensionless")
         .doc("Direction of a cylinder's axis; its length does not matter.");
     schema.real("half_length", &Shape::half_length)
-        .greater(0)
-        .unit("length")
+        .greater(0, "length")
         .doc("Half the length of a cylinder.");
     schema.integer("label", &Shape::label).range(1, 1000).doc("Label that 'add' gives.");
     schema.check([](const Shape& s) { return s.axis.norm() > 1e-9; },

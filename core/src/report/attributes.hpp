@@ -1,8 +1,6 @@
 #pragma once
 // Attributes of surfaces in the report's viewer: one byte per drawn vertex.
 
-#include <cstddef>
-#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>

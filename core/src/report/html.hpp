@@ -2,7 +2,6 @@
 // Text for HTML and SVG. Everything from a run goes through text(), so that no name can become
 // markup.
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>

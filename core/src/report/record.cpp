@@ -7,7 +7,6 @@
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/config/yaml.hpp>
-#include <dsc/io/atomic_file.hpp>
 #include <dsc/run/run_folder.hpp>
 
 namespace dsc::report {

@@ -2,8 +2,6 @@
 // A finished run as its folder contains it: the data of a report.
 
 #include <filesystem>
-#include <limits>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

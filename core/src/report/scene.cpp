@@ -2,7 +2,6 @@
 #include "scene.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <filesystem>
 

@@ -7,10 +7,8 @@
 #include <vector>
 
 #include <dsc/base/workers.hpp>
-#include <dsc/mesh/tet_mesh.hpp>
 #include <dsc/plugin/catalogue.hpp>
 #include <dsc/run/input.hpp>
-#include <dsc/surface/triangle_mesh.hpp>
 
 #include "record.hpp"
 

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include <dsc/base/read_file.hpp>
-#include <dsc/io/atomic_file.hpp>
 #include <dsc/run/metrics.hpp>
 
 #include "html.hpp"

@@ -1,8 +1,6 @@
 // The checks and warnings at the top of a report.
 #include "warnings.hpp"
 
-#include <algorithm>
-
 #include "html.hpp"
 
 namespace dsc::report {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include <dsc/base/error.hpp>
 #include <dsc/config/overrides.hpp>

@@ -25,16 +25,14 @@ std::vector<std::pair<std::string, std::string>> shapes() {
 
 void declare_sample(config::ParamSchema<SampleInput>& s) {
     s.choice("shape", &SampleInput::shape, shapes()).doc("Built-in shape.");
-    s.integer("n", &SampleInput::n).range(1, 10000000).unit("points").doc("Number of points.");
+    s.integer("n", &SampleInput::n).range(1, 10000000, "points").doc("Number of points.");
     s.real("noise", &SampleInput::noise)
-        .range(0, 1)
-        .unit("diagonals")
+        .range(0, 1, "diagonals")
         .doc("Standard deviation of the noise of each coordinate, as a fraction of the shape's "
              "diagonal.");
     s.real("outliers", &SampleInput::outliers)
-        .range(0, 1)
+        .range(0, 1, "dimensionless")
         .open_high()
-        .unit("dimensionless")
         .doc("Fraction of the points that lie anywhere in the shape's box, enlarged 1.2 times.");
 }
 
@@ -63,9 +61,8 @@ void declare_cloud(config::ParamSchema<CloudInput>& s) {
 
 void declare_normalize(config::ParamSchema<NormalizeInput>& s) {
     s.real("scale", &NormalizeInput::scale)
-        .range(0, 1.5)
+        .range(0, 1.5, "length")
         .open_low()
-        .unit("length")
         .doc("Longest half-extent of the cloud after it is centred in the box [-1.5, 1.5]^3.");
 }
 
@@ -78,10 +75,9 @@ void declare_input(config::ParamSchema<Input>& s) {
 }
 
 void declare_series(config::ParamSchema<Series>& s) {
-    s.integer("steps", &Series::steps).range(1, 1000000).unit("steps").doc("Number of steps.");
+    s.integer("steps", &Series::steps).range(1, 1000000, "steps").doc("Number of steps.");
     s.integer("every", &Series::every)
-        .range(1, 1000000)
-        .unit("steps")
+        .range(1, 1000000, "steps")
         .doc("Number of steps between refinements.");
     s.strategy("refine", &Series::refine, "refinement")
         .optional()
@@ -99,43 +95,36 @@ void declare_series(config::ParamSchema<Series>& s) {
 
 void declare_stop(config::ParamSchema<Stop>& s) {
     s.real("speed", &Stop::speed)
-        .range(0, 1000)
+        .range(0, 1000, "current mean edges")
         .open_low()
-        .unit("current mean edges")
         .doc("A series of steps ends when the largest speed per step stays below this.");
     s.integer("patience", &Stop::patience)
-        .range(1, 1000000)
-        .unit("steps")
+        .range(1, 1000000, "steps")
         .doc("Number of steps in a row with a lower speed.");
 }
 
 void declare_checkpoint(config::ParamSchema<CheckpointOutput>& s) {
     s.integer("every", &CheckpointOutput::every)
-        .range(1, 1000000)
-        .unit("steps")
+        .range(1, 1000000, "steps")
         .doc("Steps between checkpoints.");
     s.integer("keep", &CheckpointOutput::keep)
-        .range(1, 1000)
-        .unit("dimensionless")
+        .range(1, 1000, "dimensionless")
         .doc("Number of checkpoints that are kept.");
 }
 
 void declare_states(config::ParamSchema<SeriesOutput>& s) {
     s.integer("every", &SeriesOutput::every)
-        .range(1, 1000000)
-        .unit("steps")
+        .range(1, 1000000, "steps")
         .doc("Steps between states.");
 }
 
 void declare_trim(config::ParamSchema<TrimOutput>& s) {
     s.real("distance", &TrimOutput::distance)
-        .greater(0)
-        .unit("spacings")
+        .greater(0, "spacings")
         .doc("Faces with a vertex farther than this from the nearest point are removed. A spacing "
              "is the square root of the area per point there.");
     s.real("support", &TrimOutput::support)
-        .range(0, 1)
-        .unit("dimensionless")
+        .range(0, 1, "dimensionless")
         .doc("Faces with a vertex of less support are also removed, if the velocity publishes the "
              "support of vertices, as surface_fit does. 0: none.");
 }
@@ -185,8 +174,7 @@ void Experiment::declare(config::ParamSchema<Experiment>& s) {
     s.string("name", &Experiment::name)
         .doc("Names the run's folder: letters, digits, '.', '_', '-'.");
     s.integer("seed", &Experiment::seed)
-        .at_least(0)
-        .unit("dimensionless")
+        .at_least(0, "dimensionless")
         .doc("Seed of all random streams.");
     s.strings("plugins", &Experiment::plugins)
         .doc("Plugin libraries, or folders that contain them, relative to the experiment's file.");

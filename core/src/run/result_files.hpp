@@ -3,7 +3,6 @@
 // written files.
 
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>

@@ -9,9 +9,7 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
-#include <dsc/geometry/quality.hpp>
 #include <dsc/io/picture.hpp>
-#include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
 #include <dsc/run/provenance.hpp>
 #include <dsc/run/run_folder.hpp>

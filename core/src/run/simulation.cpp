@@ -1,8 +1,6 @@
 // Runs the schedule of an experiment: steps, refinements, figures, checkpoints.
 #include "dsc/run/simulation.hpp"
 
-#include <algorithm>
-
 #include <dsc/base/error.hpp>
 #include <dsc/base/state.hpp>
 #include <dsc/kernel/deformer.hpp>

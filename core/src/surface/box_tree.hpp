@@ -2,7 +2,6 @@
 // A binary tree of boxes over items, for queries in double precision.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>

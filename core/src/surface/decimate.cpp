@@ -1,8 +1,6 @@
 // Collapses edges by quadric error [Garland1997], with OpenMesh.
 #include "dsc/surface/decimate.hpp"
 
-#include <string>
-
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>

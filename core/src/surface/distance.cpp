@@ -1,8 +1,6 @@
 // Nearest points of meshes and clouds.
 #include "dsc/surface/distance.hpp"
 
-#include <string>
-
 #include <fmt/core.h>
 
 #include <dsc/base/error.hpp>

@@ -1,7 +1,6 @@
 // Measures the thickness of the solid with rays.
 #include "dsc/surface/thickness.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include "surface/box_tree.hpp"

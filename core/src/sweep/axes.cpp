@@ -2,15 +2,12 @@
 #include "axes.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
 #include <dsc/base/random.hpp>
 #include <dsc/config/params.hpp>
 #include <dsc/config/schema.hpp>
-#include <dsc/config/spelling.hpp>
 #include <dsc/sweep/sweep.hpp>
 #include <dsc/text/numbers.hpp>
 

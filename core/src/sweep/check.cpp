@@ -1,6 +1,5 @@
 // Validates every point of a sweep as an experiment and reports all faults at once.
 #include <map>
-#include <optional>
 #include <set>
 #include <string_view>
 

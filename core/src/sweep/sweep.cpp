@@ -48,12 +48,10 @@ struct SweepFile {
 
 void declare_random(config::ParamSchema<RandomAxis>& s) {
     s.integer("n", &RandomAxis::n)
-        .range(1, most_sweep_points)
-        .unit("points")
+        .range(1, most_sweep_points, "points")
         .doc("Number of draws. A larger number only adds points.");
     s.integer("seed", &RandomAxis::seed)
-        .at_least(0)
-        .unit("dimensionless")
+        .at_least(0, "dimensionless")
         .doc("Seed of the draws, not of the experiments.");
     s.object("ranges", &RandomAxis::ranges, declare_paths)
         .doc("Dotted path to {from, to, scale: linear or log, integer}.");
@@ -94,8 +92,7 @@ void declare_sweep(config::ParamSchema<SweepFile>& s) {
         .at_least(0)
         .doc("Repeats every point with each of these seeds.");
     s.integer("repeat", &SweepFile::repeat)
-        .range(1, most_sweep_points)
-        .unit("dimensionless")
+        .range(1, most_sweep_points, "dimensionless")
         .doc("Number of repetitions of every point, with the seeds 1, 2, ...");
     s.check([](const SweepFile& p) { return p.seeds.empty() || !p.repeat; },
             "'seeds' and 'repeat' must not both be given");

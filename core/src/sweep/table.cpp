@@ -9,7 +9,6 @@
 #include <dsc/base/read_file.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/config/yaml.hpp>
-#include <dsc/io/atomic_file.hpp>
 
 namespace dsc::sweep {
 namespace {

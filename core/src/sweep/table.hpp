@@ -1,7 +1,6 @@
 #pragma once
 // The job table of a sweep, jobs.tsv, which engines read: one line per point.
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <dsc/base/error.hpp>
 #include <dsc/plugin/fingerprint.hpp>
 
 #include "process.hpp"

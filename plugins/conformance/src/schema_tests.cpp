@@ -1,7 +1,6 @@
 // schema.*: the declaration of the parameters.
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
@@ -41,12 +40,12 @@ constexpr std::array unit_words = {
     "directions",
     "levels",
     "point distances",
-    "point spacings",
+    "neighbour distances",
     "2",
     "3",
     "threads",
     "rounds",
-    "point widths",
+    "spacings",
     "budgets",
     "sweeps",
 };

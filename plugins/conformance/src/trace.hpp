@@ -1,7 +1,6 @@
 #pragma once
 // Trace: all answers of a strategy in an exercise, for a comparison bit by bit.
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>

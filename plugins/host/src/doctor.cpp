@@ -1,8 +1,6 @@
 #include "dsc/host/doctor.hpp"
 
 #include <algorithm>
-#include <array>
-#include <functional>
 
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>

@@ -3,8 +3,6 @@
 // library runs, including its static constructors and the start-up code of a sanitizer that the
 // host lacks.
 
-#include <array>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 

@@ -16,10 +16,9 @@ public:
     using Params = dsc::cloud::ClustersOptions;
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("closer", &Params::closer)
-            .range(0, 1)
+            .range(0, 1, "point distances")
             .open_low()
             .open_high()
-            .unit("point distances")
             .doc("Distance to an earlier point up to which a point is removed; 1 is the distance "
                  "that the 24 nearest points would have if they were spread evenly.");
     }

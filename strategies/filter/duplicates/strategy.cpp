@@ -16,8 +16,7 @@ public:
     using Params = dsc::cloud::DuplicatesOptions;
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("tolerance", &Params::tolerance)
-            .range(0, 1)
-            .unit("diagonals")
+            .range(0, 1, "diagonals")
             .doc("Distance to an earlier point up to which a point is removed; 0 removes only "
                  "exact repetitions.");
         schema.boolean("sort", &Params::sort)

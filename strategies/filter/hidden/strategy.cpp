@@ -17,23 +17,19 @@ public:
     using Params = dsc::cloud::HiddenOptions;
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.integer("views", &Params::views)
-            .range(1, 10000)
-            .unit("directions")
+            .range(1, 10000, "directions")
             .doc("Number of view directions on all sides of the cloud.");
         schema.real("radius", &Params::radius)
-            .range(0, 10)
+            .range(0, 10, "neighbour distances")
             .open_low()
-            .unit("point spacings")
             .doc("Radius of the disc that represents the surface around a point.");
         schema.real("depth", &Params::depth)
-            .range(0, 10)
+            .range(0, 10, "neighbour distances")
             .open_low()
-            .unit("point spacings")
             .doc("Distance behind a disc from which the disc hides a point.");
         schema.real("share", &Params::share)
-            .range(0, 1)
+            .range(0, 1, "dimensionless")
             .open_high()
-            .unit("dimensionless")
             .doc("Fraction of the views; a point that this fraction of the views or fewer see is "
                  "removed.");
     }

@@ -76,8 +76,7 @@ public:
             .doc("Use every point (or every cell of a large cloud) from the beginning of the "
                  "estimate; slower, but better for parts thinner than a few points.");
         schema.integer("iterations", &Params::iterations)
-            .range(1, 1000)
-            .unit("dimensionless")
+            .range(1, 1000, "dimensionless")
             .doc("Number of iterations of the coarse stage of the estimate.");
         schema
             .choice("one_sided", &Params::one_sided,

@@ -17,22 +17,18 @@ public:
     using Params = dsc::cloud::OutliersOptions;
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("isolated", &Params::isolated)
-            .range(1.01, 1000)
-            .unit("dimensionless")
+            .range(1.01, 1000, "dimensionless")
             .doc("Factor above which a point is isolated: its distance to its 8th neighbour over "
                  "that of its neighbours, and over that of most points.");
         schema.real("far", &Params::far)
-            .range(1.01, 1e6)
-            .unit("dimensionless")
+            .range(1.01, 1e6, "dimensionless")
             .doc("Largest allowed factor between the distance of a point to its 8th neighbour and "
                  "that of most points.");
         schema.real("most", &Params::most)
-            .range(0, 0.99)
-            .unit("dimensionless")
+            .range(0, 0.99, "dimensionless")
             .doc("Fraction of the points; if more than this would be removed, none is removed.");
         schema.real("dirty", &Params::dirty)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Fraction of isolated points above which all points are searched in rounds for "
                  "outliers among outliers.");
     }

@@ -15,13 +15,11 @@ public:
     using Params = dsc::cloud::RadiusOutliersOptions;
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("radius", &Params::radius)
-            .range(0, 1)
+            .range(0, 1, "diagonals")
             .open_low()
-            .unit("diagonals")
             .doc("Radius within which neighbours are counted.");
         schema.integer("neighbours", &Params::neighbours)
-            .range(1, 1000)
-            .unit("points")
+            .range(1, 1000, "points")
             .doc("Number of neighbours below which a point is removed.");
     }
 

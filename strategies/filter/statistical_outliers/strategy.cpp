@@ -18,12 +18,10 @@ public:
     using Params = dsc::cloud::StatisticalOutliersOptions;
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.integer("neighbours", &Params::neighbours)
-            .range(1, 1000)
-            .unit("points")
+            .range(1, 1000, "points")
             .doc("Number of nearest points whose mean distance is used.");
         schema.real("deviations", &Params::deviations)
-            .range(0, 1000)
-            .unit("dimensionless")
+            .range(0, 1000, "dimensionless")
             .doc("Number of standard deviations above the mean of all points that the mean "
                  "distance of a point may have.");
     }

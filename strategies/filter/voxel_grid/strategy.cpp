@@ -15,9 +15,8 @@ public:
     using Params = dsc::cloud::VoxelGridOptions;
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("size", &Params::size)
-            .range(0, 1)
+            .range(0, 1, "diagonals")
             .open_low()
-            .unit("diagonals")
             .doc("Edge of a cell; one point of each occupied cell stays.");
     }
 

@@ -1,7 +1,6 @@
 #include "proposals.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <dsc/geometry/quality.hpp>
 

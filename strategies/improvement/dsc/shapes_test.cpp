@@ -1,14 +1,12 @@
 // The thresholds of edges, faces and large tets: the requests, counted again from positions.
 #include "shapes.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include <dsc/geometry/quality.hpp>
-#include <dsc/mesh/adopt.hpp>
 
 namespace {
 

@@ -32,23 +32,20 @@ public:
                 .doc("Allow bridges across thin gaps of label 0.");
             schema.boolean("cut", &Topology::cut).doc("Allow cuts through thin necks.");
             schema.real("thickness", &Topology::thickness)
-                .range(0, 2)
-                .unit("target lengths (L)")
+                .range(0, 2, "target lengths (L)")
                 .doc("Largest thickness of sheets, gaps and necks that may change topology; 0 "
                      "switches all changes off.");
             schema.real("support", &Topology::support)
-                .range(0, 10)
-                .unit("target lengths (L)")
+                .range(0, 10, "target lengths (L)")
                 .doc("Distance from the centre of a change within which a cloud point forbids it.");
             schema.real("spacing", &Topology::spacing)
-                .range(0, 10)
-                .unit("dimensionless")
+                .range(0, 10, "neighbour distances")
                 .doc("Distance from necks and rims of sheets within which a cloud point forbids a "
-                     "change, in distances from the point to its sixth neighbour: where the cloud "
-                     "is sparse, few points lie on a thin part of the object.");
+                     "change. The unit is the distance from the point to its sixth neighbour, "
+                     "because few points lie on a thin part of the object where the cloud is "
+                     "sparse.");
             schema.real("min_component", &Topology::min_component)
-                .range(0, 1000)
-                .unit("dimensionless")
+                .range(0, 1000, "dimensionless")
                 .doc("Volume below which components are removed, in regular tets with edges of the "
                      "target length.");
         }
@@ -61,77 +58,62 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("min_tet_quality", &Params::min_tet_quality)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Volume-length quality below which tets are repaired.");
         schema.real("degenerate_tet_quality", &Params::degenerate_tet_quality)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Quality below which tets are removed, even if this changes the shape of the "
                  "interface within the kernel's bounds.");
         schema.real("smooth_below", &Params::smooth_below)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Quality of tets below which their free vertices are smoothed.");
         schema.real("min_edge_length", &Params::min_edge_length)
-            .range(0, 1)
-            .unit("target lengths (L)")
+            .range(0, 1, "target lengths (L)")
             .doc("Length below which interface edges are collapsed.");
         schema.real("max_edge_length", &Params::max_edge_length)
-            .range(1, 100)
-            .unit("target lengths (L)")
+            .range(1, 100, "target lengths (L)")
             .doc("Length above which interface edges are split where the interface is not flat.");
         schema.real("min_tet_volume", &Params::min_tet_volume)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Volume below which tets are collapsed, in regular tets with edges of the target "
                  "length.");
         schema.real("max_free_edge", &Params::max_free_edge)
-            .range(0, 100)
-            .unit("target lengths (L)")
+            .range(0, 100, "target lengths (L)")
             .doc("Length above which edges from the interface into a phase are split, so that the "
                  "surface does not get stuck when it moves into large tets; 0 switches this off.");
         schema.real("degenerate_edge_quality", &Params::degenerate_edge_quality)
-            .range(0, 1)
-            .unit("target lengths (L)")
+            .range(0, 1, "target lengths (L)")
             .doc("Length below which edges, also inside a phase, are collapsed, even if this "
                  "changes the shape of the interface within the kernel's bounds; 0 switches this "
                  "off.");
         schema.real("min_edge_quality", &Params::min_edge_quality)
-            .range(0, 1)
-            .unit("target lengths (L)")
+            .range(0, 1, "target lengths (L)")
             .doc("Length below which edges are collapsed if neither shape nor quality is lost; 0 "
                  "switches this off.");
         schema.real("degenerate_face_quality", &Params::degenerate_face_quality)
-            .range(0, 0.5)
-            .unit("dimensionless")
+            .range(0, 0.5, "dimensionless")
             .doc("Quality, 1 - max |cos| over the corners, below which faces are removed, even if "
                  "this changes the shape of the interface within the kernel's bounds; 0 switches "
                  "this off.");
         schema.real("min_face_quality", &Params::min_face_quality)
-            .range(0, 0.5)
-            .unit("dimensionless")
+            .range(0, 0.5, "dimensionless")
             .doc("Quality below which faces are removed if neither shape nor quality is lost; 0 "
                  "switches this off.");
         schema.real("min_face_area", &Params::min_face_area)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Area below which the shortest edge of an interface face is collapsed, in regular "
                  "triangles with edges of the target length; 0 switches this off.");
         schema.real("max_face_area", &Params::max_face_area)
-            .range(0, 1000)
-            .unit("dimensionless")
+            .range(0, 1000, "dimensionless")
             .doc(
                 "Area above which interface faces, also flat ones, are split at their longest "
                 "edge, in regular triangles with edges of the target length; 0 switches this off.");
         schema.real("max_tet_volume", &Params::max_tet_volume)
-            .range(0, 1e9)
-            .unit("dimensionless")
+            .range(0, 1e9, "dimensionless")
             .doc("Volume above which tets are split at their longest edge, in regular tets with "
                  "edges of the target length; 0 switches this off.");
         schema.real("flatness", &Params::flatness)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .advanced()
             .doc("Cosine between the normals of neighbouring interface faces above which they "
                  "count as flat.");
@@ -190,8 +172,8 @@ public:
             double reach = support;
             if (candidates[i].kind == dsc::repair::TopologyCandidate::Kind::cut ||
                 candidates[i].kind == dsc::repair::TopologyCandidate::Kind::shift) {
-                reach = std::max(reach,
-                                 params_.topology.spacing * context.cloud->spacing(nearest.index));
+                reach = std::max(reach, params_.topology.spacing *
+                                            context.cloud->neighbour_distance(nearest.index));
             }
             accept[i] = nearest.distance > reach ? 1 : 0;
         }

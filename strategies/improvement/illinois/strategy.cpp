@@ -19,53 +19,43 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("flat", &Params::flat)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc(
                 "Altitude below which a tet is flat: the distance of a vertex from the plane of "
                 "the others, in the smaller of the longest edge of the tet and the target length.");
         schema.real("wedge", &Params::wedge)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Edge length below which a flat tet is a wedge, in the same unit.");
         schema.real("tee", &Params::tee)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Distance of a vertex from an edge below which a flat tet is a tee, in the same "
                  "unit.");
         schema.real("flip_below", &Params::flip_below)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Fall-back: altitude below which flips and smoothing are tried, in the unit of "
                  "'flat'.");
         schema.real("smooth_below", &Params::smooth_below)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Fall-back: altitude of tets below which their free vertices move to the mean of "
                  "their neighbours, in the unit of 'flat'.");
         schema.real("degenerate_tet_quality", &Params::degenerate_tet_quality)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Volume-length quality below which a collapse may leave no tet, unless the lowest "
                  "quality was already lower.");
         schema.real("least_edge", &Params::least_edge)
-            .range(0, 1)
-            .unit("target lengths (L)")
+            .range(0, 1, "target lengths (L)")
             .doc("Length below which no insertion makes an edge; edges shorter than twice this "
                  "length are not split.");
         schema.real("insertions", &Params::insertions)
-            .range(0, 10)
-            .unit("dimensionless")
+            .range(0, 10, "dimensionless")
             .doc("Number of vertices that may be inserted per step, as a fraction of the interface "
                  "vertices.");
         schema.real("longest_spoke", &Params::longest_spoke)
-            .range(0, 1000)
-            .unit("target lengths (L)")
+            .range(0, 1000, "target lengths (L)")
             .doc("Length above which edges from the interface into a phase are split, as the "
                  "thesis tried with edges to the corners of the box; 0: none is split.");
         schema.real("flatness", &Params::flatness)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .advanced()
             .doc("Cosine between the normals of neighbouring interface faces above which they "
                  "count as flat.");

@@ -112,22 +112,17 @@ public:
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.choice("shape", &Params::shape, {{"sphere", Shape::sphere}, {"box", Shape::box}})
             .doc("Solid with label 1.");
-        schema.real("radius", &Params::radius)
-            .greater(0)
-            .unit("length")
-            .doc("Radius of the sphere.");
+        schema.real("radius", &Params::radius).greater(0, "length").doc("Radius of the sphere.");
         schema.vec3("half_size", &Params::half_size)
             .unit("length")
             .doc("Half the edge lengths of the solid box.");
         schema.vec3("centre", &Params::centre).unit("length").doc("Centre of the solid.");
         schema.integer("divisions", &Params::divisions)
-            .range(1, 200)
-            .unit("dimensionless")
+            .range(1, 200, "dimensionless")
             .costly()
             .doc("Number of edges along an axis from the centre of the solid to its surface.");
         schema.real("box", &Params::box)
-            .greater(0)
-            .unit("length")
+            .greater(0, "length")
             .doc("Half the edge length of the outer box, which is centred at 0.");
         schema.check([](const Params& p) { return p.half_size.minCoeff() > 0; },
                      "half_size must be above 0");

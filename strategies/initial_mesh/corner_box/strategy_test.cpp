@@ -1,5 +1,4 @@
 // Tests of the mesh; the plugin is loaded as in a run.
-#include <cmath>
 #include <set>
 
 #include <doctest/doctest.h>

@@ -88,27 +88,22 @@ public:
                  "shells and cavities.");
         dsc::plugin::declare_coordinates(schema, &Params::coordinates);
         schema.real("fit", &Params::fit)
-            .greater(0)
-            .unit("length")
+            .greater(0, "length")
             .doc("Longest half-extent to which the surface is scaled after it is centred in the "
                  "box; unset: the surface is not moved.");
         schema.integer("label", &Params::label)
-            .range(1, 1000)
-            .unit("dimensionless")
+            .range(1, 1000, "dimensionless")
             .doc("Label of the tets inside.");
         schema.real("tolerance", &Params::tolerance)
-            .greater(0)
-            .unit("finest cells")
+            .greater(0, "finest cells")
             .doc("Greatest distance allowed between surface and interface, in both directions; an "
                  "initial mesh that exceeds it is refused.");
         schema.real("sharp", &Params::sharp)
-            .range(0, 180)
-            .unit("degrees")
+            .range(0, 180, "degrees")
             .doc("Angle between the faces of an edge above which vertices of the interface are "
                  "moved onto the edge and its corners; 180: none are.");
         schema.integer("intersections", &Params::intersections)
-            .range(0, 1000000)
-            .unit("dimensionless")
+            .range(0, 1000000, "dimensionless")
             .doc("Number of pairs of faces that may intersect; the solid contains all points that "
                  "the surface winds around.");
         dsc::plugin::declare_lattice(schema, "the surface");

@@ -56,13 +56,11 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.integer("cells", &Params::cells)
-            .range(1, 200)
-            .unit("dimensionless")
+            .range(1, 200, "dimensionless")
             .costly()
             .doc("Number of cells along each edge of the box.");
         schema.real("box", &Params::box)
-            .greater(0)
-            .unit("length")
+            .greater(0, "length")
             .doc("Half the edge length of the box.");
         schema.vec3("box_centre", &Params::box_centre).unit("length").doc("Centre of the box.");
         dsc::plugin::declare_shapes(schema);

@@ -1,6 +1,5 @@
 // Tests of the mesh; the plugin is loaded as in a run.
 #include <array>
-#include <cmath>
 #include <map>
 #include <set>
 

@@ -1,8 +1,6 @@
 #pragma once
 // How far the labels of a cloud can be trusted: figures, and warnings where they pass a limit.
 
-#include <vector>
-
 #include <dsc/cloud/cloud.hpp>
 #include <dsc/hooks/figures.hpp>
 #include <dsc/mesh/tet_mesh.hpp>

@@ -1,7 +1,6 @@
 #include "labels.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <dsc/base/error.hpp>
 #include <dsc/cloud/search.hpp>

@@ -79,25 +79,21 @@ public:
                  "20,000 points, with linear interpolation between; above that it grows with the "
                  "root of the number of points.");
         schema.integer("vertices", &Params::vertices)
-            .range(100, 10000000)
-            .unit("vertices")
+            .range(100, 10000000, "vertices")
             .doc("Budget of interface vertices; replaces the budget from the number of points and "
                  "`detail`.");
         schema.real("start", &Params::start)
-            .range(0.1, 2)
-            .unit("budgets")
+            .range(0.1, 2, "budgets")
             .doc("Largest number of vertices of the initial interface, as a fraction of the "
                  "budget.");
         schema.real("cell", static_cast<double Params::*>(&indicator::LabelOptions::cell))
-            .range(0.3, 4)
-            .unit("point widths")
+            .range(0.3, 4, "spacings")
             .doc("Edge length of the lattice cells at the points, up to a factor of 1.2. Cells "
                  "twice as large lose thin parts and gaps.");
         schema.real("certain", static_cast<double Params::*>(&indicator::LabelOptions::certain))
-            .range(0, 0.5)
+            .range(0, 0.5, "dimensionless")
             .open_low()
             .open_high()
-            .unit("dimensionless")
             .doc("Difference of the winding number from 1/2 from which a label is certain. A "
                  "handle is kept only if its body and its hole are certain everywhere along it, or "
                  "if the samples round it confirm it.");
@@ -119,12 +115,10 @@ public:
         schema
             .real("least_volume",
                   static_cast<double Params::*>(&indicator::LabelOptions::least_volume))
-            .at_least(0)
-            .unit("point widths^3")
+            .at_least(0, "spacings^3")
             .doc("Volume below which islands are removed and cavities are filled.");
         schema.integer("smoothing", &Params::smoothing)
-            .range(0, 100)
-            .unit("sweeps")
+            .range(0, 100, "sweeps")
             .doc("Number of sweeps that smooth the interface at the end.");
         schema
             .choice("retry", &Params::retry, {{"auto", Retry::automatic}, {"never", Retry::never}})

@@ -7,7 +7,6 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
-#include <dsc/cloud/orientation.hpp>
 #include <dsc/cloud/shapes.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>

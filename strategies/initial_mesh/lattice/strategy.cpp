@@ -16,8 +16,6 @@
 
 namespace {
 
-using dsc::Vec3;
-
 class Lattice final : public dsc::hooks::InitialMesh {
 public:
     /// The parameters that an experiment may set; the values here are the defaults.

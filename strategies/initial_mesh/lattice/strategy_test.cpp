@@ -6,7 +6,6 @@
 #include <doctest/doctest.h>
 
 #include <dsc/base/error.hpp>
-#include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/host/host.hpp>
 #include <dsc/mesh/adopt.hpp>

@@ -60,20 +60,17 @@ public:
                  "'shrinking_sphere', a sphere whose radius is sqrt(radius^2 - 4 t).");
         schema.vec3("centre", &Params::centre).unit("length").doc("Centre of the sphere.");
         schema.real("radius", &Params::radius)
-            .greater(0)
-            .unit("length")
+            .greater(0, "length")
             .doc("Radius of the sphere at the start.");
         schema.real("growth", &Params::growth)
             .unit("length")
             .doc("Growth of the radius of 'growing_sphere' per step.");
         schema.real("time_step", &Params::time_step)
-            .greater(0)
-            .unit("length^2")
+            .greater(0, "length^2")
             .doc("Time per step of 'shrinking_sphere'; use the same value as the velocity.");
         schema.real("down_to", &Params::down_to)
-            .range(0, 1)
+            .range(0, 1, "radius")
             .open_low()
-            .unit("radius")
             .doc("Fraction of the initial radius down to which radius_error includes a shrinking "
                  "sphere.");
     }

@@ -16,8 +16,7 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("factor", &Params::factor)
-            .greater(0)
-            .unit("dimensionless")
+            .greater(0, "dimensionless")
             .doc("Area from which faces are split, in average areas.");
     }
 

@@ -26,24 +26,20 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("rest", &Params::rest)
-            .at_least(0)
-            .unit("current mean edges")
+            .at_least(0, "current mean edges")
             .doc("Distance per step below which a vertex is at rest.");
         schema.real("moving", &Params::moving)
-            .at_least(0)
-            .unit("current mean edges")
+            .at_least(0, "current mean edges")
             .doc("Distance per step of the centroid above which a face is split if its vertices "
                  "are at rest.");
         schema.real("absolute", &Params::absolute)
-            .at_least(0)
-            .unit("length")
+            .at_least(0, "length")
             .doc("Distance per step that replaces both thresholds, for any mean edge; 0: not used; "
                  "0.0015 in the program of the thesis.");
         schema.real("finest", &Params::finest)
-            .at_least(0)
-            .unit("point spacings")
-            .doc("Length of the longest edge below which faces are not split, in spacings of the "
-                 "cloud (distance from the point nearest to the centroid to its sixth neighbour), "
+            .at_least(0, "neighbour distances")
+            .doc("Length of the longest edge below which faces are not split, in neighbour "
+                 "distances (from the point nearest to the centroid to its sixth neighbour), "
                  "because the points contain no information about smaller details. 0: no bound.");
     }
 
@@ -101,7 +97,7 @@ private:
             std::max({(x[a] - x[b]).norm(), (x[b] - x[c]).norm(), (x[c] - x[a]).norm()});
         const dsc::cloud::Neighbour nearest =
             step.cloud->search().nearest((x[a] + x[b] + x[c]) / 3);
-        return longest < params_.finest * step.cloud->spacing(nearest.index);
+        return longest < params_.finest * step.cloud->neighbour_distance(nearest.index);
     }
 
     Params params_;

@@ -151,7 +151,7 @@ TEST_CASE("faces finer than the cloud are not split") {
     }
     const dsc::cloud::TargetCloud cloud(lattice);
     // four sides, then diagonals
-    REQUIRE(cloud.spacing(20 * 41 + 20) == doctest::Approx(0.1 * std::sqrt(2.0)));
+    REQUIRE(cloud.neighbour_distance(20 * 41 + 20) == doctest::Approx(0.1 * std::sqrt(2.0)));
     const auto view = dsc::sdk::view_of(dsc::sdk::square(10, 1.0));  // longest edges 0.2 sqrt 2
     const Field field([](const Vec3& p) { return 0.1 * std::abs(std::sin(5 * pi * p.x())); });
     ConfigNode params = ConfigNode::map({{"finest", 1.99}});

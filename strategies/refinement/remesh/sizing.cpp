@@ -11,13 +11,13 @@ namespace {
 constexpr double faces_of_budget = 1.1547;  // 2 / sqrt 3: squared edge times vertices over area,
                                             // for regular triangles
 constexpr double filled_part = 0.95;        // fraction of the budget that is used
-constexpr double widest = 4.0;  // local point widths are limited to the median times this and the
+constexpr double widest = 4.0;  // local spacings are limited to the median times this and the
                                 // median over this
 constexpr double slope = 0.3;   // growth of lengths along an edge
 constexpr unsigned smoothing_rounds = 3;
 constexpr std::size_t vertex_block = 512;
-constexpr double edges_across = 2.0;  // least thickness over edge length, for a thin part
-constexpr double shortest = 0.5;      // point widths: edges in thin parts are not shorter than this
+constexpr double edges_across = 2.0;     // least thickness over edge length, for a thin part
+constexpr double shortest = 0.5;         // spacings: edges in thin parts are not shorter than this
 constexpr double most_for_thin = 1.5;    // times the budget, because of thin parts
 constexpr double opposite_cosine = 0.7;  // faces whose normals differ by more are not the two sides
                                          // of a thin part

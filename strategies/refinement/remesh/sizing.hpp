@@ -50,7 +50,7 @@ private:
 };
 
 /// Factor by which noise makes the lengths longer: min(2, 1 + 1.5 s), with the ratio s of noise to
-/// point width. For an even cloud, ratios up to 0.12 have no effect, since curvature is measured as
+/// spacing. For an even cloud, ratios up to 0.12 have no effect, since curvature is measured as
 /// noise there.
 double noise_factor(const cloud::Statistics& statistics);
 

@@ -55,20 +55,18 @@ public:
             .doc("Level of detail: half, all or twice the number of vertices that follows from the "
                  "number of points.");
         schema.integer("vertices", &Params::vertices)
-            .at_least(0)
-            .unit("vertices")
+            .at_least(0, "vertices")
             .doc("Number of vertices that the surface may have. 0: it follows from the number of "
                  "points; it is two per point up to 3,000 points, 20,000 at 20,000 points, and "
                  "grows with the root of their number above that.");
         schema.real("edge_length", &Params::edge_length)
-            .at_least(0)
-            .unit("length")
+            .at_least(0, "length")
             .doc("Length of all edges, in the units of the input. 0: it follows from the number of "
                  "vertices and the area of the cloud's points; it is longer if the points are "
                  "noisy, and local if their spacing is uneven.");
         schema.boolean("thin_parts", &Params::thin_parts)
             .doc("Whether parts thinner than two edges get shorter edges: half their thickness, at "
-                 "least half a point width, and up to 1.5 times as many vertices. Only with a "
+                 "least half a spacing, and up to 1.5 times as many vertices. Only with a "
                  "cloud and without an edge length.");
     }
 

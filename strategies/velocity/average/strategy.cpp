@@ -19,8 +19,7 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("part", &Params::part)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Fraction of the way to the mean of the neighbours that a vertex moves per step.");
     }
 

@@ -25,8 +25,7 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("time_step", &Params::time_step)
-            .greater(0)
-            .unit("length^2")
+            .greater(0, "length^2")
             .doc("Time per step. The step is explicit: above about an eighth of the squared "
                  "shortest edge, neighbouring vertices overtake each other.");
         schema.strategy("curvature", &Params::curvature, "curvature")

@@ -52,19 +52,16 @@ public:
             .doc("Speed of 'translate' and of both sides of 'part' (negative: together), angle of "
                  "'rotate', growth of 'shear'.");
         schema.real("width", &Params::width)
-            .greater(0)
-            .unit("length")
+            .greater(0, "length")
             .doc("Half the thickness of the layer in which 'part' changes from one side to the "
                  "other.");
         schema.real("period", &Params::period)
-            .greater(0)
-            .unit("time")
+            .greater(0, "time")
             .doc("Time at which 'enright' has moved everything back; the motion reverses at half "
                  "of this time.");
-        schema.real("time_step", &Params::time_step).greater(0).unit("time").doc("Time per step.");
+        schema.real("time_step", &Params::time_step).greater(0, "time").doc("Time per step.");
         schema.integer("substeps", &Params::substeps)
-            .range(1, 1000)
-            .unit("dimensionless")
+            .range(1, 1000, "dimensionless")
             .doc("Number of Runge-Kutta steps per step.");
         schema.check([](const Params& p) { return p.axis.norm() > 1e-9; },
                      "axis must not be the zero vector");

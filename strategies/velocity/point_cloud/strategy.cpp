@@ -36,16 +36,13 @@ public:
 
         static void declare(dsc::config::ParamSchema<Unsupported>& schema) {
             schema.real("beyond", &Unsupported::beyond)
-                .at_least(0)
-                .unit("point spacings")
-                .doc(
-                    "Distance without points from which a vertex is unsupported, in spacings of "
-                    "the cloud there (the distance from the nearest point to its sixth neighbour). "
-                    "The surface enters openings of the cloud wider than twice this distance: use "
-                    "more than the radius of holes in the data. 0: all vertices are supported.");
+                .at_least(0, "neighbour distances")
+                .doc("Distance without points from which a vertex is unsupported, in "
+                     "neighbour distances (from the nearest point to its sixth neighbour). "
+                     "The surface enters openings of the cloud wider than twice this distance: use "
+                     "more than the radius of holes in the data. 0: all vertices are supported.");
             schema.real("carve", &Unsupported::carve)
-                .range(0, 1)
-                .unit("target lengths (L)")
+                .range(0, 1, "target lengths (L)")
                 .doc("Least distance that an unsupported vertex whose data term stalls moves "
                      "inwards per step.");
         }
@@ -59,13 +56,11 @@ public:
 
         static void declare(dsc::config::ParamSchema<Target>& schema) {
             schema.integer("neighbours", &Target::neighbours)
-                .range(1, 1000)
-                .unit("points")
+                .range(1, 1000, "points")
                 .doc("Number of nearest points; a vertex moves to their weighted mean. 1: to the "
                      "nearest point, as in the thesis.");
             schema.real("width", &Target::width)
-                .greater(0)
-                .unit("point spacings")
+                .greater(0, "neighbour distances")
                 .doc("Standard deviation of the Gaussian of the distance that gives the weights of "
                      "the points.");
         }
@@ -84,13 +79,11 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("alpha", &Params::alpha)
-            .range(0, 2)
-            .unit("dimensionless")
+            .range(0, 2, "dimensionless")
             .doc("Fraction of the normal distance to the nearest point that a vertex moves per "
                  "step.");
         schema.real("beta", &Params::beta)
-            .at_least(0)
-            .unit("length/curvature")
+            .at_least(0, "length/curvature")
             .doc("Distance that a vertex moves inwards per step for a curvature of 1: length^2 for "
                  "a mean curvature, length for an angle. 0 switches the curvature off.");
         schema.strategy("curvature", &Params::curvature, "curvature")
@@ -172,7 +165,8 @@ private:
         const double attraction = alpha_ * ahead;
         if (!(unsupported_.beyond > 0) || !(nearest.distance > 0)) return {attraction, true};
         const bool stalled = ahead < stalled_below * nearest.distance;
-        const bool alone = nearest.distance > unsupported_.beyond * cloud_->spacing(nearest.index);
+        const bool alone =
+            nearest.distance > unsupported_.beyond * cloud_->neighbour_distance(nearest.index);
         if (!stalled || !alone) return {attraction, true};
         return {std::min(attraction, -carving_speed_), false};
     }
@@ -180,7 +174,7 @@ private:
     Vec3 mean_target(const Vec3& point, const dsc::cloud::Neighbour& nearest) const {
         thread_local std::vector<dsc::cloud::Neighbour> around;  // keeps its memory between calls
         cloud_->search().k_nearest(point, target_.neighbours, around);
-        const double width = target_.width * cloud_->spacing(nearest.index);
+        const double width = target_.width * cloud_->neighbour_distance(nearest.index);
         if (!(width > 0)) return (*cloud_)[nearest.index];
         Vec3 sum = Vec3::Zero();
         double weights = 0;

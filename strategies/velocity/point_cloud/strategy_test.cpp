@@ -204,8 +204,8 @@ TEST_CASE("a lid whose nearest points lie in its plane does not move, and is car
           "point supports it") {
     const Bench bench(dsc::sdk::square(8, 0.5));
     const auto rim = ring_cloud(0.8, 0.0, 100);
-    const double spacing = rim.spacing(0);
-    CHECK(spacing ==
+    const double distance = rim.neighbour_distance(0);
+    CHECK(distance ==
           // the third point on each side
           doctest::Approx(2 * 0.8 * std::sin(3 * 3.14159265358979323846 / 100)));
     for (const Vec3& d : bench.displacements(*bench.make(ConfigNode::map()), &rim))
@@ -214,7 +214,7 @@ TEST_CASE("a lid whose nearest points lie in its plane does not move, and is car
     const auto out = bench.displacements(*field, &rim);
     std::size_t carved = 0;
     for (std::size_t i = 0; i < out.size(); ++i) {
-        const bool alone = rim.search().nearest(bench.view.positions[i]).distance > 3.0 * spacing;
+        const bool alone = rim.search().nearest(bench.view.positions[i]).distance > 3.0 * distance;
         carved += alone ? 1 : 0;
         CHECK((out[i] - Vec3(0, 0, alone ? -0.2 * 0.1 : 0.0)).norm() < 1e-15);  // target length 0.1
     }
@@ -260,7 +260,7 @@ TEST_CASE("a curvature at unsupported places does not change supported ones, to 
     std::size_t curved = 0;
     for (std::size_t i = 0; i < out.size(); ++i) {
         const dsc::cloud::Neighbour nearest = cloud.search().nearest(bench.view.positions[i]);
-        if (nearest.distance <= 2.0 * cloud.spacing(nearest.index)) {
+        if (nearest.distance <= 2.0 * cloud.neighbour_distance(nearest.index)) {
             CHECK(out[i] == plain[i]);
             continue;
         }
@@ -303,7 +303,7 @@ TEST_CASE("surface tension holds a lid over a hole narrower than beta / carving,
 TEST_CASE("several near points are weighted by a Gaussian of their distances") {
     const Bench bench(dsc::sdk::square(1, 0.5));
     dsc::cloud::Normalized two;
-    two.points = {Vec3(0.5, 0.5, 0.3), Vec3(0.5, 0.5, 0.7)};  // spacing 0.4
+    two.points = {Vec3(0.5, 0.5, 0.3), Vec3(0.5, 0.5, 0.7)};  // 0.4 apart
     const dsc::cloud::TargetCloud cloud(two);
     const auto params = [](unsigned neighbours, double width) {
         const ConfigNode target =

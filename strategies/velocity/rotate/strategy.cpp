@@ -41,8 +41,7 @@ public:
             .unit("dimensionless")
             .doc("Direction of the axis; its length does not matter.");
         schema.real("degrees", &Params::degrees)
-            .range(-180, 180)
-            .unit("degrees")
+            .range(-180, 180, "degrees")
             .doc("Angle per step, counter-clockwise when the axis points to the viewer.");
         schema.check([](const Params& p) { return p.axis.norm() > 1e-9; },
                      "axis must not be the zero vector");

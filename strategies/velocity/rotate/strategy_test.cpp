@@ -1,5 +1,4 @@
 // Tests of the velocity on surfaces with known values; the plugin is loaded as in a run.
-#include <cmath>
 
 #include <doctest/doctest.h>
 

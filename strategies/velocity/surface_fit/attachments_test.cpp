@@ -4,7 +4,6 @@
 
 #include <doctest/doctest.h>
 
-#include <dsc/sdk/steps.hpp>
 #include <dsc/sdk/surfaces.hpp>
 
 #include "solver.hpp"

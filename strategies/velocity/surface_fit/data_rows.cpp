@@ -1,7 +1,6 @@
 #include "data_rows.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace dsc::strategies::fit {
 namespace {

@@ -8,7 +8,7 @@
 namespace dsc::strategies::fit {
 namespace {
 
-constexpr double filled_beyond = 1.0;        // point widths
+constexpr double filled_beyond = 1.0;        // spacings
 constexpr std::size_t alike_neighbours = 2;  // with fewer, it is a vertex between points, not a
                                              // hole
 constexpr std::size_t largest_part = 4;      // a hole contains at most a quarter of the surface's

@@ -1,7 +1,5 @@
 #include "local_widths.hpp"
 
-#include <cmath>
-
 namespace dsc::strategies::fit {
 namespace {
 

@@ -12,7 +12,7 @@ inline constexpr double settling_part = 0.6;
 
 /// The statistics of the cloud that the fit uses. Lengths are in normalised units.
 struct Scales {
-    double width = 0.0;    ///< h: median of the point widths
+    double width = 0.0;    ///< h: median of the spacings
     double noise = 0.0;    ///< sigma: standard deviation of the points across the surface
     double ratio = 0.0;    ///< noise over width; for even spacing small ratios count less, since
                            ///< curvature adds to them
@@ -22,15 +22,15 @@ struct Scales {
                            ///< widths of nearby points
 };
 
-/// `noise` in point widths; 0: as measured. [setup]
+/// `noise` in spacings; 0: as measured. [setup]
 Scales scales_of(const cloud::Statistics& statistics, double noise);
 
 /// The constants of one iteration.
 struct Stage {
-    double bending = 0.0;     ///< lambda: bending length, in point widths
-    double reach = 0.0;       ///< point widths at which a point counts a quarter; at least 6 sigma
-    double tangential = 0.0;  ///< hold of a vertex along the surface, in squared target lengths
-    double normal = 0.0;      ///< the same across the surface
+    double bending = 0.0;        ///< lambda: bending length, in spacings
+    double reach = 0.0;          ///< spacings at which a point counts a quarter; at least 6 sigma
+    double tangential = 0.0;     ///< hold of a vertex along the surface, in squared target lengths
+    double normal = 0.0;         ///< the same across the surface
     unsigned filter_rounds = 0;  ///< of the normals
     double filter_range = 0.0;   ///< distance of the unit normals that the filter averages
     bool attach = false;         ///< whether vertices move to the points at them

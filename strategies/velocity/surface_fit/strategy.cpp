@@ -44,13 +44,13 @@ using dsc::Vec3;
 
 constexpr std::uint64_t few_iterations = 14;
 constexpr std::uint64_t many_iterations = 24;  // used if there are holes
-constexpr double unsupported_beyond = 2.0;     // point widths
+constexpr double unsupported_beyond = 2.0;     // spacings
 constexpr double many_unsupported = 0.005;     // fraction of vertices: the cloud has holes
 // In the second, the kernel continues motions that did not arrive in the first.
 constexpr std::uint64_t fill_repeats = 2;
 constexpr double longest_way = 0.7;        // target lengths: per step, and to a point at a vertex
-constexpr double largest_curvature = 0.5;  // divided by a point width
-constexpr double quiet_way = 0.005;        // mean, in point widths
+constexpr double largest_curvature = 0.5;  // divided by a spacing
+constexpr double quiet_way = 0.005;        // mean, in spacings
 constexpr std::uint64_t quiet_iterations = 2;
 
 class SurfaceFit final : public dsc::hooks::VelocityField {
@@ -65,25 +65,21 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.integer("iterations", &Params::iterations)
-            .range(0, 1000)
-            .unit("steps")
+            .range(0, 1000, "steps")
             .doc("Number of steps of the whole motion; the bending length decreases in the first "
                  "60 % of them. 0: 14, or 24 if the cloud has holes.");
         schema.real("smoothing", &Params::smoothing)
-            .range(0, 100)
+            .range(0, 100, "dimensionless")
             .open_low()
-            .unit("dimensionless")
             .doc("Factor of the final bending length, over which the surface is smooth; the length "
                  "itself follows from the noise.");
         schema.real("crease_angle", &Params::crease_angle)
-            .greater(0)
-            .unit("radians")
+            .greater(0, "radians")
             .doc("Angle between the faces of an edge above which the edge resists bending less and "
                  "becomes a crease.");
         schema.real("noise", &Params::noise)
-            .range(0, 100)
-            .unit("point widths")
-            .doc("Standard deviation of the points across the surface; a point width is the root "
+            .range(0, 100, "spacings")
+            .doc("Standard deviation of the points across the surface; a spacing is the root "
                  "of the area per point. 0: it is measured.");
         schema.boolean("fill_holes", &Params::fill_holes)
             .doc("Continue the surrounding surface over holes in the cloud, once, after 2/7 of the "

@@ -28,7 +28,7 @@ public:
                      {"ends", Fault::ends},
                      {"prints", Fault::prints}})
             .doc("What goes wrong.");
-        schema.integer("step", &Params::step).at_least(0).unit("steps").doc("In which step.");
+        schema.integer("step", &Params::step).at_least(0, "steps").doc("In which step.");
     }
     Faulty(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
     void prepare(const dsc::hooks::StepContext& context) override {

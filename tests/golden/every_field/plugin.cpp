@@ -72,22 +72,18 @@ struct Params {
 void declare_scalars(dsc::config::ParamSchema<Params>& s) {
     s.boolean("flag", &Params::flag).doc("A switch.");
     s.boolean("switched", &Params::switched).doc("A switch that may stay unset.");
-    s.integer("count", &Params::count).range(1, 10).unit("steps").doc("Both ends closed.");
+    s.integer("count", &Params::count).range(1, 10, "steps").doc("Both ends closed.");
     s.integer("byte", &Params::byte).doc("As many as the type can hold.");
     s.integer("whole", &Params::whole).less(100).doc("One end, open.");
     s.integer("limit", &Params::limit).at_least(0).doc("May stay unset.");
     s.real("share", &Params::share)
-        .range(0, 1)
+        .range(0, 1, "dimensionless")
         .open_low()
         .open_high()
-        .unit("dimensionless")
         .advanced()
         .doc("Both ends open.");
     s.real("below", &Params::below).at_most(0).unit("length").doc("One end, closed.");
-    s.real("radius", &Params::radius)
-        .greater(0)
-        .unit("length")
-        .doc("One end, open; may stay unset.");
+    s.real("radius", &Params::radius).greater(0, "length").doc("One end, open; may stay unset.");
     s.string("label", &Params::label).doc("Any text | even with a bar.");
     s.string("remark", &Params::remark).doc("Text that may stay unset.");
     s.choice("mode", &Params::mode, {{"near", Mode::near}, {"far", Mode::far}}).doc("One of two.");
@@ -101,10 +97,7 @@ void declare_scalars(dsc::config::ParamSchema<Params>& s) {
 }
 
 void declare_others(dsc::config::ParamSchema<Params>& s) {
-    s.vec3("axis", &Params::axis)
-        .range(-1, 1)
-        .unit("dimensionless")
-        .doc("Three numbers, bounded each.");
+    s.vec3("axis", &Params::axis).range(-1, 1, "dimensionless").doc("Three numbers, bounded each.");
     s.integers("sizes", &Params::sizes)
         .at_least(1)
         .size(1, 3)

@@ -15,8 +15,7 @@ public:
     using Gained::Gained;
     static void declare(ParamSchema<Params>& schema) {
         schema.real("gain", &Params::gain)
-            .range(0, 1)
-            .unit("furlongs")
+            .range(0, 1, "furlongs")
             .doc("How far along the normals.");
     }
 };
@@ -56,8 +55,7 @@ public:
     };
     static void declare(ParamSchema<Params>& schema) {
         schema.real("gain", &Params::gain)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("How far along the normals.");
     }
     MovingDefault(const Params& params, const dsc::plugin::Setup&) : gain_(params.gain) {}

@@ -39,8 +39,7 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("speed", &Params::speed)
-            .range(0, 1)
-            .unit("length")
+            .range(0, 1, "length")
             .doc("Displacement along z in a step.");
         schema.strategy("curvature", &Params::curvature, "curvature")
             .optional()

@@ -174,19 +174,20 @@ TEST_CASE("a search refuses what it cannot hold") {
           "cloud.non_finite 5: nearest-point search: point 1 is not finite; remove it first");
 }
 
-TEST_CASE("the spacing at a point is the distance to its sixth neighbour, points in one place "
-          "counting once") {
+TEST_CASE(
+    "the neighbour distance of a point is the distance to its sixth neighbour, points in one place "
+    "counting once") {
     // A square lattice: four neighbours at 1, four at sqrt 2, each point three times.
     dsc::cloud::Normalized lattice;
     for (int copy = 0; copy < 3; ++copy)
         for (int i = 0; i < 7; ++i)
             for (int j = 0; j < 7; ++j) lattice.points.emplace_back(i, j, 0);
     const dsc::cloud::TargetCloud target(lattice);
-    CHECK(target.spacing(3 * 7 + 3) == doctest::Approx(std::sqrt(2.0)));
+    CHECK(target.neighbour_distance(3 * 7 + 3) == doctest::Approx(std::sqrt(2.0)));
     // the corner: 1 1 sqrt2 2 2 sqrt5 sqrt5
-    CHECK(target.spacing(0) == doctest::Approx(std::sqrt(5.0)));
+    CHECK(target.neighbour_distance(0) == doctest::Approx(std::sqrt(5.0)));
     dsc::cloud::Normalized pair;
     pair.points = {Vec3(0, 0, 0), Vec3(0, 0, 2), Vec3(0, 0, 2)};
-    CHECK(dsc::cloud::TargetCloud(pair).spacing(0) == 2.0);
-    CHECK(dsc::cloud::TargetCloud(pair).spacing(1) == 2.0);
+    CHECK(dsc::cloud::TargetCloud(pair).neighbour_distance(0) == 2.0);
+    CHECK(dsc::cloud::TargetCloud(pair).neighbour_distance(1) == 2.0);
 }

@@ -1,7 +1,6 @@
 #pragma once
 // The exceptions that the library throws. Library code throws; it never prints and never exits.
 
-#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>

@@ -79,9 +79,9 @@ struct ClustersOptions {
 
 struct HiddenOptions {
     std::size_t views = 200;  ///< number of directions all round
-    double radius = 0.8;      ///< of the discs that represent the surface, in spacings of the cloud
-    double depth = 0.45;  ///< least distance behind a disc, in spacings, at which the disc hides a
-                          ///< point
+    double radius = 0.8;      ///< of the discs that represent the surface, in neighbour distances
+    double depth = 0.45;  ///< least distance behind a disc, in neighbour distances, at which the
+                          ///< disc hides a point
     double share = 0.04;  ///< points that at most this fraction of the views can see are removed
 };
 
@@ -135,8 +135,8 @@ Filtered remove_clusters(const Cloud& cloud, const ClustersOptions& options = {}
 /// represents a disc in the plane of its nine nearest points, itself included. From each direction
 /// the discs are drawn into a depth buffer, as in visibility splatting [Pfister2000]; a point is
 /// visible if no disc lies in front of it. The method needs no surface and no normals. Where the
-/// cloud is sparse, only points deeper than about half a spacing can be distinguished from the
-/// surface. (The spherical flipping of [Katz2007], with 60 views, found the thesis' clouds
+/// cloud is sparse, only points deeper than about half a neighbour distance can be distinguished
+/// from the surface. (The spherical flipping of [Katz2007], with 60 views, found the thesis' clouds
 /// completely visible, or removed 14 to 21 visible points per hidden one: they are too sparse for
 /// it.) The cost grows with points times views. `cancel` is tested between views and may be null.
 /// Throws CancelledError. [setup]

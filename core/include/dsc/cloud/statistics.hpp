@@ -14,10 +14,10 @@ namespace dsc::cloud {
 
 /// Lengths in the units of the points.
 struct Statistics {
-    std::vector<double> point_width;    ///< per point: root of the area per point, from the 12th
-                                        ///< neighbour
-    std::vector<double> label_width;    ///< per point: the same from the 8th neighbour, averaged;
-                                        ///< 0.92 of the true value
+    std::vector<double> point_width;  ///< per point: the spacing, root of the area per point, from
+                                      ///< the 12th neighbour
+    std::vector<double> label_width;  ///< per point: the same from the 8th neighbour, averaged;
+                                      ///< 0.92 of the true value
     std::vector<double> outlier_score;  ///< per point: distance to the 8th neighbour over its
                                         ///< neighbours' median
     double width = 0.0;                 ///< median of point_width
@@ -35,10 +35,10 @@ struct Statistics {
     bool even() const { return spread < 3.0; }
 };
 
-/// Noise in point widths; below it, noise cannot be distinguished from the curvature of an
+/// Noise in spacings; below it, noise cannot be distinguished from the curvature of an
 /// under-sampled surface.
 inline constexpr double noise_floor = 0.12;
-/// Noise in point widths; from it on, the whole noise counts.
+/// Noise in spacings; from it on, the whole noise counts.
 inline constexpr double noise_certain = 0.3;
 
 /// The part of a measured noise ratio of an even cloud that is certainly noise: 0 up to

@@ -27,10 +27,10 @@ public:
     const Vec3& operator[](std::size_t index) const { return points()[index]; }
     /// Search for nearest points. [parallel]
     const NearestSearch& search() const noexcept { return *search_; }
-    /// Local distance of the points: the distance from a point to its sixth neighbour (a vertex of
-    /// a triangulated surface has about six). Coinciding points count once. 0 if fewer than two
+    /// The neighbour distance: the distance from a point to its sixth neighbour (a vertex of a
+    /// triangulated surface has about six). Coinciding points count once. 0 if fewer than two
     /// points are distinct. The first call computes all values. [parallel]
-    double spacing(std::size_t index) const;
+    double neighbour_distance(std::size_t index) const;
     /// From the input's units to normalised units. [parallel]
     const Transform& transform() const noexcept { return transform_; }
     /// Colours in the order of the points; empty if the input has none. [parallel]
@@ -48,7 +48,8 @@ public:
     /// given workers; a call from inside a parallel block must not pass workers. The result does
     /// not depend on them. [parallel]
     const Statistics& statistics(Workers* workers = nullptr) const;
-    /// Square root of the area per point at a point, from its 12th neighbour and from its 8th; see
+    /// The spacing, which is the square root of the area per point, at a point: from its 12th
+    /// neighbour and from its 8th; see
     /// Statistics. [parallel]
     double point_width(std::size_t index) const { return statistics().point_width[index]; }
     double label_width(std::size_t index) const { return statistics().label_width[index]; }
@@ -59,7 +60,7 @@ public:
     const Box3& box() const noexcept { return box_; }
 
 private:
-    struct Spacings;
+    struct Distances;
     struct Measured;
     struct Attributes {
         std::vector<Colour> colours;
@@ -70,7 +71,7 @@ private:
     };
     static std::shared_ptr<const Attributes> attributes_of(const Normalized& normalized);
     std::shared_ptr<const NearestSearch> search_;
-    std::shared_ptr<Spacings> spacings_;
+    std::shared_ptr<Distances> distances_;
     Transform transform_;
     Box3 box_;
     std::shared_ptr<const Attributes> attributes_;

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/cloud.hpp>

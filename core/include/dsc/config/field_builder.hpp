@@ -16,11 +16,21 @@ class FieldBuilder {
 public:
     FieldBuilder(Schema& schema, std::size_t index) : schema_(&schema), index_(index) {}
 
-    /// Both ends belong to the range, unless open_low() or open_high() excludes one.
+    /// Both ends belong to the range, unless open_low() or open_high() excludes one. The bounds may
+    /// be followed by their unit, which is that of the parameter; see unit().
     FieldBuilder& range(double low, double high) { return at_least(low).at_most(high); }
+    FieldBuilder& range(double low, double high, std::string unit_text) {
+        return range(low, high).unit(std::move(unit_text));
+    }
     FieldBuilder& at_least(double low) { return field().minimum = Bound{low, false}, *this; }
+    FieldBuilder& at_least(double low, std::string unit_text) {
+        return at_least(low).unit(std::move(unit_text));
+    }
     FieldBuilder& at_most(double high) { return field().maximum = Bound{high, false}, *this; }
     FieldBuilder& greater(double low) { return field().minimum = Bound{low, true}, *this; }
+    FieldBuilder& greater(double low, std::string unit_text) {
+        return greater(low).unit(std::move(unit_text));
+    }
     FieldBuilder& less(double high) { return field().maximum = Bound{high, true}, *this; }
     FieldBuilder& open_low() { return field().minimum.value().open = true, *this; }
     FieldBuilder& open_high() { return field().maximum.value().open = true, *this; }

@@ -3,7 +3,6 @@
 // struct. Validation, documentation, the editor's schema and the strategy's struct all come from
 // this one declaration.
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>

@@ -1,7 +1,6 @@
 #pragma once
 // Contributions of one corner of a triangle to the differential geometry of a surface.
 
-#include <algorithm>
 #include <cmath>
 
 #include <dsc/geometry/vec.hpp>

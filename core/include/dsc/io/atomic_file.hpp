@@ -2,7 +2,6 @@
 // Files that are complete or absent.
 
 #include <filesystem>
-#include <string>
 #include <string_view>
 #include <system_error>
 

@@ -24,7 +24,7 @@ struct PointGroup {
                            ///< there is no other one
 };
 
-/// Lengths and places are in the units of surface and points. A spacing is the local
+/// Lengths and places are in the units of surface and points. The spacing is the local
 /// Statistics::point_width.
 struct Coverage {
     std::size_t points = 0;

@@ -2,7 +2,6 @@
 // The figures of a run: the lines of events.jsonl, and the sums that summary.json contains.
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>

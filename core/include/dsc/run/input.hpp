@@ -2,7 +2,6 @@
 // Makes the cloud that strategies see from the input of an experiment.
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -1,9 +1,7 @@
 #pragma once
 // Measures surfaces and volumes as their files contain them.
 
-#include <filesystem>
 #include <map>
-#include <string>
 
 #include <dsc/base/workers.hpp>
 #include <dsc/mesh/tet_mesh.hpp>

@@ -3,7 +3,6 @@
 // as finished.
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>

@@ -22,9 +22,8 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("smallest_circle", &Params::smallest_circle)
-            .range(0, 100)
+            .range(0, 100, "current mean edges")
             .open_low()
-            .unit("current mean edges")
             .doc(
                 "Least radius of the circles; a smaller circle counts as a circle of this radius.");
     }

@@ -23,13 +23,11 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("floor", &Params::floor)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Fraction of the height of the cloud's bounding box up to which points are "
                  "removed.");
         schema.real("ceiling", &Params::ceiling)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Fraction of the height of the cloud's bounding box above which points are "
                  "removed.");
         schema.check([](const Params& p) { return p.floor < p.ceiling; },

@@ -20,12 +20,10 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("poor", &Params::poor)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Volume-length quality below which tets are repaired.");
         schema.real("hopeless", &Params::hopeless)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Quality below which tets are collapsed, even if this changes the shape of the "
                  "interface within the kernel's bounds.");
         schema.check([](const Params& p) { return p.hopeless <= p.poor; },

@@ -24,17 +24,14 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.integer("cells", &Params::cells)
-            .range(4, 100)
-            .unit("dimensionless")
+            .range(4, 100, "dimensionless")
             .doc("Number of cells along each edge of the box.");
         schema.real("ring", &Params::ring)
-            .range(0, 1.4)
-            .unit("length")
+            .range(0, 1.4, "length")
             .doc("Radius of the circle that the tube follows.");
         schema.real("tube", &Params::tube)
-            .range(0, 1.4)
+            .range(0, 1.4, "length")
             .open_low()
-            .unit("length")
             .doc("Radius of the tube.");
         schema.check([](const Params& p) { return p.tube < p.ring; },
                      "tube must be less than ring, otherwise there is no hole");

@@ -28,8 +28,7 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("narrow", &Params::narrow)
-            .range(0, 60)
-            .unit("degrees")
+            .range(0, 60, "degrees")
             .doc("Angle below which a face counts as narrow.");
     }
 

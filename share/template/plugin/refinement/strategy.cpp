@@ -24,13 +24,11 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("bend", &Params::bend)
-            .range(0, 180)
-            .unit("degrees")
+            .range(0, 180, "degrees")
             .doc("Angle between the normals of the two faces of an edge above which the edge is "
                  "split.");
         schema.real("shortest", &Params::shortest)
-            .range(0, 100)
-            .unit("current mean edges")
+            .range(0, 100, "current mean edges")
             .doc("Length below which edges are not split.");
     }
 

@@ -20,12 +20,10 @@ public:
     };
     static void declare(dsc::config::ParamSchema<Params>& schema) {
         schema.real("inflation", &Params::inflation)
-            .range(-1, 1)
-            .unit("current mean edges")
+            .range(-1, 1, "current mean edges")
             .doc("Distance that a vertex moves outwards per step; negative: inwards.");
         schema.real("tension", &Params::tension)
-            .range(0, 1)
-            .unit("dimensionless")
+            .range(0, 1, "dimensionless")
             .doc("Fraction of the way to the mean of its neighbours that a vertex moves per step.");
     }
 
