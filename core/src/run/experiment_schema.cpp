@@ -167,9 +167,8 @@ void declare_output(config::ParamSchema<Output>& s) {
 
 void Experiment::declare(config::ParamSchema<Experiment>& s) {
     s.integer("dsc", &Experiment::format)
-        .range(1, 1)
+        .range(1, 1, "dimensionless")
         .required()
-        .unit("dimensionless")
         .doc("Version of the format: 1.");
     s.string("name", &Experiment::name)
         .doc("Names the run's folder: letters, digits, '.', '_', '-'.");

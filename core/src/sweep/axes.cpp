@@ -43,9 +43,8 @@ void declare_range(config::ParamSchema<Range>& s, bool counted) {
     s.boolean("integer", &Range::integer).doc("Whether to round to integers.");
     if (counted)
         s.integer("count", &Range::count)
-            .range(2, most_sweep_points)
+            .range(2, most_sweep_points, "dimensionless")
             .required()
-            .unit("dimensionless")
             .doc("Number of values.");
     s.check([](const Range& p) { return p.from < p.to; }, "'to' must be above 'from'");
     s.check([](const Range& p) { return p.scale == Scale::linear || p.from > 0; },

@@ -77,9 +77,8 @@ void declare_axis(config::ParamSchema<SweepAxis>& s) {
 
 void declare_sweep(config::ParamSchema<SweepFile>& s) {
     s.integer("sweep", &SweepFile::format)
-        .range(1, 1)
+        .range(1, 1, "dimensionless")
         .required()
-        .unit("dimensionless")
         .doc("Version of the format: 1.");
     s.file("base", &SweepFile::base)
         .required()

@@ -39,13 +39,11 @@ void require_sound(const Schema& schema);
 /// struct Params { double alpha = 0.2; std::optional<double> radius; config::StrategyConfig
 /// curvature; }; static void declare(config::ParamSchema<Params>& s) {
 ///     s.real("alpha", &Params::alpha)
-///         .range(0, 1)
+///         .range(0, 1, "dimensionless")
 ///         .open_low()
-///         .unit("dimensionless")
 ///         .doc("Fraction of the distance per step.");
 ///     s.real("radius", &Params::radius)
-///         .greater(0)
-///         .unit("length")
+///         .greater(0, "length")
 ///         .doc("Radius; unset: nearest point.");
 ///     s.strategy("curvature", &Params::curvature, "curvature")
 ///         .optional()

@@ -16,29 +16,24 @@ void declare_lattice(config::ParamSchema<Params>& schema, const std::string& whe
     using Options = generate::LatticeOptions;
     static_assert(std::is_base_of_v<Options, Params>);
     schema.integer("cells", static_cast<int Params::*>(&Options::cells))
-        .range(generate::least_lattice_cells, generate::most_lattice_cells)
-        .unit("dimensionless")
+        .range(generate::least_lattice_cells, generate::most_lattice_cells, "dimensionless")
         .costly()
         .doc("Number of finest cells along the box. The box grows to the next number that the "
              "octree allows.");
     schema.real("cell", static_cast<std::optional<double> Params::*>(&Options::cell))
-        .greater(0)
-        .unit("length")
+        .greater(0, "length")
         .doc("Edge of the finest cells; unset: the edge that results from 'cells'.");
     schema.real("box", static_cast<double Params::*>(&Options::box))
-        .greater(0)
-        .unit("length")
+        .greater(0, "length")
         .doc("Half the edge of the box; the box may become larger.");
     schema.vec3("box_centre", static_cast<Vec3 Params::*>(&Options::box_centre))
         .unit("length")
         .doc("Centre of the box.");
     schema.integer("layers", static_cast<int Params::*>(&Options::layers))
-        .range(2, 64)
-        .unit("dimensionless")
+        .range(2, 64, "dimensionless")
         .doc("Number of layers of finest cells on each side of " + where + ".");
     schema.real("growth", static_cast<double Params::*>(&Options::growth))
-        .range(1, 2)
-        .unit("dimensionless")
+        .range(1, 2, "dimensionless")
         .doc("How much larger the cells become from one layer to the next, on average: 2 doubles "
              "them with every layer, 1.26 with every third layer; 1 keeps all cells at the finest "
              "size.");

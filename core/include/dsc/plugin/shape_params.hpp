@@ -41,12 +41,10 @@ void declare_shapes(config::ParamSchema<Params>& schema) {
         .doc("A first shape of label 1: 'cube' contains the tets whose barycentre is inside, "
              "'sphere' those with all four vertices inside.");
     schema.real("half_width", static_cast<double Params::*>(&Params::half_width))
-        .greater(0)
-        .unit("length")
+        .greater(0, "length")
         .doc("Half the edge of shape 'cube'.");
     schema.real("radius", static_cast<double Params::*>(&Params::radius))
-        .greater(0)
-        .unit("length")
+        .greater(0, "length")
         .doc("Radius of shape 'sphere'.");
     schema.vec3("centre", static_cast<Vec3 Params::*>(&Params::centre))
         .unit("length")
