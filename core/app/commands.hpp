@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -15,6 +16,11 @@ struct Context {
     std::vector<std::string> command_line;  ///< as typed
     std::function<int()> action;            ///< action of the command that was given
 };
+
+/// Makes the command run this action, which returns the exit code.
+inline void set_action(CLI::App& command, Context& context, std::function<int()> action) {
+    command.callback([&context, action = std::move(action)] { context.action = action; });
+}
 
 void add_run(CLI::App& app, Context& context);
 void add_reconstruct(CLI::App& app, Context& context);

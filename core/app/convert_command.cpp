@@ -87,8 +87,7 @@ void add_convert(CLI::App& app, Context& context) {
     command->add_option("OUT", arguments->output, "Output; its extension selects the format")
         ->required();
     add_columns(*command, arguments->columns);
-    command->callback(
-        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    set_action(*command, context, [arguments] { return execute(*arguments); });
 }
 
 }  // namespace dsc::app

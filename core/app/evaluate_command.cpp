@@ -163,8 +163,7 @@ void add_evaluate(CLI::App& app, Context& context) {
         ->check(CLI::Range(1000, 100000000))
         ->capture_default_str();
     command->add_flag("--json", arguments->json, "Print JSON instead of text");
-    command->callback(
-        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    set_action(*command, context, [arguments] { return execute(*arguments); });
 }
 
 }  // namespace dsc::app

@@ -221,8 +221,7 @@ void add_info(CLI::App& app, Context& context) {
     command->add_flag("--json", arguments->json, "Print JSON instead of text");
     command->add_flag("--require-solid", arguments->require_solid,
                       "Exit with code 5 if the file does not bound a valid solid");
-    command->callback(
-        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    set_action(*command, context, [arguments] { return execute(*arguments); });
 }
 
 }  // namespace dsc::app

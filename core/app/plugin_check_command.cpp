@@ -143,8 +143,7 @@ void add_plugin_check(CLI::App& plugin, Context& context) {
     command->add_flag("--in-process", arguments->in_process,
                       "Run all tests in this process (for debugging)");
     command->add_flag("--list", arguments->list, "List the tests and run none");
-    command->callback(
-        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    set_action(*command, context, [arguments] { return execute(*arguments); });
 }
 
 }  // namespace dsc::app

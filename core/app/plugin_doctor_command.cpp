@@ -67,8 +67,7 @@ void add_plugin_doctor(CLI::App& plugin, Context& context) {
     const auto arguments = std::make_shared<DoctorArguments>();
     command->add_option("FILE", arguments->file, "Plugin library, libdsc_NAME.so")->required();
     command->add_flag("--json", arguments->json, "Print JSON instead of text");
-    command->callback(
-        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    set_action(*command, context, [arguments] { return execute(*arguments); });
 }
 
 }  // namespace dsc::app

@@ -90,8 +90,7 @@ void add_plugin_new(CLI::App& plugin, Context& context) {
             "--kind", arguments->kind,
             "Kind: velocity, curvature, refinement, initial_mesh, improvement, observer or filter")
         ->required();
-    command->callback(
-        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    set_action(*command, context, [arguments] { return execute(*arguments); });
 }
 
 }  // namespace dsc::app

@@ -291,11 +291,8 @@ void add_reconstruct(CLI::App& app, Context& context) {
     add_plugins(*command, arguments->plugins);
     add_progress(*command, arguments->terminal);
     add_verbosity(*command, arguments->terminal);
-    command->callback([arguments, &context] {
-        context.action = [arguments, &context] {
-            return execute(*arguments, context.command_line);
-        };
-    });
+    set_action(*command, context,
+               [arguments, &context] { return execute(*arguments, context.command_line); });
 }
 
 }  // namespace dsc::app

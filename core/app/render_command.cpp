@@ -135,8 +135,7 @@ void add_render(CLI::App& app, Context& context) {
     command->add_option(
         "--colour", arguments->colour,
         "Property of the vertices of a .ply that colours the surface, such as an attribute");
-    command->callback(
-        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    set_action(*command, context, [arguments] { return execute(*arguments); });
 }
 
 }  // namespace dsc::app

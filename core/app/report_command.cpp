@@ -57,8 +57,7 @@ void add_report(CLI::App& app, Context& context) {
                      "the current folder")
         ->expected(1);
     add_plugins(*command, arguments->plugins);
-    command->callback(
-        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    set_action(*command, context, [arguments] { return execute(*arguments); });
 }
 
 }  // namespace dsc::app

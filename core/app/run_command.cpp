@@ -103,11 +103,8 @@ void add_run(CLI::App& app, Context& context) {
         "Save a checkpoint and stop, with exit code 75, after this time: 90, 90s, 10m, 1.5h");
     add_progress(*command, arguments->terminal);
     add_verbosity(*command, arguments->terminal);
-    command->callback([arguments, &context] {
-        context.action = [arguments, &context] {
-            return execute(*arguments, context.command_line);
-        };
-    });
+    set_action(*command, context,
+               [arguments, &context] { return execute(*arguments, context.command_line); });
 }
 
 }  // namespace dsc::app

@@ -65,8 +65,7 @@ void add_sample(CLI::App& app, Context& context) {
         ->capture_default_str();
     command->add_option("--mesh", arguments->mesh,
                         "Also write the true surface: .obj, .ply, .off or .stl");
-    command->callback(
-        [arguments, &context] { context.action = [arguments] { return execute(*arguments); }; });
+    set_action(*command, context, [arguments] { return execute(*arguments); });
 }
 
 }  // namespace dsc::app

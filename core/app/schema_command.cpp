@@ -14,12 +14,10 @@ void add_schema(CLI::App& app, Context& context) {
         "Print the JSON Schema (draft-07) of an experiment, for editors and other checkers");
     const auto paths = std::make_shared<std::vector<std::string>>();
     add_plugins(*command, *paths);
-    command->callback([paths, &context] {
-        context.action = [paths] {
-            Plugins plugins(*paths);
-            data_out() << json_schema(all_strategies(plugins.load())).dump(2) << "\n";
-            return 0;
-        };
+    set_action(*command, context, [paths] {
+        Plugins plugins(*paths);
+        data_out() << json_schema(all_strategies(plugins.load())).dump(2) << "\n";
+        return 0;
     });
 }
 

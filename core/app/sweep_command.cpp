@@ -86,8 +86,7 @@ void add_expand(CLI::App& sweep, Context& context) {
                         "Folder for the points; points that it already contains are kept");
     add_plugins(*command, arguments->plugins);
     command->add_flag("--check", arguments->check, "Check all points and write nothing");
-    command->callback(
-        [arguments, &context] { context.action = [arguments] { return expand(*arguments); }; });
+    set_action(*command, context, [arguments] { return expand(*arguments); });
 }
 
 void add_collect(CLI::App& sweep, Context& context) {
@@ -96,8 +95,7 @@ void add_collect(CLI::App& sweep, Context& context) {
     const auto arguments = std::make_shared<CollectArguments>();
     command->add_option("DIR", arguments->folder, "Folder that dsc sweep expand wrote")->required();
     command->add_option("-o,--output", arguments->output, "File for the table; default: stdout");
-    command->callback(
-        [arguments, &context] { context.action = [arguments] { return collect(*arguments); }; });
+    set_action(*command, context, [arguments] { return collect(*arguments); });
 }
 
 }  // namespace

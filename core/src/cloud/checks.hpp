@@ -16,4 +16,8 @@ std::string named(std::string_view name);
 /// above 1e100.
 Box3 require_finite(std::span<const Vec3> points, std::string_view name);
 
+/// Throws GeometryError "cloud.large" for more points than an int can count, and
+/// "cloud.non_finite" for NaN and infinity. `where` names the search in messages.
+void require_searchable(std::span<const Vec3> points, const std::string& where);
+
 }  // namespace dsc::cloud

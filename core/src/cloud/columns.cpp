@@ -9,6 +9,8 @@
 #include <dsc/text/numbers.hpp>
 #include <dsc/text/words.hpp>
 
+#include "attributes.hpp"
+
 namespace dsc::cloud {
 
 namespace {

@@ -63,6 +63,17 @@ Box3 require_finite(std::span<const Vec3> points, std::string_view name) {
     return box;
 }
 
+void require_searchable(std::span<const Vec3> points, const std::string& where) {
+    if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        throw GeometryError("cloud.large", where,
+                            fmt::format("{} points; the limit is 2147483647", points.size()),
+                            "thin the cloud first");
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (!points[i].allFinite())
+            throw GeometryError("cloud.non_finite", where, fmt::format("point {} is not finite", i),
+                                "remove it first");
+}
+
 void require_volume(std::span<const Vec3> points, std::string_view name) {
     const std::string who = named(name);
     if (points.size() < 4)

@@ -7,10 +7,11 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/core.h>
 #include <nanoflann.hpp>
 
 #include <dsc/base/error.hpp>
+
+#include "checks.hpp"
 
 namespace dsc::cloud {
 
@@ -140,14 +141,7 @@ NearestSearch::NearestSearch(std::span<const Vec3> points) {
     if (points.empty())
         throw GeometryError("cloud.empty", "nearest-point search", "no points",
                             "a search needs at least one");
-    if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw GeometryError("cloud.large", "nearest-point search",
-                            fmt::format("{} points; the limit is 2147483647", points.size()),
-                            "thin the cloud first");
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (!points[i].allFinite())
-            throw GeometryError("cloud.non_finite", "nearest-point search",
-                                fmt::format("point {} is not finite", i), "remove it first");
+    require_searchable(points, "nearest-point search");
     tree_ = std::make_unique<Tree>(points);
 }
 

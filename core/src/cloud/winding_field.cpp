@@ -6,13 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
-
-#include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 
+#include "checks.hpp"
 #include "winding_kernels.hpp"
 #include "winding_tree.hpp"
 
@@ -43,17 +41,6 @@ struct Frame {
     }
 };
 
-void require_points(std::span<const Vec3> points) {
-    if (points.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw GeometryError("cloud.large", "winding field",
-                            fmt::format("{} points; the limit is 2147483647", points.size()),
-                            "thin the cloud first");
-    for (std::size_t i = 0; i < points.size(); ++i)
-        if (!points[i].allFinite())
-            throw GeometryError("cloud.non_finite", "winding field",
-                                fmt::format("point {} is not finite", i), "remove it first");
-}
-
 std::vector<std::array<float, 3>> placed(const Frame& frame, std::span<const Vec3> points) {
     std::vector<std::array<float, 3>> result(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) result[i] = frame.place(points[i]);
@@ -64,7 +51,7 @@ Frame frame_of(std::span<const Vec3> positions) {
     if (positions.empty())
         throw GeometryError("cloud.empty", "winding field", "no positions",
                             "at least one is needed");
-    require_points(positions);
+    require_searchable(positions, "winding field");
     const Box3 box = bounding_box(positions);
     const double diagonal = box.diagonal();
     return {box.centre(), diagonal > 0.0 ? 1.0 / diagonal : 1.0};
@@ -215,7 +202,7 @@ struct WindingField::State {
     void at_points(std::span<const Vec3> points, std::span<const double> smoothing,
                    Workers* workers, const Write& write) const {
         if (points.empty()) return;
-        require_points(points);
+        require_searchable(points, "winding field");
         const ClusterTree targets(placed(frame, points), {}, target_leaf);
         for_blocks(
             workers, targets.leaves().size(), leaves_per_block,

@@ -91,12 +91,6 @@ private:
                 lines_.place().file, lines_.number(), text::in_quotes(keyword)));
     }
 
-    /// A line with too few numbers: truncated at the end of the file, malformed elsewhere.
-    [[noreturn]] void short_line(const std::string& cause) const {
-        text::fail(lines_.cut() ? "io.truncated" : "io.syntax", lines_.place(), cause,
-                   lines_.cut() ? text::copy_again : text::export_again);
-    }
-
     /// Exactly three numbers after the coordinates are a colour; a single one is a weight.
     void vertex(text::Fields& fields) {
         Vec3 point = Vec3::Zero(), colour = Vec3::Zero();
@@ -118,7 +112,7 @@ private:
 
     void require_complete(std::size_t count) const {
         if (options_.faces) {
-            if (count < 3) short_line(fmt::format("vertex with {} of 3 coordinates", count));
+            if (count < 3) lines_.fail_short(fmt::format("vertex with {} of 3 coordinates", count));
             if (obj_.points.size() == std::numeric_limits<std::uint32_t>::max())
                 text::fail("io.count", lines_.place(), "more than 4294967295 vertices",
                            "split the file");
@@ -138,8 +132,8 @@ private:
         for (std::string_view field = fields.next(); !field.empty(); field = fields.next())
             polygon_.push_back(corner(field));
         if (polygon_.size() < 3)
-            short_line("face with " + text::counted(polygon_.size(), "corner") +
-                       ", at least 3 are needed");
+            lines_.fail_short("face with " + text::counted(polygon_.size(), "corner") +
+                              ", at least 3 are needed");
         append_fan(obj_.faces, polygon_);
     }
 

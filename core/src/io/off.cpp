@@ -107,7 +107,7 @@ private:
         Vec3 p;
         for (int k = 0; k < 3; ++k) {
             const std::string_view field = fields.next();
-            if (field.empty()) short_line(fmt::format("vertex with {} of 3 coordinates", k));
+            if (field.empty()) lines_.fail_short(fmt::format("vertex with {} of 3 coordinates", k));
             p[k] = text::read_coordinate(field, lines_.place());
         }
         return p;
@@ -125,7 +125,7 @@ private:
         for (std::int64_t k = 0; k < corners; ++k) {
             const std::string_view field = fields.next();
             if (field.empty()) {
-                short_line(fmt::format("face with {} of {} corners", k, corners));
+                lines_.fail_short(fmt::format("face with {} of {} corners", k, corners));
             }
             const std::int64_t index = text::read_integer(field, lines_.place());
             if (index < 0 || index >= static_cast<std::int64_t>(vertices_)) {
@@ -136,11 +136,6 @@ private:
             polygon_.push_back(static_cast<std::uint32_t>(index));
         }
         decode::append_fan(mesh.faces, polygon_);
-    }
-
-    [[noreturn]] void short_line(const std::string& cause) const {
-        text::fail(lines_.cut() ? "io.truncated" : "io.syntax", lines_.place(), cause,
-                   lines_.cut() ? text::copy_again : text::export_again);
     }
 
     std::size_t size_;

@@ -155,9 +155,7 @@ private:
             for (int k = 0; k < 3; ++k) {
                 const std::string_view field = fields.next();
                 if (field.empty()) {
-                    text::fail(lines_.cut() ? "io.truncated" : "io.syntax", lines_.place(),
-                               fmt::format("vertex with {} of 3 coordinates", k),
-                               lines_.cut() ? text::copy_again : text::export_again);
+                    lines_.fail_short(fmt::format("vertex with {} of 3 coordinates", k));
                 }
                 p[k] = text::read_coordinate(field, lines_.place());
             }

@@ -46,6 +46,29 @@ std::string CaptureScope::cause() const {
     return "it is not a readable VTK file";
 }
 
+void read_content(vtkXMLReader& reader, const std::string& content, std::string_view file,
+                  const CaptureScope& capture) {
+    reader.ReadFromInputStringOn();
+    reader.SetInputString(with_point_data(content));
+    reader.Update();
+    if (reader.GetErrorCode() != 0 || !capture.quiet())
+        text::fail("io.syntax", {file, 0}, "VTK refuses it: " + capture.cause(), text::copy_again);
+}
+
+std::string written(vtkXMLWriter& writer, vtkDataObject* data, std::string_view file,
+                    std::string_view remedy) {
+    const CaptureScope capture;
+    writer.SetInputData(data);
+    writer.SetDataModeToAppended();
+    writer.EncodeAppendedDataOff();
+    writer.SetCompressorTypeToZLib();
+    writer.SetHeaderTypeToUInt64();
+    writer.WriteToOutputStringOn();
+    if (writer.Write() == 0 || writer.GetErrorCode() != 0 || !capture.quiet())
+        text::fail("io.write", {file, 0}, "VTK cannot write it: " + capture.cause(), remedy);
+    return writer.GetOutputString();
+}
+
 vtkSmartPointer<vtkPoints> make_points(const std::vector<Vec3>& points) {
     vtkNew<vtkDoubleArray> coordinates;
     coordinates->SetNumberOfComponents(3);

@@ -16,6 +16,8 @@
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
 #include <vtkTypeInt64Array.h>
+#include <vtkXMLReader.h>
+#include <vtkXMLWriter.h>
 
 #include <dsc/geometry/vec.hpp>
 #include <dsc/io/data_array.hpp>
@@ -50,6 +52,15 @@ vtkSmartPointer<Array> make_array(const char* name, const std::vector<Value>& va
     std::copy(values.begin(), values.end(), array->GetPointer(0));
     return array;
 }
+
+/// Reads a file's content. Throws IoError "io.syntax" with the message that `capture` has caught.
+void read_content(vtkXMLReader& reader, const std::string& content, std::string_view file,
+                  const CaptureScope& capture);
+
+/// The compressed file with this data; its numbers are appended in binary form. Throws IoError
+/// "io.write" with the remedy.
+std::string written(vtkXMLWriter& writer, vtkDataObject* data, std::string_view file,
+                    std::string_view remedy);
 
 /// As doubles; every bit is kept.
 vtkSmartPointer<vtkPoints> make_points(const std::vector<Vec3>& points);

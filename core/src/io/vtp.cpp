@@ -86,18 +86,8 @@ std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& dat
         polygons->GetPointData()->AddArray(make_array<vtkDoubleArray>(a.name.c_str(), a.values));
     if (!mesh.colours.empty()) polygons->GetPointData()->AddArray(make_colours(mesh));
     for (const VectorArray& a : data.vectors) polygons->GetPointData()->AddArray(make_vectors(a));
-    CaptureScope capture;
     vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetInputData(polygons);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    writer->SetCompressorTypeToZLib();
-    writer->SetHeaderTypeToUInt64();
-    writer->WriteToOutputStringOn();
-    if (writer->Write() == 0 || writer->GetErrorCode() != 0 || !capture.quiet())
-        text::fail("io.write", {file, 0}, "VTK cannot write it: " + capture.cause(),
-                   "leave the series out");
-    return writer->GetOutputString();
+    return written(*writer, polygons, file, "leave the series out");
 }
 
 /// VTK trusts the offsets and indices of the file, so they are checked here.
@@ -149,11 +139,7 @@ surface::TriangleMesh decode_checked(const std::string& content, std::string_vie
                                      SurfaceData* data) {
     CaptureScope capture;
     vtkNew<vtkXMLPolyDataReader> reader;
-    reader->ReadFromInputStringOn();
-    reader->SetInputString(with_point_data(content));
-    reader->Update();
-    if (reader->GetErrorCode() != 0 || !capture.quiet())
-        text::fail("io.syntax", {file, 0}, "VTK refuses it: " + capture.cause(), text::copy_again);
+    read_content(*reader, content, file, capture);
     vtkPolyData* polygons = reader->GetOutput();
     surface::TriangleMesh mesh;
     mesh.points = points_of(*polygons, file);

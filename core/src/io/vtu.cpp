@@ -121,11 +121,7 @@ mesh::TetMesh decode_checked(const std::string& content, std::string_view file,
                              std::vector<DataArray>* points) {
     CaptureScope capture;
     vtkNew<vtkXMLUnstructuredGridReader> reader;
-    reader->ReadFromInputStringOn();
-    reader->SetInputString(with_point_data(content));
-    reader->Update();
-    if (reader->GetErrorCode() != 0 || !capture.quiet())
-        text::fail("io.syntax", {file, 0}, "VTK refuses it: " + capture.cause(), text::copy_again);
+    read_content(*reader, content, file, capture);
     vtkUnstructuredGrid* grid = reader->GetOutput();
     mesh::TetMesh mesh;
     mesh.points = points_of(*grid, file);
@@ -160,19 +156,8 @@ std::string encode_vtu(const mesh::TetMesh& mesh, const VolumeData& data, std::s
     for (const DataArray& a : data.points) {
         grid->GetPointData()->AddArray(make_array<vtkDoubleArray>(a.name.c_str(), a.values));
     }
-    CaptureScope capture;
     vtkNew<vtkXMLUnstructuredGridWriter> writer;
-    writer->SetInputData(grid);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    writer->SetCompressorTypeToZLib();
-    writer->SetHeaderTypeToUInt64();
-    writer->WriteToOutputStringOn();
-    if (writer->Write() == 0 || writer->GetErrorCode() != 0 || !capture.quiet()) {
-        text::fail("io.write", {file, 0}, "VTK cannot write it: " + capture.cause(),
-                   "write a .dsc instead");
-    }
-    return writer->GetOutputString();
+    return written(*writer, grid, file, "write a .dsc instead");
 }
 
 }  // namespace dsc::io

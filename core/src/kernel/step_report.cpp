@@ -4,29 +4,33 @@
 namespace dsc::kernel {
 namespace {
 
-struct Kind {
+struct CountedKind {
     std::string_view name;
     std::uint64_t EventCounts::*count;
 };
 // In the order of Event::Kind.
-constexpr std::array kinds = {
-    Kind{"merge", &EventCounts::merge},
-    Kind{"split", &EventCounts::split},
-    Kind{"handle_opened", &EventCounts::handle_opened},
-    Kind{"handle_closed", &EventCounts::handle_closed},
-    Kind{"vanished", &EventCounts::vanished},
-    Kind{"born", &EventCounts::born},
-    Kind{"unpinched", &EventCounts::unpinched},
+constexpr std::array counted_kinds = {
+    CountedKind{"merge", &EventCounts::merge},
+    CountedKind{"split", &EventCounts::split},
+    CountedKind{"handle_opened", &EventCounts::handle_opened},
+    CountedKind{"handle_closed", &EventCounts::handle_closed},
+    CountedKind{"vanished", &EventCounts::vanished},
+    CountedKind{"born", &EventCounts::born},
+    CountedKind{"unpinched", &EventCounts::unpinched},
 };
 
 }  // namespace
 
-std::string_view name(Event::Kind kind) { return kinds[static_cast<std::size_t>(kind)].name; }
+std::string_view name(Event::Kind kind) {
+    return counted_kinds[static_cast<std::size_t>(kind)].name;
+}
 
-void EventCounts::add(Event::Kind kind) { ++(this->*kinds[static_cast<std::size_t>(kind)].count); }
+void EventCounts::add(Event::Kind kind) {
+    ++(this->*counted_kinds[static_cast<std::size_t>(kind)].count);
+}
 
 EventCounts& EventCounts::operator+=(const EventCounts& other) {
-    for (const Kind& kind : kinds) this->*kind.count += other.*kind.count;
+    for (const CountedKind& kind : counted_kinds) this->*kind.count += other.*kind.count;
     return *this;
 }
 

@@ -40,12 +40,7 @@ void LocalStar::build(VertexId v, std::span<const TetId> region, Label trial) {
             }
         }
     }
-    if (outside) {
-        tets_.push_back(none);
-        labels_.push_back(0);
-        corners_.push_back({none, none, none, none});
-        adjacent_.push_back({none, none, none, none});
-    }
+    if (outside) add_node(none, 0, {none, none, none, none});
 }
 
 void LocalStar::build(VertexId v, const Edit& edit) {
@@ -60,10 +55,7 @@ void LocalStar::build(VertexId v, const Edit& edit) {
         const auto& x = edit.added[i].v;
         if (std::find(x.begin(), x.end(), v) == x.end()) continue;
         stack_[i] = static_cast<std::uint32_t>(tets_.size());
-        tets_.push_back(none);
-        labels_.push_back(edit.added[i].label);
-        corners_.push_back(x);
-        adjacent_.push_back({none, none, none, none});
+        add_node(none, edit.added[i].label, x);
     }
     const std::size_t virtual_nodes = tets_.size();
     if (v != created_vertex) {
@@ -80,10 +72,7 @@ void LocalStar::build(VertexId v, const Edit& edit) {
                 continue;
             }
             node_of_[place] = static_cast<std::uint32_t>(tets_.size());
-            tets_.push_back(t);
-            labels_.push_back(complex_.label(t));
-            corners_.push_back(complex_.tet(t).v);
-            adjacent_.push_back({none, none, none, none});
+            add_node(t, complex_.label(t), complex_.tet(t).v);
         }
     }
     bool outside = false;
@@ -119,12 +108,7 @@ void LocalStar::build(VertexId v, const Edit& edit) {
             }
         }
     }
-    if (outside) {
-        tets_.push_back(none);
-        labels_.push_back(0);
-        corners_.push_back({none, none, none, none});
-        adjacent_.push_back({none, none, none, none});
-    }
+    if (outside) add_node(none, 0, {none, none, none, none});
 }
 
 // Numbers the face-connected groups of equal labels (complement false), or counts the connected

@@ -35,6 +35,12 @@ void judge(const Call& current, const hooks::Attributes& attributes, std::size_t
 /// Checks the angles of a rule for creases: above 0, at most pi. Throws StrategyFailure.
 void judge(const Call& current, const std::optional<repair::CreaseRule>& creases);
 
+/// Refuses figures with names that are not snake_case or that repeat, and values that are not
+/// finite.
+void judge(const Call& current, const hooks::Figures& figures);
+/// Refuses warnings without a text, and codes that are not lower-case words joined by dots.
+void judge(const Call& current, const hooks::Warnings& warnings);
+
 /// Save and load of a wrapped hook of any kind.
 template <class Hook>
 class Checked : public Hook {
@@ -55,6 +61,15 @@ protected:
     std::uint64_t instance() const { return attribution_.instance; }
     Call call(std::string_view hook, std::optional<std::uint64_t> step = std::nullopt) const {
         return attribution_.call(hook, step);
+    }
+    /// The answer of a guarded call of this hook, after judge() has accepted it.
+    template <class Ask>
+    auto judged(std::string_view hook, Ask ask,
+                std::optional<std::uint64_t> step = std::nullopt) const {
+        const Call current = call(hook, step);
+        auto answer = guarded(current, ask);
+        judge(current, answer);
+        return answer;
     }
     /// The context with the strategy's own instance number.
     hooks::StepContext own(const hooks::StepContext& context) const {
@@ -82,11 +97,5 @@ std::unique_ptr<hooks::Strategy> check_observer(std::unique_ptr<hooks::Observer>
                                                 Attribution attribution);
 std::unique_ptr<hooks::Strategy> check_filter(std::unique_ptr<hooks::CloudFilter> inner,
                                               Attribution attribution);
-
-/// Refuses figures with names that are not snake_case or that repeat, and values that are not
-/// finite.
-void judge(const Call& current, const hooks::Figures& figures);
-/// Refuses warnings without a text, and codes that are not lower-case words joined by dots.
-void judge(const Call& current, const hooks::Warnings& warnings);
 
 }  // namespace dsc::plugin

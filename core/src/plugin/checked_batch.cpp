@@ -136,10 +136,7 @@ public:
     }
 
     std::optional<repair::CreaseRule> keep_creases() const override {
-        const Call current = call("keep_creases");
-        const auto rule = guarded(current, [&] { return inner().keep_creases(); });
-        judge(current, rule);
-        return rule;
+        return judged("keep_creases", [&] { return inner().keep_creases(); });
     }
 
     std::uint64_t planned_steps() const override {

@@ -29,10 +29,7 @@ public:
     }
 
     std::optional<repair::CreaseRule> keep_creases() const override {
-        const Call current = call("keep_creases");
-        const auto rule = guarded(current, [&] { return inner().keep_creases(); });
-        judge(current, rule);
-        return rule;
+        return judged("keep_creases", [&] { return inner().keep_creases(); });
     }
 
     unsigned passes() const override {
@@ -175,24 +172,15 @@ public:
     }
 
     hooks::Figures figures() const override {
-        const Call current = call("figures");
-        hooks::Figures result = guarded(current, [&] { return inner().figures(); });
-        judge(current, result);
-        return result;
+        return judged("figures", [&] { return inner().figures(); });
     }
 
     hooks::Warnings warnings() const override {
-        const Call current = call("warnings");
-        hooks::Warnings result = guarded(current, [&] { return inner().warnings(); });
-        judge(current, result);
-        return result;
+        return judged("warnings", [&] { return inner().warnings(); });
     }
 
     hooks::Figures seconds() const override {
-        const Call current = call("seconds");
-        hooks::Figures result = guarded(current, [&] { return inner().seconds(); });
-        judge(current, result);
-        return result;
+        return judged("seconds", [&] { return inner().seconds(); });
     }
 };
 
@@ -338,10 +326,8 @@ public:
 
     hooks::Figures end(const hooks::StepContext& context) override {
         const hooks::StepContext step = own(context);
-        const Call current = call("end", step.step);
-        hooks::Figures result = guarded(current, [&] { return inner().end(step); });
-        judge(current, result);
-        return result;
+        return judged(
+            "end", [&] { return inner().end(step); }, step.step);
     }
 
 private:

@@ -17,6 +17,14 @@ std::string_view name(Refusal refusal) {
     return names[static_cast<std::size_t>(refusal)];
 }
 
+Request on_tet(const mesh::Complex& complex, mesh::TetId tet, Operation operation) {
+    Request request;
+    request.operation = operation;
+    request.tet = tet;
+    request.birth_date = complex.birth_date(tet);
+    return request;
+}
+
 double RepairRound::length_of(mesh::TetId t) const {
     if (lengths.empty()) return target_length;
     double sum = 0.0;

@@ -1,5 +1,6 @@
 // The page that compares several runs.
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include <dsc/base/error.hpp>
@@ -54,13 +55,16 @@ html::Row column_header(const std::vector<Column>& columns, const std::string& f
     return row;
 }
 
-/// Every figure that at least one of the runs has, one column per run.
-std::string figures(const std::vector<Column>& columns) {
+/// Every entry that at least one of the runs has, one column per run.
+std::string comparison(
+    const std::vector<Column>& columns, const std::string& heading,
+    const std::function<std::vector<std::pair<std::string, std::string>>(const RunRecord&)>&
+        entries) {
     std::vector<std::string> names;
     std::vector<std::map<std::string, std::string>> values;
     for (const Column& column : columns) {
         auto& of_run = values.emplace_back();
-        for (const auto& [name, value] : key_figures(column.record)) {
+        for (const auto& [name, value] : entries(column.record)) {
             if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
             of_run[name] = value;
         }
@@ -71,7 +75,14 @@ std::string figures(const std::vector<Column>& columns) {
         for (const auto& of_run : values)
             row.push_back(of_run.count(name) != 0 ? of_run.at(name) : "-");
     }
-    return html::table(column_header(columns, "figure"), rows);
+    return html::table(column_header(columns, heading), rows);
+}
+
+std::vector<std::pair<std::string, std::string>> times(const RunRecord& record) {
+    std::vector<std::pair<std::string, std::string>> out;
+    for (const auto& [phase, seconds] : phases(record))
+        out.emplace_back(phase, html::real(seconds) + " s");
+    return out;
 }
 
 /// The scalar values of a configuration by their dotted paths.
@@ -158,25 +169,6 @@ std::string viewers(const std::vector<Column>& columns, const plugin::Catalogue&
     return tag("div", out, "runs");
 }
 
-std::string times(const std::vector<Column>& columns) {
-    std::vector<std::string> names;
-    std::vector<std::map<std::string, double>> values;
-    for (const Column& column : columns) {
-        auto& of_run = values.emplace_back();
-        for (const auto& [phase, seconds] : phases(column.record)) {
-            if (std::find(names.begin(), names.end(), phase) == names.end()) names.push_back(phase);
-            of_run[phase] = seconds;
-        }
-    }
-    std::vector<html::Row> rows;
-    for (const std::string& name : names) {
-        html::Row& row = rows.emplace_back(html::Row{name});
-        for (const auto& of_run : values)
-            row.push_back(of_run.count(name) != 0 ? html::real(of_run.at(name)) + " s" : "-");
-    }
-    return html::table(column_header(columns, "phase"), rows);
-}
-
 std::string all_warnings(const std::vector<Column>& columns) {
     std::string list;
     for (const Column& column : columns) {
@@ -205,10 +197,11 @@ std::string comparison_html(std::span<const fs::path> run_folders,
             plot(columns, "Mean speed, normalised units per step",
                  column_name<&StepMetrics::mean_speed>, true) +
             plot(columns, "Volume, normalised units", column_name<&StepMetrics::volume>, false);
-        const std::string body = section("In short", figures(columns)) + all_warnings(columns) +
+        const std::string body = section("In short", comparison(columns, "figure", key_figures)) +
+                                 all_warnings(columns) +
                                  section("The surfaces", viewers(columns, catalogue, workers)) +
                                  section("Convergence", tag("div", plots, "plots")) +
-                                 section("Time by phase", times(columns)) +
+                                 section("Time by phase", comparison(columns, "phase", times)) +
                                  section("What differs in the experiments", differences(columns));
         return report_page(text::counted(columns.size(), "run") + " compared", "one column per run",
                            body);

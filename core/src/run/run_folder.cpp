@@ -2,6 +2,7 @@
 #include "dsc/run/run_folder.hpp"
 
 #include <array>
+#include <fstream>
 
 #include <nlohmann/json.hpp>
 

@@ -4,40 +4,17 @@
 #include <algorithm>
 #include <numeric>
 
+#include <dsc/base/union_find.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/intersections.hpp>
 
 namespace dsc::surface {
 namespace {
 
-/// Union-find with the smallest member as representative, so that groups do not depend on the order
-/// of the unions.
-class Groups {
-public:
-    explicit Groups(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-    }
-    std::size_t find(std::size_t i) {
-        while (parent_[i] != i) {
-            parent_[i] = parent_[parent_[i]];
-            i = parent_[i];
-        }
-        return i;
-    }
-    void join(std::size_t i, std::size_t j) {
-        const std::size_t a = find(i), b = find(j);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-    bool is_first(std::size_t i) { return find(i) == i; }
-
-private:
-    std::vector<std::size_t> parent_;
-};
-
 /// Side k of face f is half-edge 3 f + k, from its corner k to its corner k + 1.
 struct HalfEdge {
     std::uint32_t low, high;  ///< points of the edge
-    std::size_t id;
+    std::uint32_t id;
 };
 
 struct Edge {
@@ -48,7 +25,9 @@ struct Edge {
     bool manifold() const { return ascending <= 1 && descending() <= 1; }
 };
 
-std::size_t next_corner(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+std::uint32_t next_corner(std::uint32_t corner) {
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
 
 struct Connectivity {
     std::vector<std::array<std::uint32_t, 3>> faces;  ///< the faces that are analysed
@@ -60,7 +39,7 @@ struct Connectivity {
 
     void build_edges() {
         half_edges.reserve(3 * faces.size());
-        for (std::size_t c = 0; c < 3 * faces.size(); ++c) {
+        for (std::uint32_t c = 0; c < 3 * faces.size(); ++c) {
             const std::uint32_t a = point(c), b = point(next_corner(c));
             half_edges.push_back({std::min(a, b), std::max(a, b), c});
         }
@@ -79,7 +58,7 @@ struct Connectivity {
         }
     }
     /// Corner of the half-edge at one of its points.
-    std::size_t corner_at(const HalfEdge& h, std::uint32_t p) const {
+    std::uint32_t corner_at(const HalfEdge& h, std::uint32_t p) const {
         return point(h.id) == p ? h.id : next_corner(h.id);
     }
 };
@@ -151,8 +130,8 @@ void count_edges(const TriangleMesh& mesh, const Connectivity& c, SurfaceReport&
 
 /// Faces joined through edges form shells; corners joined through edges at one point form fans.
 struct Pieces {
-    Groups shells;
-    Groups fans;
+    UnionFind shells;
+    UnionFind fans;
 
     explicit Pieces(const Connectivity& c) : shells(c.faces.size()), fans(3 * c.faces.size()) {
         for (const Edge& edge : c.edges) {
@@ -170,8 +149,8 @@ struct Pieces {
 void count_nonmanifold_vertices(std::size_t points, const Connectivity& c, Pieces& pieces,
                                 SurfaceReport& report) {
     std::vector<std::uint32_t> fans(points, 0);
-    for (std::size_t corner = 0; corner < 3 * c.faces.size(); ++corner) {
-        if (pieces.fans.is_first(corner) && ++fans[c.point(corner)] == 2)
+    for (std::uint32_t corner = 0; corner < 3 * c.faces.size(); ++corner) {
+        if (pieces.fans.find(corner) == corner && ++fans[c.point(corner)] == 2)
             ++report.nonmanifold_vertices;
     }
 }
@@ -181,20 +160,20 @@ void count_nonmanifold_vertices(std::size_t points, const Connectivity& c, Piece
 void count_boundary_loops(const Connectivity& c, Pieces& pieces,
                           const std::vector<std::size_t>& shell_of,
                           std::vector<ShellReport>& shells) {
-    Groups loops(3 * c.faces.size());
-    std::vector<std::size_t> ends;
+    UnionFind loops(3 * c.faces.size());
+    std::vector<std::uint32_t> ends;
     for (const Edge& edge : c.edges) {
         if (edge.count() != 1) continue;
-        const std::size_t id = c.half_edges[edge.begin].id;
-        const std::size_t a = pieces.fans.find(id), b = pieces.fans.find(next_corner(id));
+        const std::uint32_t id = c.half_edges[edge.begin].id;
+        const std::uint32_t a = pieces.fans.find(id), b = pieces.fans.find(next_corner(id));
         loops.join(a, b);
         ends.push_back(a);
         ends.push_back(b);
     }
     std::sort(ends.begin(), ends.end());
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    for (const std::size_t fan : ends) {
-        if (loops.is_first(fan)) ++shells[shell_of[fan / 3]].boundary_loops;
+    for (const std::uint32_t fan : ends) {
+        if (loops.find(fan) == fan) ++shells[shell_of[fan / 3]].boundary_loops;
     }
 }
 
@@ -203,8 +182,8 @@ void report_shells(const TriangleMesh& mesh, const Connectivity& c, Pieces& piec
     std::vector<std::size_t> shell_of(c.faces.size());
     auto& shells = report.shell_reports;
     const Vec3 centre = report.box.centre();
-    for (std::size_t f = 0; f < c.faces.size(); ++f) {
-        if (pieces.shells.is_first(f)) {
+    for (std::uint32_t f = 0; f < c.faces.size(); ++f) {
+        if (pieces.shells.find(f) == f) {
             shell_of[f] = shells.size();
             shells.emplace_back();
             shells.back().closed = shells.back().manifold = true;
@@ -217,8 +196,8 @@ void report_shells(const TriangleMesh& mesh, const Connectivity& c, Pieces& piec
         ++shell.faces;
         shell.area += geometry::triangle_area(p, q, r);
         shell.volume += (p - centre).dot((q - centre).cross(r - centre)) / 6.0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (pieces.fans.is_first(3 * f + k)) ++shell.vertices;
+        for (std::uint32_t k = 3 * f; k < 3 * f + 3; ++k) {
+            if (pieces.fans.find(k) == k) ++shell.vertices;
         }
     }
     for (const Edge& edge : c.edges) {

@@ -94,6 +94,10 @@ bool Tokens::more_on_line() const {
     return at < rest_.size() && rest_[at] != '\n';
 }
 
+void Lines::fail_short(const std::string& cause) const {
+    fail(cut() ? "io.truncated" : "io.syntax", place_, cause, cut() ? copy_again : export_again);
+}
+
 std::string_view Tokens::require(std::string_view what) {
     const std::string_view token = next();
     if (token.empty())

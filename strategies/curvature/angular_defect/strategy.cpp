@@ -42,16 +42,10 @@ public:
 
 private:
     double at(std::size_t vertex) const {
-        const auto& positions = surface_->positions;
         double angles = 0;
         double area = 0;
         for (const std::uint32_t face : surface_->faces_of(vertex)) {
-            // The corners in the order of the face, rotated so that the vertex comes first.
-            const auto& f = surface_->faces[face];
-            const std::size_t k = f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2;
-            const Vec3& a = positions[f[k]];
-            const Vec3& b = positions[f[(k + 1) % 3]];
-            const Vec3& c = positions[f[(k + 2) % 3]];
+            const auto [a, b, c] = surface_->corners_from(vertex, face);
             angles += dsc::geometry::corner_angle(a, b, c);
             area += dsc::geometry::mixed_area(a, b, c);
         }

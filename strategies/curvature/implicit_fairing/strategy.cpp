@@ -49,16 +49,10 @@ private:
     Vec3 at(std::size_t vertex) const {
         // cot 1 degree: smaller angles are noise
         constexpr double cotangent_limit = 57.28996163075943;
-        const auto& positions = surface_->positions;
         Vec3 sum = Vec3::Zero();
         double area = 0;
         for (const std::uint32_t face : surface_->faces_of(vertex)) {
-            // The corners in the order of the face, rotated so that the vertex comes first.
-            const auto& f = surface_->faces[face];
-            const std::size_t k = f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2;
-            const Vec3& a = positions[f[k]];
-            const Vec3& b = positions[f[(k + 1) % 3]];
-            const Vec3& c = positions[f[(k + 2) % 3]];
+            const auto [a, b, c] = surface_->corners_from(vertex, face);
             sum += dsc::geometry::corner_cotangent(c, a, b, cotangent_limit) * (a - b);
             sum += dsc::geometry::corner_cotangent(b, a, c, cotangent_limit) * (a - c);
             area += area_ == Area::mixed ? dsc::geometry::mixed_area(a, b, c)

@@ -15,10 +15,7 @@ using repair::Request;
 
 Request on_tet(const mesh::Complex& c, mesh::TetId t, Operation operation, double only_below,
                double accept_above) {
-    Request request;
-    request.operation = operation;
-    request.tet = t;
-    request.birth_date = c.birth_date(t);
+    Request request = repair::on_tet(c, t, operation);
     request.only_below = static_cast<float>(only_below);
     request.accept_above = static_cast<float>(accept_above);
     return request;

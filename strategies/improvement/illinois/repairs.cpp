@@ -22,10 +22,7 @@ std::array<Vec3, 4> corners(const mesh::Complex& c, mesh::TetId t) {
 
 Request on_tet(const mesh::Complex& c, mesh::TetId t, Operation operation,
                RepairClass repair_class) {
-    Request request;
-    request.operation = operation;
-    request.tet = t;
-    request.birth_date = c.birth_date(t);
+    Request request = repair::on_tet(c, t, operation);
     request.repair_class = static_cast<std::uint8_t>(repair_class);
     return request;
 }

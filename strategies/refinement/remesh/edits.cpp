@@ -171,9 +171,7 @@ void Edits::collapse(const EdgeMesh& mesh, const Lengths& lengths, bool keep_cre
         if (ratio < collapse_below && mesh.fixed[a] == 0 && mesh.fixed[b] == 0)
             candidates_.push_back({ratio, e});
     }
-    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& x, const Candidate& y) {
-        return x.key != y.key ? x.key < y.key : x.edge < y.edge;
-    });
+    std::sort(candidates_.begin(), candidates_.end());
     asked_.clear();
     for (const Candidate& c : candidates_) {
         const auto& [a, b] = mesh.edges[c.edge].vertices;
@@ -207,9 +205,7 @@ void Edits::flip(const EdgeMesh& mesh, double flatness, std::vector<hooks::FlipR
                            cotangent(mesh.place(mesh.opposite(e, 1)), a, b);
         if (sum < -least_overlap) candidates_.push_back({sum, e});
     }
-    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& x, const Candidate& y) {
-        return x.key != y.key ? x.key < y.key : x.edge < y.edge;
-    });
+    std::sort(candidates_.begin(), candidates_.end());
     asked_.clear();
     for (const Candidate& c : candidates_) {
         if (!may_flip(mesh, c.edge)) continue;

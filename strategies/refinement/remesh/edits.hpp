@@ -53,6 +53,9 @@ private:
     struct Candidate {
         double key;
         std::uint32_t edge;
+        bool operator<(const Candidate& other) const {
+            return key != other.key ? key < other.key : edge < other.edge;
+        }
     };
     /// An edge, by the birth ids of its ends, and the number of attempts at it in this refinement.
     struct Tried {

@@ -29,9 +29,6 @@ inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
 /// Volume of the regular tet with the given edge length.
 inline double regular_tet_volume(double edge) { return edge * edge * edge * 0.11785113019775793; }
 
-/// Area of the equilateral triangle with the given edge length.
-inline double regular_triangle_area(double edge) { return edge * edge * 0.4330127018922193; }
-
 inline double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
     return 0.5 * (b - a).cross(c - a).norm();
 }

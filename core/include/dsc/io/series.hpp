@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <dsc/io/write.hpp>
+
 namespace dsc::io {
 
 /// One vector per point, for a .vtp.

@@ -46,6 +46,12 @@ public:
     int euler_share() const;
 
 private:
+    void add_node(TetId t, Label label, const std::array<VertexId, 4>& corners) {
+        tets_.push_back(t);
+        labels_.push_back(label);
+        corners_.push_back(corners);
+        adjacent_.push_back({none, none, none, none});
+    }
     unsigned flood(bool complement, Label label);
 
     const Complex& complex_;

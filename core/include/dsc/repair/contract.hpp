@@ -66,6 +66,8 @@ struct Request {
     float least_edge = 0.0F;    ///< of a compound: least length of the edges of its vertex;
                                 ///< normalised units
 };
+/// A request that names only the tet.
+Request on_tet(const mesh::Complex& complex, mesh::TetId tet, Operation operation);
 /// The largest number of classes of requests.
 inline constexpr std::size_t repair_class_limit = 16;
 

@@ -39,6 +39,12 @@ struct SurfaceView {
         return std::span(vertex_faces)
             .subspan(face_offsets[vertex], face_offsets[vertex + 1] - face_offsets[vertex]);
     }
+    /// Positions of the corners of a face, in its order, from one of its vertices on.
+    std::array<Vec3, 3> corners_from(std::size_t vertex, std::uint32_t face) const {
+        const auto& f = faces[face];
+        const std::size_t k = f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2;
+        return {positions[f[k]], positions[f[(k + 1) % 3]], positions[f[(k + 2) % 3]]};
+    }
 };
 
 /// What the last view of a complex found round each vertex, and the arrays that build_view()

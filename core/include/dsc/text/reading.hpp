@@ -62,6 +62,9 @@ public:
     bool terminated() const { return terminated_; }
     /// Whether the text is finished and its last line had no line end, as in a truncated file.
     bool cut() const { return at_ == text_.size() && !terminated_; }
+    /// Refuses the last line because it has too few entries: "io.truncated" where the text is cut,
+    /// else "io.syntax".
+    [[noreturn]] void fail_short(const std::string& cause) const;
 
 private:
     std::string_view take();
