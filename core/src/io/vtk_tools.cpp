@@ -7,6 +7,8 @@
 
 #include <dsc/text/reading.hpp>
 
+#include "io/vtu_check.hpp"
+
 namespace dsc::io {
 
 /// Receives the messages that VTK would print.
