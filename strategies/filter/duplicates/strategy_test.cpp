@@ -1,19 +1,9 @@
 // Tests of the filter on clouds with a known result; the plugin is loaded as in a run.
-#include <doctest/doctest.h>
-
 #include <dsc/base/random.hpp>
-#include <dsc/sdk/filters.hpp>
+
+#include "../filter_test.hpp"
 
 namespace {
-
-using dsc::Vec3;
-using dsc::cloud::Cloud;
-using dsc::cloud::Filtered;
-using dsc::config::ConfigNode;
-
-Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map()) {
-    return dsc::sdk::filtered(DSC_TEST_PLUGIN, "duplicates", cloud, params);
-}
 
 /// Points of a small lattice in an order that depends on the seed, many of them repeated, with all
 /// attributes.

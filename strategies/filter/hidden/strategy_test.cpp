@@ -1,22 +1,12 @@
 // Tests of the filter on clouds with a known result; the plugin is loaded as in a run.
 #include <cmath>
 
-#include <doctest/doctest.h>
-
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
-#include <dsc/sdk/filters.hpp>
+
+#include "../filter_test.hpp"
 
 namespace {
-
-using dsc::Vec3;
-using dsc::cloud::Cloud;
-using dsc::cloud::Filtered;
-using dsc::config::ConfigNode;
-
-Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map()) {
-    return dsc::sdk::filtered(DSC_TEST_PLUGIN, "hidden", cloud, params);
-}
 
 /// Points evenly spread over a sphere, along a spiral; their confidence is the number of the
 /// sphere.

@@ -1,20 +1,10 @@
 // Tests of the filter on clouds with a known result; the plugin is loaded as in a run.
-#include <doctest/doctest.h>
-
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
-#include <dsc/sdk/filters.hpp>
+
+#include "../filter_test.hpp"
 
 namespace {
-
-using dsc::Vec3;
-using dsc::cloud::Cloud;
-using dsc::cloud::Filtered;
-using dsc::config::ConfigNode;
-
-Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map()) {
-    return dsc::sdk::filtered(DSC_TEST_PLUGIN, "outliers", cloud, params);
-}
 
 /// 1,000 points on a sphere of radius 1; each has its index as confidence, in thousandths.
 Cloud sphere() {

@@ -1,33 +1,8 @@
 // Tests of the filter on clouds with a known result; the plugin is loaded as in a run.
-#include <doctest/doctest.h>
-
-#include <dsc/sdk/filters.hpp>
-
-namespace {
-
-using dsc::Vec3;
-using dsc::cloud::Cloud;
-using dsc::cloud::Filtered;
-using dsc::config::ConfigNode;
-
-Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map()) {
-    return dsc::sdk::filtered(DSC_TEST_PLUGIN, "statistical_outliers", cloud, params);
-}
-
-/// The grid and two points far above it, one of them first.
-Cloud with_outliers() {
-    Cloud cloud = dsc::sdk::square_grid(12);
-    cloud.points.insert(cloud.points.begin(), Vec3(5, 5, 40));
-    cloud.confidence.insert(cloud.confidence.begin(), 1.0);
-    cloud.points.emplace_back(5, 5, 60);
-    cloud.confidence.push_back(1.0);
-    return cloud;
-}
-
-}  // namespace
+#include "../filter_test.hpp"
 
 TEST_CASE("points far from all others go, the rest keep their attributes") {
-    const Filtered result = filtered(with_outliers());
+    const Filtered result = filtered(grid_with_outliers());
     CHECK(result.report.filter == "statistical_outliers");
     CHECK(result.report.removed == 2);
     CHECK(result.cloud.points == dsc::sdk::square_grid(12).points);
@@ -36,7 +11,7 @@ TEST_CASE("points far from all others go, the rest keep their attributes") {
 
 TEST_CASE("parameters have an effect") {
     const auto kept = [&](double deviations) {
-        return filtered(with_outliers(),
+        return filtered(grid_with_outliers(),
                         ConfigNode::map({{"neighbours", 8}, {"deviations", deviations}}))
             .report.kept;
     };

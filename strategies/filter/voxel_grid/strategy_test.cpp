@@ -1,22 +1,7 @@
 // Tests of the filter on clouds with a known result; the plugin is loaded as in a run.
 #include <cmath>
 
-#include <doctest/doctest.h>
-
-#include <dsc/sdk/filters.hpp>
-
-namespace {
-
-using dsc::Vec3;
-using dsc::cloud::Cloud;
-using dsc::cloud::Filtered;
-using dsc::config::ConfigNode;
-
-Filtered filtered(const Cloud& cloud, const ConfigNode& params = ConfigNode::map()) {
-    return dsc::sdk::filtered(DSC_TEST_PLUGIN, "voxel_grid", cloud, params);
-}
-
-}  // namespace
+#include "../filter_test.hpp"
 
 TEST_CASE("of each cell the point nearest to the middle of its points stays, with its attributes") {
     Cloud cloud = dsc::sdk::square_grid(9);
