@@ -15,7 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include <dsc/base/error.hpp>
 #include <dsc/base/version.hpp>
 #include <dsc/cloud/given_normals.hpp>
 #include <dsc/cloud/orientation.hpp>

@@ -11,7 +11,6 @@
 #include <ctime>
 #include <optional>
 
-#include <dsc/base/error.hpp>
 #include <dsc/base/version.hpp>
 #include <dsc/cloud/orientation.hpp>
 #include <dsc/cloud/statistics.hpp>

@@ -10,7 +10,6 @@
 #include <limits>
 #include <ostream>
 
-#include <dsc/base/error.hpp>
 #include <dsc/base/version.hpp>
 #include <dsc/hooks/refinement_policy.hpp>
 #include <dsc/plugin/plugin.hpp>
