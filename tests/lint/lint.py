@@ -95,7 +95,7 @@ class Tree:
 
 
 def is_test(path):
-    return path.startswith("tests/") or path.endswith("_test.cpp")
+    return path.startswith("tests/") or path.endswith(("_test.cpp", "_test.hpp"))
 
 
 def core_module(path):
