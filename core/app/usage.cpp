@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
 
@@ -29,7 +31,7 @@ std::optional<std::string> meant(const std::string& word, const std::vector<std:
 }
 
 std::string hint(const std::optional<std::string>& name) {
-    return name ? "; did you mean '" + *name + "'?" : "";
+    return name ? fmt::format("; did you mean '{}'?", *name) : std::string();
 }
 
 /// The innermost command that the words name, and the first word after it that is not an option of
@@ -56,11 +58,12 @@ Reached reach(const CLI::App& app, const std::vector<std::string>& words) {
     return at;
 }
 
-std::string unknown_command(const Reached& at) {
+UsageError unknown_command(const Reached& at) {
     const std::vector<std::string> names = names_of(below(*at.command));
     const std::optional<std::string> near = meant(at.unknown, names);
-    return (at.name == "dsc" ? "no command '" : at.name + " has no command '") + at.unknown + "'" +
-           (near ? hint(near) : "; the commands are " + config::join(names, ", "));
+    return {"usage.command", "", fmt::format("{} has no command '{}'", at.name, at.unknown),
+            near ? fmt::format("did you mean '{}'?", *near)
+                 : fmt::format("the commands are {}", config::join(names))};
 }
 
 /// The first option of the call that the command does not have; empty if there is none.
@@ -74,8 +77,8 @@ std::string unknown_option(const CLI::App& app, const Reached& at) {
         }
         const std::string wanted =
             "--" + name.substr(std::min(name.find_first_not_of('-'), name.size()));
-        return at.name + " has no option '" + name + "'" + hint(meant(wanted, names)) + "; see " +
-               at.name + " --help";
+        return fmt::format("{} has no option '{}'{}; see {} --help", at.name, name,
+                           hint(meant(wanted, names)), at.name);
     }
     return {};
 }
@@ -85,21 +88,22 @@ std::string unknown_option(const CLI::App& app, const Reached& at) {
 std::string usage_text(const CLI::App& app, const std::vector<std::string>& words,
                        const CLI::ParseError& error) {
     const Reached at = reach(app, words);
-    if (!at.unknown.empty()) return unknown_command(at) + "; see " + at.name + " --help";
+    if (!at.unknown.empty())
+        return fmt::format("{}; see {} --help", unknown_command(at).what(), at.name);
     if (std::string option = unknown_option(app, at); !option.empty()) return option;
     const std::vector<const CLI::App*> commands = below(*at.command);
     if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
-        return at.name + " needs a command: " + config::join(names_of(commands), ", ") + "; see " +
-               at.name + " --help";
+        return fmt::format("{} needs a command: {}; see {} --help", at.name,
+                           config::join(names_of(commands)), at.name);
     }
     std::string text = error.what();
     std::replace(text.begin(), text.end(), '\n', ' ');
-    return text + "; see " + at.name + " --help";
+    return fmt::format("{}; see {} --help", text, at.name);
 }
 
 std::string help_text(const CLI::App& app, const std::vector<std::string>& words) {
     const Reached at = reach(app, words);
-    if (!at.unknown.empty()) throw UsageError("usage.command", unknown_command(at));
+    if (!at.unknown.empty()) throw unknown_command(at);
     // Not help(): after `dsc help` was parsed, it returns the help of the command `help`.
     return at.command->get_formatter()->make_help(at.command, at.name, CLI::AppFormatMode::Normal);
 }

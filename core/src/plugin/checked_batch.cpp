@@ -55,8 +55,8 @@ public:
     }
     const hooks::StepContext& get(const Call& call) const {
         if (!context_)
-            throw Error(ExitCode::internal, "plugin.not_prepared",
-                        call.who.describe() + ": not prepared");
+            throw Error(ExitCode::internal, "plugin.not_prepared", call.who.describe(),
+                        "it was called before it was prepared", "call prepare() first");
         return *context_;
     }
 

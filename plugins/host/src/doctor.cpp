@@ -4,6 +4,8 @@
 #include <array>
 #include <functional>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 
@@ -32,13 +34,13 @@ public:
         });
         step("library", [this] {
             entry_ = read_entry(real_);
-            return std::string("a shared library with the symbol ") + plugin::entry_symbol;
+            return fmt::format("a shared library with the symbol {}", plugin::entry_symbol);
         });
         step("build", [this] { return judge_build(); });
         note_soft_differences();
         step("load", [this] {
             rehearsed_ = scan({&real_, 1}).front();
-            if (rehearsed_ && rehearsed_->code != "plugin.enroll") raise(*rehearsed_);
+            if (rehearsed_ && rehearsed_->error.code() != "plugin.enroll") throw rehearsed_->error;
             return std::string("opened in a child process, nothing missing");
         });
         step("register", [this] { return judge_strategies(); });
@@ -63,16 +65,12 @@ private:
         all_.push_back(std::move(examination));
     }
 
-    [[noreturn]] static void raise(const Fault& fault) {
-        throw PluginError(fault.code, fault.message);
-    }
-
     std::string judge_build() const {
         require_fitting(entry_, real_);
         const plugin::PluginEntry& entry = entry_.entry;
-        return "plugin '" + text_of(entry.name) + "' " + text_of(entry.version) + ", licence " +
-               text_of(entry.license) + ", ABI " + std::to_string(entry.abi_major) + "." +
-               std::to_string(entry.abi_minor) + ", fits this dsc";
+        return fmt::format("plugin '{}' {}, licence {}, ABI {}.{}, fits this dsc",
+                           text_of(entry.name), text_of(entry.version), text_of(entry.license),
+                           entry.abi_major, entry.abi_minor);
     }
 
     void note_soft_differences() {
@@ -80,20 +78,20 @@ private:
         for (const auto& d : plugin::compare_fingerprints(text_of(entry_.entry.fingerprint),
                                                           plugin::core_fingerprint())) {
             all_.push_back({"build", Result::note,
-                            d.key + " is '" + d.plugin + "', that of dsc is '" + d.host +
-                                "'; this is harmless"});
+                            fmt::format("{} is '{}', that of dsc is '{}'; this is harmless", d.key,
+                                        d.plugin, d.host)});
         }
     }
 
     std::string judge_strategies() {
-        if (rehearsed_) raise(*rehearsed_);
+        if (rehearsed_) throw rehearsed_->error;
         Host alone;
         alone.load(real_);
         std::string text;
         for (const plugin::StrategyInfo& info : alone.list()) {
             text += text.empty() ? "" : ", ";
-            text += std::string(plugin::kind_name(info.strategy->kind)) + " '" + info.strategy->id +
-                    "'";
+            text +=
+                fmt::format("{} '{}'", plugin::kind_name(info.strategy->kind), info.strategy->id);
         }
         return text;
     }
@@ -103,12 +101,10 @@ private:
     std::string judge_names() const {
         Host together;
         together.load(real_);
-        std::vector<std::string> clashes;
         together.load_all(search_, OnFault::collect);
         for (const Fault& fault : together.faults()) {
-            if (fault.code == "plugin.duplicate") clashes.push_back(fault.message);
+            if (fault.error.code() == "plugin.duplicate") throw fault.error;
         }
-        if (!clashes.empty()) throw PluginError("plugin.duplicate", clashes.front());
         return "no other plugin on the search path has one of its ids";
     }
 
