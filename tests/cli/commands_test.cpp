@@ -248,7 +248,7 @@ TEST_CASE("plugin list, describe in four forms, path") {
     CHECK(cli.dsc({"plugin", "path"}).out.find("(installed folder)") != std::string::npos);
 }
 
-TEST_CASE("reconstruct: names of outputs are judged before anything is computed") {
+TEST_CASE("reconstruct: names of outputs are checked before anything is computed") {
     const Cli cli;
     cli.dsc({"sample", "sphere", "-n", "200", "-o", "cloud.obj"});
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "cloud.obj"}).err ==

@@ -210,7 +210,7 @@ TEST_CASE("in a folder that the user did not name a bad library is a warning") {
 }
 
 TEST_CASE(
-    "an earlier place stands in front of a later one, but two answers to one name are an error") {
+    "an earlier place is used instead of a later one, but two libraries with one id are an error") {
     const support::TemporaryFolder mine;
     const support::TemporaryFolder theirs;
     const fs::path front = mine.copy("good");

@@ -54,11 +54,8 @@ struct Request {
     mesh::TetId tet = mesh::none;
     std::uint32_t birth_date = 0;  ///< birth date of the tet when the request was made; ignored
                                    ///< without a tet
-    std::array<mesh::VertexId, 3> vertices = {mesh::none, mesh::none, mesh::none};  ///< vertex,
-                                                                                    ///< edge or
-                                                                                    ///< face; none:
-                                                                                    ///< the kernel
-                                                                                    ///< chooses
+    /// Vertex, edge or face; none: the kernel chooses.
+    std::array<mesh::VertexId, 3> vertices = {mesh::none, mesh::none, mesh::none};
     float parameter = 0.5F;     ///< place of a split along (a, b)
     float only_below = 2.0F;    ///< skip if the tet's quality is not below this at its turn
     float accept_above = 2.0F;  ///< accept if the new least quality is above this, or above the old
