@@ -61,9 +61,10 @@ Reached reach(const CLI::App& app, const std::vector<std::string>& words) {
 UsageError unknown_command(const Reached& at) {
     const std::vector<std::string> names = names_of(below(*at.command));
     const std::optional<std::string> near = meant(at.unknown, names);
-    return {"usage.command", "", fmt::format("{} has no command '{}'", at.name, at.unknown),
-            near ? fmt::format("did you mean '{}'?", *near)
-                 : fmt::format("the commands are {}", config::join(names))};
+    return UsageError("usage.command", "",
+                      fmt::format("{} has no command '{}'", at.name, at.unknown),
+                      near ? fmt::format("did you mean '{}'?", *near)
+                           : fmt::format("the commands are {}", config::join(names)));
 }
 
 /// The first option of the call that the command does not have; empty if there is none.

@@ -16,9 +16,9 @@ void place(std::span<Vec3> points, Coordinates coordinates,
            const hooks::InitialMeshContext& context) {
     if (coordinates == Coordinates::as_they_are) return;
     if (context.cloud == nullptr) {
-        throw ConfigError("config.no_input", "initial_mesh.coordinates",
-                          "it is 'of_input', but the experiment has no input",
-                          "leave it out, or add input: {cloud: {file: ...}}");
+        throw ConfigError("config.no_input", "initial_mesh",
+                          "`coordinates` is 'of_input', but the experiment has no input",
+                          "leave `coordinates` out, or add input: {cloud: {file: ...}}");
     }
     for (Vec3& p : points) p = context.cloud->transform().apply(p);
 }

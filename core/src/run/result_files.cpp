@@ -110,7 +110,7 @@ void ResultFiles::trim_surface(const hooks::Attributes& attributes, std::span<co
                       &points_of, &outcome.trimmed.emplace());
     if (surface_.faces.empty()) {
         throw GeometryError(
-            "run.trimmed", "output.trim",
+            "run.trimmed", "result",
             fmt::format("trimming removed the whole surface: every face has a vertex farther than "
                         "{} spacings from the points or with too little support",
                         output_.trim->distance),
