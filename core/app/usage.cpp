@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <regex>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -84,6 +87,36 @@ std::string unknown_option(const CLI::App& app, const Reached& at) {
     return {};
 }
 
+using Turns = std::vector<std::pair<std::regex, const char*>>;
+
+std::string replaced(std::string text, const Turns& turns) {
+    for (const auto& [pattern, plain] : turns) text = std::regex_replace(text, pattern, plain);
+    return text;
+}
+
+/// The parser's message in the words of the other messages.
+std::string plain_text(const std::string& message) {
+    static const Turns turns = {
+        {std::regex("\n"), " "},
+        {std::regex("^(\\S+) is required$"), "the argument $1 is missing"},
+        {std::regex("^(\\S+): Value (.*) not in range (.*) to (.*)$"),
+         "$1: '$2' is not a number from $3 to $4"},
+        {std::regex("^The following arguments? w\\w+ not expected: (.*)$"), "unexpected: $1"},
+        {std::regex("^Could not convert: (\\S+) = (.*)$"), "$1: '$2' has the wrong type"},
+        {std::regex("^(\\S+) excludes (\\S+)$"), "$1 and $2 cannot be used together"},
+    };
+    static const Turns zeros = {{std::regex("(\\.[0-9]*[1-9]|\\.)0+(?![0-9])"), "$1"},
+                                {std::regex("([0-9])\\.(?![0-9])"), "$1"}};
+    static const std::regex choice("^(\\S+): (.*) not in \\{(.*)\\}$");
+    std::smatch parts;
+    if (std::regex_match(message, parts, choice)) {
+        return fmt::format("{}: '{}' is not one of {}", parts.str(1), parts.str(2),
+                           std::regex_replace(parts.str(3), std::regex(","), ", "));
+    }
+    const bool range = message.find(" not in range ") != std::string::npos;
+    return replaced(range ? replaced(message, zeros) : message, turns);
+}
+
 }  // namespace
 
 std::string usage_text(const CLI::App& app, const std::vector<std::string>& words,
@@ -97,9 +130,7 @@ std::string usage_text(const CLI::App& app, const std::vector<std::string>& word
         return fmt::format("{} needs a command: {}; see {} --help", at.name,
                            config::join(names_of(commands)), at.name);
     }
-    std::string text = error.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return fmt::format("{}; see {} --help", text, at.name);
+    return fmt::format("{}; see {} --help", plain_text(error.what()), at.name);
 }
 
 std::string help_text(const CLI::App& app, const std::vector<std::string>& words) {

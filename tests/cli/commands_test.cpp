@@ -72,6 +72,18 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
     CHECK(said({"sample", "torus", "--nose", "0.1", "-o", "a.xyz"}) ==
           "error: dsc sample has no option '--nose'; did you mean '--noise'?; see dsc sample "
           "--help\n");
+    CHECK(said({"reconstruct", "c.ply", "--detail", "hi"}) ==
+          "error: --detail: 'hi' is not one of low, medium, high; see dsc reconstruct --help\n");
+    CHECK(said({"run", "a.yaml", "--threads", "0"}) ==
+          "error: --threads: '0' is not a number from 1 to 1024; see dsc run --help\n");
+    CHECK(said({"sample", "torus", "--noise", "2", "-o", "a.xyz"}) ==
+          "error: --noise: '2' is not a number from 0 to 1; see dsc sample --help\n");
+    CHECK(said({"reconstruct"}) ==
+          "error: the argument CLOUD is missing; see dsc reconstruct --help\n");
+    CHECK(said({"schema", "x"}) == "error: unexpected: x; see dsc schema --help\n");
+    CHECK(said({"reconstruct", "c.ply", "--vertices", "500", "--edge-length", "1"}) ==
+          "error: --vertices and --edge-length cannot be used together; see dsc reconstruct "
+          "--help\n");
     CHECK(cli.dsc({"plugin", "describe", "point_clod"}).err ==
           "error: 'point_clod' is not the name of a strategy; did you mean 'point_cloud'? dsc "
           "plugin list shows all strategies\n");
