@@ -55,7 +55,7 @@ std::filesystem::path find_strategy(const CheckArguments& arguments, const host:
             (arguments.kind.empty() || plugin::kind_name(info.strategy->kind) == arguments.kind);
         if (!wanted) continue;
         if (!file.empty() && file != info.plugin->file)
-            throw UsageError("usage.strategy", "",
+            throw UsageError("usage.strategy", "dsc plugin check",
                              fmt::format("several kinds have a strategy '{}'", arguments.target),
                              "choose one with --kind");
         file = info.plugin->file;
@@ -63,7 +63,7 @@ std::filesystem::path find_strategy(const CheckArguments& arguments, const host:
     }
     if (!file.empty()) return file;
     throw UsageError(
-        "usage.strategy", "",
+        "usage.strategy", "dsc plugin check",
         fmt::format("'{}' is neither a file nor the name of a strategy", arguments.target),
         config::did_you_mean(arguments.target, ids) + "dsc plugin list shows all strategies");
 }

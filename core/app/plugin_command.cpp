@@ -79,7 +79,7 @@ int describe(const PluginArguments& arguments) {
     }
     if (found.empty()) {
         throw UsageError(
-            "usage.strategy", "",
+            "usage.strategy", "dsc plugin describe",
             fmt::format("'{}' is not the name of a strategy{}{}", arguments.id,
                         arguments.kind.empty() ? "" : " of kind ", arguments.kind),
             config::did_you_mean(arguments.id, ids) + "dsc plugin list shows all strategies");

@@ -28,7 +28,7 @@ plugin::Kind kind_of_word(const std::string& word) {
     std::vector<std::string> names;
     for (const plugin::Kind kind : plugin::all_kinds) names.emplace_back(plugin::kind_name(kind));
     throw UsageError(
-        "usage.kind", "", fmt::format("there is no kind of strategy '{}'", word),
+        "usage.kind", "--kind", fmt::format("there is no kind of strategy '{}'", word),
         fmt::format("{}the kinds are {}", config::did_you_mean(word, names), config::join(names)));
 }
 
@@ -38,7 +38,7 @@ void require_free_name(const std::string& name) {
     std::error_code error;
     const fs::path built_in = host::installed_folder() / ("libdsc_" + name + ".so");
     if (fs::exists(built_in, error)) {
-        throw UsageError("usage.plugin_taken", "",
+        throw UsageError("usage.plugin_taken", "dsc plugin new",
                          fmt::format("'{}' is the name of a plugin that comes with dsc ({})", name,
                                      built_in.string()),
                          "choose another name");

@@ -74,7 +74,8 @@ void require_plugin_name(const std::string& name) {
     constexpr std::size_t longest = sizeof(plugin::PluginEntry::name) - 1;
     if (text::is_id(name) && name.size() <= longest) return;
     throw UsageError(
-        "usage.plugin_name", "", fmt::format("'{}' cannot be the name of a plugin", name),
+        "usage.plugin_name", "dsc plugin new",
+        fmt::format("'{}' cannot be the name of a plugin", name),
         fmt::format("use at most {} lower case letters, digits and _, with a letter first",
                     longest));
 }

@@ -64,8 +64,7 @@ Reached reach(const CLI::App& app, const std::vector<std::string>& words) {
 UsageError unknown_command(const Reached& at) {
     const std::vector<std::string> names = names_of(below(*at.command));
     const std::optional<std::string> near = meant(at.unknown, names);
-    return UsageError("usage.command", "",
-                      fmt::format("{} has no command '{}'", at.name, at.unknown),
+    return UsageError("usage.command", at.name, fmt::format("there is no command '{}'", at.unknown),
                       near ? fmt::format("did you mean '{}'?", *near)
                            : fmt::format("the commands are {}", config::join(names)));
 }

@@ -57,11 +57,11 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
     CHECK(cli.dsc({"help", "recon"}).code == 2);
     const auto said = [&](const std::vector<std::string>& words) { return cli.dsc(words).err; };
     CHECK(said({"recon"}) ==
-          "error: dsc has no command 'recon'; did you mean 'reconstruct'?; see dsc --help\n");
+          "error: dsc: there is no command 'recon'; did you mean 'reconstruct'?; see dsc --help\n");
     CHECK(said({"rnu", "a.yaml"}) ==
-          "error: dsc has no command 'rnu'; did you mean 'run'?; see dsc --help\n");
-    CHECK(said({"plugin", "lst"}) ==
-          "error: dsc plugin has no command 'lst'; did you mean 'list'?; see dsc plugin --help\n");
+          "error: dsc: there is no command 'rnu'; did you mean 'run'?; see dsc --help\n");
+    CHECK(said({"plugin", "lst"}) == "error: dsc plugin: there is no command 'lst'; did you mean "
+                                     "'list'?; see dsc plugin --help\n");
     CHECK(said({"frobnicate"}).find("; the commands are run, reconstruct, ") != std::string::npos);
     CHECK(said({"reconstruct", "c.ply", "--detial", "low"}) ==
           "error: dsc reconstruct has no option '--detial'; did you mean '--detail'?; see dsc "
@@ -85,7 +85,8 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
           "error: --vertices and --edge-length cannot be used together; see dsc reconstruct "
           "--help\n");
     CHECK(cli.dsc({"plugin", "describe", "point_clod"}).err ==
-          "error: 'point_clod' is not the name of a strategy; did you mean 'point_cloud'? dsc "
+          "error: dsc plugin describe: 'point_clod' is not the name of a strategy; did you mean "
+          "'point_cloud'? dsc "
           "plugin list shows all strategies\n");
 }
 

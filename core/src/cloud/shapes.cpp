@@ -37,7 +37,7 @@ std::unique_ptr<Shape> make_shape(std::string_view name) {
     std::string accepted;
     for (const std::string_view known : names)
         accepted.append(accepted.empty() ? "" : ", ").append(known);
-    throw UsageError("shape.unknown", "",
+    throw UsageError("shape.unknown", "shape",
                      fmt::format("there is no built-in shape {}", text::in_quotes(name)),
                      fmt::format("use one of these: {}", accepted));
 }

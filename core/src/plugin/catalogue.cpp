@@ -40,7 +40,7 @@ std::unique_ptr<hooks::Strategy> check(std::unique_ptr<hooks::Strategy> made,
         case Kind::filter:
             return check_filter(as<hooks::CloudFilter>(std::move(made)), std::move(attribution));
     }
-    throw Error(ExitCode::internal, "plugin.kind", "", "a strategy has an unknown kind",
+    throw Error(ExitCode::internal, "plugin.kind", "catalogue", "a strategy has an unknown kind",
                 "please report it with the experiment");
 }
 

@@ -56,7 +56,7 @@ std::string guarded_report(const std::function<std::string()>& make) {
     try {
         return make();
     } catch (const nlohmann::json::exception& error) {
-        throw IoError("report.damaged", "", "",
+        throw IoError("report.damaged", "run folder", "",
                       fmt::format("a JSON file of the run does not contain what a run writes: {}",
                                   error.what()),
                       "run the experiment again");

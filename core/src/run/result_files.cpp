@@ -66,7 +66,7 @@ void ResultFiles::write(const mesh::TetMesh& mesh, const hooks::Attributes& attr
     surface_ = surface::extract_interface(mesh, &vertex_of);
     if (surface_.faces.empty() && target != nullptr) {
         throw GeometryError(
-            "run.vanished", "",
+            "run.vanished", "result",
             "the surface vanished: no tet with a label above 0 is left, so there is no result; "
             "parts of the object may be thinner than the mesh resolution",
             "use more cells or smaller steps, or stop earlier");

@@ -37,8 +37,8 @@ void require_valid(const RunOutcome& outcome) {
     const VolumeMeasure& v = outcome.volume;
     if (v.inverted_tets == 0 && v.adjacency_valid() && outcome.conforms) return;
     throw GeometryError(
-        "run.invalid_result", "",
-        fmt::format("the result as written is not valid: it has {} inverted tets and {} wrong "
+        "run.invalid_result", "result",
+        fmt::format("as written it is not valid: it has {} inverted tets and {} wrong "
                     "faces, and its surface is {}the interface of its volume",
                     v.inverted_tets, v.overused_faces + v.folded_faces,
                     outcome.conforms ? "" : "not "),

@@ -82,7 +82,7 @@ private:
         std::vector<std::string> ids;
         for (const Test& test : test_table()) ids.push_back(test.info.id);
         if (std::find(ids.begin(), ids.end(), id) != ids.end()) return;
-        throw UsageError("usage.test", "", fmt::format("there is no test '{}'", id),
+        throw UsageError("usage.test", "dsc plugin check", fmt::format("there is no test '{}'", id),
                          config::did_you_mean(id, ids) + "dsc plugin check --list shows all");
     }
 

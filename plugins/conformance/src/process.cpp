@@ -134,8 +134,8 @@ Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::millisec
     std::array<int, 2> ends{};
     const int output = memfd_create("output", MFD_CLOEXEC);
     if (output < 0 || pipe2(ends.data(), O_CLOEXEC) != 0)
-        throw PluginError("check.process", "",
-                          fmt::format("cannot create a pipe for a test ({})", strerror(errno)),
+        throw PluginError("check.process", "process of a test",
+                          fmt::format("cannot create a pipe ({})", strerror(errno)),
                           "close other programs");
     std::cout.flush();
     std::fflush(nullptr);
@@ -158,8 +158,8 @@ Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::millisec
     close(ends[0]);
     close(output);
     if (child < 0)
-        throw PluginError("check.process", "",
-                          fmt::format("cannot start a process for a test ({})", strerror(errno)),
+        throw PluginError("check.process", "process of a test",
+                          fmt::format("cannot be started ({})", strerror(errno)),
                           "close other programs");
     return judge(status, in_time, bytes, said, limit);
 }

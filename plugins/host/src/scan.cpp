@@ -102,9 +102,8 @@ public:
 
 private:
     [[noreturn]] static void throw_system(const std::string& what) {
-        throw PluginError("plugin.scan", "",
-                          fmt::format("cannot create {} for the trial load of plugins ({})", what,
-                                      strerror(errno)),
+        throw PluginError("plugin.scan", "trial load of plugins",
+                          fmt::format("cannot create {} ({})", what, strerror(errno)),
                           "close other programs");
     }
 

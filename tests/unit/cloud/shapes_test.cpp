@@ -188,13 +188,14 @@ TEST_CASE("samples depend on the arguments only") {
 
 TEST_CASE("wrong requests are refused") {
     CHECK(test::error_of([] { sample_shape("cup", 10, 1); }) ==
-          "shape.unknown 2: there is no built-in shape 'cup'; use one of these: teapot, sphere, "
+          "shape.unknown 2: shape: there is no built-in shape 'cup'; use one of these: teapot, "
+          "sphere, "
           "torus, "
           "box_tunnel");
-    CHECK(
-        test::error_of([] { shape_mesh(""); }) ==
-        "shape.unknown 2: there is no built-in shape ''; use one of these: teapot, sphere, torus, "
-        "box_tunnel");
+    CHECK(test::error_of([] { shape_mesh(""); }) ==
+          "shape.unknown 2: shape: there is no built-in shape ''; use one of these: teapot, "
+          "sphere, torus, "
+          "box_tunnel");
     CHECK(test::error_of([] { sample_shape("sphere", 0, 1); }) ==
           "shape.option 2: number of points: 0 points are requested; request at least 1");
     CHECK(test::error_of([] { sample_shape("sphere", 10, 1, -0.5); }) ==
