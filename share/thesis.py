@@ -47,7 +47,7 @@ RUNS = {
     "teapot_adaptive": ("thesis/teapot_adaptive", [], "teapot"),
     "cow_adaptive": ("thesis/cow_adaptive", [], "cow"),
 }
-# picture: (run, what dsc render is told)
+# picture: (run, options of dsc render)
 SHOTS = {
     "corner_box": ("corner_box_55", ["--view", "front", "--edges"]),
     "start": ("start", ["--edges"]),

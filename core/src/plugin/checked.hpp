@@ -30,10 +30,10 @@ struct Attribution {
 
 /// Checks attributes of a surface: one finite number per vertex, under allowed names that differ.
 /// Throws StrategyFailure.
-void judge(const Call& current, const hooks::Attributes& attributes, std::size_t vertices);
+void check_answer(const Call& current, const hooks::Attributes& attributes, std::size_t vertices);
 
 /// Checks the angles of a rule for creases: above 0, at most pi. Throws StrategyFailure.
-void judge(const Call& current, const std::optional<repair::CreaseRule>& creases);
+void check_answer(const Call& current, const std::optional<repair::CreaseRule>& creases);
 
 /// Save and load of a wrapped hook of any kind.
 template <class Hook>
@@ -85,8 +85,8 @@ std::unique_ptr<hooks::Strategy> check_filter(std::unique_ptr<hooks::CloudFilter
 
 /// Refuses figures with names that are not snake_case or that repeat, and values that are not
 /// finite.
-void judge(const Call& current, const hooks::Figures& figures);
+void check_answer(const Call& current, const hooks::Figures& figures);
 /// Refuses warnings without a text, and codes that are not lower-case words joined by dots.
-void judge(const Call& current, const hooks::Warnings& warnings);
+void check_answer(const Call& current, const hooks::Warnings& warnings);
 
 }  // namespace dsc::plugin

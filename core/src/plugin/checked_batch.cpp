@@ -128,7 +128,7 @@ public:
         const Call current = call("publish", context.step);
         hooks::Attributes given;
         guarded(current, [&] { inner().publish(given); });
-        judge(current, given, context.surface.vertex_count());
+        check_answer(current, given, context.surface.vertex_count());
         for (hooks::Attribute& a : given) out.push_back(std::move(a));
     }
 
@@ -139,7 +139,7 @@ public:
     std::optional<repair::CreaseRule> keep_creases() const override {
         const Call current = call("keep_creases");
         const auto rule = guarded(current, [&] { return inner().keep_creases(); });
-        judge(current, rule);
+        check_answer(current, rule);
         return rule;
     }
 

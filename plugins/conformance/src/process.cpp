@@ -95,8 +95,8 @@ std::string sanitizer_report(const std::string& output) {
     return {};
 }
 
-Verdict judge(int status, bool in_time, const std::string& bytes, const std::string& output,
-              std::chrono::milliseconds limit) {
+Verdict verdict_of(int status, bool in_time, const std::string& bytes, const std::string& output,
+                   std::chrono::milliseconds limit) {
     if (!in_time)
         return {Status::timeout, fmt::format("it did not end within {} s", limit.count() / 1000)};
     if (const std::string report = sanitizer_report(output); !report.empty())
@@ -161,7 +161,7 @@ Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::millisec
         throw PluginError("check.process", "process of a test",
                           fmt::format("cannot be started ({})", strerror(errno)),
                           "close other programs");
-    return judge(status, in_time, bytes, said, limit);
+    return verdict_of(status, in_time, bytes, said, limit);
 }
 
 }  // namespace dsc::conformance

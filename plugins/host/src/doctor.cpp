@@ -36,15 +36,15 @@ public:
             entry_ = read_entry(real_);
             return fmt::format("a shared library with the symbol {}", plugin::entry_symbol);
         });
-        step("build", [this] { return judge_build(); });
+        step("build", [this] { return examine_build(); });
         note_soft_differences();
         step("load", [this] {
             rehearsed_ = scan({&real_, 1}).front();
             if (rehearsed_ && rehearsed_->error.code() != "plugin.enroll") throw rehearsed_->error;
             return std::string("opened in a child process, nothing missing");
         });
-        step("register", [this] { return judge_strategies(); });
-        step("names", [this] { return judge_names(); });
+        step("register", [this] { return examine_strategies(); });
+        step("names", [this] { return examine_names(); });
         return std::move(all_);
     }
 
@@ -65,7 +65,7 @@ private:
         all_.push_back(std::move(examination));
     }
 
-    std::string judge_build() const {
+    std::string examine_build() const {
         require_fitting(entry_, real_);
         const plugin::PluginEntry& entry = entry_.entry;
         return fmt::format("plugin '{}' {}, licence {}, ABI {}.{}, fits this dsc",
@@ -83,7 +83,7 @@ private:
         }
     }
 
-    std::string judge_strategies() {
+    std::string examine_strategies() {
         if (rehearsed_) throw rehearsed_->error;
         Host alone;
         alone.load(real_);
@@ -98,7 +98,7 @@ private:
 
     // The plugins that a run would also find. One of them may be this same file, or an older build
     // of it.
-    std::string judge_names() const {
+    std::string examine_names() const {
         Host together;
         together.load(real_);
         together.load_all(search_, OnFault::collect);

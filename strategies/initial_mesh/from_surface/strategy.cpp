@@ -15,8 +15,8 @@
 #include <dsc/geometry/point_text.hpp>
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/mesh/adopt.hpp>
+#include <dsc/plugin/coordinates.hpp>
 #include <dsc/plugin/lattice_params.hpp>
-#include <dsc/plugin/placing.hpp>
 #include <dsc/plugin/plugin.hpp>
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/surface_view.hpp>
@@ -157,7 +157,7 @@ public:
                     {"interface_genus", static_cast<double>(made.genus)},
                     {"surface_volume", std::abs(given.volume)},
                     {"interface_volume", made.volume}};
-        judge(found, cell);
+        check_deviation(found, cell);
         if (given.shells != made.shells || given.genus != made.genus) {
             dsc::log(dsc::LogLevel::warning,
                      std::string(name) + ": the surface has " + topology(given) +
@@ -227,7 +227,7 @@ private:
         return out;
     }
 
-    void judge(const Deviation& found, double cell) const {
+    void check_deviation(const Deviation& found, double cell) const {
         const double distance = found.greatest() / cell;
         dsc::log(dsc::LogLevel::info,
                  std::string(name) + ": the surface and the mesh are at most " +

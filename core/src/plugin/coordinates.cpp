@@ -1,5 +1,5 @@
 // Readers and units for generators that start from a file.
-#include "dsc/plugin/placing.hpp"
+#include "dsc/plugin/coordinates.hpp"
 
 #include <dsc/base/error.hpp>
 
