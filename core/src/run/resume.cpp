@@ -97,7 +97,8 @@ void require_tables(const fs::path& folder, const Checkpoint& checkpoint) {
         std::error_code error;
         const std::uintmax_t size = fs::file_size(folder / name, error);
         if (error || size < bytes)
-            throw IoError("checkpoint.unusable", name, "", "it is shorter than at the checkpoint",
+            throw IoError("checkpoint.unusable", folder.string(), "",
+                          fmt::format("{} is shorter than at the checkpoint", name),
                           "start the run again without --resume");
     };
     require("metrics.csv", checkpoint.log.metrics_bytes);
