@@ -8,7 +8,7 @@ namespace dsc {
 void StateReader::damaged() {
     throw IoError("state.damaged", "saved state", "",
                   "it ends too early, so it is damaged or another version wrote it",
-                  "start the run again without --resume");
+                  "start the run again");
 }
 
 }  // namespace dsc

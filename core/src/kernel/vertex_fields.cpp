@@ -184,8 +184,7 @@ void VertexFields::load(StateReader& in) {
     }
     if (!fits)
         throw IoError("state.damaged", "saved state", "",
-                      "the numbers per vertex do not fit the complex",
-                      "start the run again without --resume");
+                      "the numbers per vertex do not fit the complex", "start the run again");
 }
 
 }  // namespace dsc::kernel

@@ -46,7 +46,7 @@ Complex Complex::load(StateReader& in) {
         throw IoError(
             "state.damaged", "saved complex", "",
             "its lists have different lengths, so it is damaged or is not a saved complex",
-            "start the run again without --resume");
+            "start the run again");
     return c;
 }
 
