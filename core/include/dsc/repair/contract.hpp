@@ -107,9 +107,9 @@ struct CreaseRule {
 /// What a repair round offers (method.md, section 6.2). Spans are valid during the call.
 struct RepairRound {
     const mesh::Complex& complex;
-    std::span<const mesh::TetId> dirty;  ///< live tets that changed since the last round, in the
-                                         ///< order of the changes; then tets with a refused request
-                                         ///< near which something has changed since
+    /// Live tets that changed since the last round, in the order of the changes; then tets with a
+    /// refused request near which something has changed since.
+    std::span<const mesh::TetId> dirty;
     std::span<const mesh::VertexId> blocked;  ///< interface vertices that could not reach their
                                               ///< destination
     std::span<const Request> last_requests;
