@@ -82,7 +82,7 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
           "error: the argument CLOUD is missing; see dsc reconstruct --help\n");
     CHECK(said({"schema", "x"}) == "error: unexpected: x; see dsc schema --help\n");
     CHECK(said({"reconstruct", "c.ply", "--vertices", "500", "--edge-length", "1"}) ==
-          "error: --vertices and --edge-length cannot be used together; see dsc reconstruct "
+          "error: --edge-length and --vertices cannot be used together; see dsc reconstruct "
           "--help\n");
     CHECK(cli.dsc({"plugin", "describe", "point_clod"}).err ==
           "error: dsc plugin describe: 'point_clod' is not the name of a strategy; did you mean "
