@@ -43,7 +43,7 @@ def page_name(strategy):
 def index(strategies):
     lines = ["# Strategies and their parameters",
              "Written by `share/reference.py` from the declarations in the code; `dsc plugin describe ID --format md` prints such a "
-             "page for any strategy, of your own plugins too. How the methods work stands on the pages linked as *method*."]
+             "page for any strategy, of your own plugins too. The pages linked as *method* explain how the methods work."]
     for kind, (title, meaning) in KINDS.items():
         of_kind = [s for s in strategies if s["kind"] == kind]
         if not of_kind:

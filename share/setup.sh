@@ -109,7 +109,7 @@ announce() {
 }
 
 build() {  # build PRESET
-    say "setup: building $(shown "$root/build/$1"); the counter tells steps done, steps in all and the time"
+    say "setup: building $(shown "$root/build/$1"); the counter shows the finished steps, all steps and the time"
     cmake -S "$root" --preset "$1" --log-level=WARNING >&2 ||
         fail 1 "CMake could not configure the build; its message above names what it did not find"
     NINJA_STATUS='[%f/%t, %e s] ' cmake --build "$root/build/$1" -j "$(compile_jobs)" >&2 || fail 1 "the build failed; the compiler's message is above"

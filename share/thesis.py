@@ -4,7 +4,7 @@
     share/thesis.py [--dsc build/release/bin/dsc] [--runs build/thesis] [--only NAME ...]
 
 DSC_DATA names the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj. A run that is in the folder --runs with the
-same command and the same config is not repeated. What stands between the markers of the page is replaced, nothing else.
+same command and the same config is not repeated. Only the text between the markers of the page is replaced.
 """
 import argparse
 import json
@@ -47,7 +47,7 @@ RUNS = {
     "teapot_adaptive": ("thesis/teapot_adaptive", [], "teapot"),
     "cow_adaptive": ("thesis/cow_adaptive", [], "cow"),
 }
-# picture: (run, what dsc render is told)
+# picture: (run, options of dsc render)
 SHOTS = {
     "corner_box": ("corner_box_55", ["--view", "front", "--edges"]),
     "start": ("start", ["--edges"]),

@@ -44,20 +44,20 @@ int execute(const ConvertArguments& arguments) {
     const io::Format* format = io::find_format(arguments.output);
     const bool is_cloud = cloud::is_cloud_file(arguments.output);
     if (format == nullptr && !is_cloud) {
-        throw UsageError(
-            "usage.format",
-            arguments.output + " does not have the extension of a format that dsc writes; use " +
-                io::surface_extensions() + " for a surface, " + io::volume_extensions() +
-                " for a volume, " + std::string(cloud::cloud_extensions()) + " for a cloud");
+        throw UsageError("usage.format", arguments.output,
+                         "does not have the extension of a format that dsc writes",
+                         fmt::format("use {} for a surface, {} for a volume, {} for a cloud",
+                                     io::surface_extensions(), io::volume_extensions(),
+                                     cloud::cloud_extensions()));
     }
     Content content = read_any(arguments.input, arguments.columns);
     if (format == nullptr) {
         cloud::write_cloud(arguments.output, points_of(std::move(content)));
     } else if (format->volume) {
         if (!content.volume) {
-            throw UsageError("convert.no_volume",
-                             arguments.input + " contains no tets, so no volume can be written; "
-                                               "make one with dsc reconstruct");
+            throw UsageError("convert.no_volume", arguments.input,
+                             "contains no tets, so no volume can be written",
+                             "make a volume with dsc reconstruct");
         }
         if (const std::size_t turned = mesh::orient(*content.volume); turned > 0) {
             log(LogLevel::info, fmt::format("{} tets of {} had negative orientation; they are "

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 
 namespace dsc::app {
@@ -17,9 +19,9 @@ double parse_duration(const std::string& text) {
                            : unit == "h"               ? 3600.0
                                                        : 0.0;
     if (error != std::errc() || seconds == 0.0 || !std::isfinite(value) || value <= 0.0) {
-        throw UsageError(
-            "usage.duration",
-            "--time-budget " + text + " is not a length of time; write 90, 90s, 10m or 1.5h");
+        throw UsageError("usage.duration", "--time-budget",
+                         fmt::format("'{}' is not a length of time", text),
+                         "write 90, 90s, 10m or 1.5h");
     }
     return value * seconds;
 }

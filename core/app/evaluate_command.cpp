@@ -129,8 +129,8 @@ ordered_json cloud_formulas() {
 
 int execute(const EvaluateArguments& arguments) {
     if (arguments.truth.empty() && arguments.cloud.empty()) {
-        throw UsageError("usage.evaluate",
-                         "nothing to compare the result with; add --truth MESH or --cloud CLOUD");
+        throw UsageError("usage.evaluate", arguments.result, "nothing is given to compare it with",
+                         "add --truth MESH or --cloud CLOUD");
     }
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));
     const surface::TriangleMesh result = read_any_surface(arguments.result);

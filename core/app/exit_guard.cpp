@@ -7,6 +7,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/plugin/guarded.hpp>
 #include <dsc/run/run_experiment.hpp>
@@ -32,11 +34,11 @@ bool unexpected() noexcept {
 [[noreturn]] void refuse_end() noexcept {
     try {
         const std::string call = plugin::current_call();
-        const std::string who = call.empty() ? "a plugin or a library" : call;
-        const std::string text = who + " ended the process; a strategy must throw instead; report "
-                                       "this to the plugin's authors";
-        tell("error: " + text + "\n");
-        run::abandon_runs(PluginError("strategy.exit", text));
+        const PluginError error("strategy.exit", call.empty() ? "a plugin or a library" : call,
+                                "ended the process instead of throwing an exception",
+                                "report this to the plugin's authors");
+        tell(fmt::format("error: {}\n", error.what()));
+        run::abandon_runs(error);
     } catch (...) {
         tell("error: a plugin or a library ended the process\n");
     }

@@ -1,6 +1,7 @@
 #include "files.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <dsc/base/error.hpp>
@@ -63,9 +64,8 @@ surface::TriangleMesh read_any_surface(const fs::path& path) {
     Content content = read_any(path);
     if (content.volume) return surface::extract_interface(*content.volume);
     if (content.cloud) {
-        throw UsageError(
-            "file.no_surface",
-            path.string() + " contains points without faces; give a surface or a volume");
+        throw UsageError("file.no_surface", path.string(), "contains points without faces",
+                         "give a surface or a volume");
     }
     return std::move(*content.surface);
 }
@@ -87,16 +87,16 @@ bool same_file(const fs::path& a, const fs::path& b) {
 
 void require_output(const fs::path& out, const fs::path& input) {
     if (same_file(out, input)) {
-        throw UsageError("file.same", out.string() + " is the input; give another file with -o");
+        throw UsageError("file.same", out.string(), "is the input", "give another file with -o");
     }
     const fs::path folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
     if (!fs::is_directory(folder)) {
         throw IoError("io.folder", out.string(), "",
-                      "its folder " + folder.string() + " does not exist",
+                      fmt::format("its folder {} does not exist", folder.string()),
                       "create the folder first");
     }
     if (fs::is_directory(out)) {
-        throw UsageError("file.folder", out.string() + " is a folder; give a file with -o");
+        throw UsageError("file.folder", out.string(), "is a folder", "give a file with -o");
     }
     require_replaceable(out);
 }

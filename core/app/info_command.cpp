@@ -201,10 +201,10 @@ int execute(const InfoArguments& arguments) {
     }
     print_figures(figures, arguments.json);
     if (arguments.require_solid && !figures["solid"].get<bool>()) {
-        throw GeometryError(
-            "info.not_solid",
-            arguments.file + " is not a valid solid: closed, manifold, oriented outwards, without "
-                             "self-intersections; the figures on stdout show what is wrong");
+        throw GeometryError("info.not_solid", arguments.file,
+                            "is not a valid solid, which is closed, manifold, oriented outwards "
+                            "and without self-intersections",
+                            "the figures on stdout show what is wrong");
     }
     return 0;
 }

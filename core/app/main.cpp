@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/run/provenance.hpp>
 
@@ -22,7 +24,7 @@ void print_error(const dsc::Error& error) {
     std::string_view text = error.what();
     while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
     const bool diagnostics = text.find(": error: ") != std::string_view::npos;
-    dsc::app::tell((diagnostics ? "" : "error: ") + std::string(text) + "\n");
+    dsc::app::tell(fmt::format("{}{}\n", diagnostics ? "" : "error: ", text));
 }
 
 /// Adds `dsc help` and `dsc version`, for users who try these before --help and --version.
@@ -104,7 +106,7 @@ int run(int argc, char** argv) {
         return 0;
     } catch (const CLI::ParseError& error) {
         const std::vector<std::string> words(argv + 1, argv + argc);
-        dsc::app::tell("error: " + dsc::app::usage_text(app, words, error) + "\n");
+        dsc::app::tell(fmt::format("error: {}\n", dsc::app::usage_text(app, words, error)));
         return static_cast<int>(dsc::ExitCode::usage);
     }
     int code = 0;
@@ -131,8 +133,8 @@ int run_and_explain(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         dsc::app::tell("error: out of memory; use a smaller cloud or a coarser mesh\n");
     } catch (const std::exception& error) {
-        dsc::app::tell(std::string("error: internal: ") + error.what() +
-                       "; please report it with the command\n");
+        dsc::app::tell(
+            fmt::format("error: internal: {}; please report it with the command\n", error.what()));
     } catch (...) {
         dsc::app::tell("error: internal: unknown exception; please report it with the command\n");
     }

@@ -79,7 +79,8 @@ void report(const run::RunOutcome& outcome) {
     }
     for (const hooks::Warning& warning : outcome.totals.warnings)
         log(LogLevel::warning, warning.text);
-    if (!outcome.report.empty()) log(LogLevel::info, "report " + outcome.report.string());
+    if (!outcome.report.empty())
+        log(LogLevel::info, fmt::format("report {}", outcome.report.string()));
     if (outcome.totals.status == run::Status::stalled) {
         log(LogLevel::warning, "stalled: the surface could not move further; the result contains "
                                "the state that was reached");

@@ -1,6 +1,8 @@
 // dsc plugin check FILE|ID
 #include <memory>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/conformance/check.hpp>
@@ -53,17 +55,17 @@ std::filesystem::path find_strategy(const CheckArguments& arguments, const host:
             (arguments.kind.empty() || plugin::kind_name(info.strategy->kind) == arguments.kind);
         if (!wanted) continue;
         if (!file.empty() && file != info.plugin->file)
-            throw UsageError("usage.strategy", "two kinds have a strategy '" + arguments.target +
-                                                   "'; choose one with --kind");
+            throw UsageError("usage.strategy", "dsc plugin check",
+                             fmt::format("several kinds have a strategy '{}'", arguments.target),
+                             "choose one with --kind");
         file = info.plugin->file;
         strategies.push_back({info.strategy->kind, info.strategy->id});
     }
     if (!file.empty()) return file;
-    const auto near = config::closest(arguments.target, ids);
-    throw UsageError("usage.strategy", "'" + arguments.target +
-                                           "' is neither a file nor the name of a strategy" +
-                                           (near ? "; did you mean '" + *near + "'?" : "") +
-                                           "; dsc plugin list shows all strategies");
+    throw UsageError(
+        "usage.strategy", "dsc plugin check",
+        fmt::format("'{}' is neither a file nor the name of a strategy", arguments.target),
+        config::did_you_mean(arguments.target, ids) + "dsc plugin list shows all strategies");
 }
 
 std::string formatted(const conformance::Report& report, const std::string& format) {
@@ -75,8 +77,8 @@ std::string formatted(const conformance::Report& report, const std::string& form
 int execute(const CheckArguments& arguments) {
     if (arguments.list) return list_tests();
     if (arguments.target.empty())
-        throw UsageError("usage.check",
-                         "a plugin file or a strategy id is missing; give one of them");
+        throw UsageError("usage.check", "dsc plugin check",
+                         "a plugin file or a strategy id is missing", "give one of them");
     if (!arguments.output.empty()) require_output(arguments.output, arguments.target);
     conformance::CheckOptions options;
     options.level = conformance::find_level(arguments.level).value();

@@ -1,6 +1,8 @@
 // dsc plugin list | describe ID | path
 #include <memory>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
 
@@ -25,8 +27,9 @@ struct PluginArguments {
 /// Why a library is not among the plugins: the gate refused it, or it crashes or hangs when it is
 /// loaded.
 std::string_view state(const host::Fault& fault) {
-    const bool broken = fault.code == "plugin.crash" || fault.code == "plugin.hang" ||
-                        fault.code == "plugin.enroll" || fault.code == "plugin.load";
+    const std::string& code = fault.error.code();
+    const bool broken = code == "plugin.crash" || code == "plugin.hang" ||
+                        code == "plugin.enroll" || code == "plugin.load";
     return broken ? "broken" : "rejected";
 }
 
@@ -39,8 +42,8 @@ void print_json(const std::vector<Described>& all, const std::vector<host::Fault
     for (const host::Fault& fault : faults) {
         array.push_back({{"file", fault.file.string()},
                          {"state", std::string(state(fault))},
-                         {"code", fault.code},
-                         {"reason", fault.message}});
+                         {"code", fault.error.code()},
+                         {"reason", fault.error.what()}});
     }
     data_out() << array.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
@@ -54,7 +57,7 @@ int list(const PluginArguments& arguments) {
     } else {
         data_out() << list_text(all);
         for (const host::Fault& fault : host.faults())
-            data_out() << state(fault) << "  " << fault.message << "\n";
+            data_out() << state(fault) << "  " << fault.error.what() << "\n";
     }
     return host.faults().empty() ? 0 : static_cast<int>(ExitCode::plugin);
 }
@@ -75,12 +78,11 @@ int describe(const PluginArguments& arguments) {
             found.push_back(d);
     }
     if (found.empty()) {
-        const auto near = config::closest(arguments.id, ids);
-        throw UsageError("usage.strategy",
-                         "'" + arguments.id + "' is not the name of a strategy" +
-                             (arguments.kind.empty() ? "" : " of kind " + arguments.kind) +
-                             (near ? "; did you mean '" + *near + "'?" : "") +
-                             "; dsc plugin list shows all strategies");
+        throw UsageError(
+            "usage.strategy", "dsc plugin describe",
+            fmt::format("'{}' is not the name of a strategy{}{}", arguments.id,
+                        arguments.kind.empty() ? "" : " of kind ", arguments.kind),
+            config::did_you_mean(arguments.id, ids) + "dsc plugin list shows all strategies");
     }
     if (arguments.format == "json") {
         ordered_json array = ordered_json::array();

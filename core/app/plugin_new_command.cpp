@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <memory>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/config/spelling.hpp>
@@ -25,10 +27,9 @@ plugin::Kind kind_of_word(const std::string& word) {
     if (const auto kind = plugin::find_kind(word)) return *kind;
     std::vector<std::string> names;
     for (const plugin::Kind kind : plugin::all_kinds) names.emplace_back(plugin::kind_name(kind));
-    const auto near = config::closest(word, names);
-    throw UsageError("usage.kind", "there is no kind of strategy '" + word + "'" +
-                                       (near ? "; did you mean '" + *near + "'?" : "") +
-                                       "; the kinds are " + config::join(names));
+    throw UsageError(
+        "usage.kind", "--kind", fmt::format("there is no kind of strategy '{}'", word),
+        fmt::format("{}the kinds are {}", config::did_you_mean(word, names), config::join(names)));
 }
 
 /// dsc would use a library of the same name in the user's folder instead of its own one, and ignore
@@ -37,13 +38,14 @@ void require_free_name(const std::string& name) {
     std::error_code error;
     const fs::path built_in = host::installed_folder() / ("libdsc_" + name + ".so");
     if (fs::exists(built_in, error)) {
-        throw UsageError("usage.plugin_taken",
-                         "'" + name + "' is the name of a plugin that comes with dsc (" +
-                             built_in.string() + "); choose another name");
+        throw UsageError("usage.plugin_taken", "dsc plugin new",
+                         fmt::format("'{}' is the name of a plugin that comes with dsc ({})", name,
+                                     built_in.string()),
+                         "choose another name");
     }
     if (fs::symlink_status(name, error).type() != fs::file_type::not_found) {
-        throw UsageError("usage.exists",
-                         name + " already exists here; use another name or another folder");
+        throw UsageError("usage.exists", name, "already exists here",
+                         "use another name or another folder");
     }
 }
 
@@ -52,15 +54,17 @@ void log_next(const std::string& name) {
     const fs::path package = (host::installed_folder() / "../../cmake/dsc").lexically_normal();
     std::error_code error;
     if (!fs::exists(package / "dscConfig.cmake", error)) {
-        log(LogLevel::warning, "this dsc is not installed, but " + name +
-                                   " needs an installed dsc: run cmake --install BUILD_FOLDER "
-                                   "--prefix PREFIX, then use PREFIX/bin/dsc");
+        log(LogLevel::warning,
+            fmt::format("this dsc is not installed, but {} needs an installed dsc: run cmake "
+                        "--install BUILD_FOLDER --prefix PREFIX, then use PREFIX/bin/dsc",
+                        name));
         return;
     }
     log(LogLevel::info,
-        "next: cmake -S " + name + " -B " + name + "/build -Ddsc_DIR='" + package.string() + "'");
-    log(LogLevel::info, "then: cmake --build " + name + "/build && ctest --test-dir " + name +
-                            "/build && dsc run " + name + "/experiment.yaml");
+        fmt::format("next: cmake -S {0} -B {0}/build -Ddsc_DIR='{1}'", name, package.string()));
+    log(LogLevel::info, fmt::format("then: cmake --build {0}/build && ctest --test-dir {0}/build "
+                                    "&& dsc run {0}/experiment.yaml",
+                                    name));
 }
 
 int execute(const NewArguments& arguments) {

@@ -58,8 +58,9 @@ std::string filled(const EmbeddedFile& file, const Values& values) {
                                : values.find(rest.substr(at + 1, end - at - 1));
         if (value == values.end()) {
             throw Error(ExitCode::internal, "internal.template",
-                        "the template " + std::string(file.path) +
-                            " contains an @ that does not belong to a value");
+                        fmt::format("template {}", file.path),
+                        "it contains an @ that does not belong to a value",
+                        "please report it with the command");
         }
         out.append(rest.substr(0, at)).append(value->second);
         rest.remove_prefix(end + 1);
@@ -72,10 +73,11 @@ std::string filled(const EmbeddedFile& file, const Values& values) {
 void require_plugin_name(const std::string& name) {
     constexpr std::size_t longest = sizeof(plugin::PluginEntry::name) - 1;
     if (text::is_id(name) && name.size() <= longest) return;
-    throw UsageError("usage.plugin_name",
-                     fmt::format("'{}' cannot be the name of a plugin; use lower case letters, "
-                                 "digits and _, with a letter first, at most {}",
-                                 name, longest));
+    throw UsageError(
+        "usage.plugin_name", "dsc plugin new",
+        fmt::format("'{}' cannot be the name of a plugin", name),
+        fmt::format("use at most {} lower case letters, digits and _, with a letter first",
+                    longest));
 }
 
 std::vector<ProjectFile> plugin_project(const std::string& name, plugin::Kind kind) {
@@ -106,7 +108,8 @@ void write_project(const fs::path& place, const std::vector<ProjectFile>& files)
     for (const ProjectFile& file : files) io::write_file(whole / file.name, file.text);
     fs::rename(whole, place, error);
     if (error) {
-        throw IoError("io.write", place.string(), "", "cannot be created (" + error.message() + ")",
+        throw IoError("io.write", place.string(), "",
+                      fmt::format("cannot be created ({})", error.message()),
                       "use another name or another folder");
     }
 }

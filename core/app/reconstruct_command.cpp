@@ -4,6 +4,8 @@
 #include <optional>
 #include <sstream>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/base/read_file.hpp>
@@ -66,17 +68,16 @@ std::vector<Target> targets(const ReconstructArguments& arguments) {
     for (const std::string& name : names) {
         const io::Format* format = io::find_format(name);
         if (format == nullptr) {
-            throw UsageError("usage.format",
-                             name +
-                                 " does not have the extension of a format that dsc writes; use " +
-                                 io::surface_extensions() + " for the surface, " +
-                                 io::volume_extensions() + " for the volume");
+            throw UsageError("usage.format", name,
+                             "does not have the extension of a format that dsc writes",
+                             fmt::format("use {} for the surface, {} for the volume",
+                                         io::surface_extensions(), io::volume_extensions()));
         }
         require_output(name, arguments.cloud);
         for (const Target& other : list) {
             if (same_file(other.file, name))
-                throw UsageError("usage.output",
-                                 name + " is given twice with -o; give each file once");
+                throw UsageError("usage.output", name, "is given twice with -o",
+                                 "give each file once");
         }
         list.push_back({name, std::string(format->extension.substr(1)), format->volume});
     }
@@ -104,8 +105,9 @@ fs::path source_of(const Target& target, const run::RunOutcome& outcome) {
     for (const fs::path& file : target.volume ? outcome.volumes : outcome.surfaces) {
         if (text::lower_case_extension(file) == "." + target.format) return file;
     }
-    throw Error(ExitCode::internal, "reconstruct.format",
-                "the run did not write ." + target.format);
+    throw Error(ExitCode::internal, "reconstruct.format", outcome.folder.string(),
+                fmt::format("the run did not write .{}", target.format),
+                "please report it with the command");
 }
 
 /// Refuses a cloud from which no surface can be made, before anything else happens. The message
@@ -125,10 +127,9 @@ std::optional<double> noise_of(const std::string& smooth) {
     double value = 0.0;
     if (!(text >> value) || !text.eof() || !(value >= 0.0 && value <= 100.0)) {
         throw UsageError(
-            "usage.smooth",
-            "--smooth " + smooth +
-                " is neither auto nor a number from 0 to 100; give the standard deviation of the "
-                "points' noise in spacings, such as 0.3");
+            "usage.smooth", "--smooth",
+            fmt::format("'{}' is neither auto nor a number from 0 to 100", smooth),
+            "give the standard deviation of the points' noise in spacings, such as 0.3");
     }
     return value;
 }
@@ -154,13 +155,13 @@ void deliver(const std::vector<Target>& list, const run::RunOutcome& outcome,
             io::write_file(target.file, read_file(source_of(target, outcome)));
             data_out() << target.file.string() << "\n";
         } catch (const IoError& error) {
-            faults += std::string(error.what()) + "; ";
+            faults += fmt::format("{}{}", faults.empty() ? "" : "; ", error.what());
         }
     }
     if (faults.empty()) return;
     if (temporary) temporary->keep();
-    throw IoError("io.write",
-                  faults + "the result is kept in " + (outcome.folder / "result").string());
+    throw IoError("io.write", "", "", faults,
+                  fmt::format("the result is kept in {}", (outcome.folder / "result").string()));
 }
 
 /// An experiment is UTF-8 text, but a file name need not be UTF-8: such a file gets a link with a
@@ -181,10 +182,11 @@ run::RunOutcome carry_out(const run::LoadedExperiment& loaded, const Plugins& pl
     try {
         return run::run_experiment(loaded, plugins.host(), options);
     } catch (const CancelledError& error) {
-        throw CancelledError(std::string(error.what()) +
-                             "; it was stopped before there was a surface, so no output was "
-                             "written and nothing is kept; with --keep-run FOLDER "
-                             "the run folder is kept even if the run is stopped");
+        throw CancelledError(
+            fmt::format("{}; it was stopped before there was a surface, so no output was written "
+                        "and nothing is kept; with --keep-run FOLDER the run folder is kept even "
+                        "if the run is stopped",
+                        error.what()));
     } catch (const Error& error) {
         throw with_own_remedy(error);
     }

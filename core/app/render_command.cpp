@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/base/workers.hpp>
@@ -39,7 +41,9 @@ void parse_size(const std::string& text, io::RenderOptions& options) {
         const auto [rest, second] = std::from_chars(x + 1, end, options.height);
         if (second == std::errc() && rest == end) return;
     }
-    throw UsageError("usage.size", "--size " + text + " is not WIDTHxHEIGHT; write 1024x768");
+    throw UsageError("usage.size", "--size",
+                     fmt::format("'{}' is not of the form WIDTHxHEIGHT", text),
+                     "write 1024x768, for example");
 }
 
 struct Coloured {
@@ -52,9 +56,9 @@ Coloured read_coloured(const RenderArguments& arguments) {
     std::filesystem::path file = arguments.input;
     if (std::filesystem::is_directory(file)) file = file / "result" / "surface.ply";
     if (text::lower_case_extension(file) != ".ply") {
-        throw UsageError("usage.colour",
-                         file.string() + ": --colour needs numbers per vertex, which only a .ply "
-                                         "contains; give a .ply file");
+        throw UsageError("usage.colour", file.string(),
+                         "--colour needs numbers per vertex, which only a .ply contains",
+                         "give a .ply file");
     }
     std::vector<io::DataArray> arrays;
     surface::TriangleMesh mesh = io::read_surface(file, &arrays);
@@ -63,9 +67,11 @@ Coloured read_coloured(const RenderArguments& arguments) {
         if (array.name == arguments.colour) return {std::move(mesh), std::move(array.values)};
         names += (names.empty() ? "" : ", ") + array.name;
     }
-    throw UsageError("usage.colour", file.string() + ": the vertices have no property '" +
-                                         arguments.colour + "' of floats; they have " +
-                                         (names.empty() ? "none" : names));
+    throw UsageError(
+        "usage.colour", file.string(),
+        fmt::format("the vertices have no property '{}' of type float", arguments.colour),
+        names.empty() ? std::string("leave --colour out; no vertex property is of type float")
+                      : fmt::format("choose one of these: {}", names));
 }
 
 /// The axis that the picture and the report of a run use: z for the built-in shapes, y for models
@@ -98,9 +104,9 @@ int paint(const RenderArguments& arguments, io::RenderOptions& options) {
 
 int execute(const RenderArguments& arguments) {
     if (text::lower_case_extension(arguments.output) != ".png") {
-        throw UsageError(
-            "usage.format",
-            arguments.output + ": pictures are written as .png; give a .png file with -o");
+        throw UsageError("usage.format", arguments.output,
+                         "is not a .png file, but pictures are written as .png",
+                         "give a .png file with -o");
     }
     require_output(arguments.output, arguments.input);
     io::RenderOptions options;

@@ -1,6 +1,8 @@
 // dsc run
 #include <memory>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/report/report.hpp>
@@ -61,7 +63,8 @@ int execute(const RunArguments& arguments, const std::vector<std::string>& comma
                                              ? run::default_folder(loaded, plugins.host())
                                              : std::filesystem::path(arguments.folder);
     if (arguments.resume && run::is_finished(folder, loaded, plugins.host())) {
-        log(LogLevel::info, folder.string() + " is finished; there is nothing to resume");
+        log(LogLevel::info,
+            fmt::format("{} is finished; there is nothing to resume", folder.string()));
         data_out() << folder.string() << "\n";
         return 0;
     }

@@ -14,6 +14,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 
 namespace dsc::app {
@@ -100,9 +102,9 @@ void flush_data() {
         std::signal(SIGPIPE, SIG_DFL);
         static_cast<void>(std::raise(SIGPIPE));
     }
-    throw IoError("io.write",
-                  "stdout cannot be written: " + std::generic_category().message(failure) +
-                      "; check the file or program that receives it");
+    throw IoError("io.write", "stdout", "",
+                  fmt::format("cannot be written: {}", std::generic_category().message(failure)),
+                  "check the file or program that receives it");
 }
 
 void tell(std::string_view text) noexcept {

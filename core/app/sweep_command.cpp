@@ -33,14 +33,13 @@ struct CollectArguments {
 
 int expand(const ExpandArguments& arguments) {
     if (arguments.folder.empty() && !arguments.check)
-        throw UsageError(
-            "usage.output",
-            "-o DIR, the folder for the points, is missing; add it, or use --check to write "
-            "nothing");
+        throw UsageError("usage.output", "dsc sweep expand",
+                         "-o DIR, the folder for the points, is missing",
+                         "add it, or use --check to write nothing");
     const sweep::Sweep sweep = sweep::load_sweep(arguments.file);
     if (sweep.repeated > 0)
-        log(LogLevel::warning, arguments.file + ": " + text::counted(sweep.repeated, "point") +
-                                   " left out because they equal earlier points");
+        log(LogLevel::warning, fmt::format("{}: {} left out because they equal earlier points",
+                                           arguments.file, text::counted(sweep.repeated, "point")));
     Plugins plugins(arguments.plugins);
     const std::vector<std::string> experiments =
         sweep::sweep_experiments(sweep, plugins.loader(), plugins.host());

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 
 namespace dsc::app {
@@ -23,7 +25,7 @@ TemporaryFolder::TemporaryFolder(const std::filesystem::path& parent, const std:
     std::string pattern = (parent / (name + "-XXXXXX")).string();
     if (mkdtemp(pattern.data()) == nullptr) {
         throw IoError("io.folder", parent.string(), "",
-                      std::string("no folder can be created there (") + std::strerror(errno) + ")",
+                      fmt::format("no folder can be created there ({})", std::strerror(errno)),
                       "change to a writable folder");
     }
     path_ = pattern;

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <optional>
+#include <regex>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
@@ -29,7 +34,7 @@ std::optional<std::string> meant(const std::string& word, const std::vector<std:
 }
 
 std::string hint(const std::optional<std::string>& name) {
-    return name ? "; did you mean '" + *name + "'?" : "";
+    return name ? fmt::format("; did you mean '{}'?", *name) : std::string();
 }
 
 /// The innermost command that the words name, and the first word after it that is not an option of
@@ -56,11 +61,12 @@ Reached reach(const CLI::App& app, const std::vector<std::string>& words) {
     return at;
 }
 
-std::string unknown_command(const Reached& at) {
+UsageError unknown_command(const Reached& at) {
     const std::vector<std::string> names = names_of(below(*at.command));
     const std::optional<std::string> near = meant(at.unknown, names);
-    return (at.name == "dsc" ? "no command '" : at.name + " has no command '") + at.unknown + "'" +
-           (near ? hint(near) : "; the commands are " + config::join(names, ", "));
+    return UsageError("usage.command", at.name, fmt::format("there is no command '{}'", at.unknown),
+                      near ? fmt::format("did you mean '{}'?", *near)
+                           : fmt::format("the commands are {}", config::join(names)));
 }
 
 /// The first option of the call that the command does not have; empty if there is none.
@@ -74,10 +80,40 @@ std::string unknown_option(const CLI::App& app, const Reached& at) {
         }
         const std::string wanted =
             "--" + name.substr(std::min(name.find_first_not_of('-'), name.size()));
-        return at.name + " has no option '" + name + "'" + hint(meant(wanted, names)) + "; see " +
-               at.name + " --help";
+        return fmt::format("{} has no option '{}'{}; see {} --help", at.name, name,
+                           hint(meant(wanted, names)), at.name);
     }
     return {};
+}
+
+using Turns = std::vector<std::pair<std::regex, const char*>>;
+
+std::string replaced(std::string text, const Turns& turns) {
+    for (const auto& [pattern, plain] : turns) text = std::regex_replace(text, pattern, plain);
+    return text;
+}
+
+/// The parser's message in the words of the other messages.
+std::string plain_text(const std::string& message) {
+    static const Turns turns = {
+        {std::regex("\n"), " "},
+        {std::regex("^(\\S+) is required$"), "the argument $1 is missing"},
+        {std::regex("^(\\S+): Value (.*) not in range (.*) to (.*)$"),
+         "$1: '$2' is not a number from $3 to $4"},
+        {std::regex("^The following arguments? w\\w+ not expected: (.*)$"), "unexpected: $1"},
+        {std::regex("^Could not convert: (\\S+) = (.*)$"), "$1: '$2' has the wrong type"},
+        {std::regex("^(\\S+) excludes (\\S+)$"), "$1 and $2 cannot be used together"},
+    };
+    static const Turns zeros = {{std::regex("(\\.[0-9]*[1-9]|\\.)0+(?![0-9])"), "$1"},
+                                {std::regex("([0-9])\\.(?![0-9])"), "$1"}};
+    static const std::regex choice("^(\\S+): (.*) not in \\{(.*)\\}$");
+    std::smatch parts;
+    if (std::regex_match(message, parts, choice)) {
+        return fmt::format("{}: '{}' is not one of {}", parts.str(1), parts.str(2),
+                           std::regex_replace(parts.str(3), std::regex(","), ", "));
+    }
+    const bool range = message.find(" not in range ") != std::string::npos;
+    return replaced(range ? replaced(message, zeros) : message, turns);
 }
 
 }  // namespace
@@ -85,21 +121,20 @@ std::string unknown_option(const CLI::App& app, const Reached& at) {
 std::string usage_text(const CLI::App& app, const std::vector<std::string>& words,
                        const CLI::ParseError& error) {
     const Reached at = reach(app, words);
-    if (!at.unknown.empty()) return unknown_command(at) + "; see " + at.name + " --help";
+    if (!at.unknown.empty())
+        return fmt::format("{}; see {} --help", unknown_command(at).what(), at.name);
     if (std::string option = unknown_option(app, at); !option.empty()) return option;
     const std::vector<const CLI::App*> commands = below(*at.command);
     if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
-        return at.name + " needs a command: " + config::join(names_of(commands), ", ") + "; see " +
-               at.name + " --help";
+        return fmt::format("{} needs a command: {}; see {} --help", at.name,
+                           config::join(names_of(commands)), at.name);
     }
-    std::string text = error.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text + "; see " + at.name + " --help";
+    return fmt::format("{}; see {} --help", plain_text(error.what()), at.name);
 }
 
 std::string help_text(const CLI::App& app, const std::vector<std::string>& words) {
     const Reached at = reach(app, words);
-    if (!at.unknown.empty()) throw UsageError("usage.command", unknown_command(at));
+    if (!at.unknown.empty()) throw unknown_command(at);
     // Not help(): after `dsc help` was parsed, it returns the help of the command `help`.
     return at.command->get_formatter()->make_help(at.command, at.name, CLI::AppFormatMode::Normal);
 }

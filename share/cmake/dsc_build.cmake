@@ -27,7 +27,7 @@ if(DSC_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(dsc_flags INTERFACE -Wno-maybe-uninitialized)
 endif()
 # A unity build compiles the sources of a target as one. Whether a name hides another one, and whether a type that others see has
-# parts that they cannot see, is judged file by file, which only the other presets do.
+# parts that they cannot see, is checked file by file, which only the other presets do.
 if(CMAKE_UNITY_BUILD)
   target_compile_options(dsc_flags INTERFACE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endif()
@@ -40,7 +40,7 @@ elseif(DSC_SANITIZE STREQUAL "thread")
 elseif(NOT DSC_SANITIZE STREQUAL "")
   message(FATAL_ERROR "DSC_SANITIZE=${DSC_SANITIZE}: accepted are address and thread")
 endif()
-# libFuzzer counts what an input reaches, so all of the core tells it.
+# libFuzzer counts what an input reaches, so all of the core is instrumented.
 if(DSC_FUZZ)
   target_compile_options(dsc_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()

@@ -14,7 +14,7 @@ def revolve(r, z, i):
 
 
 def boundary(cells):
-    """Sides of the profile cells that bound them: ((r0, z0), (r1, z1), the cell behind). The axis r = 0 is no side."""
+    """Sides of the profile cells that bound them: ((r0, z0), (r1, z1), the cell behind). The axis r = 0 is not a side."""
     found = []
     for i, j in cells:
         for other, a, b in (((i, j - 1), (i, j), (i + 1, j)), ((i, j + 1), (i + 1, j + 1), (i, j + 1)),

@@ -25,7 +25,7 @@ from scipy.sparse.csgraph import connected_components  # noqa: E402
 from scipy.spatial import cKDTree  # noqa: E402
 from surfaces import read_mesh  # noqa: E402
 
-HELD_OUT = 10  # one of so many points
+HELD_OUT = 10  # one of 10 points
 SAMPLES = 100000
 MOST_JUDGED = 60000  # points whose distance is measured
 SEED = 7

@@ -31,7 +31,7 @@ class Unusable(Exception):
 
 def count_instructions(command, out=os.devnull):
     """(instructions inside dsc_measured, standard output) of a command under callgrind."""
-    # Symbols are bound before the work begins; what the loader does is no part of it.
+    # Symbols are bound before the work begins; what the loader does is not part of it.
     environment = {"PATH": os.environ.get("PATH", ""), "LC_ALL": "C", "LD_BIND_NOW": "1"}
     result = subprocess.run(["valgrind", "--tool=callgrind", "--toggle-collect=dsc_measured", f"--callgrind-out-file={out}", *command],
                             capture_output=True, text=True, env=environment, check=False)

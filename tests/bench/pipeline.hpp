@@ -24,7 +24,7 @@ class Plugins {
 public:
     Plugins();
     const host::Host& host() const { return host_; }
-    /// A file of configs/ with overrides. Where DSC_DATA is not set it stands for nothing: override
+    /// A file of configs/ with overrides. If DSC_DATA is not set, it is empty: override
     /// the cloud then.
     run::LoadedExperiment load(const std::string& file,
                                const std::vector<std::string>& overrides) const;

@@ -119,7 +119,7 @@ class Bench:
         for n in sizes:
             count, out = gate.count_instructions([str(self.programs / "dsc_scaling"), "--n", str(n), "--steps", str(steps), *self.mesh()])
             rows.append((float(out.splitlines()[1].split()[0]), count / steps))
-        text = markdown(["interface vertices", "instructions a step", "a vertex and step"],
+        text = markdown(["interface vertices", "instructions per step", "per vertex and step"],
                         [[f"{n:,.0f}", f"{c:,.0f}", f"{c / n:,.0f}"] for n, c in rows])
         return text + f"\n\nExponent of the instructions: {exponent(rows):.3f}.\n"
 
@@ -157,7 +157,7 @@ def protocol_tables(by_cloud):
                       f"{each[0]['shells']} / {each[0]['genus']}"])
     return "\n\n".join([
         markdown(["CPU seconds, 150 steps", *phases, "mean N", "us a vertex and step"], rows),
-        markdown(["ms a step", *steps_header(by_cloud), "tets / N", "peak MB", "shells / genus"], steps)])
+        markdown(["ms per step", *steps_header(by_cloud), "tets / N", "peak MB", "shells / genus"], steps)])
 
 
 def steps_header(by_cloud):
@@ -200,7 +200,7 @@ def threads_table(runs):
         rows.append([str(count), f"{each[0]['n']:,.0f}", spread([row["wall_ms"] for row in each]), spread([row["step_ms"] for row in each]),
                      spread([run[1]["wall_ms"] / run[count]["wall_ms"] for run in runs])])
     digests = {row["digest"] for run in runs for row in run.values()}
-    return markdown(["threads", "N", "wall ms a step", "CPU ms a step", "faster, times"], rows) + \
+    return markdown(["threads", "N", "wall ms per step", "CPU ms per step", "faster, times"], rows) + \
         ("\n\nThe complex at the end has the same bytes in all of these runs.\n" if len(digests) == 1
          else f"\n\nDIFFERENT RESULTS: {len(digests)} different complexes.\n")
 
@@ -219,7 +219,7 @@ def everything(bench, build):
         for name in ("teapot", "bunny", "cow"):
             if (Path(os.environ["DSC_DATA"]) / f"{name}.obj").exists():
                 clouds[f"{name}, as configs/thesis/{name}.yaml"] = bench.protocol(name, "--data", "--name", name, "--no-idle")
-    parts = [f"Measured on: {machine(build)}; one thread where no other number stands. Median [least, largest] of {bench.repetitions} runs. The machine's load "
+    parts = [f"Measured on: {machine(build)}; one thread unless another number is given. Median [least, largest] of {bench.repetitions} runs. The machine's load "
              f"before them was {load:.1f}: well below 1 is quiet.",
              "### The thesis' protocol", protocol_tables(clouds),
              "### Settled, idle and one-vertex steps", quiet_table(clouds["built-in teapot"]),

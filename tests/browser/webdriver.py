@@ -66,7 +66,7 @@ class Browser:
         return self.call("POST", "execute/sync", {"script": text, "args": list(arguments)})
 
     def console(self):
-        """What the page has said since the last call; that software drawing is slow is no news."""
+        """What the page has said since the last call; slow software drawing is not reported."""
         entries = self.call("POST", "se/log", {"type": "browser"})
         return [entry["message"] for entry in entries if "GL Driver Message (OpenGL, Performance" not in entry["message"]]
 

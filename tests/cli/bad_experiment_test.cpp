@@ -77,7 +77,7 @@ TEST_CASE("a plugin that does not load") {
         "libdsc_NAME.so\n");
     const Result key = run(cli, good + "plugins: [missing/libdsc_x.so]\n");
     CHECK(key.code == 4);
-    CHECK(key.err == "error: plugins:: DIR/missing/libdsc_x.so: cannot be opened (No such file or "
+    CHECK(key.err == "error: plugins: DIR/missing/libdsc_x.so: cannot be opened (No such file or "
                      "directory); check its "
                      "name and permissions\n");
     CHECK_FALSE(cli.exists("out"));
@@ -100,9 +100,9 @@ TEST_CASE("a folder that is not ours is refused, nothing in it is touched") {
     cli.write("out/thesis.tex", "text");
     const Result result = run(cli, good);
     CHECK(result.code == 2);
-    CHECK(result.err == "error: out is not empty and no run wrote it; nothing in it was changed; "
+    CHECK(result.err == "error: out: is not empty and no run wrote it; nothing in it was changed; "
                         "name another folder with "
-                        "-o or empty it\n");
+                        "-o or empty this one\n");
     CHECK(cli.read("out/thesis.tex") == "text");
     cli.write("file", "text");
     cli.write("a.yaml", good);

@@ -57,11 +57,11 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
     CHECK(cli.dsc({"help", "recon"}).code == 2);
     const auto said = [&](const std::vector<std::string>& words) { return cli.dsc(words).err; };
     CHECK(said({"recon"}) ==
-          "error: no command 'recon'; did you mean 'reconstruct'?; see dsc --help\n");
+          "error: dsc: there is no command 'recon'; did you mean 'reconstruct'?; see dsc --help\n");
     CHECK(said({"rnu", "a.yaml"}) ==
-          "error: no command 'rnu'; did you mean 'run'?; see dsc --help\n");
-    CHECK(said({"plugin", "lst"}) ==
-          "error: dsc plugin has no command 'lst'; did you mean 'list'?; see dsc plugin --help\n");
+          "error: dsc: there is no command 'rnu'; did you mean 'run'?; see dsc --help\n");
+    CHECK(said({"plugin", "lst"}) == "error: dsc plugin: there is no command 'lst'; did you mean "
+                                     "'list'?; see dsc plugin --help\n");
     CHECK(said({"frobnicate"}).find("; the commands are run, reconstruct, ") != std::string::npos);
     CHECK(said({"reconstruct", "c.ply", "--detial", "low"}) ==
           "error: dsc reconstruct has no option '--detial'; did you mean '--detail'?; see dsc "
@@ -72,8 +72,21 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
     CHECK(said({"sample", "torus", "--nose", "0.1", "-o", "a.xyz"}) ==
           "error: dsc sample has no option '--nose'; did you mean '--noise'?; see dsc sample "
           "--help\n");
+    CHECK(said({"reconstruct", "c.ply", "--detail", "hi"}) ==
+          "error: --detail: 'hi' is not one of low, medium, high; see dsc reconstruct --help\n");
+    CHECK(said({"run", "a.yaml", "--threads", "0"}) ==
+          "error: --threads: '0' is not a number from 1 to 1024; see dsc run --help\n");
+    CHECK(said({"sample", "torus", "--noise", "2", "-o", "a.xyz"}) ==
+          "error: --noise: '2' is not a number from 0 to 1; see dsc sample --help\n");
+    CHECK(said({"reconstruct"}) ==
+          "error: the argument CLOUD is missing; see dsc reconstruct --help\n");
+    CHECK(said({"schema", "x"}) == "error: unexpected: x; see dsc schema --help\n");
+    CHECK(said({"reconstruct", "c.ply", "--vertices", "500", "--edge-length", "1"}) ==
+          "error: --edge-length and --vertices cannot be used together; see dsc reconstruct "
+          "--help\n");
     CHECK(cli.dsc({"plugin", "describe", "point_clod"}).err ==
-          "error: 'point_clod' is not the name of a strategy; did you mean 'point_cloud'?; dsc "
+          "error: dsc plugin describe: 'point_clod' is not the name of a strategy; did you mean "
+          "'point_cloud'? dsc "
           "plugin list shows all strategies\n");
 }
 
@@ -173,9 +186,8 @@ TEST_CASE("sample, info, convert, evaluate and render work together") {
     CHECK(cli.read("gap.png") != cli.read("a.png"));
     const Result unknown = cli.dsc({"render", "tet.ply", "-o", "b.png", "--colour", "age"});
     CHECK(unknown.code == 2);
-    CHECK(unknown.err.find(
-              "tet.ply: the vertices have no property 'age' of floats; they have gap, support") !=
-          std::string::npos);
+    CHECK(unknown.err.find("tet.ply: the vertices have no property 'age' of type float; choose one "
+                           "of these: gap, support") != std::string::npos);
     CHECK(cli.dsc({"render", "truth.obj", "-o", "b.png", "--colour", "gap"}).code == 2);
     CHECK(cli.dsc({"render", "truth.obj", "-o", "a.jpg"}).code == 2);
     CHECK(cli.dsc({"render", "truth.obj", "-o", "a.png", "--size", "big"}).code == 2);
@@ -203,7 +215,7 @@ TEST_CASE("info --require-solid: exit 5 for an open surface, with the figures") 
     const Result result = cli.dsc({"info", "open.obj", "--require-solid"});
     CHECK(result.code == 5);
     CHECK(result.out.find("boundary_edges        3\n") != std::string::npos);
-    CHECK(result.err.find("error: open.obj is not a valid solid") == 0);
+    CHECK(result.err.find("error: open.obj: is not a valid solid") == 0);
     CHECK(cli.dsc({"info", "open.obj"}).code == 0);
     cli.write("closed.obj", cli.read("open.obj") + "f 2 3 4\n");
     CHECK(cli.dsc({"info", "closed.obj", "--require-solid"}).code == 0);
@@ -249,14 +261,14 @@ TEST_CASE("plugin list, describe in four forms, path") {
     CHECK(cli.dsc({"plugin", "path"}).out.find("(installed folder)") != std::string::npos);
 }
 
-TEST_CASE("reconstruct: names of outputs are judged before anything is computed") {
+TEST_CASE("reconstruct: names of outputs are checked before anything is computed") {
     const Cli cli;
     cli.dsc({"sample", "sphere", "-n", "200", "-o", "cloud.obj"});
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "cloud.obj"}).err ==
-          "error: cloud.obj is the input; give another file with -o\n");
+          "error: cloud.obj: is the input; give another file with -o\n");
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "./x/../cloud.obj"}).code == 2);
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.doc"}).err ==
-          "error: a.doc does not have the extension of a format that dsc writes; use .obj, .ply, "
+          "error: a.doc: does not have the extension of a format that dsc writes; use .obj, .ply, "
           ".off, .stl for the surface, .vtu, .dsc, .msh, .mesh for the volume\n");
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.obj", "-o", "a.obj"}).code == 2);
     const Result folder = cli.dsc({"reconstruct", "cloud.obj", "-o", "none/a.obj"});

@@ -89,7 +89,7 @@ TEST_CASE("a strategy that ends the process: no success, and the run folder tell
     }
 }
 
-TEST_CASE("what a plugin prints is no data of the command") {
+TEST_CASE("what a plugin prints does not become data of the command") {
     const Cli cli;
     const Result result = run(cli, "prints");
     CHECK(result.code == 0);

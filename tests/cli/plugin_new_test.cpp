@@ -65,7 +65,8 @@ TEST_CASE("wrong names and kinds: exit 2, one line, nothing written") {
     }
     CHECK(refused(std::string(64, 'a'), "velocity").find("at most 63") != std::string::npos);
     CHECK(refused("flow2", "velocty") ==
-          "error: there is no kind of strategy 'velocty'; did you mean 'velocity'?; the kinds are "
+          "error: --kind: there is no kind of strategy 'velocty'; did you mean 'velocity'? the "
+          "kinds are "
           "velocity, curvature, refinement, initial_mesh, improvement, observer, filter\n");
     CHECK(refused("point_cloud", "velocity").find("is the name of a plugin that comes with dsc") !=
           std::string::npos);
@@ -81,7 +82,7 @@ TEST_CASE("what is there already stays as it is") {
         const Result result = cli.dsc({"plugin", "new", name, "--kind", "velocity"});
         CHECK(result.code == 2);
         CHECK(result.err == std::string("error: ") + name +
-                                " already exists here; use another name or another folder\n");
+                                ": already exists here; use another name or another folder\n");
     }
     CHECK(cli.read("flow2/notes.txt") == "mine");
     CHECK(cli.read("flow3") == "a file");

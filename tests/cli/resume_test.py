@@ -147,7 +147,7 @@ class Resume(unittest.TestCase):
         self.run_dsc("other", "schedule=[{steps: 4}]", "output.checkpoint={every: 1, keep: 2}")
         before = {path: path.read_bytes() for path in (self.scratch / "other").rglob("*") if path.is_file()}
         done = self.run_dsc("other", "schedule=[{steps: 5}]", "output.checkpoint={every: 1, keep: 2}", "--resume", expect=2)
-        self.assertIn("other contains the run of another experiment: schedule.0.steps is 4 there and 5 here", done.stderr)
+        self.assertIn("other: contains the run of another experiment: schedule.0.steps is 4 there and 5 here", done.stderr)
         self.assertEqual(before, {path: path.read_bytes() for path in (self.scratch / "other").rglob("*") if path.is_file()})
         self.run_dsc("other", "schedule=[{steps: 5}]")
         rows = (self.scratch / "other/metrics.csv").read_text().splitlines()

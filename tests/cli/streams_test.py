@@ -186,7 +186,7 @@ class Streams(unittest.TestCase):
         for more in ([], ["--resume"]):
             second = self.run_in("one", "schedule.0.steps=2", *more)
             self.assertEqual(second.returncode, 2)
-            self.assertIn(f"one is in use by the run of process {process.pid}", second.stderr)
+            self.assertIn(f"one: is in use by the run of process {process.pid}", second.stderr)
         self.assertEqual(process.wait(), 0)
         self.require_whole("one")
         self.assertFalse((self.scratch / "one/.lock").exists())

@@ -51,7 +51,7 @@ def run(program, plugin, case):
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--program", required=True, type=lambda text: str(Path(text).resolve()), help="the command dsc")
-    parser.add_argument("--plugin", default="", type=lambda text: str(Path(text).resolve()), help="what EVERY_FIELD stands for")
+    parser.add_argument("--plugin", default="", type=lambda text: str(Path(text).resolve()), help="the library for EVERY_FIELD")
     parser.add_argument("--update", action="store_true", help="write the golden texts")
     parser.add_argument("names", nargs="*", help="cases; default all")
     options = parser.parse_args(arguments)

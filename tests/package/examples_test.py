@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""share/doc/use-the-library.md: its programs are built against the moved installation and say what the page tells.
+"""share/doc/use-the-library.md: its programs are built against the moved installation and print what the page says.
 
 Each section links a program, quotes parts of it (cpp) and shows its output (text).
 """

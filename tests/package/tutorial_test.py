@@ -32,7 +32,7 @@ class Tutorial(unittest.TestCase):
             commands += len(text.splitlines())
             package.run(["bash", "-euc", text], folder)
         self.assertGreater(commands, 8)
-        for run, volume in (("run", 1.413), ("shrinking", 0.702)):  # the figures that the page tells
+        for run, volume in (("run", 1.413), ("shrinking", 0.702)):  # the figures of the page
             summary = json.loads((folder / "steady" / run / "summary.json").read_text())
             self.assertAlmostEqual(summary["volume"], volume, places=3)
         self.assertTrue((folder / "steady.png").stat().st_size > 1000)

@@ -1,5 +1,5 @@
 #pragma once
-// A velocity that stands still, for plugins whose fault is elsewhere.
+// A velocity that does not move, for plugins whose fault is elsewhere.
 
 #include <algorithm>
 

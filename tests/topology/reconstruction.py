@@ -79,7 +79,7 @@ def reconstruct(dsc, cloud, folder, threads=1, options=(), volume=False):
     if code != 0 or not surface.exists():
         return {**result, "fault": f"dsc ended with code {code}, see {folder / 'log.txt'}"}
     got, told = topology(*read_mesh(surface)), told_by_info(dsc, surface)
-    return {**result, "got": got, "told": told, "fault": "" if got == told else f"dsc info tells {told}, counted was {got}"}
+    return {**result, "got": got, "told": told, "fault": "" if got == told else f"dsc info reports {told}, but the count is {got}"}
 
 
 def each(jobs, work, items):

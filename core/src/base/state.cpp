@@ -6,9 +6,9 @@
 namespace dsc {
 
 void StateReader::damaged() {
-    throw IoError(
-        "state.damaged",
-        "a saved state ends too early; it was written by another version, or is not what it seems");
+    throw IoError("state.damaged", "saved state", "",
+                  "it ends too early, so it is damaged or another version wrote it",
+                  "start the run again");
 }
 
 }  // namespace dsc

@@ -43,7 +43,7 @@ constexpr double one_piece_offset = 0.3;  // largest offset of a neighbour from 
                                           // distance
 constexpr std::size_t pair_neighbours = 6;
 constexpr std::size_t view_neighbours = 4;
-constexpr double judged_smoothing = 0.5;
+constexpr double checked_smoothing = 0.5;
 
 double share_of(std::size_t part, std::size_t all) {
     return all == 0 ? 1.0 : static_cast<double>(part) / static_cast<double>(all);
@@ -110,7 +110,7 @@ double mean_winding(const ScaledSamples& samples, const std::vector<Vec3>& norma
         vectors[i] *= areas[i];
     }
     WindingField field(samples.positions, areas);
-    set_smoothing(field, samples.widths, judged_smoothing);
+    set_smoothing(field, samples.widths, checked_smoothing);
     field.set_vectors(vectors);
     field.winding(w, workers);
     double sum = 0.0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/text/numbers.hpp>
 #include <dsc/text/words.hpp>
@@ -34,14 +36,16 @@ std::unique_ptr<Shape> make_shape(std::string_view name) {
     std::string accepted;
     for (const std::string_view known : names)
         accepted.append(accepted.empty() ? "" : ", ").append(known);
-    throw UsageError("shape.unknown", "unknown built-in shape " + text::in_quotes(name) +
-                                          "; accepted are " + accepted);
+    throw UsageError("shape.unknown", "shape",
+                     fmt::format("there is no built-in shape {}", text::in_quotes(name)),
+                     fmt::format("use one of these: {}", accepted));
 }
 
 void require_fraction(bool valid, std::string_view what, double value, std::string_view range) {
     if (!valid)
-        throw UsageError("shape.option", std::string(what) + " is " + text::rounded(value) +
-                                             "; it must lie in " + std::string(range));
+        throw UsageError("shape.option", what,
+                         fmt::format("{} is out of range", text::rounded(value)),
+                         fmt::format("use a number in {}", range));
 }
 
 }  // namespace
@@ -50,7 +54,9 @@ std::span<const std::string_view> shape_names() { return names; }
 
 Cloud sample_shape(std::string_view name, std::size_t n, std::uint64_t seed, double noise,
                    double outliers) {
-    if (n == 0) throw UsageError("shape.option", "0 points requested; a cloud has at least 1");
+    if (n == 0)
+        throw UsageError("shape.option", "number of points", "0 points are requested",
+                         "request at least 1");
     require_fraction(noise >= 0.0 && noise <= 1.0, "noise", noise, "[0, 1]");
     require_fraction(outliers >= 0.0 && outliers <= 1.0, "outliers", outliers, "[0, 1]");
     const std::unique_ptr<Shape> shape = make_shape(name);

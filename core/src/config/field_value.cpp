@@ -19,9 +19,9 @@ namespace dsc::config {
 namespace {
 
 /// Checks one value.
-class Judge {
+class FieldCheck {
 public:
-    Judge(const Field& field, const SourcePosition& fallback, Diagnostics& diagnostics)
+    FieldCheck(const Field& field, const SourcePosition& fallback, Diagnostics& diagnostics)
         : field_(field), fallback_(fallback), diagnostics_(diagnostics) {}
 
     ConfigNode boolean(const ConfigNode& node, const std::string& path) {
@@ -244,26 +244,26 @@ std::string value_text(const ConfigNode& node) {
 
 ConfigNode resolve_value(const Field& field, const ConfigNode& node, const std::string& path,
                          const SourcePosition& fallback, Diagnostics& diagnostics) {
-    Judge judge(field, fallback, diagnostics);
+    FieldCheck check(field, fallback, diagnostics);
     const auto integer = [&](const ConfigNode& item, const std::string& at) {
-        return judge.integer(item, at);
+        return check.integer(item, at);
     };
     const auto real = [&](const ConfigNode& item, const std::string& at) {
-        return judge.real(item, at);
+        return check.real(item, at);
     };
     const auto string = [&](const ConfigNode& item, const std::string& at) {
-        return judge.string(item, at);
+        return check.string(item, at);
     };
     switch (field.type) {
-        case FieldType::boolean: return judge.boolean(node, path);
-        case FieldType::integer: return judge.integer(node, path);
-        case FieldType::real: return judge.real(node, path);
-        case FieldType::file: return judge.file(node, path);
-        case FieldType::vec3: return judge.list(node, path, "a list of three numbers", real);
-        case FieldType::integer_list: return judge.list(node, path, "a list of integers", integer);
-        case FieldType::real_list: return judge.list(node, path, "a list of numbers", real);
-        case FieldType::string_list: return judge.list(node, path, "a list of strings", string);
-        default: return judge.string(node, path);
+        case FieldType::boolean: return check.boolean(node, path);
+        case FieldType::integer: return check.integer(node, path);
+        case FieldType::real: return check.real(node, path);
+        case FieldType::file: return check.file(node, path);
+        case FieldType::vec3: return check.list(node, path, "a list of three numbers", real);
+        case FieldType::integer_list: return check.list(node, path, "a list of integers", integer);
+        case FieldType::real_list: return check.list(node, path, "a list of numbers", real);
+        case FieldType::string_list: return check.list(node, path, "a list of strings", string);
+        default: return check.string(node, path);
     }
 }
 

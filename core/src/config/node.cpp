@@ -72,8 +72,9 @@ ConfigNode ConfigNode::integer_node(std::int64_t value) {
 }
 
 void ConfigNode::integer_too_large() {
-    throw ConfigError("config.range",
-                      "an integer above 9223372036854775807 does not fit a configuration");
+    throw ConfigError("config.range", "configuration",
+                      "an integer above 9223372036854775807 cannot be stored",
+                      "use a smaller integer or a real number");
 }
 
 ConfigNode ConfigNode::list() { return list({}); }

@@ -24,8 +24,8 @@ StrategyConfig strategy_from(const ConfigNode& node) {
 void require_sound(const Schema& schema) {
     const std::vector<std::string> problems = schema.problems();
     if (!problems.empty()) {
-        throw PluginError("plugin.schema",
-                          "faulty declaration of parameters: " + join(problems, "; "));
+        throw PluginError("plugin.schema", "declaration of parameters", join(problems, "; "),
+                          "correct the declaration in the plugin");
     }
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace dsc::config {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -40,6 +42,11 @@ std::optional<std::string> closest(std::string_view word,
         }
     }
     return best;
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+    const std::optional<std::string> near = closest(word, candidates);
+    return near ? fmt::format("did you mean '{}'? ", *near) : std::string();
 }
 
 std::string join(const std::vector<std::string>& words, std::string_view separator) {

@@ -114,9 +114,9 @@ public:
             return node;
         }
         if (schema->find("type")) {
-            throw PluginError("plugin.schema", kind + " '" + id +
-                                                   "' declares a parameter 'type', which selects "
-                                                   "the strategy; it must be renamed");
+            throw PluginError("plugin.schema", fmt::format("{} '{}'", kind, id),
+                              "it declares a parameter 'type', but this key selects the strategy",
+                              "rename the parameter");
         }
         return resolve_map(node, {*schema, path, kind + " '" + id + "'", position, type});
     }
@@ -286,8 +286,9 @@ private:
                 holds = check.holds(resolved);
             } catch (const std::exception& error) {
                 throw StrategyError(
-                    "strategy.check",
-                    map.owner + " failed while its parameters were checked: " + error.what());
+                    "strategy.check", map.owner,
+                    fmt::format("a check of its parameters threw: {}", error.what()),
+                    "report this to the plugin's authors");
             }
             if (holds) continue;
             const ConfigNode* culprit = first_named(check.message, resolved);

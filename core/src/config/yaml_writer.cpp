@@ -61,7 +61,8 @@ std::string double_quoted(std::string_view text) {
 
 std::string key_text(const std::string& key) {
     if (!text::is_utf8(key))
-        throw ConfigError("config.text", "a key of the configuration is not UTF-8 text");
+        throw ConfigError("config.text", "configuration", "a key is not UTF-8 text",
+                          "write keys in UTF-8");
     return is_plain_string(key) ? key : double_quoted(key);
 }
 
@@ -70,8 +71,8 @@ std::string string_text(const ConfigNode& node) {
     std::string escaped;
     const std::string& text = node.as_string();
     if (!text::is_utf8(text)) {
-        throw ConfigError("config.text",
-                          text::in_quotes(node.path()) + " of the configuration is not UTF-8 text");
+        throw ConfigError("config.text", node.path(), "the value is not UTF-8 text",
+                          "write values in UTF-8");
     }
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (text.compare(i, 2, "${") == 0) escaped += '$';
@@ -148,7 +149,8 @@ void write(const ConfigNode& node, std::size_t indent, bool lead, std::string& o
 
 std::string real_text(double value) {
     if (!std::isfinite(value)) {
-        throw ConfigError("config.range", "a number of the configuration is not finite");
+        throw ConfigError("config.range", "configuration", "a number is not finite",
+                          "use finite numbers");
     }
     const double size = std::abs(value);
     const bool fixed = size == 0 || (size >= 1e-5 && size < 1e15);
@@ -177,8 +179,10 @@ std::string flow_text(const ConfigNode& node) {
 
 std::string to_yaml(const ConfigNode& node) {
     if (node.find("include")) {
-        throw ConfigError("config.include",
-                          "a configuration with the key 'include' cannot be read back");
+        throw ConfigError("config.include", "configuration",
+                          "a map with the key 'include' cannot be written, because it would be "
+                          "read as a file name",
+                          "rename the key");
     }
     std::string out;
     write(node, 0, false, out);

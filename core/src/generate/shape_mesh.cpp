@@ -21,10 +21,8 @@ mesh::TetMesh labelled(const LatticeOptions& options, std::span<const Shape> sha
             label_of(shapes, {mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]});
     }
     if (!labels_touch_box(mesh)) return mesh;
-    throw ConfigError(
-        "lattice.box",
-        std::string(name) +
-            ": a shape reaches the faces of the box; make the shape smaller or `box` larger");
+    throw ConfigError("lattice.box", name, "a shape reaches the faces of the box",
+                      "make the shape smaller or `box` larger");
 }
 
 }  // namespace

@@ -31,8 +31,10 @@ VelocityField::~VelocityField() = default;
 void VelocityField::advance(const StepContext&) {}
 void VelocityField::publish(Attributes&) const {}
 void VelocityField::sample(std::span<const Vec3>, std::span<const Vec3>, std::span<Vec3>) const {
-    throw StrategyError("strategy.no_sampling", "this velocity field has no value at points other "
-                                                "than the vertices (can_sample() is false)");
+    throw StrategyError(
+        "strategy.no_sampling", "velocity",
+        "it has no values at points other than the vertices (can_sample() is false)",
+        "use another velocity, or a refinement that does not read it there");
 }
 
 CurvatureEstimator::~CurvatureEstimator() = default;

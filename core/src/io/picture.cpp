@@ -375,9 +375,10 @@ double colour_part(double value, const ColourBounds& bounds) {
 Image render(const surface::TriangleMesh& mesh, const RenderOptions& options) {
     for (const int size : {options.width, options.height}) {
         if (size >= 1 && size <= largest_size) continue;
-        throw UsageError("picture.size",
-                         fmt::format("picture: size {}x{}; each side may be 1 to {} pixels",
-                                     options.width, options.height, largest_size));
+        throw UsageError(
+            "picture.size", "picture",
+            fmt::format("a size of {}x{} pixels is not possible", options.width, options.height),
+            fmt::format("use 1 to {} pixels per side", largest_size));
     }
     surface::require_sound(mesh);
     if (mesh.faces.empty()) {

@@ -23,10 +23,9 @@ struct RayScene::Data {
 namespace {
 
 [[noreturn]] void fail_device(RTCDevice device) {
-    throw Error(
-        ExitCode::internal, "picture.device",
-        fmt::format("picture: Embree reports error {}; close other programs if memory is short",
-                    static_cast<int>(rtcGetDeviceError(device))));
+    throw Error(ExitCode::internal, "picture.device", "picture",
+                fmt::format("Embree reports error {}", static_cast<int>(rtcGetDeviceError(device))),
+                "close other programs if memory is short");
 }
 
 void fill_ray(RTCRay& ray, const Vec3f& origin, const Vec3f& direction, float distance) {

@@ -49,8 +49,9 @@ void check_arrays(const mesh::TetMesh& mesh, const VolumeData& data) {
 void check_points(const mesh::TetMesh& mesh) {
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
         if (mesh.points[i].allFinite()) continue;
-        throw GeometryError("volume.not_finite",
-                            fmt::format("volume: point {} is NaN or infinite", i));
+        throw GeometryError("volume.not_finite", "volume",
+                            fmt::format("point {} is NaN or infinite", i),
+                            "correct or remove this point");
     }
 }
 
@@ -60,9 +61,11 @@ void check_tets(const mesh::TetMesh& mesh, const std::string& file) {
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         const auto& [a, b, c, d] = mesh.tets[t];
         if (std::max({a, b, c, d}) >= mesh.points.size()) {
-            throw GeometryError("volume.index",
-                                fmt::format("volume: tet {} refers to point {} of {}", t,
-                                            std::max({a, b, c, d}), mesh.points.size()));
+            throw GeometryError(
+                "volume.index", "volume",
+                fmt::format("tet {} refers to point {}, but there are {}", t,
+                            std::max({a, b, c, d}), text::counted(mesh.points.size(), "point")),
+                "correct or remove this tet");
         }
         if (geometry::orient3d(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) > 0)
             continue;
@@ -78,25 +81,28 @@ void check_tets(const mesh::TetMesh& mesh, const std::string& file) {
 
 void require_colours(const surface::TriangleMesh& mesh) {
     if (mesh.colours.empty() || mesh.colours.size() == mesh.points.size()) return;
-    throw GeometryError("surface.colours",
-                        "surface: " + text::counted(mesh.colours.size(), "colour") + " for " +
-                            text::counted(mesh.points.size(), "point") +
-                            "; give one for each or none");
+    throw GeometryError(
+        "surface.colours", "surface",
+        fmt::format("the mesh has {} for {}", text::counted(mesh.colours.size(), "colour"),
+                    text::counted(mesh.points.size(), "point")),
+        "give one per point or none");
 }
 
 void require_fit(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points,
                  const std::vector<Vec3>& normals) {
     if (!normals.empty() && normals.size() != mesh.points.size())
-        throw GeometryError("surface.size", "surface: " + text::counted(normals.size(), "normal") +
-                                                " for " +
-                                                text::counted(mesh.points.size(), "point") +
-                                                "; give one for each or none");
+        throw GeometryError(
+            "surface.size", "surface",
+            fmt::format("the mesh has {} for {}", text::counted(normals.size(), "normal"),
+                        text::counted(mesh.points.size(), "point")),
+            "give one per point or none");
     for (const DataArray& a : points) {
         if (a.values.size() == mesh.points.size()) continue;
-        throw GeometryError("surface.size", "surface: array " + text::in_quotes(a.name) + " has " +
-                                                text::counted(a.values.size(), "value") + " for " +
-                                                text::counted(mesh.points.size(), "point") +
-                                                "; give one for each");
+        throw GeometryError("surface.size", "surface",
+                            fmt::format("array {} has {} for {}", text::in_quotes(a.name),
+                                        text::counted(a.values.size(), "value"),
+                                        text::counted(mesh.points.size(), "point")),
+                            "give one per point");
     }
 }
 

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 
 namespace dsc::kernel {
@@ -73,10 +75,10 @@ struct Destinations::Pass {
         if (entry.blocked_at != 0 && !all.queues_.awake(v, entry.blocked_at)) {
             decide(i, asleep);
             if (options.audit && all.complex_.vertex_date(v) > entry.blocked_at) {
-                throw GeometryError(
-                    "kernel.audit",
-                    "audit: vertex " + std::to_string(v) +
-                        " sleeps though its star changed; the queues of the kernel lost a wake-up");
+                throw GeometryError("kernel.audit", fmt::format("audit of vertex {}", v),
+                                    "it is not tried again although its star changed; the queues "
+                                    "of the kernel lost a change",
+                                    "please report it with the experiment");
             }
             return false;
         }

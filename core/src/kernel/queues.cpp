@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/state.hpp>
 
@@ -84,10 +86,11 @@ void RepairQueues::check(std::uint32_t previous_clock) {
         if (!changed && !woken) {
             continue;
         }
-        throw GeometryError("kernel.audit",
-                            "audit: tet " + std::to_string(t) +
-                                (changed ? " changed" : " was to be tried again") +
-                                " but is in no queue; the queues of the kernel lost a wake-up");
+        throw GeometryError(
+            "kernel.audit", fmt::format("audit of tet {}", t),
+            fmt::format("it {}, but it is in no queue; the queues of the kernel lost a change",
+                        changed ? "changed" : "must be tried again"),
+            "please report it with the experiment");
     }
     // A tet in the list is tried again; its failure counts only if it fails again.
     for (const TetId t : dirty_) memory_[t].tet = mesh::none;

@@ -183,8 +183,8 @@ void VertexFields::load(StateReader& in) {
         fits = fits && column.values.size() == births_.size();
     }
     if (!fits)
-        throw IoError("state.damaged",
-                      "the numbers per vertex in the saved state do not fit its complex");
+        throw IoError("state.damaged", "saved state", "",
+                      "the numbers per vertex do not fit the complex", "start the run again");
 }
 
 }  // namespace dsc::kernel

@@ -44,8 +44,9 @@ Complex Complex::load(StateReader& in) {
     if (c.labels_.size() != tets || c.qualities_.size() != tets || c.dates_.size() != tets ||
         c.birth_dates_.size() != tets)
         throw IoError(
-            "state.damaged",
-            "a saved complex has lists of different lengths; it is damaged or not a saved complex");
+            "state.damaged", "saved complex", "",
+            "its lists have different lengths, so it is damaged or is not a saved complex",
+            "start the run again");
     return c;
 }
 

@@ -1,6 +1,8 @@
 // Creates strategies from their ids and parameters.
 #include "dsc/plugin/catalogue.hpp"
 
+#include <fmt/format.h>
+
 #include <dsc/base/random.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/plugin/guarded.hpp>
@@ -38,7 +40,8 @@ std::unique_ptr<hooks::Strategy> check(std::unique_ptr<hooks::Strategy> made,
         case Kind::filter:
             return check_filter(as<hooks::CloudFilter>(std::move(made)), std::move(attribution));
     }
-    throw Error(ExitCode::internal, "plugin.kind", "a strategy of an unknown kind");
+    throw Error(ExitCode::internal, "plugin.kind", "catalogue", "a strategy has an unknown kind",
+                "please report it with the experiment");
 }
 
 std::string place_of(const config::ConfigNode& params) {
@@ -49,14 +52,16 @@ std::string place_of(const config::ConfigNode& params) {
                                    const std::string& path) {
     const std::string name(kind_name(kind));
     const std::vector<std::string> known = catalogue.ids(name);
-    std::string text = path + ": there is no " + name + " '" + id + "'";
-    if (const auto near = config::closest(id, known)) text += ", did you mean '" + *near + "'?";
-    text +=
-        known.empty()
-            ? "; no plugin with a strategy of this kind is loaded, see --plugin and DSC_PLUGIN_PATH"
-            : "; loaded are " + config::join(known) +
-                  ", others come with --plugin or DSC_PLUGIN_PATH";
-    throw PluginError("plugin.unknown_strategy", text);
+    if (known.empty()) {
+        throw PluginError("plugin.unknown_strategy", path,
+                          fmt::format("there is no {} '{}', and no plugin with a strategy of this "
+                                      "kind is loaded",
+                                      name, id),
+                          "use --plugin or DSC_PLUGIN_PATH to load one");
+    }
+    throw PluginError("plugin.unknown_strategy", path, fmt::format("there is no {} '{}'", name, id),
+                      fmt::format("{}loaded are {}; --plugin and DSC_PLUGIN_PATH load others",
+                                  config::did_you_mean(id, known), config::join(known)));
 }
 
 }  // namespace

@@ -30,16 +30,16 @@ struct Attribution {
 
 /// Checks attributes of a surface: one finite number per vertex, under allowed names that differ.
 /// Throws StrategyFailure.
-void judge(const Call& current, const hooks::Attributes& attributes, std::size_t vertices);
+void check_answer(const Call& current, const hooks::Attributes& attributes, std::size_t vertices);
 
 /// Checks the angles of a rule for creases: above 0, at most pi. Throws StrategyFailure.
-void judge(const Call& current, const std::optional<repair::CreaseRule>& creases);
+void check_answer(const Call& current, const std::optional<repair::CreaseRule>& creases);
 
 /// Refuses figures with names that are not snake_case or that repeat, and values that are not
 /// finite.
-void judge(const Call& current, const hooks::Figures& figures);
+void check_answer(const Call& current, const hooks::Figures& figures);
 /// Refuses warnings without a text, and codes that are not lower-case words joined by dots.
-void judge(const Call& current, const hooks::Warnings& warnings);
+void check_answer(const Call& current, const hooks::Warnings& warnings);
 
 /// Save and load of a wrapped hook of any kind.
 template <class Hook>
@@ -62,13 +62,13 @@ protected:
     Call call(std::string_view hook, std::optional<std::uint64_t> step = std::nullopt) const {
         return attribution_.call(hook, step);
     }
-    /// The answer of a guarded call of this hook, after judge() has accepted it.
+    /// The answer of a guarded call of this hook, after check_answer() has accepted it.
     template <class Ask>
-    auto judged(std::string_view hook, Ask ask,
-                std::optional<std::uint64_t> step = std::nullopt) const {
+    auto checked_answer(std::string_view hook, Ask ask,
+                        std::optional<std::uint64_t> step = std::nullopt) const {
         const Call current = call(hook, step);
         auto answer = guarded(current, ask);
-        judge(current, answer);
+        check_answer(current, answer);
         return answer;
     }
     /// The context with the strategy's own instance number.

@@ -11,7 +11,7 @@
 
 namespace dsc::plugin {
 
-void judge(const Call& current, const hooks::Attributes& attributes, std::size_t vertices) {
+void check_answer(const Call& current, const hooks::Attributes& attributes, std::size_t vertices) {
     std::vector<std::string_view> seen;
     for (const hooks::Attribute& a : attributes) {
         if (!hooks::may_name_attribute(a.name) ||
@@ -37,7 +37,7 @@ void judge(const Call& current, const hooks::Attributes& attributes, std::size_t
     }
 }
 
-void judge(const Call& current, const std::optional<repair::CreaseRule>& creases) {
+void check_answer(const Call& current, const std::optional<repair::CreaseRule>& creases) {
     if (!creases) return;
     constexpr double pi = 3.14159265358979323846;
     for (const double angle : {creases->dihedral, creases->turn}) {
@@ -48,7 +48,7 @@ void judge(const Call& current, const std::optional<repair::CreaseRule>& creases
 }
 
 // Figures for columns and keys: names in snake_case, each once; finite values.
-void judge(const Call& current, const hooks::Figures& figures) {
+void check_answer(const Call& current, const hooks::Figures& figures) {
     std::vector<std::string_view> seen;
     for (const auto& [name, value] : figures) {
         if (!text::is_snake_case(name) || std::find(seen.begin(), seen.end(), name) != seen.end()) {
@@ -64,7 +64,7 @@ void judge(const Call& current, const hooks::Figures& figures) {
 }
 
 // Warnings for people and programs: a code of lower-case words and dots, and a text.
-void judge(const Call& current, const hooks::Warnings& warnings) {
+void check_answer(const Call& current, const hooks::Warnings& warnings) {
     for (const hooks::Warning& warning : warnings) {
         const bool plain = std::all_of(warning.code.begin(), warning.code.end(), [](char c) {
             return text::is_lower(c) || text::is_digit(c) || c == '_' || c == '.';

@@ -54,8 +54,8 @@ public:
     }
     const hooks::StepContext& get(const Call& call) const {
         if (!context_)
-            throw Error(ExitCode::internal, "plugin.not_prepared",
-                        call.who.describe() + ": not prepared");
+            throw Error(ExitCode::internal, "plugin.not_prepared", call.who.describe(),
+                        "it was called before it was prepared", "call prepare() first");
         return *context_;
     }
 
@@ -127,7 +127,7 @@ public:
         const Call current = call("publish", context.step);
         hooks::Attributes given;
         guarded(current, [&] { inner().publish(given); });
-        judge(current, given, context.surface.vertex_count());
+        check_answer(current, given, context.surface.vertex_count());
         for (hooks::Attribute& a : given) out.push_back(std::move(a));
     }
 
@@ -136,7 +136,7 @@ public:
     }
 
     std::optional<repair::CreaseRule> keep_creases() const override {
-        return judged("keep_creases", [&] { return inner().keep_creases(); });
+        return checked_answer("keep_creases", [&] { return inner().keep_creases(); });
     }
 
     std::uint64_t planned_steps() const override {

@@ -13,14 +13,14 @@
 namespace dsc::plugin {
 namespace {
 
-void judge_size(const Call& current, std::string_view what, std::size_t size, std::size_t points) {
+void check_size(const Call& current, std::string_view what, std::size_t size, std::size_t points) {
     if (size == 0 || size == points) return;
     fail(current, "strategy.size",
          fmt::format("gave {} {} for {}", size, what, text::counted(points, "point")),
          "an attribute is empty or has one entry per point; report this to the plugin's authors");
 }
 
-void judge_finite(const Call& current, std::string_view what, const std::vector<Vec3>& values) {
+void check_finite(const Call& current, std::string_view what, const std::vector<Vec3>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (values[i].allFinite()) continue;
         fail(current, "strategy.not_finite",
@@ -28,7 +28,7 @@ void judge_finite(const Call& current, std::string_view what, const std::vector<
     }
 }
 
-void judge_normals(const Call& current, const std::vector<Vec3>& normals) {
+void check_normals(const Call& current, const std::vector<Vec3>& normals) {
     constexpr double tolerance = 1e-6;  // large enough for normals that were stored as floats
     for (std::size_t i = 0; i < normals.size(); ++i) {
         if (std::abs(normals[i].norm() - 1.0) <= tolerance || normals[i].isZero(0.0)) continue;
@@ -39,7 +39,7 @@ void judge_normals(const Call& current, const std::vector<Vec3>& normals) {
     }
 }
 
-void judge_confidence(const Call& current, const std::vector<double>& confidence) {
+void check_confidence(const Call& current, const std::vector<double>& confidence) {
     for (std::size_t i = 0; i < confidence.size(); ++i) {
         if (confidence[i] >= 0.0 && confidence[i] <= 1.0) continue;  // false for NaN
         fail(current, "strategy.range",
@@ -48,7 +48,7 @@ void judge_confidence(const Call& current, const std::vector<double>& confidence
     }
 }
 
-void judge_orientation(const Call& current, const cloud::Orientation& orientation) {
+void check_orientation(const Call& current, const cloud::Orientation& orientation) {
     for (const double value : {orientation.residual, orientation.noise}) {
         if (std::isfinite(value) && value >= 0.0) continue;
         fail(current, "strategy.range",
@@ -73,24 +73,24 @@ void judge_orientation(const Call& current, const cloud::Orientation& orientatio
     }
 }
 
-void judge_cloud(const Call& current, const cloud::Cloud& cloud) {
+void check_cloud(const Call& current, const cloud::Cloud& cloud) {
     const std::size_t points = cloud.points.size();
     if (points == 0)
         fail(current, "strategy.size", "gave a cloud without points",
              "at least one point must be left; relax its parameters or leave it out");
-    judge_size(current, "colours", cloud.colours.size(), points);
-    judge_size(current, "normals", cloud.normals.size(), points);
-    judge_size(current, "areas", cloud.areas.size(), points);
-    judge_size(current, "confidences", cloud.confidence.size(), points);
-    judge_finite(current, "point", cloud.points);
-    judge_finite(current, "normal", cloud.normals);
-    judge_finite(current, "area", cloud.areas);
-    judge_normals(current, cloud.normals);
-    judge_confidence(current, cloud.confidence);
-    judge_orientation(current, cloud.orientation);
+    check_size(current, "colours", cloud.colours.size(), points);
+    check_size(current, "normals", cloud.normals.size(), points);
+    check_size(current, "areas", cloud.areas.size(), points);
+    check_size(current, "confidences", cloud.confidence.size(), points);
+    check_finite(current, "point", cloud.points);
+    check_finite(current, "normal", cloud.normals);
+    check_finite(current, "area", cloud.areas);
+    check_normals(current, cloud.normals);
+    check_confidence(current, cloud.confidence);
+    check_orientation(current, cloud.orientation);
 }
 
-void judge_report(const Call& current, const cloud::FilterReport& told, std::size_t given,
+void check_report(const Call& current, const cloud::FilterReport& told, std::size_t given,
                   std::size_t left) {
     // Compared without the sum, which could overflow.
     if (told.kept != left || told.removed > given || given - told.removed != told.kept) {
@@ -121,7 +121,7 @@ void judge_report(const Call& current, const cloud::FilterReport& told, std::siz
         if (note.empty() || note.find('\n') != std::string::npos)
             fail(current, "strategy.range", "gave a note that is not one line of text", report_it);
     }
-    judge(current, told.figures);
+    check_answer(current, told.figures);
 }
 
 bool same(const cloud::Orientation& a, const cloud::Orientation& b) {
@@ -142,8 +142,8 @@ public:
         const Call current = call("apply");
         cloud::Filtered result =
             guarded(current, [&] { return inner().apply(cloud, own_context); });
-        judge_cloud(current, result.cloud);
-        judge_report(current, result.report, cloud.points.size(), result.cloud.points.size());
+        check_cloud(current, result.cloud);
+        check_report(current, result.report, cloud.points.size(), result.cloud.points.size());
         result.report.filter = current.who.id;
         result.cloud.source = cloud.source;  // the points still come from this source
         // An orientation that the filter only passed on is not valid for other points than those

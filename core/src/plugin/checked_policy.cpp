@@ -29,7 +29,7 @@ public:
     }
 
     std::optional<repair::CreaseRule> keep_creases() const override {
-        return judged("keep_creases", [&] { return inner().keep_creases(); });
+        return checked_answer("keep_creases", [&] { return inner().keep_creases(); });
     }
 
     unsigned passes() const override {
@@ -47,13 +47,13 @@ public:
         const hooks::StepContext step = own(context.step);
         const Call current = call("refine", step.step);
         guarded(current, [&] { inner().refine({step, context.velocity, context.pass}, out); });
-        judge_changes(current, step, out);
-        judge_lengths(current, step.surface.vertex_count(), out);
-        judge(current, out.attributes, step.surface.vertex_count());
+        check_changes(current, step, out);
+        check_lengths(current, step.surface.vertex_count(), out);
+        check_answer(current, out.attributes, step.surface.vertex_count());
     }
 
 private:
-    static void judge_changes(const Call& current, const hooks::StepContext& step,
+    static void check_changes(const Call& current, const hooks::StepContext& step,
                               const hooks::RefinementRequests& out) {
         const surface::SurfaceView& view = step.surface;
         const std::size_t vertices = view.vertex_count();
@@ -93,7 +93,7 @@ private:
         }
     }
 
-    static void judge_lengths(const Call& current, std::size_t vertices,
+    static void check_lengths(const Call& current, std::size_t vertices,
                               const hooks::RefinementRequests& out) {
         for (const std::vector<double>* lengths : {&out.sizing, &out.target_lengths}) {
             if (!lengths->empty() && lengths->size() != vertices) {
@@ -172,15 +172,15 @@ public:
     }
 
     hooks::Figures figures() const override {
-        return judged("figures", [&] { return inner().figures(); });
+        return checked_answer("figures", [&] { return inner().figures(); });
     }
 
     hooks::Warnings warnings() const override {
-        return judged("warnings", [&] { return inner().warnings(); });
+        return checked_answer("warnings", [&] { return inner().warnings(); });
     }
 
     hooks::Figures seconds() const override {
-        return judged("seconds", [&] { return inner().seconds(); });
+        return checked_answer("seconds", [&] { return inner().seconds(); });
     }
 };
 
@@ -198,7 +198,7 @@ public:
         if (out.size() < before)
             fail(current, "strategy.size", "removed requests that were there before", report_it);
         for (std::size_t i = before; i < out.size(); ++i)
-            judge(current, round.complex, *class_count_, out[i], i - before);
+            check_answer(current, round.complex, *class_count_, out[i], i - before);
     }
 
     std::vector<std::string> repair_classes() const override {
@@ -262,8 +262,8 @@ public:
     }
 
 private:
-    static void judge(const Call& current, const mesh::Complex& complex, std::size_t classes,
-                      const repair::Request& request, std::size_t index) {
+    static void check_answer(const Call& current, const mesh::Complex& complex, std::size_t classes,
+                             const repair::Request& request, std::size_t index) {
         // The text is made only for a fault, because there are many requests.
         const auto where = [index] { return "in " + entry("request", index); };
         if (static_cast<std::size_t>(request.operation) >= repair::operation_count) {
@@ -312,7 +312,7 @@ public:
         const Call current = call("step", own_context.step);
         hooks::Figures result =
             guarded(current, [&] { return inner().step(own_context, figures); });
-        judge(current, result);
+        check_answer(current, result);
         std::vector<std::string> names;
         for (const auto& figure : result) names.push_back(figure.first);
         if (names_ && *names_ != names) {
@@ -326,7 +326,7 @@ public:
 
     hooks::Figures end(const hooks::StepContext& context) override {
         const hooks::StepContext step = own(context);
-        return judged(
+        return checked_answer(
             "end", [&] { return inner().end(step); }, step.step);
     }
 

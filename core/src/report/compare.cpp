@@ -183,7 +183,8 @@ std::string all_warnings(const std::vector<Column>& columns) {
 std::string comparison_html(std::span<const fs::path> run_folders,
                             const plugin::Catalogue& catalogue, Workers* workers) {
     if (run_folders.empty())
-        throw UsageError("report.no_run", "a comparison needs runs; name their folders");
+        throw UsageError("report.no_run", "comparison", "it needs at least one run",
+                         "name the folders of the runs");
     return guarded_report([&] {
         const std::vector<Column> columns = read_columns(run_folders);
         const std::string plots =

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include <fmt/format.h>
 #include <openssl/evp.h>
 
 #include <dsc/base/error.hpp>
@@ -137,8 +138,9 @@ std::string fill(std::string_view page,
     }
     for (const auto& value : values) {
         if (used.count(value.first) == 0)
-            throw Error(ExitCode::internal, "report.template",
-                        "the report's page has no place @" + value.first + "@");
+            throw Error(ExitCode::internal, "report.template", "page of the report",
+                        fmt::format("it does not contain @{}@", value.first),
+                        "please report it with the command");
     }
     return out.append(page);
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/yaml.hpp>
 
@@ -19,8 +21,9 @@ std::string file(std::string_view name) {
     for (const EmbeddedFile& known : report_files()) {
         if (known.path == name) return std::string(known.text);
     }
-    throw Error(ExitCode::internal, "report.template",
-                "the program has no file " + std::string(name) + " for reports");
+    throw Error(ExitCode::internal, "report.template", name,
+                "the program does not contain this file for reports",
+                "please report it with the command");
 }
 
 std::string subtitle(const RunRecord& record) {
@@ -53,9 +56,10 @@ std::string guarded_report(const std::function<std::string()>& make) {
     try {
         return make();
     } catch (const nlohmann::json::exception& error) {
-        throw IoError("report.damaged",
-                      std::string("a JSON file of the run does not contain what a run writes: ") +
-                          error.what() + "; run the experiment again");
+        throw IoError("report.damaged", "run folder", "",
+                      fmt::format("a JSON file of the run does not contain what a run writes: {}",
+                                  error.what()),
+                      "run the experiment again");
     }
 }
 

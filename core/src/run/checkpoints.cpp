@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/base/read_file.hpp>
@@ -20,11 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view magic = "dsc-checkpoint-1";
 constexpr std::size_t seal_size = 64;  // number of hex digits of a SHA-256
 
-std::string name_of(std::uint64_t steps) {
-    const std::string number = std::to_string(steps);
-    return "step_" + std::string(number.size() < 10 ? 10 - number.size() : 0, '0') + number +
-           ".dscstate";
-}
+std::string name_of(std::uint64_t steps) { return fmt::format("step_{:010}.dscstate", steps); }
 
 /// Oldest first, because the names contain their steps with leading zeros.
 std::vector<fs::path> files_of(const fs::path& folder) {
@@ -54,7 +52,8 @@ std::string packed(const Checkpoint& c) {
 }
 
 [[noreturn]] void unusable(const std::string& cause) {
-    throw IoError("checkpoint.unusable", cause);
+    throw IoError("checkpoint.unusable", "checkpoint", "", cause,
+                  "start the run again without --resume");
 }
 
 Checkpoint unpacked(const std::string& file) {
@@ -80,7 +79,8 @@ void Checkpoints::write(const Checkpoint& checkpoint) const {
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error)
-        throw IoError("run.folder", folder_.string(), "", "cannot be created: " + error.message(),
+        throw IoError("run.folder", folder_.string(), "",
+                      fmt::format("cannot be created: {}", error.message()),
                       "choose another folder with -o or make this one writable");
     io::write_file(folder_ / name_of(checkpoint.steps), packed(checkpoint));
     std::vector<fs::path> files = files_of(folder_);
@@ -98,10 +98,10 @@ std::optional<Checkpoint> Checkpoints::last(const std::string& hash,
             if (checkpoint.hash != hash) unusable("it belongs to another experiment");
             require(checkpoint);
             for (const std::string& text : refused)
-                log(LogLevel::warning, text + "; using the previous one");
+                log(LogLevel::warning, fmt::format("{}; using the previous one", text));
             return checkpoint;
         } catch (const Error& error) {
-            refused.push_back(file->string() + " cannot be used: " + error.what());
+            refused.push_back(fmt::format("{} cannot be used: {}", file->string(), error.cause()));
         }
     }
     if (!refused.empty()) *reason = refused.front();

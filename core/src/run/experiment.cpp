@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/run/sha256.hpp>
@@ -111,9 +113,9 @@ void require_files(const ConfigNode& resolved, const StrategyLookup& lookup) {
         const bool typed = file.position().from_command_line();
         if (!fs::exists(file.as_string(), ignored)) {
             missing.error("io.open", file.position(),
-                          "'" + file.path() + "': " + file.as_string() + " does not exist",
-                          std::string("check the path; it is relative to the ") +
-                              (typed ? "current folder" : "folder of this file"));
+                          fmt::format("'{}': {} does not exist", file.path(), file.as_string()),
+                          fmt::format("check the path; it is relative to the {}",
+                                      typed ? "current folder" : "folder of this file"));
         }
         return file;
     });

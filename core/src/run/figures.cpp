@@ -1,6 +1,8 @@
 // Texts of events.jsonl, and the sums over the steps of a run.
 #include "dsc/run/figures.hpp"
 
+#include <fmt/format.h>
+
 #include <dsc/text/numbers.hpp>
 
 namespace dsc::run {
@@ -18,22 +20,19 @@ std::string_view name(Status status) {
 std::string event_line(const kernel::Event& event, const cloud::Transform& to_normalised) {
     const Vec3 place = to_normalised.inverse(event.place);
     const double scale = to_normalised.scale;
-    std::string text = "{\"kind\":\"" + std::string(kernel::name(event.kind)) + "\"";
-    text += ",\"step\":" + std::to_string(event.step);
-    text += ",\"place\":[" + text::exact(place.x()) + "," + text::exact(place.y()) + "," +
-            text::exact(place.z()) + "]";
-    text += ",\"label\":" + std::to_string(event.label);
-    text += ",\"tets\":" + std::to_string(event.tets);
-    text += ",\"volume\":" + text::exact(event.volume / (scale * scale * scale));
-    text += ",\"thickness\":" + text::exact(event.thickness);
-    return text + "}\n";
+    return fmt::format(R"({{"kind":"{}","step":{},"place":[{},{},{}],"label":{},"tets":{},)"
+                       R"("volume":{},"thickness":{}}})"
+                       "\n",
+                       kernel::name(event.kind), event.step, text::exact(place.x()),
+                       text::exact(place.y()), text::exact(place.z()), event.label, event.tets,
+                       text::exact(event.volume / (scale * scale * scale)),
+                       text::exact(event.thickness));
 }
 
 std::string class_line(const ClassFigures& figures) {
-    return "{\"kind\":\"repair\",\"step\":" + std::to_string(figures.step) + ",\"class\":\"" +
-           std::string(figures.repair_class) +
-           "\",\"requested\":" + std::to_string(figures.requested) +
-           ",\"committed\":" + std::to_string(figures.committed) + "}\n";
+    return fmt::format(R"({{"kind":"repair","step":{},"class":"{}","requested":{},"committed":{}}})"
+                       "\n",
+                       figures.step, figures.repair_class, figures.requested, figures.committed);
 }
 
 void RefinementCounts::add(const kernel::RefineReport& report) {

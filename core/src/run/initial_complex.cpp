@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/run/mesh_files.hpp>
@@ -15,10 +17,9 @@ namespace {
 void require_inside(const cloud::TargetCloud& cloud, const Box3& box) {
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         if (box.contains(cloud[i])) continue;
-        throw GeometryError("cloud.outside_box",
-                            "point " + std::to_string(i + 1) +
-                                " of the cloud lies outside the box of the initial mesh; lower "
-                                "input.normalize.scale or make the initial mesh larger");
+        throw GeometryError("cloud.outside_box", "cloud",
+                            fmt::format("point {} lies outside the box of the initial mesh", i + 1),
+                            "lower input.normalize.scale or make the initial mesh larger");
     }
 }
 
@@ -43,9 +44,9 @@ mesh::Complex initial_complex(const Experiment& experiment, Strategies& strategi
     totals.warnings = strategies.initial_mesh->warnings();
     const CpuTimed timed(totals.seconds.adopt);
     const Timed wall_timed(totals.seconds.adopt_wall);
-    mesh::Complex complex =
-        mesh::adopt(mesh, "initial mesh '" + experiment.initial_mesh.type + "'", &totals.adopted,
-                    strategies.improvement->topology_limits().min_component, &workers);
+    mesh::Complex complex = mesh::adopt(
+        mesh, fmt::format("initial mesh '{}'", experiment.initial_mesh.type), &totals.adopted,
+        strategies.improvement->topology_limits().min_component, &workers);
     if (cloud != nullptr) require_inside(*cloud, complex.box());
     return complex;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/shapes.hpp>
@@ -42,7 +44,7 @@ Filters make_filters(const CloudInput& input, const plugin::Catalogue& catalogue
     Filters filters;
     for (std::size_t i = 0; i < input.filters.size(); ++i) {
         filters.push_back(catalogue.create<hooks::CloudFilter>(
-            input.filters[i], "input.cloud.filters." + std::to_string(i)));
+            input.filters[i], fmt::format("input.cloud.filters.{}", i)));
     }
     return filters;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/yaml.hpp>
 
@@ -22,8 +24,8 @@ ConfigNode embedded(std::string_view name) {
         if (file.path == name)
             return config::parse_yaml(file.text, "configs/reconstruct/" + std::string(name));
     }
-    throw Error(ExitCode::internal, "reconstruct.file",
-                "configs/reconstruct/" + std::string(name) + " is not part of the program");
+    throw Error(ExitCode::internal, "reconstruct.file", fmt::format("configs/reconstruct/{}", name),
+                "it is not part of the program", "please report it with the command");
 }
 
 /// Sets a parameter of every refinement in the schedule.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/io/read.hpp>
 #include <dsc/io/write.hpp>
@@ -44,7 +46,7 @@ std::vector<Vec3> normals(const Output& output, const surface::TriangleMesh& sur
     return output.normals.value_or(false) ? surface::vertex_normals(surface) : std::vector<Vec3>();
 }
 
-std::string label_stem(mesh::Label label) { return "surface_" + std::to_string(label) + "."; }
+std::string label_stem(mesh::Label label) { return fmt::format("surface_{}.", label); }
 
 std::string preferred(const std::vector<std::string>& given,
                       std::initializer_list<const char*> order) {
@@ -63,10 +65,11 @@ void ResultFiles::write(const mesh::TetMesh& mesh, const hooks::Attributes& attr
     std::vector<std::uint32_t> vertex_of;
     surface_ = surface::extract_interface(mesh, &vertex_of);
     if (surface_.faces.empty() && target != nullptr) {
-        throw GeometryError("run.vanished",
-                            "the surface vanished: no tet with a label above 0 is left, so there "
-                            "is no result; parts of the object may be thinner than the mesh "
-                            "resolution: use more cells, smaller steps, or stop earlier");
+        throw GeometryError(
+            "run.vanished", "result",
+            "the surface vanished: no tet with a label above 0 is left, so there is no result; "
+            "parts of the object may be thinner than the mesh resolution",
+            "use more cells or smaller steps, or stop earlier");
     }
     if (output_.trim && target != nullptr) trim_surface(attributes, gaps, vertex_of, outcome);
     if (target != nullptr) paint(surface_, *target);
@@ -107,11 +110,11 @@ void ResultFiles::trim_surface(const hooks::Attributes& attributes, std::span<co
                       &points_of, &outcome.trimmed.emplace());
     if (surface_.faces.empty()) {
         throw GeometryError(
-            "run.trimmed",
-            "trimming removed the whole surface: every face has a vertex farther than " +
-                std::to_string(output_.trim->distance) +
-                " spacings from the points or with too little support; raise output.trim.distance, "
-                "lower output.trim.support, or write the whole surface");
+            "run.trimmed", "result",
+            fmt::format("trimming removed the whole surface: every face has a vertex farther than "
+                        "{} spacings from the points or with too little support",
+                        output_.trim->distance),
+            "raise output.trim.distance, lower output.trim.support, or write the whole surface");
     }
     for (std::uint32_t& p : points_of) p = vertex_of[p];
     vertex_of = std::move(points_of);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/config/overrides.hpp>
@@ -17,8 +19,8 @@ namespace fs = std::filesystem;
 using config::ConfigEntry;
 using config::ConfigNode;
 
-constexpr const char* remedy_of_resume = "; nothing in it was changed; run without --resume to "
-                                         "start again there, or name another folder with -o";
+constexpr std::string_view remedy_of_resume =
+    "run without --resume to start again there, or name another folder with -o";
 
 /// The places where two trees differ.
 class Comparison {
@@ -29,7 +31,7 @@ public:
             return maps(*there, *here, path);
         if (there != nullptr && here != nullptr && there->is_list() && here->is_list())
             return lists(*there, *here, path);
-        found_.push_back(path + " is " + text(there) + " there and " + text(here) + " here");
+        found_.push_back(fmt::format("{} is {} there and {} here", path, text(there), text(here)));
     }
 
     std::string told() const {
@@ -37,7 +39,7 @@ public:
         std::string all;
         for (std::size_t i = 0; i < std::min(most, found_.size()); ++i)
             all += (i > 0 ? ", " : "") + found_[i];
-        if (found_.size() > most) all += ", and " + std::to_string(found_.size() - most) + " more";
+        if (found_.size() > most) all += fmt::format(", and {} more", found_.size() - most);
         return all;
     }
 
@@ -84,7 +86,7 @@ std::string difference_to(const fs::path& folder, const LoadedExperiment& loaded
             config::parse_yaml(resolved_text(loaded), "the experiment", options));
         return told.empty() ? "the content of a file or a plugin that it names has changed" : told;
     } catch (const Error&) {
-        return "its " + file.filename().string() + " cannot be read";
+        return fmt::format("its {} cannot be read", file.filename().string());
     }
 }
 
@@ -94,8 +96,9 @@ void require_tables(const fs::path& folder, const Checkpoint& checkpoint) {
         std::error_code error;
         const std::uintmax_t size = fs::file_size(folder / name, error);
         if (error || size < bytes)
-            throw IoError("checkpoint.unusable",
-                          std::string(name) + " is shorter than at the checkpoint");
+            throw IoError("checkpoint.unusable", folder.string(), "",
+                          fmt::format("{} is shorter than at the checkpoint", name),
+                          "start the run again without --resume");
     };
     require("metrics.csv", checkpoint.log.metrics_bytes);
     require("events.jsonl", checkpoint.log.events_bytes);
@@ -115,17 +118,22 @@ std::optional<Checkpoint> checkpoint_to_resume(const fs::path& folder,
                                                const std::string& hash) {
     const std::optional<RunFolder::Status> status = RunFolder::status(folder);
     if (status && !status->hash.empty() && status->hash != hash) {
-        throw UsageError("run.resume", folder.string() +
-                                           " contains the run of another experiment: " +
-                                           difference_to(folder, loaded) + remedy_of_resume);
+        throw UsageError(
+            "run.resume", folder.string(),
+            fmt::format("contains the run of another experiment: {}; nothing in it was changed",
+                        difference_to(folder, loaded)),
+            remedy_of_resume);
     }
     std::string reason;
     std::optional<Checkpoint> found = checkpoints.last(
         hash, [&folder](const Checkpoint& c) { require_tables(folder, c); }, &reason);
     if (!found && !reason.empty()) {
-        throw UsageError("run.resume", folder.string() +
-                                           " has no checkpoint from which this run can continue: " +
-                                           reason + remedy_of_resume);
+        throw UsageError(
+            "run.resume", folder.string(),
+            fmt::format(
+                "has no checkpoint from which this run can continue: {}; nothing in it was changed",
+                reason),
+            remedy_of_resume);
     }
     return found;
 }

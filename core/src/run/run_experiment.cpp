@@ -7,6 +7,8 @@
 #include <span>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 #include <dsc/io/picture.hpp>
@@ -32,12 +34,13 @@ namespace fs = std::filesystem;
 void require_valid(const RunOutcome& outcome) {
     const VolumeMeasure& v = outcome.volume;
     if (v.inverted_tets == 0 && v.adjacency_valid() && outcome.conforms) return;
-    throw GeometryError("run.invalid_result",
-                        "the result as written is not valid: " + std::to_string(v.inverted_tets) +
-                            " inverted tets, " + std::to_string(v.overused_faces + v.folded_faces) +
-                            " wrong faces, the surface is " + (outcome.conforms ? "" : "not ") +
-                            "the interface of the volume; if the coordinates are huge, move the "
-                            "input closer to the origin");
+    throw GeometryError(
+        "run.invalid_result", "result",
+        fmt::format("as written it is not valid: it has {} inverted tets and {} wrong "
+                    "faces, and its surface is {}the interface of its volume",
+                    v.inverted_tets, v.overused_faces + v.folded_faces,
+                    outcome.conforms ? "" : "not "),
+        "if the coordinates are huge, move the input closer to the origin");
 }
 
 /// Warnings about parts of the surface that trimming removes.
@@ -87,10 +90,12 @@ public:
             resumed_ = checkpoint_to_resume(path, checkpoints, loaded_, state_.hash);
         folder.clear(resumed_ ? RunFolder::Keep::progress : RunFolder::Keep::nothing);
         if (options_.resume) {
-            log(LogLevel::info, resumed_
-                                    ? "continuing after step " + std::to_string(resumed_->steps)
-                                    : "no checkpoint of this experiment in " + path.string() +
-                                          ": starting at the beginning");
+            log(LogLevel::info,
+                resumed_
+                    ? fmt::format("continuing after step {}", resumed_->steps)
+                    : fmt::format(
+                          "{} contains no checkpoint of this experiment: starting at the beginning",
+                          path.string()));
         }
         folder.write("status.json", status_json(state_));
         const Running running([this, &folder](const Error& error) {
@@ -230,7 +235,8 @@ private:
                                                              input_ ? &*input_ : nullptr));
             outcome.report = folder.file("report.html");
         } catch (const Error& error) {
-            log(LogLevel::warning, std::string("the report could not be written: ") + error.what());
+            log(LogLevel::warning,
+                fmt::format("the report could not be written: {}", error.what()));
         }
     }
 
@@ -243,10 +249,10 @@ private:
             const surface::TriangleMesh surface = surface::extract_interface(mesh);
             if (!surface.faces.empty()) io::write_surface(place / "surface.obj", surface);
             log(LogLevel::warning,
-                "the state after step " + std::to_string(steps) + " is kept in " + place.string());
+                fmt::format("the state after step {} is kept in {}", steps, place.string()));
         } catch (const std::exception& error) {
             log(LogLevel::warning,
-                std::string("the last good state could not be kept: ") + error.what());
+                fmt::format("the last good state could not be kept: {}", error.what()));
         }
     }
 
@@ -256,11 +262,11 @@ private:
     }
 
     static void report_input(const InputReport& report) {
-        std::string text = report.source + ": " + std::to_string(report.points) + " points";
+        std::string text = fmt::format("{}: {} points", report.source, report.points);
         if (report.dropped > 0)
-            text += ", " + std::to_string(report.dropped) + " with NaN or infinity dropped";
+            text += fmt::format(", {} with NaN or infinity dropped", report.dropped);
         for (const cloud::FilterReport& filter : report.filters) {
-            text += ", " + filter.filter + " removed " + std::to_string(filter.removed);
+            text += fmt::format(", {} removed {}", filter.filter, filter.removed);
         }
         log(report.dropped > 0 ? LogLevel::warning : LogLevel::info, text);
         for (const cloud::FilterReport& filter : report.filters)

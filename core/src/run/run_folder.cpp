@@ -4,6 +4,7 @@
 #include <array>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <dsc/base/error.hpp>
@@ -24,7 +25,7 @@ constexpr std::array other_names = {"metrics.csv",     "events.jsonl", "config.r
                                     "series"};
 
 [[noreturn]] void cannot(const fs::path& folder, const char* what, const std::error_code& error) {
-    throw IoError("run.folder", folder.string(), "", std::string(what) + ": " + error.message(),
+    throw IoError("run.folder", folder.string(), "", fmt::format("{}: {}", what, error.message()),
                   "choose another folder with -o or make this one writable");
 }
 
@@ -65,17 +66,16 @@ RunFolder RunFolder::claimed(fs::path folder) {
     std::error_code error;
     const fs::file_status status = fs::status(folder, error);
     if (fs::exists(status) && !fs::is_directory(status)) {
-        throw UsageError("run.folder", folder.string() + " is a file; name a folder with -o");
+        throw UsageError("run.folder", folder.string(), "is a file", "name a folder with -o");
     }
     if (fs::is_directory(status)) {
         // A run that was killed before it wrote that it is running leaves only its lock.
         const bool empty = io::nothing_but_leftovers(folder, error, RunLock::name);
         if (error) cannot(folder, "cannot be read", error);
         if (!empty && !is_ours(folder)) {
-            throw UsageError("run.folder",
-                             folder.string() +
-                                 " is not empty and no run wrote it; nothing in it was changed; "
-                                 "name another folder with -o or empty it");
+            throw UsageError("run.folder", folder.string(),
+                             "is not empty and no run wrote it; nothing in it was changed",
+                             "name another folder with -o or empty this one");
         }
     }
     fs::create_directories(folder, error);

@@ -14,6 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 
 namespace dsc::run {
@@ -49,8 +51,8 @@ Owner owner_in(int descriptor) {
 
 std::string described(const Owner& owner) {
     if (owner.process <= 0) return "another process";
-    return "process " + std::to_string(owner.process) +
-           (owner.host.empty() ? "" : " on " + owner.host);
+    return fmt::format("process {}{}{}", owner.process, owner.host.empty() ? "" : " on ",
+                       owner.host);
 }
 
 enum class Taken { yes, by_other, unknown };
@@ -83,9 +85,9 @@ bool is_file(int descriptor, const std::filesystem::path& file) {
 
 [[noreturn]] void busy(const std::filesystem::path& folder, const Owner& owner) {
     throw UsageError(
-        "run.busy",
-        folder.string() + " is in use by the run of " + described(owner) +
-            "; nothing in it was changed; wait for the end of that run or name another folder");
+        "run.busy", folder.string(),
+        fmt::format("is in use by the run of {}; nothing in it was changed", described(owner)),
+        "wait for the end of that run or name another folder");
 }
 
 }  // namespace
@@ -94,9 +96,10 @@ RunLock::RunLock(const std::filesystem::path& folder) : file_(folder / name) {
     while (true) {
         descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (descriptor_ < 0) {
-            throw IoError("run.folder", folder.string(), "",
-                          "cannot be locked: " + std::generic_category().message(errno),
-                          "choose another folder with -o or make this one writable");
+            throw IoError(
+                "run.folder", folder.string(), "",
+                fmt::format("cannot be locked: {}", std::generic_category().message(errno)),
+                "choose another folder with -o or make this one writable");
         }
         const Taken taken = lock(descriptor_);
         const Owner owner = owner_in(descriptor_);
@@ -109,7 +112,7 @@ RunLock::RunLock(const std::filesystem::path& folder) : file_(folder / name) {
         if (is_file(descriptor_, file_)) break;
         ::close(descriptor_);
     }
-    const std::string text = std::to_string(::getpid()) + " " + this_host() + "\n";
+    const std::string text = fmt::format("{} {}\n", ::getpid(), this_host());
     // The text is only for a message; the lock works without it.
     if (::ftruncate(descriptor_, 0) == 0)
         static_cast<void>(::pwrite(descriptor_, text.data(), text.size(), 0));

@@ -125,7 +125,8 @@ StateSeries::StateSeries(const Experiment& experiment, const plugin::Catalogue& 
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error) {
-        throw IoError("run.folder", folder_.string(), "", "cannot be created: " + error.message(),
+        throw IoError("run.folder", folder_.string(), "",
+                      fmt::format("cannot be created: {}", error.message()),
                       "choose another folder with -o or make this one writable");
     }
     surfaces_ = kept_states(run_folder, "surface");

@@ -26,12 +26,12 @@ void require_manifold(const TriangleMesh& mesh) {
         r.faces == mesh.faces.size())
         return;
     throw GeometryError(
-        "surface.not_manifold",
-        fmt::format(
-            "decimate: {} non-manifold edges, {} edges used twice in one direction, {} "
-            "non-manifold vertices, {} faces that use a point twice; repair the surface first",
-            r.nonmanifold_edges, r.misoriented_edges, r.nonmanifold_vertices,
-            mesh.faces.size() - r.faces));
+        "surface.not_manifold", "decimate",
+        fmt::format("the surface has {} non-manifold edges, {} edges used twice in one direction, "
+                    "{} non-manifold vertices and {} faces that use a point twice",
+                    r.nonmanifold_edges, r.misoriented_edges, r.nonmanifold_vertices,
+                    mesh.faces.size() - r.faces),
+        "repair the surface first");
 }
 
 HalfEdgeMesh to_half_edges(const TriangleMesh& mesh, const Vec3& centre) {

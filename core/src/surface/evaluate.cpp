@@ -98,8 +98,8 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, std::size_t count, Rando
         cumulative.push_back(total);
     }
     if (!(total > 0.0) || !std::isfinite(total)) {
-        throw GeometryError("surface.empty", "surface: the mesh has no area to sample; provide at "
-                                             "least one face that is not degenerate");
+        throw GeometryError("surface.empty", "surface", "the mesh has no area to sample",
+                            "provide at least one face that is not degenerate");
     }
     const auto last = std::lower_bound(cumulative.begin(), cumulative.end(), total);
     SurfaceSamples out;
@@ -123,7 +123,8 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, std::size_t count, Rando
 Evaluation evaluate(const TriangleMesh& recon, const TriangleMesh& truth,
                     const EvaluateOptions& options) {
     if (options.samples == 0)
-        throw UsageError("evaluate.samples", "evaluate: 0 samples; at least 1 is needed");
+        throw UsageError("evaluate.samples", "samples", "0 samples are requested",
+                         "request at least 1");
     require_sound(truth);
     Evaluation out;
     out.diagonal = used_box(truth).diagonal();

@@ -215,10 +215,10 @@ TriangleMesh trim(const TriangleMesh& mesh, std::span<const double> gaps,
                   std::vector<std::uint32_t>* points_of, TrimReport* report) {
     if (gaps.size() != mesh.points.size() ||
         (!support.empty() && support.size() != mesh.points.size())) {
-        throw GeometryError(
-            "trim.values",
-            fmt::format("there are {} gaps and {} supports for {} points; provide one per point",
-                        gaps.size(), support.size(), mesh.points.size()));
+        throw GeometryError("trim.values", "trim",
+                            fmt::format("there are {} gaps and {} supports for {} points",
+                                        gaps.size(), support.size(), mesh.points.size()),
+                            "provide one per point");
     }
     const auto any = [](const std::array<std::uint32_t, 3>& face, auto&& holds) {
         return holds(face[0]) || holds(face[1]) || holds(face[2]);

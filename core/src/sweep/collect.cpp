@@ -151,9 +151,8 @@ void count(const Row& row, SweepStates& states) {
 std::string collect_sweep(const fs::path& folder, SweepStates& states) {
     std::error_code ignored;
     if (!fs::exists(table_file(folder), ignored)) {
-        throw UsageError(
-            "sweep.folder",
-            folder.string() + " has no jobs.tsv; use a folder that dsc sweep expand wrote");
+        throw UsageError("sweep.folder", folder.string(), "does not contain jobs.tsv",
+                         "use a folder that dsc sweep expand wrote");
     }
     const std::vector<SweepJob> jobs = read_table(folder);
     std::vector<Row> rows;

@@ -1,6 +1,8 @@
 // Writes the folders of a sweep: the points first, the table with their names last.
 #include <set>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/read_file.hpp>
 #include <dsc/io/atomic_file.hpp>
@@ -32,9 +34,10 @@ std::vector<SweepJob> open_table(const fs::path& folder) {
     const bool file = fs::exists(folder, error) && !fs::is_directory(folder, error);
     if (file || (fs::is_directory(folder, error) && !io::nothing_but_leftovers(folder, error))) {
         throw UsageError(
-            "sweep.folder",
-            folder.string() + (file ? " is a file" : " is not empty and does not contain a sweep") +
-                "; nothing in it was changed; name another folder with -o or empty it");
+            "sweep.folder", folder.string(),
+            file ? "is a file; it was not changed"
+                 : "is not empty and does not contain a sweep; nothing in it was changed",
+            "name another folder with -o or empty this one");
     }
     make_folder(folder);
     io::remove_leftovers(folder);
@@ -64,12 +67,13 @@ void require_unchanged(const Sweep& sweep, const std::vector<std::string>& exper
         if (count++ == 0) first = point.string();
     }
     if (count == 0) return;
-    throw UsageError("sweep.changed",
-                     text::counted(count, "point was", "points were") + " started (" + first +
-                         (count == 1 ? "" : ", ...") +
-                         ") and would now be another experiment: the base, 'set' or this dsc has "
-                         "changed; nothing was written; expand into another folder with -o, or "
-                         "remove the folders of these points");
+    throw UsageError("sweep.changed", folder.string(),
+                     fmt::format("{} started ({}{}) and would now be {}: the base, 'set' or this "
+                                 "dsc has changed; nothing was written",
+                                 text::counted(count, "point was", "points were"), first,
+                                 count == 1 ? "" : ", ...",
+                                 count == 1 ? "another experiment" : "other experiments"),
+                     "expand into another folder with -o, or remove the folders of these points");
 }
 
 }  // namespace

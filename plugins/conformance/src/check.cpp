@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/spelling.hpp>
 #include <dsc/plugin/fingerprint.hpp>
@@ -70,9 +72,9 @@ private:
         std::error_code error;
         fs::path path = fs::canonical(file, error);
         if (error)
-            throw PluginError("plugin.open", file.string() + ": cannot be opened (" +
-                                                 error.message() +
-                                                 "); check its name and permissions");
+            throw PluginError("plugin.open", file.string(),
+                              fmt::format("cannot be opened ({})", error.message()),
+                              "check its name and permissions");
         return path;
     }
 
@@ -80,10 +82,8 @@ private:
         std::vector<std::string> ids;
         for (const Test& test : test_table()) ids.push_back(test.info.id);
         if (std::find(ids.begin(), ids.end(), id) != ids.end()) return;
-        const auto near = config::closest(id, ids);
-        throw UsageError("usage.test", "there is no test '" + id + "'" +
-                                           (near ? "; did you mean '" + *near + "'?" : "") +
-                                           "; dsc plugin check --list shows all");
+        throw UsageError("usage.test", "dsc plugin check", fmt::format("there is no test '{}'", id),
+                         config::did_you_mean(id, ids) + "dsc plugin check --list shows all");
     }
 
     bool wanted(const Test& test) const {
@@ -130,12 +130,17 @@ private:
                         text += std::string(plugin::kind_name(info.strategy->kind)) + " " +
                                 info.strategy->id + "\n";
                     return Verdict{Status::pass, text};
+                } catch (const Error& error) {
+                    return Verdict{Status::fail, error.cause()};
                 } catch (const std::exception& error) {
                     return Verdict{Status::fail, error.what()};
                 }
             },
             limit());
-        if (listed.status != Status::pass) throw PluginError("check.list", listed.message);
+        if (listed.status != Status::pass)
+            throw PluginError("check.list", file_.string(),
+                              fmt::format("its strategies cannot be listed: {}", listed.message),
+                              "dsc plugin doctor FILE shows what is wrong");
         std::istringstream lines(listed.message);
         std::getline(lines, report_.plugin);
         std::vector<StrategyName> found;
@@ -152,9 +157,9 @@ private:
                     return name.kind == wanted.kind && name.id == wanted.id;
                 });
             if (!there)
-                throw UsageError("usage.strategy",
-                                 file_.string() + " does not contain " + described(wanted) +
-                                     "; dsc plugin list --plugin shows its strategies");
+                throw UsageError("usage.strategy", file_.string(),
+                                 fmt::format("does not contain {}", described(wanted)),
+                                 "dsc plugin list --plugin FILE shows its strategies");
         }
         return options_.strategies;
     }

@@ -93,9 +93,9 @@ private:
     const surface::SurfaceView* surface_ = nullptr;
 };
 
-class Trial {
+class Exerciser {
 public:
-    Trial(const Fixture& fixture, const Exercise& how)
+    Exerciser(const Fixture& fixture, const Exercise& how)
         : fixture_(fixture), how_(how), workers_(how.threads) {}
 
     Answers run(plugin::Kind kind, hooks::Strategy& strategy) {
@@ -138,7 +138,7 @@ private:
     }
 
     template <class T>
-    void judge(const Output<T>& output, const std::string& what) {
+    void check_output(const Output<T>& output, const std::string& what) {
         const std::string touched = output.touched();
         if (!touched.empty() && answers_.outside.empty())
             answers_.outside = what + at_ + ": " + touched;
@@ -188,7 +188,7 @@ private:
             points.push_back((view.positions[a] + view.positions[b] + view.positions[c]) / 3.0);
         Output<Vec3> out(points.size(), Vec3::Constant(unwritten()));
         field.sample(points, view.face_normals, out.entries());
-        judge(out, "sampled displacements");
+        check_output(out, "sampled displacements");
         record("sampled displacements", std::span<const Vec3>(out.entries()), 3);
     }
 
@@ -416,7 +416,7 @@ hooks::StepContext context_of(const Fixture& fixture, std::uint64_t step, const 
 
 Answers exercise(plugin::Kind kind, hooks::Strategy& strategy, const Fixture& fixture,
                  const Exercise& how) {
-    return Trial(fixture, how).run(kind, strategy);
+    return Exerciser(fixture, how).run(kind, strategy);
 }
 
 }  // namespace dsc::conformance

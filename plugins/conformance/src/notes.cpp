@@ -1,5 +1,7 @@
 #include "notes.hpp"
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/config/yaml.hpp>
 #include <dsc/conformance/check.hpp>
@@ -10,15 +12,18 @@ namespace {
 namespace fs = std::filesystem;
 using config::ConfigNode;
 
-[[noreturn]] void refuse(const ConfigNode& node, const std::string& cause) {
-    throw ConfigError("check.notes", node.position().describe() + ": error: " + cause + "\n");
+[[noreturn]] void refuse(const ConfigNode& node, const std::string& cause,
+                         const std::string& remedy) {
+    throw ConfigError("check.notes", node.position().describe(), cause, remedy);
 }
 
 void require_known(const ConfigNode& map, std::initializer_list<std::string_view> keys) {
     for (const config::ConfigEntry& entry : map.entries()) {
         bool known = false;
         for (const std::string_view key : keys) known = known || entry.key == key;
-        if (!known) refuse(entry.value, "unknown key '" + entry.key + "' in the notes of a plugin");
+        if (known) continue;
+        refuse(entry.value, fmt::format("unknown key '{}' in the notes of a plugin", entry.key),
+               fmt::format("the keys here are {}", fmt::join(keys, ", ")));
     }
 }
 
@@ -28,8 +33,14 @@ std::map<std::string, std::string> waivers(const ConfigNode& map) {
     for (const config::ConfigEntry& entry : map.entries()) {
         bool is_test = false;
         for (const TestInfo& test : known) is_test = is_test || test.id == entry.key;
-        if (!is_test) refuse(entry.value, "there is no test '" + entry.key + "' to waive");
-        if (entry.value.as_string().empty()) refuse(entry.value, "a waived test needs a reason");
+        if (!is_test) {
+            refuse(entry.value, fmt::format("there is no test '{}' to waive", entry.key),
+                   "dsc plugin check --list shows all");
+        }
+        if (entry.value.as_string().empty()) {
+            refuse(entry.value, "a waived test needs a reason",
+                   fmt::format("write {}: REASON", entry.key));
+        }
         result[entry.key] = entry.value.as_string();
     }
     return result;
@@ -39,9 +50,14 @@ StrategyNotes strategy(const ConfigNode& node) {
     require_known(node, {"kind", "id", "parameters", "waive"});
     StrategyNotes notes;
     const auto kind = plugin::find_kind(node.at("kind").as_string());
-    if (!kind)
+    if (!kind) {
+        std::vector<std::string_view> names;
+        for (const plugin::Kind known : plugin::all_kinds)
+            names.push_back(plugin::kind_name(known));
         refuse(node.at("kind"),
-               "there is no kind of strategy '" + node.at("kind").as_string() + "'");
+               fmt::format("there is no kind of strategy '{}'", node.at("kind").as_string()),
+               fmt::format("the kinds are {}", fmt::join(names, ", ")));
+    }
     notes.kind = *kind;
     notes.id = node.at("id").as_string();
     if (const ConfigNode* parameters = node.find("parameters")) notes.parameters = *parameters;

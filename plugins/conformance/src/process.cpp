@@ -95,8 +95,8 @@ std::string sanitizer_report(const std::string& output) {
     return {};
 }
 
-Verdict judge(int status, bool in_time, const std::string& bytes, const std::string& output,
-              std::chrono::milliseconds limit) {
+Verdict verdict_of(int status, bool in_time, const std::string& bytes, const std::string& output,
+                   std::chrono::milliseconds limit) {
     if (!in_time)
         return {Status::timeout, fmt::format("it did not end within {} s", limit.count() / 1000)};
     if (const std::string report = sanitizer_report(output); !report.empty())
@@ -134,8 +134,9 @@ Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::millisec
     std::array<int, 2> ends{};
     const int output = memfd_create("output", MFD_CLOEXEC);
     if (output < 0 || pipe2(ends.data(), O_CLOEXEC) != 0)
-        throw PluginError("check.process", std::string("cannot create a pipe for a test (") +
-                                               strerror(errno) + "); close other programs");
+        throw PluginError("check.process", "process of a test",
+                          fmt::format("cannot create a pipe ({})", strerror(errno)),
+                          "close other programs");
     std::cout.flush();
     std::fflush(nullptr);
     const pid_t child = fork();
@@ -157,9 +158,10 @@ Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::millisec
     close(ends[0]);
     close(output);
     if (child < 0)
-        throw PluginError("check.process", std::string("cannot start a process for a test (") +
-                                               strerror(errno) + "); close other programs");
-    return judge(status, in_time, bytes, said, limit);
+        throw PluginError("check.process", "process of a test",
+                          fmt::format("cannot be started ({})", strerror(errno)),
+                          "close other programs");
+    return verdict_of(status, in_time, bytes, said, limit);
 }
 
 }  // namespace dsc::conformance

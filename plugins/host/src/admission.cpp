@@ -1,5 +1,7 @@
 #include "admission.hpp"
 
+#include <fmt/format.h>
+
 #include <dsc/host/search_path.hpp>
 
 #include "entry_file.hpp"
@@ -35,7 +37,7 @@ fs::path real_path(const fs::path& file) {
     std::error_code error;
     fs::path real = fs::canonical(file, error);
     if (error)
-        refuse(file, "plugin.open", "cannot be opened (" + error.message() + ")",
+        refuse(file, "plugin.open", fmt::format("cannot be opened ({})", error.message()),
                "check its name and permissions");
     return real;
 }

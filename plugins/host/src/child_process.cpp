@@ -14,6 +14,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 namespace dsc::host {
 namespace {
 
@@ -87,9 +89,9 @@ int wait_for(int process) {
 }
 
 std::string end_text(int status) {
-    if (!WIFSIGNALED(status)) return "exit code " + std::to_string(WEXITSTATUS(status));
+    if (!WIFSIGNALED(status)) return fmt::format("exit code {}", WEXITSTATUS(status));
     const int number = WTERMSIG(status);
-    return "signal " + std::to_string(number) + " (" + strsignal(number) + ")";
+    return fmt::format("signal {} ({})", number, strsignal(number));
 }
 
 }  // namespace dsc::host

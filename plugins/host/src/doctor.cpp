@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
 
@@ -30,17 +32,17 @@ public:
         });
         step("library", [this] {
             entry_ = read_entry(real_);
-            return std::string("a shared library with the symbol ") + plugin::entry_symbol;
+            return fmt::format("a shared library with the symbol {}", plugin::entry_symbol);
         });
-        step("build", [this] { return judge_build(); });
+        step("build", [this] { return examine_build(); });
         note_soft_differences();
         step("load", [this] {
             rehearsed_ = scan({&real_, 1}).front();
-            if (rehearsed_ && rehearsed_->code != "plugin.enroll") raise(*rehearsed_);
+            if (rehearsed_ && rehearsed_->error.code() != "plugin.enroll") throw rehearsed_->error;
             return std::string("opened in a child process, nothing missing");
         });
-        step("register", [this] { return judge_strategies(); });
-        step("names", [this] { return judge_names(); });
+        step("register", [this] { return examine_strategies(); });
+        step("names", [this] { return examine_names(); });
         return std::move(all_);
     }
 
@@ -61,16 +63,12 @@ private:
         all_.push_back(std::move(examination));
     }
 
-    [[noreturn]] static void raise(const Fault& fault) {
-        throw PluginError(fault.code, fault.message);
-    }
-
-    std::string judge_build() const {
+    std::string examine_build() const {
         require_fitting(entry_, real_);
         const plugin::PluginEntry& entry = entry_.entry;
-        return "plugin '" + text_of(entry.name) + "' " + text_of(entry.version) + ", licence " +
-               text_of(entry.license) + ", ABI " + std::to_string(entry.abi_major) + "." +
-               std::to_string(entry.abi_minor) + ", fits this dsc";
+        return fmt::format("plugin '{}' {}, licence {}, ABI {}.{}, fits this dsc",
+                           text_of(entry.name), text_of(entry.version), text_of(entry.license),
+                           entry.abi_major, entry.abi_minor);
     }
 
     void note_soft_differences() {
@@ -78,35 +76,33 @@ private:
         for (const auto& d : plugin::compare_fingerprints(text_of(entry_.entry.fingerprint),
                                                           plugin::core_fingerprint())) {
             all_.push_back({"build", Result::note,
-                            d.key + " is '" + d.plugin + "', that of dsc is '" + d.host +
-                                "'; this is harmless"});
+                            fmt::format("{} is '{}', that of dsc is '{}'; this is harmless", d.key,
+                                        d.plugin, d.host)});
         }
     }
 
-    std::string judge_strategies() {
-        if (rehearsed_) raise(*rehearsed_);
+    std::string examine_strategies() {
+        if (rehearsed_) throw rehearsed_->error;
         Host alone;
         alone.load(real_);
         std::string text;
         for (const plugin::StrategyInfo& info : alone.list()) {
             text += text.empty() ? "" : ", ";
-            text += std::string(plugin::kind_name(info.strategy->kind)) + " '" + info.strategy->id +
-                    "'";
+            text +=
+                fmt::format("{} '{}'", plugin::kind_name(info.strategy->kind), info.strategy->id);
         }
         return text;
     }
 
     // The plugins that a run would also find. One of them may be this same file, or an older build
     // of it.
-    std::string judge_names() const {
+    std::string examine_names() const {
         Host together;
         together.load(real_);
-        std::vector<std::string> clashes;
         together.load_all(search_, OnFault::collect);
         for (const Fault& fault : together.faults()) {
-            if (fault.code == "plugin.duplicate") clashes.push_back(fault.message);
+            if (fault.error.code() == "plugin.duplicate") throw fault.error;
         }
-        if (!clashes.empty()) throw PluginError("plugin.duplicate", clashes.front());
         return "no other plugin on the search path has one of its ids";
     }
 

@@ -11,6 +11,8 @@
 
 #include <elf.h>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 
 namespace dsc::host {
@@ -64,7 +66,7 @@ Bytes load_bytes(const std::filesystem::path& file) {
     }
     std::ifstream in(file, std::ios::binary);
     if (!in) {
-        refuse(file, "plugin.open", std::string("cannot be read (") + std::strerror(errno) + ")",
+        refuse(file, "plugin.open", fmt::format("cannot be read ({})", std::strerror(errno)),
                "check its name and permissions");
     }
     std::vector<char> data;
@@ -145,7 +147,7 @@ std::optional<Elf64_Sym> find_symbol(const Bytes& bytes, const Elf64_Ehdr& heade
 }
 
 std::string version_text(unsigned major, unsigned minor) {
-    return std::to_string(major) + "." + std::to_string(minor);
+    return fmt::format("{}.{}", major, minor);
 }
 
 void require_same_build(const plugin::PluginEntry& entry, const std::filesystem::path& file) {
@@ -155,22 +157,21 @@ void require_same_build(const plugin::PluginEntry& entry, const std::filesystem:
     for (const auto& difference : plugin::compare_fingerprints(theirs, ours)) {
         if (!difference.hard) continue;
         cause += cause.empty() ? "was built differently from this dsc: " : ", ";
-        cause += difference.key + " is '" + difference.plugin + "' in the plugin and '" +
-                 difference.host + "' in dsc";
+        cause += fmt::format("{} is '{}' in the plugin and '{}' in dsc", difference.key,
+                             difference.plugin, difference.host);
     }
     if (cause.empty()) return;
     refuse(file, "plugin.fingerprint", cause,
-           "build it with dsc_add_plugin and the compiler options of this dsc (-march and -mavx "
-           "change align)\n"
-           "  plugin: " +
-               theirs + "\n  dsc:    " + ours);
+           fmt::format("build it with dsc_add_plugin and the compiler options of this dsc (-march "
+                       "and -mavx change align)\n  plugin: {}\n  dsc:    {}",
+                       theirs, ours));
 }
 
 }  // namespace
 
 void refuse(const std::filesystem::path& file, std::string code, const std::string& cause,
             const std::string& remedy) {
-    throw PluginError(std::move(code), file.string() + ": " + cause + "; " + remedy);
+    throw PluginError(std::move(code), file.string(), cause, remedy);
 }
 
 EntryBytes read_entry(const std::filesystem::path& file) {
@@ -179,7 +180,7 @@ EntryBytes read_entry(const std::filesystem::path& file) {
     const auto symbol = find_symbol(bytes, header, plugin::entry_symbol, file);
     if (!symbol) {
         refuse(file, "plugin.no_entry",
-               std::string("is a library without the symbol ") + plugin::entry_symbol,
+               fmt::format("is a library without the symbol {}", plugin::entry_symbol),
                "write one DSC_PLUGIN(...) { ... } in one source file of the plugin");
     }
     const auto offset = file_offset(bytes, header, symbol->st_value);
@@ -195,30 +196,31 @@ void require_fitting(const EntryBytes& bytes, const std::filesystem::path& file)
     const plugin::PluginEntry& entry = bytes.entry;
     if (bytes.available < offsetof(plugin::PluginEntry, fingerprint) ||
         entry.magic != plugin::entry_magic) {
-        refuse(file, "plugin.magic",
-               std::string("has a symbol ") + plugin::entry_symbol +
-                   " that is not a valid plugin entry",
-               "write the entry with DSC_PLUGIN(...) { ... }, never by hand");
+        refuse(
+            file, "plugin.magic",
+            fmt::format("has a symbol {} that is not a valid plugin entry", plugin::entry_symbol),
+            "write the entry with DSC_PLUGIN(...) { ... }, never by hand");
     }
     const std::string rebuild = "rebuild it with the headers of this dsc";
     if (entry.abi_major != DSC_ABI_MAJOR) {
         refuse(file, "plugin.abi",
-               "was built for ABI " + version_text(entry.abi_major, entry.abi_minor) +
-                   ", this dsc has ABI " + version_text(DSC_ABI_MAJOR, DSC_ABI_MINOR),
+               fmt::format("was built for ABI {}, this dsc has ABI {}",
+                           version_text(entry.abi_major, entry.abi_minor),
+                           version_text(DSC_ABI_MAJOR, DSC_ABI_MINOR)),
                rebuild);
     }
     if (entry.struct_size != sizeof(plugin::PluginEntry) ||
         bytes.available != sizeof(plugin::PluginEntry)) {
         refuse(file, "plugin.size",
-               "has an entry of " + std::to_string(entry.struct_size) +
-                   " bytes instead of the expected " + std::to_string(sizeof(plugin::PluginEntry)) +
-                   " bytes",
+               fmt::format("has an entry of {} bytes instead of the expected {} bytes",
+                           entry.struct_size, sizeof(plugin::PluginEntry)),
                rebuild);
     }
     if (entry.abi_minor > DSC_ABI_MINOR) {
         refuse(file, "plugin.abi",
-               "needs ABI " + version_text(entry.abi_major, entry.abi_minor) +
-                   ", this dsc has ABI " + version_text(DSC_ABI_MAJOR, DSC_ABI_MINOR),
+               fmt::format("needs ABI {}, this dsc has ABI {}",
+                           version_text(entry.abi_major, entry.abi_minor),
+                           version_text(DSC_ABI_MAJOR, DSC_ABI_MINOR)),
                "install a newer dsc, or rebuild the plugin with the headers of this one");
     }
     require_same_build(entry, file);

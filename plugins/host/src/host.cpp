@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
 
@@ -35,8 +37,8 @@ plugin::PluginInfo info_of(const plugin::PluginEntry& entry, const fs::path& fil
 void log_soft_differences(const plugin::PluginInfo& info) {
     for (const auto& d :
          plugin::compare_fingerprints(info.fingerprint, plugin::core_fingerprint())) {
-        log(LogLevel::debug, info.file.string() + ": " + d.key + " is '" + d.plugin +
-                                 "', that of dsc is '" + d.host + "'");
+        log(LogLevel::debug, fmt::format("{}: {} is '{}', that of dsc is '{}'", info.file.string(),
+                                         d.key, d.plugin, d.host));
     }
 }
 
@@ -84,8 +86,7 @@ void Host::load(const fs::path& file) {
         require_admissible(real);
         rehearse({&real, 1});
     }
-    if (const std::optional<Fault>& fault = rehearsed_.at(real))
-        throw PluginError(fault->code, fault->message);
+    if (const std::optional<Fault>& fault = rehearsed_.at(real)) throw fault->error;
 
     const plugin::PluginEntry& entry = open_library(real);
     auto loaded = std::make_unique<Loaded>(Loaded{info_of(entry, real), enroll(entry, real)});
@@ -93,8 +94,8 @@ void Host::load(const fs::path& file) {
         const auto taken = strategies_.find({record.kind, record.id});
         if (taken == strategies_.end()) continue;
         refuse(real, "plugin.duplicate",
-               std::string(plugin::kind_name(record.kind)) + " '" + record.id +
-                   "' already exists, from " + taken->second.plugin->file.string(),
+               fmt::format("{} '{}' already exists, from {}", plugin::kind_name(record.kind),
+                           record.id, taken->second.plugin->file.string()),
                "load only one of the two files, or give one strategy a different id");
     }
     for (const plugin::StrategyRecord& record : loaded->strategies) {
@@ -112,14 +113,15 @@ void Host::attempt(const SearchEntry& entry, const fs::path& file, OnFault on_fa
         // Two strategies with the same id are an error in any order.
         const bool fatal = entry.required || error.code() == "plugin.duplicate";
         if (on_fault == OnFault::stop_if_required && fatal) {
-            throw PluginError(error.code(), entry.origin + ": " + error.what());
+            throw PluginError(error.code(), fmt::format("{}: {}", entry.origin, error.place()),
+                              error.cause(), error.remedy());
         }
         const bool known = std::any_of(faults_.begin(), faults_.end(),
                                        [&file](const Fault& fault) { return fault.file == file; });
         if (known) return;
-        faults_.push_back({file, error.code(), error.what()});
+        faults_.push_back({file, error});
         if (on_fault == OnFault::stop_if_required)
-            log(LogLevel::warning, entry.origin + ": " + error.what());
+            log(LogLevel::warning, fmt::format("{}: {}", entry.origin, error.what()));
     }
 }
 
@@ -132,7 +134,7 @@ void Host::load_folder(const SearchEntry& entry, OnFault on_fault) {
             if (is_library_name(item.path().filename().string())) files.insert(item.path());
         }
         if (error) {
-            refuse(entry.path, "plugin.open", "cannot be listed (" + error.message() + ")",
+            refuse(entry.path, "plugin.open", fmt::format("cannot be listed ({})", error.message()),
                    "check its permissions");
         }
     });
@@ -146,8 +148,10 @@ void Host::load_folder(const SearchEntry& entry, OnFault on_fault) {
         if (earlier != loaded_.end()) {
             const fs::path& front = (*earlier)->info.file;
             if (!fs::equivalent(front, file, error)) {
-                log(LogLevel::info, "using " + front.string() + "; " + file.string() +
-                                        " is ignored (same file name, later on the search path)");
+                log(LogLevel::info,
+                    fmt::format(
+                        "using {}; {} is ignored (same file name, later on the search path)",
+                        front.string(), file.string()));
             }
             continue;
         }

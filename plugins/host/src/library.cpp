@@ -5,6 +5,8 @@
 
 #include <dlfcn.h>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/text/words.hpp>
 
@@ -20,18 +22,18 @@ public:
 
 protected:
     void enroll(plugin::StrategyRecord record) override {
-        const std::string name =
-            std::string(plugin::kind_name(record.kind)) + " '" + record.id + "'";
+        const std::string name = fmt::format("{} '{}'", plugin::kind_name(record.kind), record.id);
         if (!text::is_id(record.id)) {
-            throw PluginError("plugin.enroll",
-                              "the id of " + name + " is not of the form [a-z][a-z0-9_]*");
+            throw PluginError("plugin.enroll", name, "its id is not of the form [a-z][a-z0-9_]*",
+                              "");
         }
-        if (record.summary.empty()) throw PluginError("plugin.enroll", name + " has no summary");
+        if (record.summary.empty())
+            throw PluginError("plugin.enroll", name, "it has no summary", "");
         const bool repeated =
             std::any_of(records.begin(), records.end(), [&record](const auto& other) {
                 return other.kind == record.kind && other.id == record.id;
             });
-        if (repeated) throw PluginError("plugin.enroll", name + " is registered twice");
+        if (repeated) throw PluginError("plugin.enroll", name, "it is registered twice", "");
         records.push_back(std::move(record));
     }
 };
@@ -43,7 +45,7 @@ const plugin::PluginEntry& open_library(const std::filesystem::path& file) {
     const char* reason = library == nullptr ? dlerror() : nullptr;
     if (library == nullptr) {
         refuse(file, "plugin.load",
-               std::string("does not load: ") + (reason == nullptr ? "no reason given" : reason),
+               fmt::format("does not load: {}", reason == nullptr ? "no reason given" : reason),
                "a symbol or library that it needs is missing; link with -Wl,-z,defs to find it at "
                "build time");
     }
@@ -59,23 +61,26 @@ std::vector<plugin::StrategyRecord> enroll(const plugin::PluginEntry& entry,
     const std::string name = text_of(entry.name);
     if (!text::is_id(name)) {
         refuse(file, "plugin.enroll",
-               "has the name '" + name + "', which is not of the form [a-z][a-z0-9_]*", remedy);
+               fmt::format("has the name '{}', which is not of the form [a-z][a-z0-9_]*", name),
+               remedy);
     }
     if (entry.enroll == nullptr) refuse(file, "plugin.enroll", "has no enroll function", remedy);
     Staging staging;
     try {
         entry.enroll(staging);
     } catch (const std::exception& error) {
-        refuse(file, "plugin.enroll", "plugin '" + name + "' failed to register: " + error.what(),
-               remedy);
+        refuse(file, "plugin.enroll",
+               fmt::format("plugin '{}' failed to register: {}", name, error.what()), remedy);
     } catch (...) {
         refuse(file, "plugin.enroll",
-               "plugin '" + name +
-                   "' failed to register: it threw something that is not a std::exception",
+               fmt::format("plugin '{}' failed to register: it threw something that is not a "
+                           "std::exception",
+                           name),
                remedy);
     }
     if (staging.records.empty())
-        refuse(file, "plugin.enroll", "plugin '" + name + "' registers no strategy", remedy);
+        refuse(file, "plugin.enroll", fmt::format("plugin '{}' registers no strategy", name),
+               remedy);
     return std::move(staging.records);
 }
 

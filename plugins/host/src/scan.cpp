@@ -11,6 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/host/child_process.hpp>
 
@@ -23,19 +25,19 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-// One message of the child per library: the two texts of a fault, both empty if there is none.
-struct Answer {
-    std::string code;
-    std::string message;
-};
+// One message of the child per library: code, place, cause and remedy of a fault, all empty if
+// there is none.
+using Answer = std::array<std::string, 4>;
+using Sizes = std::array<std::uint32_t, 4>;
 
 // ---- the child
 
 void send(int to, const Answer& answer) {
-    const std::array<std::uint32_t, 2> head = {static_cast<std::uint32_t>(answer.code.size()),
-                                               static_cast<std::uint32_t>(answer.message.size())};
+    Sizes head{};
+    for (std::size_t i = 0; i < answer.size(); ++i)
+        head[i] = static_cast<std::uint32_t>(answer[i].size());
     std::string bytes(reinterpret_cast<const char*>(head.data()), sizeof(head));
-    bytes += answer.code + answer.message;
+    for (const std::string& text : answer) bytes += text;
     if (!write_all(to, bytes)) _exit(1);
 }
 
@@ -46,8 +48,7 @@ void send(int to, const Answer& answer) {
         try {
             enroll(open_library(library), library);
         } catch (const Error& error) {
-            answer.code = error.code();
-            answer.message = error.what();
+            answer = {error.code(), error.place(), error.cause(), error.remedy()};
         }
         send(to, answer);
     }
@@ -83,16 +84,13 @@ public:
 
     // The next message, unless the child ends or the time limit is reached first.
     ReadEnd next(Answer& answer, Clock::time_point until) const {
-        std::array<std::uint32_t, 2> head{};
-        if (const ReadEnd end = read_all(from_, head.data(), sizeof(head), until);
-            end != ReadEnd::all)
-            return end;
-        answer.code.resize(head[0]);
-        answer.message.resize(head[1]);
-        const ReadEnd end = read_all(from_, answer.code.data(), answer.code.size(), until);
-        return end == ReadEnd::all
-                   ? read_all(from_, answer.message.data(), answer.message.size(), until)
-                   : end;
+        Sizes head{};
+        ReadEnd end = read_all(from_, head.data(), sizeof(head), until);
+        for (std::size_t i = 0; i < answer.size() && end == ReadEnd::all; ++i) {
+            answer[i].resize(head[i]);
+            end = read_all(from_, answer[i].data(), answer[i].size(), until);
+        }
+        return end;
     }
 
     // How it ended: "was ended by signal 11 (Segmentation fault)".
@@ -104,9 +102,9 @@ public:
 
 private:
     [[noreturn]] static void throw_system(const std::string& what) {
-        throw PluginError("plugin.scan", "cannot create " + what +
-                                             " for the trial load of plugins (" + strerror(errno) +
-                                             "); close other programs");
+        throw PluginError("plugin.scan", "trial load of plugins",
+                          fmt::format("cannot create {} ({})", what, strerror(errno)),
+                          "close other programs");
     }
 
     pid_t process_ = -1;
@@ -115,8 +113,8 @@ private:
 };
 
 Fault fault_of(const fs::path& file, std::string code, const std::string& cause) {
-    return {file, std::move(code),
-            file.string() + ": " + cause + "; report this to the plugin's authors"};
+    return {file, PluginError(std::move(code), file.string(), cause,
+                              "report this to the plugin's authors")};
 }
 
 }  // namespace
@@ -134,16 +132,16 @@ std::vector<std::optional<Fault>> scan(std::span<const fs::path> libraries,
             end = child.next(answer, Clock::now() + limit);
             const fs::path& file = libraries[next];
             if (end == ReadEnd::late) {
-                faults[next] =
-                    fault_of(file, "plugin.hang",
-                             "did not load within " + std::to_string(limit.count() / 1000) +
-                                 " s in a child process");
+                faults[next] = fault_of(file, "plugin.hang",
+                                        fmt::format("did not load within {} s in a child process",
+                                                    limit.count() / 1000));
             } else if (end == ReadEnd::closed) {
-                faults[next] = fault_of(
-                    file, "plugin.crash",
-                    "crashes when it is loaded: the child process " + child.exit_description());
-            } else if (!answer.code.empty()) {
-                faults[next] = Fault{file, answer.code, answer.message};
+                faults[next] =
+                    fault_of(file, "plugin.crash",
+                             fmt::format("crashes when it is loaded: the child process {}",
+                                         child.exit_description()));
+            } else if (const auto& [code, place, cause, remedy] = answer; !code.empty()) {
+                faults[next] = Fault{file, PluginError(code, place, cause, remedy)};
             }
         }
     }

@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <fmt/format.h>
+
 #include <dsc/base/error.hpp>
 #include <dsc/plugin/fingerprint.hpp>
 
@@ -18,10 +20,11 @@ void add_variable(std::vector<SearchEntry>& entries, const std::string& list) {
         begin = end + 1;
         if (path.empty()) continue;
         if (path.is_relative()) {
-            throw PluginError("plugin.search_path",
-                              "DSC_PLUGIN_PATH: '" + path.string() +
-                                  "' is relative, so its meaning would depend on the current "
-                                  "folder; write an absolute path");
+            throw PluginError(
+                "plugin.search_path", "DSC_PLUGIN_PATH",
+                fmt::format("'{}' is relative, so its meaning would depend on the current folder",
+                            path.string()),
+                "write an absolute path");
         }
         entries.push_back({path, "DSC_PLUGIN_PATH", true});
     }
@@ -48,7 +51,7 @@ std::vector<SearchEntry> search_path(const SearchOptions& options) {
     std::vector<SearchEntry> entries;
     for (const fs::path& path : options.command_line)
         entries.push_back({fs::absolute(path), "--plugin", true});
-    for (const fs::path& path : options.experiment) entries.push_back({path, "plugins:", true});
+    for (const fs::path& path : options.experiment) entries.push_back({path, "plugins", true});
     add_variable(entries, options.environment("DSC_PLUGIN_PATH").value_or(""));
     std::error_code error;
     for (const auto& [path, origin] : {std::pair{user_folder(options.environment), "user folder"},

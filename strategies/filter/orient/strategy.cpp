@@ -95,11 +95,10 @@ public:
         const bool has_normals = !cloud.normals.empty();
         if (params_.from == From::file) {
             if (!has_normals)
-                throw dsc::ConfigError("filter.normals",
-                                       (cloud.source.empty() ? "cloud" : cloud.source) +
-                                           ": filter orient: from: file needs normals, but the "
-                                           "cloud has none; write " +
-                                           "from: estimate, or use a file with normals");
+                throw dsc::ConfigError(
+                    "filter.normals", cloud.source.empty() ? "cloud" : cloud.source,
+                    "filter orient has `from: file`, but the cloud contains no normals",
+                    "write `from: estimate`, or use a file with normals");
             return with_attributes(cloud, from_file(cloud, context), false);
         }
         if (params_.from == From::estimate)

@@ -6,7 +6,7 @@
 
 #include <dsc/base/version.hpp>
 #include <dsc/hooks/initial_mesh.hpp>
-#include <dsc/plugin/placing.hpp>
+#include <dsc/plugin/coordinates.hpp>
 #include <dsc/plugin/plugin.hpp>
 
 namespace {

@@ -15,8 +15,8 @@
 #include <dsc/geometry/point_text.hpp>
 #include <dsc/hooks/initial_mesh.hpp>
 #include <dsc/mesh/adopt.hpp>
+#include <dsc/plugin/coordinates.hpp>
 #include <dsc/plugin/lattice_params.hpp>
-#include <dsc/plugin/placing.hpp>
 #include <dsc/plugin/plugin.hpp>
 #include <dsc/surface/analysis.hpp>
 #include <dsc/surface/surface_view.hpp>
@@ -130,10 +130,10 @@ public:
         dsc::mesh::TetMesh out = complex.to_mesh();
         const dsc::surface::TriangleMesh interface = dsc::surface::extract_interface(out);
         if (interface.faces.empty()) {
-            throw dsc::GeometryError("from_surface.vanished",
-                                     std::string(name) + ": " + params_.file +
-                                         " is smaller than a cell of the lattice, so it contains "
-                                         "no tet; use more `cells` or `fit` it into the box");
+            throw dsc::GeometryError(
+                "from_surface.vanished", name,
+                params_.file + " is smaller than a cell of the lattice, so it contains no tet",
+                "use more `cells` or `fit` it into the box");
         }
         const dsc::surface::SurfaceReport given = dsc::surface::analyse(solid.surface()),
                                           made = dsc::surface::analyse(interface);
@@ -152,7 +152,7 @@ public:
                     {"interface_genus", static_cast<double>(made.genus)},
                     {"surface_volume", std::abs(given.volume)},
                     {"interface_volume", made.volume}};
-        judge(found, cell);
+        check_deviation(found, cell);
         if (given.shells != made.shells || given.genus != made.genus) {
             dsc::log(dsc::LogLevel::warning,
                      std::string(name) + ": the surface has " + topology(given) +
@@ -181,14 +181,13 @@ private:
                         used = dsc::bounding_box(solid.surface().points);
         if ((used.low.array() <= box.low.array()).any() ||
             (used.high.array() >= box.high.array()).any()) {
-            throw dsc::ConfigError("lattice.box",
-                                   std::string(name) + ": " + params_.file + " extends from " +
-                                       dsc::geometry::point_text(used.low, 4) + " to " +
-                                       dsc::geometry::point_text(used.high, 4) +
-                                       ", beyond the box from " +
-                                       dsc::geometry::point_text(box.low, 4) + " to " +
-                                       dsc::geometry::point_text(box.high, 4) +
-                                       "; `fit` it into the box or make `box` larger");
+            throw dsc::ConfigError(
+                "lattice.box", name,
+                params_.file + " extends from " + dsc::geometry::point_text(used.low, 4) + " to " +
+                    dsc::geometry::point_text(used.high, 4) + ", beyond the box from " +
+                    dsc::geometry::point_text(box.low, 4) + " to " +
+                    dsc::geometry::point_text(box.high, 4),
+                "`fit` it into the box or make `box` larger");
         }
         const double outside = reach * dsc::generate::finest_cell(params_);
         dsc::mesh::TetMesh out = dsc::generate::make_lattice(
@@ -216,28 +215,26 @@ private:
                 out.labels[t] = params_.label;
         }
         if (dsc::generate::labels_touch_box(out)) {
-            throw dsc::ConfigError(
-                "lattice.box",
-                std::string(name) + ": " + params_.file +
-                    " comes too close to the faces of the box; make `box` larger or `fit` smaller");
+            throw dsc::ConfigError("lattice.box", name,
+                                   params_.file + " comes too close to the faces of the box",
+                                   "make `box` larger or `fit` smaller");
         }
         return out;
     }
 
-    void judge(const Deviation& found, double cell) const {
+    void check_deviation(const Deviation& found, double cell) const {
         const double distance = found.greatest() / cell;
         dsc::log(dsc::LogLevel::info,
                  std::string(name) + ": the surface and the mesh are at most " +
                      dsc::text::rounded(distance, 4) + " finest cells apart, " +
                      dsc::text::rounded(found.greatest(), 4));
         if (distance <= params_.tolerance) return;
-        throw dsc::GeometryError("from_surface.tolerance",
-                                 std::string(name) + ": " + params_.file + " and the mesh are " +
-                                     dsc::text::rounded(distance, 4) + " finest cells apart at " +
-                                     dsc::geometry::point_text(found.farthest, 4) +
-                                     ", more than the tolerance of " +
-                                     dsc::text::rounded(params_.tolerance, 4) +
-                                     "; use more `cells`, or allow a larger `tolerance`");
+        throw dsc::GeometryError(
+            "from_surface.tolerance", name,
+            params_.file + " and the mesh are " + dsc::text::rounded(distance, 4) +
+                " finest cells apart at " + dsc::geometry::point_text(found.farthest, 4) +
+                ", more than the tolerance of " + dsc::text::rounded(params_.tolerance, 4),
+            "use more `cells`, or allow a larger `tolerance`");
     }
 
     Params params_;

@@ -311,6 +311,6 @@ TEST_CASE("a host without readers gets an error") {
     host.load(DSC_TEST_PLUGIN);
     const auto strategy = host.create<dsc::hooks::InitialMesh>(
         {"from_surface", ConfigNode::map({{"file", "given.obj"}})}, "initial_mesh");
-    CHECK_THROWS_WITH_AS(strategy->build({}), doctest::Contains("needs a host that reads files"),
+    CHECK_THROWS_WITH_AS(strategy->build({}), doctest::Contains("the host provides no readers"),
                          dsc::StrategyError);
 }

@@ -31,10 +31,9 @@ std::vector<cloud::SurfaceSample> used_samples(const cloud::Orientation& orienta
     }
     if (used.empty()) {
         throw GeometryError(
-            "indicator.no_samples",
-            std::string(generator_name) +
-                ": no point of the cloud has a normal, so inside and outside cannot be "
-                "distinguished; check the cloud, or use another initial mesh");
+            "indicator.no_samples", generator_name,
+            "no point of the cloud has a normal, so inside and outside cannot be distinguished",
+            "check the cloud, or use another initial mesh");
     }
     return used;
 }
@@ -190,11 +189,9 @@ Labels label_lattice(const cloud::Orientation& orientation, const LabelOptions& 
     coarsen(lattice, out, workers, cancel);
     out.counts = generate::count_topology(points, tets, out.values);
     if (out.counts.components == 0) {
-        throw GeometryError(
-            "indicator.nothing_inside",
-            std::string(generator_name) +
-                ": the points enclose nothing: no place has a winding number above 1/2; check that "
-                "the cloud is the surface of a solid and dense enough");
+        throw GeometryError("indicator.nothing_inside", generator_name,
+                            "the points enclose nothing: no place has a winding number above 1/2",
+                            "check that the cloud is the surface of a solid and dense enough");
     }
     return out;
 }

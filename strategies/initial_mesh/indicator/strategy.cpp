@@ -47,10 +47,8 @@ private:
 
 const dsc::cloud::TargetCloud& cloud_of(const dsc::hooks::InitialMeshContext& context) {
     if (context.cloud == nullptr) {
-        throw dsc::ConfigError(
-            "indicator.no_cloud",
-            std::string(indicator::generator_name) +
-                ": the experiment has no cloud; add input: {cloud: {file: ...}}");
+        throw dsc::ConfigError("indicator.no_cloud", indicator::generator_name,
+                               "the experiment has no cloud", "add input: {cloud: {file: ...}}");
     }
     return *context.cloud;
 }

@@ -137,9 +137,8 @@ public:
             start_.faces.push_back(face);
         }
         if (!in)
-            throw dsc::StrategyError(
-                "observer.state",
-                "observer 'analytic': the saved state is damaged; start the run again");
+            throw dsc::StrategyError("observer.state", "observer 'analytic'",
+                                     "the saved state is damaged", "start the run again");
         dsc::surface::require_sound(start_);
     }
 

@@ -106,9 +106,8 @@ public:
     void load(std::istream& in) override {
         in >> refinements_ >> step_ >> last_step_ >> too_many_ >> allowed_;
         if (!in)
-            throw dsc::StrategyError(
-                "refinement.state",
-                "refinement 'remesh': the saved state is damaged; start the run again");
+            throw dsc::StrategyError("refinement.state", "refinement 'remesh'",
+                                     "the saved state is damaged", "start the run again");
     }
 
 private:

@@ -121,9 +121,9 @@ public:
     /// Throws ConfigError "velocity.no_cloud" if the experiment has no cloud.
     void prepare(const dsc::hooks::StepContext& context) override {
         if (context.cloud == nullptr) {
-            throw dsc::ConfigError("velocity.no_cloud",
-                                   "velocity 'point_cloud': the experiment has no cloud; add "
-                                   "input: {cloud: {file: ...}}");
+            throw dsc::ConfigError("velocity.no_cloud", "velocity 'point_cloud'",
+                                   "the experiment has no cloud",
+                                   "add input: {cloud: {file: ...}}");
         }
         surface_ = &context.surface;
         cloud_ = context.cloud;

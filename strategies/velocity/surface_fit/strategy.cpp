@@ -188,9 +188,9 @@ private:
     // Prepares all data of surface and cloud for the rows.
     void measure(const dsc::hooks::StepContext& context) {
         if (context.cloud == nullptr) {
-            throw dsc::ConfigError("velocity.no_cloud",
-                                   "velocity 'surface_fit': the experiment has no cloud; add "
-                                   "input: {cloud: {file: ...}}");
+            throw dsc::ConfigError("velocity.no_cloud", "velocity 'surface_fit'",
+                                   "the experiment has no cloud",
+                                   "add input: {cloud: {file: ...}}");
         }
         const dsc::surface::SurfaceView& view = context.surface;
         scales_ = fit::scales_of(context.cloud->statistics(context.workers), params_.noise);

@@ -1,4 +1,4 @@
-// A velocity that stands still and declares a parameter of every type, with every attribute that a
+// A velocity that does not move and declares a parameter of every type, with every attribute that a
 // declaration may have.
 #include <algorithm>
 #include <array>
@@ -142,5 +142,5 @@ public:
 }  // namespace
 
 DSC_PLUGIN("every_field", "1.0.0", "MIT", "A declaration with everything in it") {
-    registrar.add<EveryField>("every_field", "stands still, declares everything");
+    registrar.add<EveryField>("every_field", "does not move, declares everything");
 }

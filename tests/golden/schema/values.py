@@ -173,7 +173,7 @@ def needs_value(field):
 
 
 def fields_of_schema(schema):
-    """The fields of a map in a JSON Schema, in the form of `describe`: for the experiment itself, which is no strategy."""
+    """The fields of a map in a JSON Schema, in the form of `describe`: for the experiment itself, which is not a strategy."""
     names = {"boolean": "boolean", "integer": "integer", "number": "real", "string": "string", "object": "map"}
     fields = []
     for name, value in schema["properties"].items():

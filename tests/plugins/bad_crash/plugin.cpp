@@ -13,5 +13,5 @@ struct NullReader {
 }  // namespace
 
 DSC_PLUGIN("bad_crash", "1.0.0", "MIT", "crashes when it is loaded") {
-    registrar.add<Still>("still", "stands still");
+    registrar.add<Still>("still", "does not move");
 }

@@ -5,5 +5,5 @@
 
 DSC_PLUGIN("bad_hang", "1.0.0", "MIT", "waits for ever when it is loaded") {
     for (;;) pause();
-    registrar.add<Still>("still", "stands still");
+    registrar.add<Still>("still", "does not move");
 }

@@ -5,5 +5,5 @@
 
 DSC_PLUGIN("bad_noisy", "1.0.0", "MIT", "Prints when it is loaded") {
     std::puts("thank you for loading me");
-    registrar.add<Still>("still", "stands still");
+    registrar.add<Still>("still", "does not move");
 }

@@ -3,7 +3,7 @@
 
 DSC_PLUGIN("bad_once", "1.0.0", "MIT", "Registers less the second time") {
     static bool first = true;
-    registrar.add<Still>("still", "stands still");
-    if (first) registrar.add<Still>("still_too", "stands still as well");
+    registrar.add<Still>("still", "does not move");
+    if (first) registrar.add<Still>("still_too", "does not move either");
     first = false;
 }

@@ -2,5 +2,5 @@
 #include "velocity.hpp"
 
 DSC_PLUGIN("bad_version", "first", "MIT", "Has a version that cannot be compared") {
-    registrar.add<Still>("still", "stands still");
+    registrar.add<Still>("still", "does not move");
 }

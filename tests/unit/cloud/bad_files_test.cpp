@@ -59,7 +59,7 @@ const std::string alone = "; save the points with only x, y and z";
 
 }  // namespace
 
-TEST_CASE("what is no readable file is refused") {
+TEST_CASE("files that cannot be read are refused") {
     const test::Folder folder;
     for (const std::string extension : {"xyz", "obj", "ply", "pcd"}) {
         const std::string missing = "missing." + extension, empty = "empty." + extension,

@@ -133,7 +133,7 @@ TEST_CASE("given normals: clouds without any are left alone") {
 }
 
 TEST_CASE("given normals decide the side of an open surface") {
-    // Hilly ground: without normals, nothing tells its upper side from its lower one.
+    // Hilly ground: without normals, nothing distinguishes its upper side from its lower side.
     for (const double sign : {1.0, -1.0}) {
         dsc::RandomStream random({6, 0, 0, 0});
         Cloud cloud;

@@ -88,7 +88,7 @@ TEST_CASE("one side: a tube with open ends has two sides, also where it is seen 
     CHECK_FALSE(found_in(points));
 }
 
-TEST_CASE("one side: too few points tell nothing") { CHECK_FALSE(found_in(terrain(60))); }
+TEST_CASE("one side: too few points decide nothing") { CHECK_FALSE(found_in(terrain(60))); }
 
 TEST_CASE("one side: normals face the recorder, and a copy closes the solid") {
     const std::vector<Vec3> points = terrain(3000);

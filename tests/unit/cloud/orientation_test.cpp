@@ -78,7 +78,7 @@ TEST_CASE("orientation: sphere, torus and cube") {
     check(cube(3000), 1.0);
 }
 
-TEST_CASE("orientation: the field of its samples tells inside from outside") {
+TEST_CASE("orientation: the field of its samples distinguishes inside and outside") {
     const Solid solid = torus(4000);
     const WindingField field = winding_field(orient_points(solid.points).orientation.samples);
     const std::vector<Vec3> points{Vec3(1, 0, 0), Vec3(0, -1, 0.1), Vec3(0, 0, 0), Vec3(0, 0, 2),

@@ -188,15 +188,18 @@ TEST_CASE("samples depend on the arguments only") {
 
 TEST_CASE("wrong requests are refused") {
     CHECK(test::error_of([] { sample_shape("cup", 10, 1); }) ==
-          "shape.unknown 2: unknown built-in shape 'cup'; accepted are teapot, sphere, torus, "
+          "shape.unknown 2: shape: there is no built-in shape 'cup'; use one of these: teapot, "
+          "sphere, "
+          "torus, "
           "box_tunnel");
     CHECK(test::error_of([] { shape_mesh(""); }) ==
-          "shape.unknown 2: unknown built-in shape ''; accepted are teapot, sphere, torus, "
+          "shape.unknown 2: shape: there is no built-in shape ''; use one of these: teapot, "
+          "sphere, torus, "
           "box_tunnel");
     CHECK(test::error_of([] { sample_shape("sphere", 0, 1); }) ==
-          "shape.option 2: 0 points requested; a cloud has at least 1");
+          "shape.option 2: number of points: 0 points are requested; request at least 1");
     CHECK(test::error_of([] { sample_shape("sphere", 10, 1, -0.5); }) ==
-          "shape.option 2: noise is -0.5; it must lie in [0, 1]");
+          "shape.option 2: noise: -0.5 is out of range; use a number in [0, 1]");
     CHECK(test::error_of([] { sample_shape("sphere", 10, 1, 0.0, 1.5); }) ==
-          "shape.option 2: outliers is 1.5; it must lie in [0, 1]");
+          "shape.option 2: outliers: 1.5 is out of range; use a number in [0, 1]");
 }

@@ -159,7 +159,7 @@ TEST_CASE("decimal commas are refused with one hint, however the columns are div
     CHECK(table.read("1,2,3,255,10,0\n-4,5.5,6,0,0,0\n").points == expected);
 }
 
-TEST_CASE("a byte order mark is no part of any cloud") {
+TEST_CASE("a byte order mark is not part of any cloud") {
     const Table table;
     const std::string mark = "\xEF\xBB\xBF";
     const std::string rows = "1 2 3\n-4 5.5 6\n";
@@ -211,7 +211,7 @@ TEST_CASE("colours: of named columns, of chosen ones, of six columns") {
           Colours{{1, 0, 0}, {0, 0, 1}});
     CHECK(table.read("x,y,z,r,g,b\n1,2,3,65535,32768,0\n-4,5.5,6,0,0,257\n").colours ==
           Colours{{255, 128, 0}, {0, 0, 1}});
-    // What is no colour: normals, other columns, values that lack in a line.
+    // Not colours: normals, other columns, missing values in a line.
     CHECK(table.read("1 2 3 0 0 1\n-4 5.5 6 0 0 1\n", {}, "a.xyz").colours.empty());
     CHECK(table.read("1 2 3 0 0.5 7\n-4 5.5 6 0 0 1\n", {}, "a.xyz").colours.empty());
     CHECK(table.read("1 2 3 9 9 256\n-4 5.5 6 0 0 1\n", {}, "a.xyz").colours.empty());

@@ -27,7 +27,7 @@ TEST_CASE("text keeps doubles far from the origin") {
         CHECK(read(folder, name, far_lines[0] + "\n" + far_lines[1] + "\n") == far);
 }
 
-TEST_CASE("OBJ: what is no vertex is skipped, colours are kept where all have them") {
+TEST_CASE("OBJ: only vertices are read; colours are kept if all vertices have them") {
     const test::Folder folder;
     const std::vector<Vec3> expected{{1, 2, 3}, {-4, 5e-3, 6}};
     CHECK(read(folder, "a.obj",

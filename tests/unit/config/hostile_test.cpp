@@ -106,7 +106,7 @@ TEST_CASE("long keys in deep trees cost no more than their text") {
     CHECK(node.at(90000).path().size() == 60 * 1001 + 5);
 }
 
-TEST_CASE("thousands of unknown keys are told briefly") {
+TEST_CASE("thousands of unknown keys are reported briefly") {
     std::string text;
     for (int i = 0; i < 20000; ++i) text += "k" + std::to_string(i) + ": 1\n";
     const std::string message = test::error_in(text);

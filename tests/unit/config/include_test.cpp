@@ -55,7 +55,7 @@ TEST_CASE("another strategy replaces the whole map, the same one merges") {
           parse("velocity: {type: point_cloud, alpha: 0.3, beta: 2.0}\n"));
 }
 
-TEST_CASE("an include cycle is told with its files") {
+TEST_CASE("an include cycle is reported with its files") {
     const Folder folder("cycle");
     folder.write("b.yaml", "include: sub/c.yaml\n");
     folder.write("sub/c.yaml", "x: 1\ninclude: [../a.yaml]\n");
@@ -70,7 +70,7 @@ TEST_CASE("an include cycle is told with its files") {
     CHECK(test::code_of([&] { load_yaml(self); }) == "config.include");
 }
 
-TEST_CASE("a missing included file is told where it is named") {
+TEST_CASE("a missing included file is reported where it is named") {
     const Folder folder("missing");
     const auto file = folder.write("a.yaml", "include: [none.yaml, .]\n");
     CHECK(folder.shown(test::error_of([&] { load_yaml(file); })) ==
@@ -83,7 +83,7 @@ TEST_CASE("a missing included file is told where it is named") {
           "2 errors; nothing was run");
 }
 
-TEST_CASE("a fault inside an included file is told with that file's place") {
+TEST_CASE("a fault inside an included file is reported with that file's place") {
     const Folder folder("inner");
     folder.write("base.yaml", "x: 1\nx: 2\n");
     const auto file = folder.write("a.yaml", "include: base.yaml\n");

@@ -282,7 +282,7 @@ TEST_CASE("unset variable") {
           "1 error; nothing was run");
 }
 
-TEST_CASE("DSC_DATA unset tells what it is and where the clouds are") {
+TEST_CASE("the message for an unset DSC_DATA says what it is and where the clouds are") {
     CHECK(error_in("cloud: \"${DSC_DATA}/teapot.obj\"\n") ==
           "a.yaml:1:8: error: the environment variable 'DSC_DATA' is not set\n"
           "    1 | cloud: \"${DSC_DATA}/teapot.obj\"\n"
@@ -303,7 +303,7 @@ TEST_CASE("malformed name of a variable") {
           "1 error; nothing was run");
 }
 
-TEST_CASE("a file that is no map") {
+TEST_CASE("a file that is not a map") {
     CHECK(error_in("just text\n") ==
           "a.yaml:1:1: error: the experiment must be a map, not the string 'just text'\n"
           "    1 | just text\n"

@@ -69,7 +69,7 @@ TEST_CASE("malformed overrides are all reported and all refused") {
     CHECK(test::code_of([&] { overridden("", {deep + "=1"}); }) == "config.override");
 }
 
-TEST_CASE("a value that stands in a file keeps its place, its key too") {
+TEST_CASE("a value from a file keeps its place and that of its key") {
     const ConfigNode sweep = parse("velocity.alpha: 0.3\nschedule.0.steps: 7\nstop.speed: 1\n");
     ConfigNode root = parse("velocity: {type: point_cloud}\nschedule: [{steps: 5}]\n");
     for (const config::ConfigEntry& entry : sweep.entries())

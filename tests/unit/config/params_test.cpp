@@ -242,28 +242,33 @@ TEST_CASE("the declaration is kept for the documentation") {
 
 TEST_CASE("faulty declarations are refused") {
     using S = ParamSchema<Shape>;
+    const std::string remedy = "; correct the declaration in the plugin";
     CHECK(declaration_fault([](S& s) { s.real("radius", &Shape::radius); }) ==
-          "faulty declaration of parameters: parameter 'radius' has no doc");
+          "declaration of parameters: parameter 'radius' has no doc" + remedy);
     CHECK(declaration_fault([](S& s) { s.real("radius", &Shape::radius).range(2, 3).doc("d"); }) ==
-          "faulty declaration of parameters: parameter 'radius' has a bad default: 'radius': 1 is "
-          "below the minimum 2");
+          "declaration of parameters: parameter 'radius' has a bad default: 'radius': 1 is "
+          "below the minimum 2" +
+              remedy);
     CHECK(declaration_fault([](S& s) { s.string("shape", &Shape::shape).at_least(2).doc("d"); }) ==
-          "faulty declaration of parameters: parameter 'shape' has a range but is not a number");
+          "declaration of parameters: parameter 'shape' has a range but is not a number" + remedy);
     CHECK(declaration_fault([](S& s) {
               s.real("radius", &Shape::radius).doc("d");
               s.boolean("radius", &Shape::cut).doc("d");
-          }) == "faulty declaration of parameters: parameter 'radius' is declared twice");
+          }) == "declaration of parameters: parameter 'radius' is declared twice" + remedy);
     CHECK(declaration_fault([](S& s) { s.real("a b", &Shape::radius).doc("d"); }) ==
-          "faulty declaration of parameters: parameter 'a b' has a name that is not an identifier");
+          "declaration of parameters: parameter 'a b' has a name that is not an identifier" +
+              remedy);
     CHECK(declaration_fault([](S& s) {
               s.choice("shape", &Shape::shape, {{"a", "b"}}).doc("d");
-          }) == "faulty declaration of parameters: parameter 'shape' has a bad default: 'shape' "
-                "must be a string, not an empty value");
+          }) == "declaration of parameters: parameter 'shape' has a bad default: 'shape' "
+                "must be a string, not an empty value" +
+                    remedy);
     CHECK(declaration_fault([](S& s) { s.deprecated("old", "new"); }) ==
-          "faulty declaration of parameters: 'old' is an old name of 'new', which is not a "
-          "parameter");
+          "declaration of parameters: 'old' is an old name of 'new', which is not a "
+          "parameter" +
+              remedy);
     CHECK(declaration_fault([](S& s) { s.check([](const Shape&) { return true; }, ""); }) ==
-          "faulty declaration of parameters: a cross check has no message");
+          "declaration of parameters: a cross check has no message" + remedy);
 }
 
 TEST_CASE("a strategy must not call a parameter 'type'") {

@@ -124,7 +124,7 @@ struct PointCloud {
             .range(0, 1)
             .open_low()
             .unit("dimensionless")
-            .doc("Part of the way in a step.");
+            .doc("Fraction of the distance moved per step.");
         s.real("beta", &PointCloud::beta).at_least(0).doc("Weight of the curvature.");
         s.integer("k", &PointCloud::k).range(1, 512).doc("Neighbours.");
         s.real("radius", &PointCloud::radius).greater(0).unit("length").doc("Search radius.");

@@ -115,7 +115,7 @@ TEST_CASE("what a variable holds is taken as it is") {
     CHECK(test::code_of([&] { value("${a-b}"); }) == "config.variable");
 }
 
-TEST_CASE("several faults of one text are told at once") {
+TEST_CASE("several faults of one text are reported at once") {
     CHECK(test::error_of([] {
               parse("a: .inf\na: 1\nb: ${NOPE}\n");
           }).find("3 errors; nothing was run") != std::string::npos);

@@ -146,7 +146,7 @@ TEST_CASE(
     CHECK(cavities(cloud, coarse) == 0);
 }
 
-TEST_CASE("of nested shells each cavity is judged by the points at its own shell") {
+TEST_CASE("in nested shells each cavity is decided by the points at its own shell") {
     // From outside: solid to 1.1, hollow to 0.9, solid to 0.7, hollow to 0.5, a ball of 0.3.
     const Function onion = [](const Vec3& x) {
         const double r = x.norm();

@@ -156,10 +156,10 @@ TEST_CASE("plugins that register something wrong") {
     expect("bad_throws_int", "plugin 'bad_throws_int' failed to register: it threw something that "
                              "is not a std::exception");
     expect("bad_empty", "plugin 'bad_empty' registers no strategy");
-    expect("bad_id", "plugin 'bad_id' failed to register: the id of velocity 'Stand-Still' is not "
+    expect("bad_id", "plugin 'bad_id' failed to register: velocity 'Stand-Still': its id is not "
                      "of the form [a-z][a-z0-9_]*");
     expect("bad_twice",
-           "plugin 'bad_twice' failed to register: velocity 'still' is registered twice");
+           "plugin 'bad_twice' failed to register: velocity 'still': it is registered twice");
     const auto silent = refusal(fixture("bad_schema"));
     CHECK(silent.code == "plugin.enroll");
     CHECK(silent.text.find("plugin 'bad_schema' failed to register: ") != std::string::npos);

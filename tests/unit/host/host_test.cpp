@@ -162,12 +162,12 @@ TEST_CASE("wrong parameters and unknown strategies") {
                          doctest::Contains("speed"), dsc::ConfigError);
     CHECK(message([&] {
               host.create<dsc::hooks::VelocityField>({"upward", {}}, "velocity");
-          }) == "velocity: there is no velocity 'upward', did you mean 'upwards'?; loaded are "
-                "upwards, others come with --plugin or DSC_PLUGIN_PATH");
+          }) == "velocity: there is no velocity 'upward'; did you mean 'upwards'? loaded are "
+                "upwards; --plugin and DSC_PLUGIN_PATH load others");
     CHECK(message([&] {
               host.create<dsc::hooks::Observer>({"x", {}}, "observers.0");
-          }) == "observers.0: there is no observer 'x'; no plugin with a strategy of this kind is "
-                "loaded, see --plugin and DSC_PLUGIN_PATH");
+          }) == "observers.0: there is no observer 'x', and no plugin with a strategy of this kind "
+                "is loaded; use --plugin or DSC_PLUGIN_PATH to load one");
 }
 
 TEST_CASE("in a folder only libdsc_NAME.so counts, and a named folder may hold nothing bad") {
@@ -190,7 +190,7 @@ TEST_CASE("in a folder only libdsc_NAME.so counts, and a named folder may hold n
     collecting.load_all(entries, dsc::host::OnFault::collect);
     CHECK(collecting.plugins().size() == 1);
     REQUIRE(collecting.faults().size() == 1);
-    CHECK(collecting.faults()[0].code == "plugin.not_elf");
+    CHECK(collecting.faults()[0].error.code() == "plugin.not_elf");
     CHECK(collecting.faults()[0].file == folder.path() / "libdsc_bad.so");
 }
 
@@ -210,7 +210,7 @@ TEST_CASE("in a folder that the user did not name a bad library is a warning") {
 }
 
 TEST_CASE(
-    "an earlier place stands in front of a later one, but two answers to one name are an error") {
+    "an earlier place is used instead of a later one, but two libraries with one id are an error") {
     const support::TemporaryFolder mine;
     const support::TemporaryFolder theirs;
     const fs::path front = mine.copy("good");

@@ -32,20 +32,20 @@ TEST_CASE("a library that crashes, ends the program or hangs when it is loaded d
     const auto faults = dsc::host::scan(files, std::chrono::milliseconds(1500));
     REQUIRE(faults.size() == 6);
     REQUIRE(faults[0].has_value());
-    CHECK(faults[0]->code == "plugin.crash");
+    CHECK(faults[0]->error.code() == "plugin.crash");
 #ifndef __SANITIZE_ADDRESS__
-    CHECK(faults[0]->message ==
+    CHECK(std::string(faults[0]->error.what()) ==
           files[0].string() + ": crashes when it is loaded: the child process was ended by signal "
                               "11 (Segmentation fault); report this to the plugin's authors");
 #endif
     CHECK_FALSE(faults[1].has_value());
     REQUIRE(faults[2].has_value());
-    CHECK(faults[2]->message.find("exited with exit code 0") != std::string::npos);
+    CHECK(faults[2]->error.cause().find("exited with exit code 0") != std::string::npos);
     REQUIRE(faults[3].has_value());
-    CHECK(faults[3]->code == "plugin.hang");
-    CHECK(faults[3]->message.find("did not load within 1 s") != std::string::npos);
+    CHECK(faults[3]->error.code() == "plugin.hang");
+    CHECK(faults[3]->error.cause().find("did not load within 1 s") != std::string::npos);
     REQUIRE(faults[4].has_value());
-    CHECK(faults[4]->code == "plugin.enroll");
+    CHECK(faults[4]->error.code() == "plugin.enroll");
     CHECK_FALSE(faults[5].has_value());
 }
 

@@ -30,7 +30,7 @@ TEST_CASE("the order of the search path") {
         environment({{"DSC_PLUGIN_PATH", "/c::/d/libdsc_d.so:"}, {"HOME", home.path().string()}});
     const std::vector<SearchEntry> entries = search_path(options);
     REQUIRE(entries.size() == 6);
-    const char* origins[] = {"--plugin",        "plugins:",    "DSC_PLUGIN_PATH",
+    const char* origins[] = {"--plugin",        "plugins",     "DSC_PLUGIN_PATH",
                              "DSC_PLUGIN_PATH", "user folder", "installed folder"};
     const fs::path paths[] = {"/a/libdsc_a.so", "/b",  "/c",
                               "/d/libdsc_d.so", users, DSC_BUILTIN_PLUGINS};

@@ -113,9 +113,10 @@ TEST_CASE("colours that do not fit are not written") {
     const test::Folder folder;
     const TriangleMesh m{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {{255, 0, 51}}};
     for (const char* name : {"m.obj", "m.ply", "m.off", "m.stl"}) {
-        CHECK_THROWS_WITH_AS(write_surface(folder / name, m),
-                             "surface: 1 colour for 3 points; give one for each or none",
-                             GeometryError);
+        CHECK_THROWS_WITH_AS(
+            write_surface(folder / name, m),
+            "surface: the mesh has 1 colour for 3 points; give one per point or none",
+            GeometryError);
     }
     CHECK(folder.files() == 0);
 }

@@ -64,9 +64,10 @@ TEST_CASE("normals that do not fit are not written") {
     const test::Folder folder;
     const std::vector<Vec3> three(3, Vec3(0, 0, 1));
     for (const char* name : {"m.obj", "m.ply", "m.off", "m.stl"}) {
-        CHECK_THROWS_WITH_AS(write_surface(folder / name, tetrahedron(), {}, three),
-                             "surface: 3 normals for 4 points; give one for each or none",
-                             GeometryError);
+        CHECK_THROWS_WITH_AS(
+            write_surface(folder / name, tetrahedron(), {}, three),
+            "surface: the mesh has 3 normals for 4 points; give one per point or none",
+            GeometryError);
     }
     CHECK(folder.files() == 0);
 }

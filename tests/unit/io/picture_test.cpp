@@ -164,8 +164,10 @@ TEST_CASE("what cannot be drawn is refused") {
                          "picture: the mesh has no faces; at least one is needed", GeometryError);
     RenderOptions o;
     o.width = 0;
-    CHECK_THROWS_WITH_AS(render(square(), o),
-                         "picture: size 0x768; each side may be 1 to 16384 pixels", UsageError);
+    CHECK_THROWS_WITH_AS(
+        render(square(), o),
+        "picture: a size of 0x768 pixels is not possible; use 1 to 16384 pixels per side",
+        UsageError);
     o.width = 100000;
     CHECK_THROWS_AS(render(square(), o), UsageError);
     TriangleMesh bad = square();

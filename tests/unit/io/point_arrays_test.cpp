@@ -1,4 +1,4 @@
-// Further numbers of points: what a PLY and a VTU tell of them beside place, normal and colour.
+// Further numbers of points: what a PLY and a VTU contain besides place, normal and colour.
 #include <algorithm>
 #include <bit>
 #include <limits>

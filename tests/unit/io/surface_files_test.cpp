@@ -250,7 +250,7 @@ TEST_CASE("an unknown extension is refused by readers and writers") {
                           ".obj, .ply, .off, .stl or convert the file");
 }
 
-TEST_CASE("a byte order mark is no part of any surface in text, and stays in a binary stl") {
+TEST_CASE("a byte order mark is not part of any surface in text, and stays in a binary stl") {
     const std::string mark = "\xEF\xBB\xBF";
     const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
@@ -313,7 +313,7 @@ TEST_CASE("ply: a list may be broken over lines, an element may not share one") 
           one_face);
 }
 
-TEST_CASE("geometry that is not read is told") {
+TEST_CASE("geometry that is not read is reported") {
     std::vector<std::string> said;
     set_log_sink([&](LogLevel, std::string_view text) { said.emplace_back(text); });
     read_text("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2\nl 2 3\nf 1 2 3\n");

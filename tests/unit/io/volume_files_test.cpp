@@ -145,11 +145,14 @@ TEST_CASE("arrays and indices that do not fit are refused") {
                          "volume: point array 'speed' has 1 value for 8; give one for each",
                          GeometryError);
     m.tets[1][2] = 8;
-    CHECK_THROWS_WITH_AS(write_volume(folder / "m.dsc", m), "volume: tet 1 refers to point 8 of 8",
-                         GeometryError);
+    CHECK_THROWS_WITH_AS(
+        write_volume(folder / "m.dsc", m),
+        "volume: tet 1 refers to point 8, but there are 8 points; correct or remove this tet",
+        GeometryError);
     m = test::cube_of_tets();
     m.points[5].x() = std::nan("");
-    CHECK_THROWS_WITH_AS(write_volume(folder / "m.dsc", m), "volume: point 5 is NaN or infinite",
+    CHECK_THROWS_WITH_AS(write_volume(folder / "m.dsc", m),
+                         "volume: point 5 is NaN or infinite; correct or remove this point",
                          GeometryError);
     CHECK(folder.files() == 0);
     const auto found = test::refusal(folder / "m.obj",

@@ -145,7 +145,7 @@ TEST_CASE("a flat tet between four interface vertices goes, crease or not, once 
     CHECK(exceptions >= kept);
 }
 
-TEST_CASE("steps with a floor leave no tet below it, whatever the interface is told to do; the "
+TEST_CASE("steps with a floor leave no tet below it, whatever the interface must do; the "
           "usual floor lets it happen") {
     float lowest_without = 1.0F;
     for (const test::LabelledMesh& shape : test::labelled_meshes()) {

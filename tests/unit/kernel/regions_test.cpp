@@ -148,8 +148,8 @@ TEST_CASE("random regions: accepted exactly when a recount says regular, and the
             (truth ? regular_count : irregular_count) += 1;
             if (!truth || shape != RegionFault::none) continue;
             const unsigned s = region.patches_from, o = region.patches_to;
-            // With three labels the interface is no surface, and patches towards the third are not
-            // of these two sides.
+            // With three labels the interface is not a surface, and patches towards the third are
+            // not of these two sides.
             if (m.name == "two phases") continue;
             CAPTURE(s);
             CAPTURE(o);

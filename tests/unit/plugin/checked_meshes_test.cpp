@@ -260,7 +260,7 @@ TEST_CASE("filter: a report that does not count what happened") {
           }).code == "strategy.not_finite");
 }
 
-TEST_CASE("filter: it has its own instance number, its name stands in the report, and a stale "
+TEST_CASE("filter: it has its own instance number, its name is in the report, and a stale "
           "orientation goes") {
     const Bench bench;
     const auto filter = bench.make<hooks::CloudFilter>();

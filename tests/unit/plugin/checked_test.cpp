@@ -70,7 +70,7 @@ TEST_CASE("whatever is thrown is attributed, but not cancellation and configurat
           }).text.find("strategy.no_sampling") != std::string::npos);
 }
 
-TEST_CASE("velocity: samples are judged too") {
+TEST_CASE("velocity: samples are checked too") {
     const Bench bench;
     const auto velocity = bench.make<hooks::VelocityField>("sampled");
     velocity->prepare(bench.context());
@@ -201,7 +201,7 @@ TEST_CASE("refinement: collapses, flips, moves and target lengths that cannot be
     CHECK_FALSE(policy->owns_sizing());
 }
 
-TEST_CASE("attributes: names, sizes and values are judged, of velocities and of refinements") {
+TEST_CASE("attributes: names, sizes and values of velocities and refinements are checked") {
     const Bench bench;
     const auto velocity = bench.make<hooks::VelocityField>();
     velocity->prepare(bench.context());

@@ -1,5 +1,5 @@
 #pragma once
-// Strategies of all kinds that do what a test tells them, to see how faults are reported.
+// Strategies of all kinds with faults that a test chooses, to see how they are reported.
 #include <functional>
 #include <limits>
 #include <sstream>

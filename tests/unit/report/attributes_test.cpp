@@ -25,7 +25,7 @@ namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-/// Shrinks by a part of the position and publishes 3 z + 10 under so many names.
+/// Shrinks by a part of the position and publishes 3 z + 10 under several names.
 class Heights final : public hooks::VelocityField {
 public:
     struct Params {
@@ -55,7 +55,7 @@ class Catalogue : public dsc::test::Strategies {
 public:
     Catalogue() {
         plugin::Registrar& registrar = *this;
-        registrar.add<Heights>("heights", "tells how high it is");
+        registrar.add<Heights>("heights", "publishes the height");
     }
 };
 

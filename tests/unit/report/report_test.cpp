@@ -115,7 +115,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 }  // namespace
 
 TEST_CASE(
-    "series: every so many steps a surface and a volume, arrays and values as the mesh has them") {
+    "series: every few steps a surface and a volume, arrays and values as the mesh has them") {
     const Folder folder;
     work(folder, "run", with_cloud(folder, "output: {series: {every: 2}}\n"),
          {"schedule.0.steps=5", "velocity.factor=-0.02", "velocity.curvature={type: abscissa}"});
@@ -226,7 +226,7 @@ TEST_CASE("report: a run writes it, and dsc report the same bytes; nothing in it
     CHECK(later.find("table 6.2") == std::string::npos);
 }
 
-TEST_CASE("report: a cloud that is gone or another one is told, and not shown") {
+TEST_CASE("report: a missing or different cloud is reported and not shown") {
     const Folder folder;
     work(folder, "run", with_cloud(folder, "output: {report: true}\n"));
     const std::string before = folder.read("run/report.html");

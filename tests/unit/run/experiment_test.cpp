@@ -170,7 +170,7 @@ TEST_CASE("all that format 1 can have written is accepted without a word") {
 }
 
 TEST_CASE(
-    "plugins are loaded before the strategies are judged, relative to the file that names them") {
+    "plugins are loaded before the strategies are checked, relative to the file that names them") {
     const Folder folder;
     const std::string file = folder.write("sub/a.yaml", minimal + "plugins: [../lib, /abs/b.so]\n");
     const dsc::test::Strategies strategies;

@@ -251,7 +251,7 @@ private:
     int count_ = 0;
 };
 
-/// Keeps every so many points, the first among them, and tells why the others go.
+/// Keeps every n-th point, beginning with the first, and reports why the others are removed.
 class EveryNth final : public hooks::CloudFilter {
 public:
     struct Params {
@@ -261,7 +261,7 @@ public:
         s.integer("nth", &Params::nth)
             .range(1, 1000)
             .unit("points")
-            .doc("Of so many points one stays.");
+            .doc("One of n points is kept.");
     }
     EveryNth(const Params& params, const plugin::Setup&) : params_(params) {}
     cloud::Filtered apply(const cloud::Cloud& cloud, const hooks::FilterContext&) override {
@@ -306,7 +306,7 @@ public:
         registrar.add<Counted>("counted", "counts its requests");
         registrar.add<SplitAll>("all", "splits all");
         registrar.add<Counter>("counter", "counts");
-        registrar.add<EveryNth>("every_nth", "keeps every so many points");
+        registrar.add<EveryNth>("every_nth", "keeps every n-th point");
         registrar.add<Distinct>("distinct", "removes repeated points");
     }
     run::PluginLoader loader() const {

@@ -75,7 +75,7 @@ TEST_CASE("input: the same sample for the same seed, filters in order, normalise
     CHECK((back - small.cloud.points[0]).norm() < 1e-14);
 }
 
-TEST_CASE("input: a filter that cannot be made is told before the cloud is read") {
+TEST_CASE("input: a filter that cannot be created is reported before the cloud is read") {
     run::Input input;
     input.cloud.file = "/nonexistent/cloud.xyz";
     input.cloud.filters = {filter("distinct"), filter("voxels")};
@@ -186,7 +186,7 @@ TEST_CASE("run folder: takes an empty folder or one of ours, refuses all others 
     CHECK_THROWS_AS(run::RunFolder(folder.path() / "other" / "thesis.tex" / "x"), IoError);
 }
 
-TEST_CASE("run folder: one owner; the second is told who, and changes nothing") {
+TEST_CASE("run folder: one owner; the second learns its name and changes nothing") {
     const Folder folder;
     const fs::path ours = folder.path() / "run";
     CHECK(run::RunFolder::owner(ours).empty());
@@ -245,7 +245,7 @@ TEST_CASE("metrics: a column has the cell of its figure, and a row of the docume
     CHECK(page.find(table) != std::string::npos);
 }
 
-TEST_CASE("events are told in the input's coordinates") {
+TEST_CASE("events are reported in the input's coordinates") {
     kernel::Event event;
     event.kind = kernel::Event::Kind::handle_opened;
     event.step = 12;
@@ -298,7 +298,7 @@ TEST_CASE("measure: a sound box, and each of its possible defects") {
     CHECK_FALSE(run::measure(bad).fills_box());
 }
 
-TEST_CASE("identical tells single bits and the order apart") {
+TEST_CASE("identical notices single bits and the order") {
     surface::TriangleMesh a{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}}};
     surface::TriangleMesh b = a;
     CHECK(run::identical(a, b));

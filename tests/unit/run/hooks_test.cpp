@@ -1,4 +1,4 @@
-// What the simulation promises strategies: how often it calls them, what they are told, and what
+// What the simulation promises strategies: how often it calls them, what they receive, and what
 // becomes of what they publish.
 #include <cmath>
 #include <map>

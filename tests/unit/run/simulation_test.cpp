@@ -147,7 +147,7 @@ TEST_CASE("stalled: without repair the motion is blocked in the end") {
     CHECK(run::measure(d.result.mesh).solid());
 }
 
-TEST_CASE("refinement: by faces, by a sizing field, every so many steps") {
+TEST_CASE("refinement: by faces, by a sizing field, every few steps") {
     CHECK(simulate({"schedule=[{refine: {type: all}}]"}).result.surface.points.size() > 98);
     const Simulated coarse = simulate({"schedule=[{refine: {type: all, sizing: 5}}]"});
     CHECK(coarse.result.surface.points.size() == 98);

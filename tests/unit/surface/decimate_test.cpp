@@ -52,9 +52,9 @@ TEST_CASE("decimation never goes below what the topology needs, and changes noth
 TEST_CASE("decimation refuses what half-edges cannot hold") {
     TriangleMesh m = test::cube();
     m.faces.push_back(m.faces[3]);
-    CHECK_THROWS_WITH_AS(
-        decimate(m, 4),
-        "decimate: 3 non-manifold edges, 3 edges used twice in one direction, 0 non-manifold "
-        "vertices, 0 faces that use a point twice; repair the surface first",
-        GeometryError);
+    CHECK_THROWS_WITH_AS(decimate(m, 4),
+                         "decimate: the surface has 3 non-manifold edges, 3 edges used twice in "
+                         "one direction, 0 non-manifold "
+                         "vertices and 0 faces that use a point twice; repair the surface first",
+                         GeometryError);
 }

@@ -350,7 +350,7 @@ TEST_CASE("a file that is not there is a fault of input and output") {
 TEST_CASE("a folder with something else in it, or a damaged table, is refused") {
     const Bench bench;
     bench.folder.write("out/mine.txt", "precious");
-    CHECK(contains(bench.expand_fault(six), "DIR/out is not empty and does not contain a sweep"));
+    CHECK(contains(bench.expand_fault(six), "DIR/out: is not empty and does not contain a sweep"));
     CHECK(bench.folder.read("out/mine.txt") == "precious");
     std::filesystem::remove(bench.folder.path() / "out/mine.txt");
     bench.folder.write("out/.jobs.tsv.4711-0.tmp", "ind");  // of a call that was killed

@@ -54,10 +54,10 @@ struct Cloud {
     std::vector<Colour> colours{};
     std::string source{};  ///< file or shape from which the points come, for error messages; may be
                            ///< empty
-    std::vector<Vec3> normals{};  ///< unit vectors, or zero if unknown; after the filter `orient`
-                                  ///< they point out of the solid, before it they are as in the
-                                  ///< file
-    std::vector<Vec3> areas{};    ///< area vectors, in squared units
+    /// Unit vectors, or zero if unknown; after the filter `orient` they point out of the solid,
+    /// before it they are as in the file.
+    std::vector<Vec3> normals{};
+    std::vector<Vec3> areas{};         ///< area vectors, in squared units
     std::vector<double> confidence{};  ///< of the normals, 0 to 1
     Orientation orientation{};         ///< empty before the filter `orient`
     std::optional<Sensor> sensor{};    ///< empty if the file does not name one

@@ -30,9 +30,9 @@ struct OrientedPoints {
     std::vector<Vec3> normals;  ///< unit vectors
     std::vector<Vec3> areas;    ///< area vectors; the points of a sample share its vector; zero for
                                 ///< dropped points
-    std::vector<double> confidence;  ///< (1 - 2 |w - 1/2|) |n . p|, at least 0: w is the winding
-                                     ///< number at the sample, n the field's normal, p the normal
-                                     ///< of the plane through its neighbours; 0 for dropped points
+    /// (1 - 2 |w - 1/2|) |n . p|, at least 0: w is the winding number at the sample, n the field's
+    /// normal, p the normal of the plane through its neighbours; 0 for dropped points.
+    std::vector<double> confidence;
     Orientation orientation;  ///< samples in lexicographic order of the points; for a large cloud
                               ///< in the order of its cells
     std::size_t representatives = 0;  ///< samples of the coarse stage; 0 if the file's normals were

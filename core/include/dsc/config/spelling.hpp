@@ -18,6 +18,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 std::optional<std::string> closest(std::string_view word,
                                    const std::vector<std::string>& candidates);
 
+/// "did you mean 'NAME'? " with the closest candidate, as the beginning of a remedy; empty if no
+/// candidate is near.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
+
 /// "a, b, c".
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 

@@ -53,11 +53,8 @@ struct Request {
     mesh::TetId tet = mesh::none;
     std::uint32_t birth_date = 0;  ///< birth date of the tet when the request was made; ignored
                                    ///< without a tet
-    std::array<mesh::VertexId, 3> vertices = {mesh::none, mesh::none, mesh::none};  ///< vertex,
-                                                                                    ///< edge or
-                                                                                    ///< face; none:
-                                                                                    ///< the kernel
-                                                                                    ///< chooses
+    /// Vertex, edge or face; none: the kernel chooses.
+    std::array<mesh::VertexId, 3> vertices = {mesh::none, mesh::none, mesh::none};
     float parameter = 0.5F;     ///< place of a split along (a, b)
     float only_below = 2.0F;    ///< skip if the tet's quality is not below this at its turn
     float accept_above = 2.0F;  ///< accept if the new least quality is above this, or above the old
@@ -115,9 +112,9 @@ inline constexpr double default_flatness = 0.995;
 /// What a repair round offers (method.md, section 6.2). Spans are valid during the call.
 struct RepairRound {
     const mesh::Complex& complex;
-    std::span<const mesh::TetId> dirty;  ///< live tets that changed since the last round, in the
-                                         ///< order of the changes; then tets with a refused request
-                                         ///< near which something has changed since
+    /// Live tets that changed since the last round, in the order of the changes; then tets with a
+    /// refused request near which something has changed since.
+    std::span<const mesh::TetId> dirty;
     std::span<const mesh::VertexId> blocked;  ///< interface vertices that could not reach their
                                               ///< destination
     std::span<const Request> last_requests;

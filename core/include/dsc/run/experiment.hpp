@@ -116,9 +116,8 @@ struct LoadedExperiment {
     Experiment experiment;
     config::ConfigNode resolved;  ///< all defaults written out, file names absolute
     std::string warnings;         ///< text of the warnings; empty if there are none
-    std::shared_ptr<InputFiles> files = std::make_shared<InputFiles>();  ///< the files that the
-                                                                         ///< experiment reads, each
-                                                                         ///< read once
+    /// The files that the experiment reads, each read once.
+    std::shared_ptr<InputFiles> files = std::make_shared<InputFiles>();
 };
 
 /// Provides the lookup of strategies after the plugins of the experiment are loaded: receives the

@@ -54,9 +54,8 @@ public:
             }
         }
         if (kept.empty())
-            throw dsc::GeometryError(
-                "@NAME@.nothing_left",
-                cloud.source + ": filter @NAME@ removes all points; widen the range");
+            throw dsc::GeometryError("@NAME@.nothing_left", cloud.source,
+                                     "filter @NAME@ removes all points", "widen the range");
         // pick() keeps the colours of the points and all attributes from earlier filters.
         Filtered result{dsc::cloud::pick(cloud, kept), {}};
         result.report.kept = kept.size();

@@ -65,9 +65,8 @@ public:
         double least = 0;
         std::string mark;
         if (!(in >> version >> least >> mark) || version != 1 || mark != "end")
-            throw dsc::StrategyError(
-                "@NAME@.state",
-                "the saved state of observer '@NAME@' is damaged; start the run again");
+            throw dsc::StrategyError("@NAME@.state", "observer '@NAME@'",
+                                     "its saved state is damaged", "start the run again");
         least_sphericity_ = least;
     }
 

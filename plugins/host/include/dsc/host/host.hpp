@@ -78,9 +78,8 @@ private:
 
     std::vector<std::unique_ptr<Loaded>> loaded_;
     std::map<std::pair<plugin::Kind, std::string>, plugin::StrategyInfo> strategies_;
-    std::map<std::filesystem::path, std::optional<Fault>> rehearsed_;  ///< by real path; nothing:
-                                                                       ///< it loaded without a
-                                                                       ///< fault
+    /// By real path; nothing: it loaded without a fault.
+    std::map<std::filesystem::path, std::optional<Fault>> rehearsed_;
     std::vector<Fault> faults_;
 };
 

@@ -9,13 +9,14 @@
 #include <string>
 #include <vector>
 
+#include <dsc/base/error.hpp>
+
 namespace dsc::host {
 
 /// Why a library was refused.
 struct Fault {
     std::filesystem::path file;
-    std::string code;
-    std::string message;
+    PluginError error;
 };
 
 /// Time that one library may take to load and to register its strategies.

@@ -12,7 +12,7 @@ namespace dsc::host {
 /// A library or a folder of libraries.
 struct SearchEntry {
     std::filesystem::path path;
-    /// Where it was named: "--plugin", "plugins:", "DSC_PLUGIN_PATH", "user folder" or "installed
+    /// Where it was named: "--plugin", "plugins", "DSC_PLUGIN_PATH", "user folder" or "installed
     /// folder".
     std::string origin;
     bool required = false;  ///< named by the user: a fault in it is an error, not a warning
