@@ -33,14 +33,15 @@ TriangleMesh read_text(const std::string& name, const std::string& content) {
 }  // namespace
 
 TEST_CASE("format table") {
-    CHECK(surface_extensions() == ".obj, .ply, .off, .stl");
+    CHECK(surface_extensions() == ".obj, .ply, .off, .stl, .glb");
+    CHECK(readable_surface_extensions() == ".obj, .ply, .off, .stl");
     CHECK(volume_extensions() == ".vtu, .dsc, .msh, .mesh");
     CHECK(readable_volume_extensions() == ".vtu, .dsc");
     CHECK(find_format("a/b.OBJ")->name == "Wavefront OBJ");
     CHECK(find_format("x.vtu")->volume);
     CHECK(find_format("x.xyz") == nullptr);
     CHECK(find_format("obj") == nullptr);
-    CHECK(formats().size() == 8);
+    CHECK(formats().size() == 9);
 }
 
 TEST_CASE("obj, off and ply keep every bit") {
