@@ -241,9 +241,8 @@ TEST_CASE("an unknown extension is refused by readers and writers") {
     const auto written =
         test::refusal(folder / "m.step", [&](const auto& file) { write_surface(file, m); });
     CHECK(written.code == "io.format");
-    CHECK(
-        written.message ==
-        "FILE: a surface cannot be written with this extension; use one of .obj, .ply, .off, .stl");
+    CHECK(written.message == "FILE: a surface cannot be written with this extension; use one of "
+                             ".obj, .ply, .off, .stl, .glb");
     const auto read =
         test::refusal(folder / "m.vtu", [&](const auto& file) { read_surface(file); });
     CHECK(read.code == "io.format");
