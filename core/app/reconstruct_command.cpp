@@ -256,7 +256,7 @@ void add_reconstruct(CLI::App& app, Context& context) {
         ->add_option(
             "-o,--output", arguments->outputs,
             "Output; may be repeated. The extension selects the format: .obj .ply .off .stl "
-            "surface, .vtu .dsc .msh "
+            ".glb surface, .vtu .dsc .msh "
             ".mesh volume. Default: STEM_surface.ply and STEM_volume.vtu in the current folder")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -269,7 +269,7 @@ TEST_CASE("reconstruct: names of outputs are checked before anything is computed
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "./x/../cloud.obj"}).code == 2);
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.doc"}).err ==
           "error: a.doc: does not have the extension of a format that dsc writes; use .obj, .ply, "
-          ".off, .stl for the surface, .vtu, .dsc, .msh, .mesh for the volume\n");
+          ".off, .stl, .glb for the surface, .vtu, .dsc, .msh, .mesh for the volume\n");
     CHECK(cli.dsc({"reconstruct", "cloud.obj", "-o", "a.obj", "-o", "a.obj"}).code == 2);
     const Result folder = cli.dsc({"reconstruct", "cloud.obj", "-o", "none/a.obj"});
     CHECK(folder.code == 6);

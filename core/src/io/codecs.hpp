@@ -28,6 +28,8 @@ std::string encode_off(const surface::TriangleMesh& mesh);
 std::string encode_ply(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points,
                        const std::vector<Vec3>& normals);
 std::string encode_stl(const surface::TriangleMesh& mesh);
+/// Leaves out arrays with values that are not finite as floats.
+std::string encode_glb(const surface::TriangleMesh& mesh, const std::vector<DataArray>& points);
 std::string encode_dsc(const mesh::TetMesh& mesh);
 std::string encode_medit(const mesh::TetMesh& mesh);
 /// Throws GeometryError "volume.label" for a label below 0 or without a tag.

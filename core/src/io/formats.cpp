@@ -9,11 +9,12 @@
 namespace dsc::io {
 namespace {
 
-constexpr std::array<Format, 8> table = {{
+constexpr std::array<Format, 9> table = {{
     {".obj", "Wavefront OBJ", true, false},
     {".ply", "PLY", true, false},
     {".off", "Geomview OFF", true, false},
     {".stl", "STL", true, false},
+    {".glb", "binary glTF", true, false, true},
     {".vtu", "VTK unstructured grid", false, true},
     {".dsc", "deformable simplicial complex", false, true},
     {".msh", "Gmsh MSH 4.1", false, true, true},
@@ -44,6 +45,10 @@ const Format* find_format(const std::filesystem::path& file) {
 
 std::string surface_extensions() {
     return list([](const Format& f) { return f.surface; });
+}
+
+std::string readable_surface_extensions() {
+    return list([](const Format& f) { return f.surface && !f.write_only; });
 }
 
 std::string volume_extensions() {

@@ -18,6 +18,13 @@ namespace {
                "give it one of " + accepted + " or convert the file");
 }
 
+/// Refuses a format that only other programs read.
+void require_readable(const Format& format, const std::string& file, const std::string& remedy) {
+    if (!format.write_only) return;
+    text::fail("io.write_only", {file, 0},
+               std::string(format.name) + " files can be written but not read", remedy);
+}
+
 /// The content of a file of a known format, without a byte order mark; refuses an empty file.
 std::string require_content(const std::filesystem::path& file) {
     std::string content = read_file(file);
@@ -42,7 +49,10 @@ surface::TriangleMesh read_surface(const std::filesystem::path& file,
     const std::string name = file.string();
     const Format* format = find_format(file);
     if (format == nullptr || !format->surface)
-        unknown_format(name, "surface", surface_extensions());
+        unknown_format(name, "surface", readable_surface_extensions());
+    require_readable(
+        *format, name,
+        "convert it with Blender or trimesh to one of " + readable_surface_extensions());
     const std::string content = require_content(file);
     surface::TriangleMesh mesh = format->extension == ".obj"   ? decode_obj(content, name)
                                  : format->extension == ".ply" ? decode_ply(content, name, points)
@@ -62,12 +72,9 @@ mesh::TetMesh read_volume(const std::filesystem::path& file, std::vector<DataArr
     const Format* format = find_format(file);
     if (format == nullptr || !format->volume)
         unknown_format(name, "volume", readable_volume_extensions());
-    if (format->write_only) {
-        text::fail("io.write_only", {name, 0},
-                   std::string(format->name) + " files can be written but not read",
-                   "convert it with meshio to one of " + readable_volume_extensions() +
-                       ", as share/doc/formats.md shows");
-    }
+    require_readable(*format, name,
+                     "convert it with meshio to one of " + readable_volume_extensions() +
+                         ", as share/doc/formats.md shows");
     const std::string content = require_content(file);
     mesh::TetMesh mesh =
         format->extension == ".dsc" ? decode_dsc(content, name) : decode_vtu(content, name, points);

@@ -14,6 +14,7 @@
 
 #include "io/bytes.hpp"
 #include "io/codecs.hpp"
+#include "io/float_centre.hpp"
 
 namespace dsc::io {
 namespace {
@@ -177,14 +178,6 @@ bool is_text_stl(std::string_view content) {
     constexpr std::size_t looked_at = 512;
     return begin != std::string_view::npos && is_word(content.substr(begin, 5), "solid") &&
            content.substr(0, looked_at).find('\0') == std::string_view::npos;
-}
-
-/// The centre to subtract: zero if floats are exact enough without it, so that ordinary models keep
-/// their coordinates. It is rounded to float, so that its text fits the header.
-Vec3 centre_to_subtract(const surface::TriangleMesh& mesh) {
-    const Box3 box = surface::used_box(mesh);
-    if (box.empty() || box.centre().norm() <= box.diagonal()) return Vec3::Zero();
-    return box.centre().cast<float>().cast<double>();
 }
 
 std::string header_of(const Vec3& centre) {

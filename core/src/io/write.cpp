@@ -106,6 +106,17 @@ void require_fit(const surface::TriangleMesh& mesh, const std::vector<DataArray>
     }
 }
 
+/// .stl and .glb contain floats.
+void require_float_range(const std::filesystem::path& file, const surface::TriangleMesh& mesh) {
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        if (mesh.points[i].cast<float>().allFinite()) continue;
+        throw GeometryError(
+            "surface.range", file.string(),
+            fmt::format("point {} has a coordinate above 3.4e38, the largest float", i),
+            "use smaller units, or a format of doubles such as .ply");
+    }
+}
+
 }  // namespace
 
 void write_surface(const std::filesystem::path& file, const surface::TriangleMesh& mesh,
@@ -114,9 +125,11 @@ void write_surface(const std::filesystem::path& file, const surface::TriangleMes
     surface::require_sound(mesh);
     require_colours(mesh);
     require_fit(mesh, points, normals);
+    if (format.extension == ".stl" || format.extension == ".glb") require_float_range(file, mesh);
     write_file(file, format.extension == ".obj"   ? encode_obj(mesh, normals)
                      : format.extension == ".ply" ? encode_ply(mesh, points, normals)
                      : format.extension == ".off" ? encode_off(mesh)
+                     : format.extension == ".glb" ? encode_glb(mesh, points)
                                                   : encode_stl(mesh));
 }
 

@@ -131,14 +131,22 @@ void declare_trim(config::ParamSchema<TrimOutput>& s) {
 
 void declare_output(config::ParamSchema<Output>& s) {
     s.strings("surface", &Output::surface)
-        .choices({"obj", "ply", "off", "stl"})
-        .size(1, 4)
-        .doc("Formats of the surface.");
+        .choices({"obj", "ply", "off", "stl", "glb"})
+        .size(1, 5)
+        .doc("Formats of the surface; at least one of them must not be glb. glb is binary glTF, "
+             "for browsers and slides.");
     s.strings("volume", &Output::volume)
         .choices({"vtu", "dsc", "msh", "mesh"})
         .size(1, 4)
         .doc("Formats of the volume; vtu or dsc must be included. msh is the format of Gmsh, mesh "
              "the format of MEDIT.");
+    s.check(
+        [](const Output& p) {
+            return std::any_of(p.surface.begin(), p.surface.end(),
+                               [](const std::string& format) { return format != "glb"; });
+        },
+        "'surface' needs obj, ply, off or stl: the result is checked on the file as read back, and "
+        "glb can only be written");
     s.check(
         [](const Output& p) {
             return std::any_of(p.volume.begin(), p.volume.end(), [](const std::string& format) {

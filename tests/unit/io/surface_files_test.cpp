@@ -33,14 +33,15 @@ TriangleMesh read_text(const std::string& name, const std::string& content) {
 }  // namespace
 
 TEST_CASE("format table") {
-    CHECK(surface_extensions() == ".obj, .ply, .off, .stl");
+    CHECK(surface_extensions() == ".obj, .ply, .off, .stl, .glb");
+    CHECK(readable_surface_extensions() == ".obj, .ply, .off, .stl");
     CHECK(volume_extensions() == ".vtu, .dsc, .msh, .mesh");
     CHECK(readable_volume_extensions() == ".vtu, .dsc");
     CHECK(find_format("a/b.OBJ")->name == "Wavefront OBJ");
     CHECK(find_format("x.vtu")->volume);
     CHECK(find_format("x.xyz") == nullptr);
     CHECK(find_format("obj") == nullptr);
-    CHECK(formats().size() == 8);
+    CHECK(formats().size() == 9);
 }
 
 TEST_CASE("obj, off and ply keep every bit") {
@@ -240,9 +241,8 @@ TEST_CASE("an unknown extension is refused by readers and writers") {
     const auto written =
         test::refusal(folder / "m.step", [&](const auto& file) { write_surface(file, m); });
     CHECK(written.code == "io.format");
-    CHECK(
-        written.message ==
-        "FILE: a surface cannot be written with this extension; use one of .obj, .ply, .off, .stl");
+    CHECK(written.message == "FILE: a surface cannot be written with this extension; use one of "
+                             ".obj, .ply, .off, .stl, .glb");
     const auto read =
         test::refusal(folder / "m.vtu", [&](const auto& file) { read_surface(file); });
     CHECK(read.code == "io.format");

@@ -12,9 +12,9 @@ namespace dsc::io {
 struct Format {
     std::string_view extension;  ///< lower case with its dot: ".obj"
     std::string_view name;       ///< for a person: "Wavefront OBJ"
-    bool surface = false;        ///< read_surface and write_surface support it
-    bool volume = false;  ///< write_volume supports it, and so does read_volume unless write_only
-    bool write_only = false;  ///< only other programs read it (share/doc/formats.md)
+    bool surface = false;        ///< write_surface supports it, and read_surface unless write_only
+    bool volume = false;         ///< write_volume supports it, and read_volume unless write_only
+    bool write_only = false;     ///< only other programs read it (share/doc/formats.md)
 };
 
 /// All rows, in the order in which a person sees them. [parallel]
@@ -23,8 +23,12 @@ std::span<const Format> formats();
 /// The row of a file's extension, in upper or lower case; null if there is none. [parallel]
 const Format* find_format(const std::filesystem::path& file);
 
-/// ".obj, .ply, .off, .stl" for messages. [parallel]
+/// ".obj, .ply, .off, .stl, .glb" for messages: the extensions that write_surface accepts.
+/// [parallel]
 std::string surface_extensions();
+
+/// ".obj, .ply, .off, .stl" for messages: the extensions that read_surface accepts. [parallel]
+std::string readable_surface_extensions();
 
 /// ".vtu, .dsc, .msh, .mesh" for messages: the extensions that write_volume accepts. [parallel]
 std::string volume_extensions();
