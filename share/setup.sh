@@ -6,6 +6,7 @@
 #   share/setup.sh test [--full]          build with warnings as errors and run the test suite;
 #                                         --full builds each source alone, also installs the tools that only a few tests need,
 #                                         and runs the gate on instruction counts and the comparison with the release build
+#   share/setup.sh package                build a Debian package of dsc; install it with apt-get install ./FILE
 #
 # Works from any folder, never changes to another one: relative paths mean what they mean to the caller.
 set -euo pipefail
@@ -19,7 +20,8 @@ build_packages=(
     libspdlog-dev libssl-dev libvtk9-dev libyaml-cpp-dev nlohmann-json3-dev
 )
 test_packages=(clang-format-14 libbenchmark-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-jsonschema python3-yaml)
-full_packages=(valgrind chromium chromium-driver munge parallel python3-meshio slurm-wlm snakemake)
+package_packages=(dpkg-dev file)
+full_packages=(dpkg-dev file valgrind chromium chromium-driver munge parallel python3-meshio slurm-wlm snakemake)
 
 say() { printf '%s\n' "$*" >&2; }
 
@@ -28,10 +30,18 @@ fail() {  # fail EXIT_CODE MESSAGE
     exit "$1"
 }
 
-usage() { sed -n '3,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
+usage() { sed -n '3,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
 
 # A path as the caller would type it: relative below the current folder, absolute elsewhere.
 shown() { printf '%s' "${1#"$PWD"/}"; }
+
+# The same as apt-get wants it: a name without a slash would be that of a package in the archive.
+relative() {
+    case "$1" in
+        "$PWD"/*) printf './%s' "${1#"$PWD"/}" ;;
+        *) printf '%s' "$1" ;;
+    esac
+}
 
 is_debian_12() (
     ID='' VERSION_ID=''
@@ -154,6 +164,16 @@ run_cloud() {  # run_cloud CLOUD [options of dsc reconstruct]
     say_next
 }
 
+package() {
+    local folder="$root/build/release" file
+    rm -f "$folder"/*.deb
+    (cd "$folder" && cpack -G DEB >&2) || fail 1 "CPack could not write the package; its message is above"
+    for file in "$folder"/*.deb; do
+        report package "$file"
+        printf 'next: sudo apt-get install %s\n' "$(relative "$file")"
+    done
+}
+
 command=${1:-}
 [ $# -eq 0 ] || shift
 case "$command" in
@@ -191,7 +211,16 @@ case "$command" in
         build "$preset"
         exec ctest --test-dir "$root/build/$preset" --output-on-failure -j2 "${left_out[@]}"
         ;;
+    package)
+        [ $# -eq 0 ] || fail 2 "package has no arguments, got $*"
+        is_debian_12 || fail 1 "a Debian package is built on Debian 12 only; elsewhere use cmake --install build/release"
+        dsc="$root/build/release/bin/dsc"
+        announce
+        provide "${build_packages[@]}" "${package_packages[@]}"
+        build release
+        package
+        ;;
     -h | --help) usage ;;
     '') usage >&2 && exit 2 ;;
-    *) fail 2 "unknown command: $command; accepted are run and test" ;;
+    *) fail 2 "unknown command: $command; accepted are run, test and package" ;;
 esac

@@ -38,6 +38,7 @@ done""",
 [ "$1" != --build ] || echo "status $NINJA_STATUS" >>"$FAKE/calls"
 [ ! -e "$FAKE/build_fails" ] || exit 1
 [ "$1" != --build ] || { mkdir -p "$2/bin"; cp "$FAKE/dsc" "$2/bin/dsc"; chmod +x "$2/bin/dsc"; }""",
+    "cpack": 'echo "cpack $*" >>"$FAKE/calls"; echo x >dsc_1-1_amd64.deb',
     "ctest": 'echo "ctest $*" >>"$FAKE/calls"; echo "the closing line of ctest"; exit "$(cat "$FAKE/ctest_code")"',
 }
 
@@ -193,6 +194,21 @@ class Setup(unittest.TestCase):
         self.assertNotIn("gate", self.calls("ctest")[0])
         self.assertNotIn("without the gate", result.stderr)
 
+    def test_package_ends_with_the_file_and_how_to_install_it(self):
+        result = self.setup("package")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout.splitlines(), ["package build/release/dsc_1-1_amd64.deb",
+                                                      "next: sudo apt-get install ./build/release/dsc_1-1_amd64.deb"])
+        self.assertTrue(any("--preset release" in call for call in self.calls("cmake")))
+        self.assertIn("dpkg-dev", (self.fake / "installed").read_text().split())
+
+    def test_package_is_for_debian_12_only(self):
+        self.put("os", "ID=fedora\nVERSION_ID=40\n")
+        result = self.setup("package")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("cmake --install", result.stderr)
+        self.assertEqual(self.calls("cpack"), [])
+
     def test_full_goes_on_without_a_tool_that_cannot_be_installed_and_says_so(self):
         self.put("no_chromium")
         result = self.setup("test", "--full")
@@ -207,7 +223,7 @@ class Setup(unittest.TestCase):
             self.assertEqual(self.calls("ctest") + self.calls("dsc"), [])
 
     def test_wrong_calls_are_refused(self):
-        for arguments, word in ((["walk"], "accepted are run and test"), (["test", "--fast"], "accepted is --full"),
+        for arguments, word in ((["walk"], "accepted are run, test and package"), (["test", "--fast"], "accepted is --full"),
                                 (["run", "--detail"], "expected a point cloud"), ([], "share/setup.sh run CLOUD")):
             result = self.setup(*arguments)
             self.assertEqual(result.returncode, 2)
