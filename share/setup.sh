@@ -5,7 +5,8 @@
 #   share/setup.sh run CLOUD [options]    the same with your own point cloud; options are those of `dsc reconstruct`
 #   share/setup.sh test [--full]          build with warnings as errors and run the test suite;
 #                                         --full builds each source alone, also installs the tools that only a few tests need,
-#                                         and runs the gate on instruction counts and the comparison with the release build
+#                                         and runs these tests, the gate on instruction counts, the benchmarks and the
+#                                         comparison with the release build
 #   share/setup.sh package                build a Debian package of dsc; install it with apt-get install ./FILE
 #
 # Works from any folder, never changes to another one: relative paths mean what they mean to the caller.
@@ -19,9 +20,9 @@ build_packages=(
     libboost-dev libcli11-dev libeigen3-dev libembree-dev libfmt-dev libjs-three libnanoflann-dev libopenmesh-dev libpcl-dev libpng-dev librandom123-dev
     libspdlog-dev libssl-dev libvtk9-dev libyaml-cpp-dev nlohmann-json3-dev
 )
-test_packages=(clang-format-14 libbenchmark-dev libcgal-dev libgmp-dev libmpfr-dev python3 python3-jsonschema python3-yaml)
+test_packages=(clang-format-14 libcgal-dev libgmp-dev libmpfr-dev python3 python3-jsonschema python3-yaml)
 package_packages=(dpkg-dev file)
-full_packages=(dpkg-dev file valgrind chromium chromium-driver munge parallel python3-meshio slurm-wlm snakemake)
+full_packages=(dpkg-dev file valgrind chromium chromium-driver libbenchmark-dev munge parallel python3-meshio slurm-wlm snakemake)
 
 say() { printf '%s\n' "$*" >&2; }
 
@@ -30,7 +31,7 @@ fail() {  # fail EXIT_CODE MESSAGE
     exit "$1"
 }
 
-usage() { sed -n '3,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
+usage() { sed -n '3,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; }
 
 # A path as the caller would type it: relative below the current folder, absolute elsewhere.
 shown() { printf '%s' "${1#"$PWD"/}"; }
@@ -201,12 +202,13 @@ case "$command" in
                 say "setup: not all of ${full_packages[*]} could be installed; the tests that need them will be skipped"
         fi
         # valgrind makes the gate on instructions slow, and the comparison of the jumbo sources with single ones compiles both.
-        preset=test left_out=(-LE '^(gate|slow)$')
+        # A browser, Slurm, GNU parallel and Snakemake are what --full installs.
+        preset=test left_out=(-LE '^(gate|slow|browser|cluster)$')
         if [ "$full" = yes ]; then
             preset=dev left_out=()
         else
-            say "setup: without the gate on instruction counts and the comparison with the release build (ctest labels gate and" \
-                "slow), which test --full runs"
+            say "setup: without the gate on instruction counts, the benchmarks, the comparison with the release build, and the tests" \
+                "in a browser and on job schedulers (ctest labels gate, bench, slow, browser and cluster); test --full runs them all"
         fi
         build "$preset"
         exec ctest --test-dir "$root/build/$preset" --output-on-failure -j2 "${left_out[@]}"

@@ -188,7 +188,7 @@ class Setup(unittest.TestCase):
 
     def test_the_gate_is_run_by_full_only_and_its_absence_is_told(self):
         result = self.setup("test")
-        self.assertIn(" -LE ^(gate|slow)$", self.calls("ctest")[0])
+        self.assertIn(" -LE ^(gate|slow|browser|cluster)$", self.calls("ctest")[0])
         self.assertIn("without the gate", result.stderr)
         result = self.setup("test", "--full")
         self.assertNotIn("gate", self.calls("ctest")[0])

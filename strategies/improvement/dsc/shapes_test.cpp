@@ -28,9 +28,9 @@ mesh::Complex two_tets(const Vec3& a, const Vec3& b, const Vec3& c) {
     return complex;
 }
 
-std::vector<repair::Request> proposals(const mesh::Complex& c,
-                                       const improvement::ShapeLimits& limits,
-                                       double target_length = 1.0) {
+std::vector<repair::Request> shape_proposals(const mesh::Complex& c,
+                                             const improvement::ShapeLimits& limits,
+                                             double target_length = 1.0) {
     std::vector<mesh::TetId> dirty;
     for (mesh::TetId t = 0; t < c.tet_slots(); ++t) dirty.push_back(t);
     const repair::RepairRound round{c, dirty, {}, {}, {}, target_length, 0.995, 0, true};
@@ -49,7 +49,7 @@ const Vec3 left(0, 0, 0), right(1, 0, 0), top(0.5, std::sqrt(0.75), 0);
 
 TEST_CASE("without thresholds nothing is requested") {
     CHECK_FALSE(improvement::ShapeLimits{}.any());
-    CHECK(proposals(two_tets(left, Vec3(1e-3, 0, 0), top), {}).empty());
+    CHECK(shape_proposals(two_tets(left, Vec3(1e-3, 0, 0), top), {}).empty());
 }
 
 TEST_CASE(
@@ -58,7 +58,7 @@ TEST_CASE(
     improvement::ShapeLimits limits;
     limits.degenerate_edge_quality = 0.1;
     limits.min_edge_quality = 0.5;
-    const auto requests = proposals(c, limits);
+    const auto requests = shape_proposals(c, limits);
     REQUIRE(requests.size() == 3);  // the triangle's edges: 0.05, 0.3 and a little more
     for (const repair::Request& r : requests) CHECK(r.operation == Operation::edge_collapse);
     CHECK(requests[0].mode == repair::CollapseMode::bounded);
@@ -67,14 +67,14 @@ TEST_CASE(
     CHECK(length(c, requests[1]) == doctest::Approx(0.3));
     CHECK(length(c, requests[2]) == doctest::Approx(std::hypot(0.05, 0.3)));
     // Lengths are in target lengths.
-    CHECK(proposals(c, limits, 0.01).empty());
+    CHECK(shape_proposals(c, limits, 0.01).empty());
 }
 
 TEST_CASE("a needle loses its shortest edge, a cap its longest") {
     improvement::ShapeLimits limits;
     limits.degenerate_face_quality = 0.01;
     const mesh::Complex needle = two_tets(left, Vec3(0.05, 0, 0), Vec3(0.025, 1, 0));
-    auto requests = proposals(needle, limits);
+    auto requests = shape_proposals(needle, limits);
     REQUIRE(requests.size() == 3);  // the triangle and its neighbours at the short edge
     for (const repair::Request& r : requests) {
         CHECK(r.operation == Operation::edge_collapse);
@@ -83,7 +83,7 @@ TEST_CASE("a needle loses its shortest edge, a cap its longest") {
     }
 
     const mesh::Complex cap = two_tets(left, right, Vec3(0.5, 0.03, 0));
-    requests = proposals(cap, limits);
+    requests = shape_proposals(cap, limits);
     REQUIRE(requests.size() == 2);
     CHECK(requests[0].operation == Operation::edge_removal);
     CHECK(requests[1].operation == Operation::interface_flip);
@@ -93,14 +93,14 @@ TEST_CASE("a needle loses its shortest edge, a cap its longest") {
     limits.degenerate_face_quality = 0.0;
     limits.min_face_quality = 0.499;
     // the faces at the apexes are not regular
-    CHECK(proposals(two_tets(left, right, top), limits).size() == 6);
+    CHECK(shape_proposals(two_tets(left, right, top), limits).size() == 6);
     limits.degenerate_face_quality = 0.4999;
-    CHECK(proposals(two_tets(left, right, top), limits).size() == 6);
+    CHECK(shape_proposals(two_tets(left, right, top), limits).size() == 6);
     limits.degenerate_face_quality = 0.5;
-    CHECK(proposals(two_tets(left, right, 0.999 * top), limits).size() == 7);
+    CHECK(shape_proposals(two_tets(left, right, 0.999 * top), limits).size() == 7);
     limits.degenerate_face_quality = 0.0;
     limits.min_face_quality = 0.01;
-    requests = proposals(needle, limits);
+    requests = shape_proposals(needle, limits);
     REQUIRE(requests.size() == 3);
     for (const repair::Request& r : requests) CHECK(r.mode == repair::CollapseMode::safe);
 }
@@ -123,11 +123,11 @@ TEST_CASE("interface faces are kept between two areas") {
     improvement::ShapeLimits limits;
     limits.min_face_area = 0.5;
     limits.max_face_area = 2.0;
-    CHECK(proposals(two_tets(left, right, top), limits).empty());
+    CHECK(shape_proposals(two_tets(left, right, top), limits).empty());
     for (const double size : {0.1, 0.5, 0.8, 2.0, 5.0}) {
         CAPTURE(size);
         const mesh::Complex c = two_tets(size * left, size * right, size * top);
-        const auto requests = proposals(c, limits);
+        const auto requests = shape_proposals(c, limits);
         CHECK(static_cast<std::ptrdiff_t>(requests.size()) == beyond(c, 0.5, 2.0, 1.0));
         double last = size < 1.0 ? 0.0 : INFINITY;
         for (const repair::Request& r : requests) {
@@ -135,7 +135,7 @@ TEST_CASE("interface faces are kept between two areas") {
             if (size > 1.0) CHECK(length(c, r) <= last + 1e-3);
             last = length(c, r);
         }
-        CHECK(static_cast<std::ptrdiff_t>(proposals(c, limits, 0.5).size()) ==
+        CHECK(static_cast<std::ptrdiff_t>(shape_proposals(c, limits, 0.5).size()) ==
               beyond(c, 0.5, 2.0, 0.5));
     }
 }
@@ -145,9 +145,9 @@ TEST_CASE("large tets are split at their longest edge, the largest first") {
     const double regular = geometry::regular_tet_volume(1.0);
     improvement::ShapeLimits limits;
     limits.max_tet_volume = 1.01 * c.volume(0) / regular;
-    CHECK(proposals(c, limits).empty());
+    CHECK(shape_proposals(c, limits).empty());
     limits.max_tet_volume = 0.99 * c.volume(0) / regular;
-    const auto requests = proposals(c, limits);
+    const auto requests = shape_proposals(c, limits);
     REQUIRE(requests.size() == 2);
     for (const repair::Request& r : requests) {
         CHECK(r.operation == Operation::edge_split);

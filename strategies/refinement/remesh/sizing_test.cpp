@@ -41,13 +41,13 @@ dsc::surface::TriangleMesh hollow_ball(double inner) {
     return wall;
 }
 
-struct Start {
-    explicit Start(const dsc::surface::TriangleMesh& triangles)
+struct SizingStart {
+    explicit SizingStart(const dsc::surface::TriangleMesh& triangles)
         : view(dsc::sdk::view_of(triangles)) {
         mesh.build(view);
     }
-    Start(const Start&) = delete;
-    Start& operator=(const Start&) = delete;
+    SizingStart(const SizingStart&) = delete;
+    SizingStart& operator=(const SizingStart&) = delete;
     dsc::hooks::StepContext context(const dsc::cloud::TargetCloud* cloud) const {
         return {.surface = view,
                 .cloud = cloud,
@@ -71,7 +71,7 @@ struct Start {
 
 TEST_CASE("an even cloud gives one length, from the area and the number of its points") {
     const auto cloud = sphere(4000);
-    const Start s(dsc::sdk::icosphere(4, 1.0));
+    const SizingStart s(dsc::sdk::icosphere(4, 1.0));
     Sizing sizing;
     const Lengths lengths = sizing.lengths(s.context(&cloud), s.mesh, {}, 1.0);
     CHECK(lengths.each.empty());
@@ -89,7 +89,7 @@ TEST_CASE("an even cloud gives one length, from the area and the number of its p
 }
 
 TEST_CASE("without a cloud the area of the interface is used, and without a wish nothing changes") {
-    const Start s(dsc::sdk::icosphere(4, 1.0));
+    const SizingStart s(dsc::sdk::icosphere(4, 1.0));
     Sizing sizing;
     CHECK(sizing.lengths(s.context(nullptr), s.mesh, {}, 1.0).everywhere == 0.123);
     const Lengths lengths = sizing.lengths(s.context(nullptr), s.mesh, {2000, 0.0, true}, 1.0);
@@ -115,7 +115,7 @@ TEST_CASE("noise makes edges longer, with a dead zone where the spacing is even"
 TEST_CASE("an uneven cloud gives lengths that follow it, graded, for the same number of vertices") {
     const auto cloud = sphere(4000, 3.0);
     REQUIRE(cloud.statistics().spread >= 3.0);
-    const Start s(dsc::sdk::icosphere(5, 1.0));
+    const SizingStart s(dsc::sdk::icosphere(5, 1.0));
     Sizing sizing;
     const Lengths lengths = sizing.lengths(s.context(&cloud), s.mesh, {}, 1.0);
     REQUIRE(lengths.each.size() == s.view.vertex_count());
@@ -144,7 +144,7 @@ TEST_CASE("a thin wall gets edges of half its thickness, within one and a half t
         dsc::cloud::Normalized points;
         for (const double radius : {1.0, inner}) add_sphere(4000, 1.0, radius, points);
         const dsc::cloud::TargetCloud cloud(points);
-        const Start s(hollow_ball(inner));
+        const SizingStart s(hollow_ball(inner));
         Sizing sizing;
         const double usual = sizing.lengths(s.context(&cloud), s.mesh, {0, 0.0, false}, 1.0).at(0);
         CHECK(sizing.allowance() == 1.0);

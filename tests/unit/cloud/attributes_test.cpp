@@ -37,7 +37,7 @@ private:
 };
 
 /// An ascii PLY of two points, (1 2 3) and (4 5 6), with these further properties.
-std::string ply(std::string_view properties, std::string_view first, std::string_view second) {
+std::string ply_file(std::string_view properties, std::string_view first, std::string_view second) {
     std::string text = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float "
                        "y\nproperty float z\n";
     text.append(properties)
@@ -54,11 +54,11 @@ std::string ply_colours(const std::string& type, std::string_view first, std::st
     std::string properties;
     for (const char* channel : {"red", "green", "blue"})
         properties += "property " + type + " " + prefix + channel + "\n";
-    return ply(properties, first, second);
+    return ply_file(properties, first, second);
 }
 
-std::string pcd(const std::string& fields, const std::string& sizes, const std::string& types,
-                const std::string& rows, const std::string& place = "0 0 0", int height = 1) {
+std::string pcd_file(const std::string& fields, const std::string& sizes, const std::string& types,
+                     const std::string& rows, const std::string& place = "0 0 0", int height = 1) {
     std::string count;
     for (std::size_t i = 0;
          i <= static_cast<std::size_t>(std::count(fields.begin(), fields.end(), ' ')); ++i)
@@ -87,20 +87,22 @@ TEST_CASE("PLY: colours of every type") {
     CHECK(files.read("a.ply", ply_colours("double", "255 128 0", "0 0 1")).colours == expected);
     CHECK(files.read("a.ply", ply_colours("float", "1 0.5 nan", "0 -1 0")).colours ==
           Colours{{255, 128, 0}, {0, 0, 0}});
-    CHECK(files.read("a.ply", ply("property uint16 red\nproperty uint16 green\n", "9 9", "9 9"))
-              .colours.empty());
+    CHECK(
+        files.read("a.ply", ply_file("property uint16 red\nproperty uint16 green\n", "9 9", "9 9"))
+            .colours.empty());
 }
 
 TEST_CASE("intensities are greys where there are no colours") {
     Files files;
-    CHECK(files.read("a.ply", ply("property float intensity\n", "0.5", "2.5")).colours ==
+    CHECK(files.read("a.ply", ply_file("property float intensity\n", "0.5", "2.5")).colours ==
           Colours{{0, 0, 0}, {255, 255, 255}});
-    CHECK(files.read("a.ply", ply("property float scalar_Intensity\n", "2", "1")).colours ==
+    CHECK(files.read("a.ply", ply_file("property float scalar_Intensity\n", "2", "1")).colours ==
           Colours{{255, 255, 255}, {0, 0, 0}});
     CHECK(files.read("a.csv", "x,y,z,Intensity\n1,2,3,10\n4,5,6,20\n7,8,9,15\n").colours ==
           Colours{{0, 0, 0}, {255, 255, 255}, {128, 128, 128}});
-    CHECK(files.read("a.pcd", pcd("x y z intensity", "4 4 4 4", "F F F F", "1 2 3 7\n4 5 6 7\n"))
-              .colours == Colours{{0, 0, 0}, {0, 0, 0}});
+    CHECK(
+        files.read("a.pcd", pcd_file("x y z intensity", "4 4 4 4", "F F F F", "1 2 3 7\n4 5 6 7\n"))
+            .colours == Colours{{0, 0, 0}, {0, 0, 0}});
     CHECK(files.read("a.csv", "x,y,z,intensity,r,g,b\n1,2,3,10,1,2,3\n4,5,6,20,4,5,6\n").colours ==
           Colours{{1, 2, 3}, {4, 5, 6}});
 }
@@ -108,15 +110,17 @@ TEST_CASE("intensities are greys where there are no colours") {
 TEST_CASE("PCD: colours packed, apart, and as a decimal number") {
     Files files;
     const Colours expected{{255, 128, 0}, {0, 0, 1}};
-    CHECK(files.read("a.pcd", pcd("x y z rgb", "4 4 4 4", "F F F U", "1 2 3 16744448\n4 5 6 1\n"))
+    CHECK(
+        files
+            .read("a.pcd", pcd_file("x y z rgb", "4 4 4 4", "F F F U", "1 2 3 16744448\n4 5 6 1\n"))
+            .colours == expected);
+    CHECK(files
+              .read("a.pcd", pcd_file("x y z r g b", "4 4 4 1 1 1", "F F F U U U",
+                                      "1 2 3 255 128 0\n4 5 6 0 0 1\n"))
               .colours == expected);
     CHECK(files
-              .read("a.pcd", pcd("x y z r g b", "4 4 4 1 1 1", "F F F U U U",
-                                 "1 2 3 255 128 0\n4 5 6 0 0 1\n"))
-              .colours == expected);
-    CHECK(files
-              .read("a.pcd", pcd("x y z r g b", "4 4 4 2 2 2", "F F F U U U",
-                                 "1 2 3 65535 32896 0\n4 5 6 0 0 257\n"))
+              .read("a.pcd", pcd_file("x y z r g b", "4 4 4 2 2 2", "F F F U U U",
+                                      "1 2 3 65535 32896 0\n4 5 6 0 0 257\n"))
               .colours == expected);
 }
 
@@ -124,20 +128,21 @@ TEST_CASE("normals of PLY and PCD, scaled to unit vectors; one without a directi
     Files files;
     const std::string properties = "property float nx\nproperty float ny\nproperty float nz\n";
     const Normals expected{{0, 0, 1}, {0.6, 0.8, 0}};
-    CHECK(files.read("a.ply", ply(properties, "0 0 1", "3 4 0")).normals == expected);
+    CHECK(files.read("a.ply", ply_file(properties, "0 0 1", "3 4 0")).normals == expected);
     const std::string fields = "x y z normal_x normal_y normal_z", types = "F F F F F F";
-    CHECK(files.read("a.pcd", pcd(fields, "4 4 4 8 8 8", types, "1 2 3 0 0 1\n4 5 6 3 4 0\n"))
+    CHECK(files.read("a.pcd", pcd_file(fields, "4 4 4 8 8 8", types, "1 2 3 0 0 1\n4 5 6 3 4 0\n"))
               .normals == expected);
-    CHECK(files.read("a.ply", ply(properties, "nan 0 1", "3 4 0")).normals ==
+    CHECK(files.read("a.ply", ply_file(properties, "nan 0 1", "3 4 0")).normals ==
           Normals{{0, 0, 0}, {0.6, 0.8, 0}});
-    CHECK(files.read("a.ply", ply(properties, "0 0 0", "1e-30 0 0")).normals ==
+    CHECK(files.read("a.ply", ply_file(properties, "0 0 0", "1e-30 0 0")).normals ==
           Normals{{0, 0, 0}, {1, 0, 0}});
-    CHECK(files.read("a.ply", ply(properties, "0 0 0", "nan nan nan")).normals.empty());
-    CHECK(files.read("a.ply", ply("property float nx\nproperty float ny\n", "0 1", "1 0"))
+    CHECK(files.read("a.ply", ply_file(properties, "0 0 0", "nan nan nan")).normals.empty());
+    CHECK(files.read("a.ply", ply_file("property float nx\nproperty float ny\n", "0 1", "1 0"))
               .normals.empty());
     // A point that is dropped takes its normal with it.
-    CHECK(files.read("a.pcd", pcd(fields, "4 4 4 4 4 4", types, "nan 2 3 0 0 1\n4 5 6 0 1 0\n"))
-              .normals == Normals{{0, 1, 0}});
+    CHECK(
+        files.read("a.pcd", pcd_file(fields, "4 4 4 4 4 4", types, "nan 2 3 0 0 1\n4 5 6 0 1 0\n"))
+            .normals == Normals{{0, 1, 0}});
 }
 
 TEST_CASE("normals of text clouds: named, and unit vectors without a name") {
@@ -194,7 +199,8 @@ TEST_CASE("normals of OBJ: one per point in order, or by the corners of faces") 
 TEST_CASE("PCD: where the scanner stood") {
     Files files;
     const auto sensor = [&](const std::string& place, int height) {
-        return files.read("a.pcd", pcd("x y z", "4 4 4", "F F F", "1 2 3\n4 5 6\n", place, height))
+        return files
+            .read("a.pcd", pcd_file("x y z", "4 4 4", "F F F", "1 2 3\n4 5 6\n", place, height))
             .sensor;
     };
     REQUIRE(sensor("0 0 0", 1).has_value());
@@ -203,23 +209,24 @@ TEST_CASE("PCD: where the scanner stood") {
     CHECK(sensor("1 -2 0.5", 1)->stated);
     CHECK(sensor("1 -2 0.5", 1)->position == Vec3(1, -2, 0.5));
     CHECK_FALSE(sensor("nan 0 0", 1).has_value());
-    CHECK_FALSE(files.read("a.ply", ply("", "", "")).sensor.has_value());
+    CHECK_FALSE(files.read("a.ply", ply_file("", "", "")).sensor.has_value());
 }
 
 TEST_CASE("every property is listed with its use") {
     Files files;
-    CHECK(
-        files.properties(
-            "a.ply", ply("property float nx\nproperty float ny\nproperty float nz\nproperty uchar "
-                         "red\nproperty uchar green\nproperty uchar blue\nproperty float quality\n",
-                         "0 0 1 9 9 9 7", "0 0 1 9 9 9 7")) ==
-        "x: position, y: position, z: position, nx: normal, ny: normal, nz: normal, red: colour, "
-        "green: colour, blue: colour, quality: -");
-    CHECK(files.properties("a.ply", ply("property float nx\nproperty float ny\nproperty float nz\n",
-                                        "0 0 0", "0 0 0")) ==
+    CHECK(files.properties(
+              "a.ply",
+              ply_file("property float nx\nproperty float ny\nproperty float nz\nproperty uchar "
+                       "red\nproperty uchar green\nproperty uchar blue\nproperty float quality\n",
+                       "0 0 1 9 9 9 7", "0 0 1 9 9 9 7")) ==
+          "x: position, y: position, z: position, nx: normal, ny: normal, nz: normal, red: colour, "
+          "green: colour, blue: colour, quality: -");
+    CHECK(files.properties("a.ply",
+                           ply_file("property float nx\nproperty float ny\nproperty float nz\n",
+                                    "0 0 0", "0 0 0")) ==
           "x: position, y: position, z: position, nx: -, ny: -, nz: -");
-    CHECK(files.properties("a.pcd", pcd("x y z rgb intensity", "4 4 4 4 4", "F F F U F",
-                                        "1 2 3 9 1\n4 5 6 1 1\n")) ==
+    CHECK(files.properties("a.pcd", pcd_file("x y z rgb intensity", "4 4 4 4 4", "F F F U F",
+                                             "1 2 3 9 1\n4 5 6 1 1\n")) ==
           "x: position, y: position, z: position, rgb: colour, intensity: -");
     CHECK(files.properties("a.csv", "id,X,Y,Z,intensity\n1,2,3,4,5\n2,3,4,5,6\n") ==
           "id: -, X: position, Y: position, Z: position, intensity: colour (grey)");

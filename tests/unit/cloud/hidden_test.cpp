@@ -1,6 +1,7 @@
 // The filters `clusters` and `hidden` on clouds whose crowded and interior points are known.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <doctest/doctest.h>
 
@@ -15,7 +16,7 @@ using namespace dsc::cloud;
 
 namespace {
 
-const double pi = std::acos(-1.0);
+using std::numbers::pi;
 
 /// Points evenly on a sphere, along a spiral.
 std::vector<Vec3> sphere(std::size_t count, double radius, const Vec3& centre) {

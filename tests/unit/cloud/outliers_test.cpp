@@ -11,7 +11,7 @@
 
 using dsc::Vec3;
 using namespace dsc::cloud;
-using namespace dsc::cloud::test;
+using namespace dsc::cloud::known;
 
 namespace {
 

@@ -14,7 +14,7 @@
 
 using dsc::Vec3;
 using namespace dsc::cloud;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <dsc/base/random.hpp>
 #include <dsc/cloud/cloud.hpp>
 
-namespace dsc::cloud::test {
+namespace dsc::cloud::known {
 
 /// Points with the normals that point out of their solid, and the area that each stands for.
 struct Solid {
@@ -92,4 +92,4 @@ inline double median_error(std::span<const Vec3> normals, std::span<const Vec3> 
     return angles[angles.size() / 2];
 }
 
-}  // namespace dsc::cloud::test
+}  // namespace dsc::cloud::known

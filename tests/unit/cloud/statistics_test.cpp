@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include <doctest/doctest.h>
@@ -14,7 +15,7 @@ using dsc::Vec3;
 using dsc::cloud::measure_cloud;
 using dsc::cloud::Statistics;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// Points spread at random over a sphere, each moved by noise in all three directions.
 std::vector<Vec3> sphere(std::size_t count, double radius, double noise, std::uint64_t seed) {

@@ -10,8 +10,8 @@ using dsc::cloud::read_cloud;
 
 namespace {
 // Millimetres and less beside five million metres: floats would round these to half metres.
-const std::vector<Vec3> far{{5000000.001, -5000000.002, 5123456.789},
-                            {5000000.0010000005, 4999999.9990000002, 0.1}};
+const std::vector<Vec3> far_points{{5000000.001, -5000000.002, 5123456.789},
+                                   {5000000.0010000005, 4999999.9990000002, 0.1}};
 const std::string far_lines[] = {"5000000.001 -5000000.002 5123456.789",
                                  "5000000.0010000005 4999999.9990000002 0.1"};
 
@@ -22,9 +22,9 @@ std::vector<Vec3> read(const test::Folder& folder, std::string_view name, std::s
 
 TEST_CASE("text keeps doubles far from the origin") {
     const test::Folder folder;
-    CHECK(read(folder, "a.obj", "v " + far_lines[0] + "\nv " + far_lines[1] + "\n") == far);
+    CHECK(read(folder, "a.obj", "v " + far_lines[0] + "\nv " + far_lines[1] + "\n") == far_points);
     for (const char* name : {"a.xyz", "a.txt", "a.asc", "a.pts", "a.csv"})
-        CHECK(read(folder, name, far_lines[0] + "\n" + far_lines[1] + "\n") == far);
+        CHECK(read(folder, name, far_lines[0] + "\n" + far_lines[1] + "\n") == far_points);
 }
 
 TEST_CASE("OBJ: only vertices are read; colours are kept if all vertices have them") {

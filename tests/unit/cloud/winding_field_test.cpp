@@ -13,7 +13,7 @@
 
 using dsc::Vec3;
 using namespace dsc::cloud;
-using namespace dsc::cloud::test;
+using namespace dsc::cloud::known;
 
 namespace {
 

@@ -162,7 +162,7 @@ TEST_CASE("tets of a lattice with sizes of 10:1 are positive, conforming and fil
 }
 
 TEST_CASE("dividing cells only adds vertices, so values survive; volumes add up to the box") {
-    const auto value = [](const Vec3& x) { return test::torus(x, 0.5, 0.2); };
+    const auto value = [](const Vec3& x) { return implicit::torus(x, 0.5, 0.2); };
     GradedLattice l(with_cell(0.021), std::vector<CellSize>{{Vec3(1.49, 1.49, 1.49), 0.05}},
                     "test");
     std::vector<Vec3> points;

@@ -16,7 +16,7 @@
 
 #include <dsc/generate/graded_lattice.hpp>
 
-namespace dsc::generate::test {
+namespace dsc::generate::implicit {
 
 using Function = std::function<double(const Vec3&)>;
 using Tets = std::vector<std::array<std::uint32_t, 4>>;
@@ -111,4 +111,4 @@ inline double torus(const Vec3& x, double ring, double tube) {
     return tube - std::hypot(std::hypot(x[0], x[1]) - ring, x[2]);
 }
 
-}  // namespace dsc::generate::test
+}  // namespace dsc::generate::implicit

@@ -11,7 +11,7 @@
 using namespace dsc;
 using namespace dsc::mesh;
 using namespace dsc::generate;
-using namespace dsc::generate::test;
+using namespace dsc::generate::implicit;
 
 namespace {
 

@@ -14,8 +14,9 @@ namespace {
 
 using Colours = std::vector<std::array<std::uint8_t, 3>>;
 
-const std::string ply_head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty "
-                             "double y\nproperty double z\n";
+const std::string ply_points =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty "
+    "double y\nproperty double z\n";
 const std::string ply_faces =
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
 
@@ -86,8 +87,8 @@ TEST_CASE("OBJ: bytes and fractions, and a surface has all colours or none") {
 TEST_CASE("PLY: bytes only, and all three of them") {
     const test::Folder folder;
     const auto read = [&](const std::string& properties, const std::string& vertices) {
-        return read_surface(
-                   folder.with("m.ply", ply_head + properties + ply_faces + vertices + "3 0 1 2\n"))
+        return read_surface(folder.with("m.ply", ply_points + properties + ply_faces + vertices +
+                                                     "3 0 1 2\n"))
             .colours;
     };
     CHECK(read("property uchar green\nproperty uchar red\nproperty float q\nproperty uchar blue\n",
@@ -100,7 +101,7 @@ TEST_CASE("PLY: bytes only, and all three of them") {
               .empty());
     const auto bad = test::refusal(
         folder.with("bad.ply",
-                    ply_head + "property uchar red\nproperty uchar green\nproperty uchar blue\n" +
+                    ply_points + "property uchar red\nproperty uchar green\nproperty uchar blue\n" +
                         ply_faces + "0 0 0 1 2 3\n1 0 0 256 0 0\n0 1 0 0 0 0\n3 0 1 2\n"),
         [](const auto& file) { read_surface(file); });
     CHECK(bad.code == "io.syntax");

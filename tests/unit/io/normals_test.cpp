@@ -14,7 +14,7 @@ using surface::TriangleMesh;
 namespace {
 
 /// A regular tetrahedron round the origin: the normal of a vertex is along its position.
-TriangleMesh tetrahedron() {
+TriangleMesh regular_tetrahedron() {
     return {{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
             {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
 }
@@ -40,7 +40,7 @@ TEST_CASE("normals of vertices are written, byte for byte") {
 
 TEST_CASE("a surface with normals reads back as the same surface") {
     const test::Folder folder;
-    const TriangleMesh m = tetrahedron();
+    const TriangleMesh m = regular_tetrahedron();
     const std::vector<Vec3> normals = surface::vertex_normals(m);
     for (std::size_t i = 0; i < 4; ++i)
         CHECK(normals[i].dot(m.points[i].normalized()) == doctest::Approx(1.0));
@@ -65,7 +65,7 @@ TEST_CASE("normals that do not fit are not written") {
     const std::vector<Vec3> three(3, Vec3(0, 0, 1));
     for (const char* name : {"m.obj", "m.ply", "m.off", "m.stl"}) {
         CHECK_THROWS_WITH_AS(
-            write_surface(folder / name, tetrahedron(), {}, three),
+            write_surface(folder / name, regular_tetrahedron(), {}, three),
             "surface: the mesh has 3 normals for 4 points; give one per point or none",
             GeometryError);
     }

@@ -21,11 +21,11 @@ using mesh::VertexId;
 
 namespace {
 
-mesh::Complex ball(int cells = 14, double radius = 0.8) {
+mesh::Complex start_ball(int cells = 14, double radius = 0.8) {
     return mesh::adopt(test::ball_grid(cells, radius), "ball");
 }
 
-surface::SurfaceView view_of(const Deformer& d) {
+surface::SurfaceView surface_of(const Deformer& d) {
     surface::SurfaceView view;
     surface::build_view(d.complex(), view);
     return view;
@@ -43,7 +43,7 @@ std::vector<double> slopes(const surface::SurfaceView& view) {
 
 // A step in which the vertices wander a third of a mean edge, so that edits are needed.
 void shake(Deformer& d, std::uint64_t seed, const RepairPolicy& policy) {
-    const surface::SurfaceView view = view_of(d);
+    const surface::SurfaceView view = surface_of(d);
     RandomStream random(RandomKey{seed, 0, 0, 0});
     std::vector<Vec3> displacements;
     for (std::size_t i = 0; i < view.vertex_count(); ++i) {
@@ -63,8 +63,8 @@ std::string bytes(const Deformer& d) {
 }  // namespace
 
 TEST_CASE("splits give the mean of the edge's ends, to lengths and attributes") {
-    Deformer d(ball(10));
-    surface::SurfaceView view = view_of(d);
+    Deformer d(start_ball(10));
+    surface::SurfaceView view = surface_of(d);
     const std::vector<double> before = slopes(view);
     d.set_target_lengths(view.vertex_ids, before);
     d.set_attribute("tilt", view.vertex_ids, before);
@@ -78,7 +78,7 @@ TEST_CASE("splits give the mean of the edge's ends, to lengths and attributes") 
     const double length = d.target_length();
     CHECK(d.refine(requests).committed > view.face_count() / 4);
     CHECK(d.target_length() == length);
-    view = view_of(d);
+    view = surface_of(d);
     REQUIRE(view.vertex_count() > before.size());
     const std::vector<double> expected = slopes(view), lengths = d.target_lengths(view.vertex_ids),
                               tilt = d.attribute("tilt", view.vertex_ids);
@@ -90,8 +90,8 @@ TEST_CASE("splits give the mean of the edge's ends, to lengths and attributes") 
 }
 
 TEST_CASE("a collapse leaves the kept end its length and puts it where it is wanted") {
-    Deformer d(ball(12));
-    surface::SurfaceView view = view_of(d);
+    Deformer d(start_ball(12));
+    surface::SurfaceView view = surface_of(d);
     d.set_attribute("tilt", view.vertex_ids, slopes(view));
     std::vector<surface::ViewEdge> edges;
     surface::build_edges(view, edges);
@@ -115,15 +115,15 @@ TEST_CASE("a collapse leaves the kept end its length and puts it where it is wan
         CHECK(d.attribute("tilt", std::vector<VertexId>{kept})[0] == value);
     }
     CHECK(done >= 3);
-    view = view_of(d);
+    view = surface_of(d);
     CHECK(view.vertex_count() == vertices - done);
     CHECK(mesh::validate(d.complex()).faults == std::vector<std::string>{});
     CHECK(mesh::count_interface(d.complex()).euler() == 2);
 }
 
 TEST_CASE("a flip swaps the diagonal of flat faces only") {
-    Deformer d(ball(12));
-    const surface::SurfaceView view = view_of(d);
+    Deformer d(start_ball(12));
+    const surface::SurfaceView view = surface_of(d);
     std::vector<surface::ViewEdge> edges;
     surface::build_edges(view, edges);
     const auto opposite = [&](const surface::ViewEdge& e, int side) {
@@ -144,9 +144,9 @@ TEST_CASE("a flip swaps the diagonal of flat faces only") {
         if (d.refine(requests).committed == 0) continue;
         ++flipped;
         CHECK(d.complex().find_edge(opposite(e, 0), opposite(e, 1)) != mesh::none);
-        CHECK(view_of(d).face_count() == view.face_count());
+        CHECK(surface_of(d).face_count() == view.face_count());
         std::vector<surface::ViewEdge> after;
-        const surface::SurfaceView now = view_of(d);
+        const surface::SurfaceView now = surface_of(d);
         surface::build_edges(now, after);
         CHECK(after.size() == edges.size());
         CHECK(std::none_of(after.begin(), after.end(),
@@ -158,8 +158,8 @@ TEST_CASE("a flip swaps the diagonal of flat faces only") {
 
 TEST_CASE(
     "a vertex goes where it is wanted if nothing is in its way, and as far as it can otherwise") {
-    Deformer d(ball(12));
-    const surface::SurfaceView view = view_of(d);
+    Deformer d(start_ball(12));
+    const surface::SurfaceView view = surface_of(d);
     const VertexId near = view.vertex_ids[3], far = view.vertex_ids[view.vertex_count() - 3];
     const Vec3 close = d.complex().position(near) + 0.01 * view.normals[3],
                start = d.complex().position(far);
@@ -177,8 +177,8 @@ TEST_CASE(
 
 TEST_CASE(
     "vertices that come to the interface without a split have the values of their neighbours") {
-    Deformer d(ball(12));
-    const surface::SurfaceView view = view_of(d);
+    Deformer d(start_ball(12));
+    const surface::SurfaceView view = surface_of(d);
     const std::vector<double> ones(view.vertex_count(), 3.0);
     d.set_attribute("three", view.vertex_ids, ones);
     // A tet of the inside with all its corners there becomes outside: a bubble, joined to nothing.
@@ -195,7 +195,7 @@ TEST_CASE(
     std::vector<mesh::TetId> tets = {inside[0], rim};
     std::vector<Event> events;
     CHECK(d.relabel(tets, std::vector<mesh::Label>(2, 0), {}, events) == 2);
-    const surface::SurfaceView now = view_of(d);
+    const surface::SurfaceView now = surface_of(d);
     const std::vector<double> values = d.attribute("three", now.vertex_ids);
     std::size_t threes = 0, zeros = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -212,8 +212,8 @@ TEST_CASE("bounds of edits read the local length") {
     // With a tiny target length no collapse may move the interface; with the ordinary one it may.
     std::array<std::size_t, 2> committed{};
     for (const bool tiny : {false, true}) {
-        Deformer d(ball(12));
-        const surface::SurfaceView view = view_of(d);
+        Deformer d(start_ball(12));
+        const surface::SurfaceView view = surface_of(d);
         if (tiny) {
             std::vector<double> lengths(view.vertex_count(), d.target_length());
             // L, the mean, stays what it is: half of the surface is fine, half is coarse.
@@ -241,8 +241,8 @@ TEST_CASE("bounds of edits read the local length") {
 TEST_CASE(
     "a refinement that does not own the sizing makes L the mean edge, one that owns it does not") {
     for (const bool owns : {false, true}) {
-        Deformer d(ball(10));
-        const surface::SurfaceView view = view_of(d);
+        Deformer d(start_ball(10));
+        const surface::SurfaceView view = surface_of(d);
         d.set_target_lengths(view.vertex_ids, std::vector<double>(view.vertex_count(), 0.5));
         CHECK(d.target_length() == doctest::Approx(0.5));
         RefineRequests requests;
@@ -254,16 +254,16 @@ TEST_CASE(
         CHECK(report.committed == 1);
         CHECK(report.length_changed == !owns);
         CHECK(d.target_lengths(view.vertex_ids).empty() == !owns);
-        CHECK(d.target_length() == doctest::Approx(owns ? 0.5 : view_of(d).mean_edge));
+        CHECK(d.target_length() == doctest::Approx(owns ? 0.5 : surface_of(d).mean_edge));
     }
-    Deformer d(ball(10));
+    Deformer d(start_ball(10));
     d.set_target_length(0.25);
     CHECK(d.target_length() == 0.25);
 }
 
 TEST_CASE("the improvement sees the lengths and whether it may edit for size") {
-    Deformer d(ball(10));
-    const surface::SurfaceView view = view_of(d);
+    Deformer d(start_ball(10));
+    const surface::SurfaceView view = surface_of(d);
     RepairPolicy policy;
     policy.topology.thickness = 0.0;
     bool told = false, size_edits = true;
@@ -290,8 +290,8 @@ TEST_CASE("the improvement sees the lengths and whether it may edit for size") {
 
 TEST_CASE("with lengths and attributes a saved deformer goes on to the same bytes, and edits keep "
           "every value within its range") {
-    Deformer d(ball(12, 0.6));
-    const surface::SurfaceView view = view_of(d);
+    Deformer d(start_ball(12, 0.6));
+    const surface::SurfaceView view = surface_of(d);
     std::vector<double> lengths;
     for (const Vec3& p : view.positions) lengths.push_back(d.target_length() * (1.0 + 0.4 * p.x()));
     d.set_target_lengths(view.vertex_ids, lengths);
@@ -309,7 +309,7 @@ TEST_CASE("with lengths and attributes a saved deformer goes on to the same byte
         shake(resumed, step, policy);
     }
     CHECK(bytes(resumed) == bytes(d));
-    const surface::SurfaceView now = view_of(d);
+    const surface::SurfaceView now = surface_of(d);
     for (const double length : d.target_lengths(now.vertex_ids)) {
         CHECK(length >= *low);
         CHECK(length <= *high);

@@ -47,23 +47,23 @@ private:
     const surface::SurfaceView* surface_ = nullptr;
 };
 
-class Catalogue : public dsc::test::Strategies {
+class Abscissas : public dsc::test::Strategies {
 public:
-    Catalogue() {
+    Abscissas() {
         plugin::Registrar& registrar = *this;
         registrar.add<Abscissa>("abscissa", "x");
     }
 };
 
-const Catalogue& strategies() {
-    static const Catalogue catalogue;
+const Abscissas& abscissas() {
+    static const Abscissas catalogue;
     return catalogue;
 }
 
 /// Runs in `folder`, where the linked-in plugin has a file.
 run::RunOutcome work(const Folder& folder, const std::string& name, const std::string& text,
                      const std::vector<std::string>& overrides = {}) {
-    const Catalogue& catalogue = strategies();
+    const Abscissas& catalogue = abscissas();
     const fs::path here = fs::current_path();
     folder.write("libdsc_fake.so", "stands for a plugin");
     const run::LoadedExperiment loaded =
@@ -198,9 +198,9 @@ TEST_CASE("report: a run writes it, and dsc report the same bytes; nothing in it
              {"observers=[{type: counter}]"});
     const std::string page = folder.read("run/report.html");
     CHECK(outcome.report == folder.path() / "run/report.html");
-    CHECK(page == report::report_html(folder.path() / "run", strategies()));
+    CHECK(page == report::report_html(folder.path() / "run", abscissas()));
     Workers three(3);
-    CHECK(page == report::report_html(folder.path() / "run", strategies(), &three));
+    CHECK(page == report::report_html(folder.path() / "run", abscissas(), &three));
     CHECK(page.substr(0, 15) == "<!DOCTYPE html>");
     for (const char* part :
          {"In short", "Time and size (table 6.1)", "table 6.2", "Distance, normalised units",
@@ -221,7 +221,7 @@ TEST_CASE("report: a run writes it, and dsc report the same bytes; nothing in it
     work(folder, "plain", minimal);
     CHECK_FALSE(fs::exists(folder.path() / "plain/report.html"));
     CHECK_FALSE(fs::exists(folder.path() / "plain/series"));
-    const std::string later = report::report_html(folder.path() / "plain", strategies());
+    const std::string later = report::report_html(folder.path() / "plain", abscissas());
     CHECK(later.find("table 6.1") != std::string::npos);
     CHECK(later.find("table 6.2") == std::string::npos);
 }
@@ -232,27 +232,27 @@ TEST_CASE("report: a missing or different cloud is reported and not shown") {
     const std::string before = folder.read("run/report.html");
     CHECK(before.find("\"cloud\":{") != std::string::npos);
     folder.write("cloud.xyz", "0 0 0\n1 0 0\n0 1 0\n0 0 1\n");
-    const std::string other = report::report_html(folder.path() / "run", strategies());
+    const std::string other = report::report_html(folder.path() / "run", abscissas());
     CHECK(other.find("\"cloud\":{") == std::string::npos);
     CHECK(other.find("the cloud is not shown: " + (folder.path() / "cloud.xyz").string() +
                      ": is not the file that the run read") != std::string::npos);
     fs::remove(folder.path() / "cloud.xyz");
     CHECK(
-        report::report_html(folder.path() / "run", strategies()).find("the cloud is not shown: ") !=
+        report::report_html(folder.path() / "run", abscissas()).find("the cloud is not shown: ") !=
         std::string::npos);
 }
 
 TEST_CASE("report: folders that are no run's, runs without a result, damaged files") {
     const Folder folder;
-    CHECK_THROWS_AS(report::report_html(folder.path() / "none", strategies()), IoError);
-    CHECK_THROWS_AS(report::report_html(folder.path(), strategies()), IoError);
+    CHECK_THROWS_AS(report::report_html(folder.path() / "none", abscissas()), IoError);
+    CHECK_THROWS_AS(report::report_html(folder.path(), abscissas()), IoError);
     work(folder, "run", minimal);
     const auto refused = [&](const std::string& file, const std::string& text) {
         const std::string good = folder.read("run/" + file);
         folder.write("run/" + file, text);
         std::string code = "accepted";
         try {
-            report::report_html(folder.path() / "run", strategies());
+            report::report_html(folder.path() / "run", abscissas());
         } catch (const Error& error) {
             code = error.code();
         }
@@ -270,7 +270,7 @@ TEST_CASE("report: folders that are no run's, runs without a result, damaged fil
     // A page without one of its parts is still a page.
     CHECK(refused("result/volume.dsc", "v 0 0") == "accepted");
     fs::remove(folder.path() / "run/summary.json");
-    CHECK_THROWS_AS(report::report_html(folder.path() / "run", strategies()), IoError);
+    CHECK_THROWS_AS(report::report_html(folder.path() / "run", abscissas()), IoError);
 }
 
 TEST_CASE("report: hostile names in every file of the run stay text") {
@@ -305,11 +305,11 @@ TEST_CASE("report: hostile names in every file of the run stay text") {
     folder.write("run/metrics.csv", metrics);
     folder.write("run/config.resolved.yaml",
                  folder.read("run/config.resolved.yaml") + "# " + evil + "\n");
-    CHECK(report::report_html(folder.path() / "run", strategies()).find("Notes on the cloud") !=
+    CHECK(report::report_html(folder.path() / "run", abscissas()).find("Notes on the cloud") !=
           std::string::npos);
     const fs::path folders[] = {folder.path() / "run", folder.path() / "run"};
-    for (const std::string& page : {report::report_html(folder.path() / "run", strategies()),
-                                    report::comparison_html(folders, strategies())}) {
+    for (const std::string& page : {report::report_html(folder.path() / "run", abscissas()),
+                                    report::comparison_html(folders, abscissas())}) {
         CHECK(page.find("<script>alert") == std::string::npos);
         CHECK(page.find("<img src=x") == std::string::npos);
         CHECK(page.find("&lt;script&gt;alert(1)") != std::string::npos);
@@ -343,7 +343,7 @@ TEST_CASE("comparison: a column a run, named by name or folder, what differs in 
     work(folder, "slow", with_cloud(folder, ""), {"velocity.factor=-0.01"});
     work(folder, "quick", with_cloud(folder, ""), {"velocity.factor=-0.02"});
     const fs::path folders[] = {folder.path() / "slow", folder.path() / "quick/"};
-    const std::string page = report::comparison_html(folders, strategies());
+    const std::string page = report::comparison_html(folders, abscissas());
     for (const char* part : {"2 runs compared", "<th>slow</th>", "<th>quick</th>",
                              "velocity.factor", "-0.02", "id=\"view-1-scene\""}) {
         CAPTURE(part);
@@ -351,7 +351,7 @@ TEST_CASE("comparison: a column a run, named by name or folder, what differs in 
     }
     CHECK(page.find("<td>velocity.shift") == std::string::npos);
     const fs::path same[] = {folder.path() / "slow", folder.path() / "slow"};
-    CHECK(report::comparison_html(same, strategies()).find("The experiments are the same.") !=
+    CHECK(report::comparison_html(same, abscissas()).find("The experiments are the same.") !=
           std::string::npos);
-    CHECK_THROWS_AS(report::comparison_html({}, strategies()), UsageError);
+    CHECK_THROWS_AS(report::comparison_html({}, abscissas()), UsageError);
 }
