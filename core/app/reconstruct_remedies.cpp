@@ -36,8 +36,10 @@ Error with_own_remedy(const Error& error) {
     const auto found = std::find_if(remedies.begin(), remedies.end(),
                                     [&](const Remedy& r) { return r.code == error.code(); });
     if (found == remedies.end()) return error;
+    // The cause of an error without parts ends with its remedy.
+    const std::string& cause = error.cause();
     return {error.exit_code(), error.code(), error.place(),
-            error.cause().substr(0, error.cause().find("; ")), found->text};
+            error.remedy().empty() ? cause.substr(0, cause.find("; ")) : cause, found->text};
 }
 
 }  // namespace dsc::app

@@ -79,7 +79,7 @@ class Streams(unittest.TestCase):
         with open("/dev/full", "w", encoding="utf-8") as full:
             done = subprocess.run([PROGRAM, "info", "c.ply"], cwd=self.scratch, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
         self.assertEqual(done.returncode, 6)
-        self.assertIn("stdout cannot be written", done.stderr)
+        self.assertIn("stdout: cannot be written", done.stderr)
         read, write = os.pipe()
         os.close(read)
         done = subprocess.run([PROGRAM, "info", "c.ply"], cwd=self.scratch, stdout=write, stderr=subprocess.PIPE, text=True, check=False)
