@@ -81,7 +81,7 @@ TEST_CASE("a strategy that ends the process: no success, and the run folder tell
         const Result result = run(cli, fault, 2);
         CHECK(result.code == 4);
         CHECK(result.err.find("error: velocity 'faulty' (plugin faulty 0.3.0, ") == 0);
-        CHECK(result.err.find("evaluate at step 2 ended the process") != std::string::npos);
+        CHECK(result.err.find("evaluate at step 2: ended the process") != std::string::npos);
         CHECK_FALSE(dsc::test::looks_finished(cli.folder() / "out"));
         CHECK(cli.read("out/status.json").find("\"error_code\": \"strategy.exit\"") !=
               std::string::npos);

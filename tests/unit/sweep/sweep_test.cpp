@@ -424,5 +424,5 @@ TEST_CASE("collect: a row a point, whatever its state") {
     CHECK(contains(table, "\n5,points/" + all[5] + ",stopped,cancelled,,6,,1,"));
     CHECK(contains(table, ",0.25,"));
     CHECK(contains(bench.fault([&] { sweep::collect_sweep(bench.folder.path(), states); }),
-                   "DIR has no jobs.tsv"));
+                   "DIR: does not contain jobs.tsv"));
 }

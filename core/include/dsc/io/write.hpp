@@ -23,8 +23,9 @@ struct VolumeData {
 /// and read_surface() adds it again. .obj and .ply store colours and `normals` (unit vectors, one
 /// per point, or none); in .ply the normals are floats. .ply also stores `points` as further
 /// properties of the vertices, as doubles under their names. .glb stores floats: positions, shading
-/// normals of its own, colours, and `points` as attributes "_NAME" if all values are finite. A point
-/// on a crease (above 40 degrees) is stored once per normal. The other formats leave all these out.
+/// normals of its own, colours, and `points` as attributes "_NAME" if all values are finite. A
+/// point on a crease (above 40 degrees) is stored once per normal. The other formats leave all
+/// these out.
 ///
 /// Throws IoError "io.format", "io.write", and GeometryError as surface::require_sound(),
 /// "surface.colours" if there are colours but not one per point, "surface.size" for an array or
