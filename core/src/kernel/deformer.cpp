@@ -32,6 +32,10 @@ StepReport Deformer::step(std::span<const VertexId> vertices, std::span<const Ve
     return report;
 }
 
+std::span<const std::uint32_t> Deformer::not_arrived() const {
+    return state_->destinations.not_arrived();
+}
+
 RefineReport Deformer::refine(std::span<const std::array<VertexId, 3>> faces,
                               std::span<const std::array<VertexId, 2>> edges) {
     RefineRequests requests;

@@ -14,6 +14,7 @@ void Destinations::clear() {
     active_.clear();
     entries_.clear();
     near_collapses_.clear();
+    not_arrived_.clear();
     tried_ = 0;
     stranded_ = 0;
 }
@@ -107,9 +108,11 @@ void Destinations::drop_dead_and_double() {
     ++pass_;
     std::size_t kept = 0;
     for (const VertexId v : active_) {
-        if (v >= complex_.vertex_slots() || !complex_.vertex_alive(v) || !moves(v) ||
-            !complex_.movable(v))
+        if (v >= complex_.vertex_slots() || !complex_.vertex_alive(v) || !moves(v)) continue;
+        if (!complex_.movable(v)) {
+            not_arrived_.push_back(complex_.birth(v));
             continue;
+        }
         Entry& entry = *entry_of(v);
         if (entry.listed == pass_) continue;
         entry.listed = pass_;
@@ -145,6 +148,7 @@ void Destinations::drop_remaining(StepReport& report) {
         report.dropped_motion += (entry.place - complex_.position(v)).norm();
         entry.vertex = mesh::none;
         ++stranded_;
+        not_arrived_.push_back(entry.birth);
     }
     active_.clear();
 }

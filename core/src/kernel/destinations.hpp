@@ -41,8 +41,11 @@ public:
     std::span<const VertexId> blocked() const { return blocked_; }
     /// Moves attempted since clear() or the last call. [step]
     std::size_t take_tried() { return std::exchange(tried_, 0); }
-    /// Vertices whose motion was dropped in this step.
+    /// Number of vertices whose motion was dropped in this step.
     std::size_t stranded() const { return stranded_; }
+    /// Births of the vertices that have not reached a destination of this step: those whose motion
+    /// was dropped, and those that became unmovable on their way. A birth may occur twice.
+    std::span<const std::uint32_t> not_arrived() const { return not_arrived_; }
     /// Kept vertices of the collapses of interface edges in this step.
     std::span<const VertexId> near_collapses() const { return near_collapses_; }
 
@@ -79,6 +82,7 @@ private:
     std::uint32_t pass_ = 0;
     std::size_t tried_ = 0;
     std::size_t stranded_ = 0;
+    std::vector<std::uint32_t> not_arrived_;
 };
 
 }  // namespace dsc::kernel

@@ -72,6 +72,10 @@ public:
                        [&] { return inner().needs_faces_of_points(); });
     }
 
+    bool needs_support() const override {
+        return guarded(call("needs_support"), [&] { return inner().needs_support(); });
+    }
+
     void advance(const hooks::StepContext& context) override {
         const hooks::StepContext& kept = step_.keep(own(context));
         guarded(call("advance", kept.step), [&] { inner().advance(kept); });

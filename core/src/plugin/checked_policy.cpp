@@ -24,6 +24,15 @@ public:
         return guarded(call("needs_sampling"), [&] { return inner().needs_sampling(); });
     }
 
+    bool needs_faces_of_points() const override {
+        return guarded(call("needs_faces_of_points"),
+                       [&] { return inner().needs_faces_of_points(); });
+    }
+
+    bool needs_support() const override {
+        return guarded(call("needs_support"), [&] { return inner().needs_support(); });
+    }
+
     bool owns_sizing() const override {
         return guarded(call("owns_sizing"), [&] { return inner().owns_sizing(); });
     }
@@ -300,6 +309,15 @@ private:
 class CheckedObserver final : public Checked<hooks::Observer> {
 public:
     using Checked::Checked;
+
+    bool needs_faces_of_points() const override {
+        return guarded(call("needs_faces_of_points"),
+                       [&] { return inner().needs_faces_of_points(); });
+    }
+
+    bool needs_support() const override {
+        return guarded(call("needs_support"), [&] { return inner().needs_support(); });
+    }
 
     void begin(const hooks::StepContext& context) override {
         const hooks::StepContext step = own(context);

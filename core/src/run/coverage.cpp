@@ -9,15 +9,15 @@
 #include <dsc/base/median.hpp>
 #include <dsc/base/union_find.hpp>
 #include <dsc/cloud/search.hpp>
+#include <dsc/hooks/support.hpp>
 #include <dsc/surface/distance.hpp>
 #include <dsc/surface/measure.hpp>
 
 namespace dsc::run {
 namespace {
 
-constexpr double far_noise = 3.0;           // noise scales
-constexpr double far_width = 1.0;           // spacings
-constexpr double unsupported_beyond = 3.0;  // spacings
+constexpr double far_noise = 3.0;   // noise scales
+constexpr double far_width = 1.0;   // spacings
 constexpr double group_cell = 3.0;  // median spacings: points in neighbouring cells belong to the
                                     // same group
 constexpr double widest = 2.0;      // median spacings: larger spacings of a point count as this
@@ -112,7 +112,7 @@ void measure_support(const surface::TriangleMesh& surface, const surface::CloudD
                    &c = surface.points[face[2]];
         const double third = (b - a).cross(c - a).norm() / 6.0;
         for (const std::uint32_t v : face)
-            unsupported += out.gaps[v] > unsupported_beyond ? third : 0.0;
+            unsupported += out.gaps[v] > hooks::support_reach ? third : 0.0;
         area += 3.0 * third;
     }
     out.unsupported_share = area > 0.0 ? unsupported / area : 0.0;

@@ -7,9 +7,9 @@
 #include <dsc/run/repair_policy.hpp>
 
 #include "initial_complex.hpp"
-#include "nearest_points.hpp"
 #include "refinement.hpp"
 #include "saved_run.hpp"
+#include "step_data.hpp"
 #include "step_figures.hpp"
 #include "stopwatch.hpp"
 
@@ -44,7 +44,8 @@ public:
                   ? kernel::Deformer(initial_complex(experiment, strategies, cloud, options.cancel,
                                                      workers_, result_.totals),
                                      {}, &workers_)
-                  : kernel::Deformer::load(resumed_, {}, &workers_)) {
+                  : kernel::Deformer::load(resumed_, {}, &workers_)),
+          data_(deformer_, {experiment.seed, options.cancel, cloud}, workers_) {
         // Every step asks again. Asked here too, an improvement with invalid answers ends the run
         // before its first step.
         strategies_.improvement->topology_limits();
@@ -70,57 +71,59 @@ public:
     }
 
 private:
-    /// `step`: the number in metrics.csv and events.jsonl; the first one is 1.
-    hooks::StepContext make_context(std::uint64_t step) const {
+    /// The last step of the run as far as it is known; 0: unknown.
+    std::uint64_t last_step() const {
         const std::uint64_t told = strategies_.velocity->planned_steps();
-        return {.step = step,
-                .surface = view_,
-                .cloud = cloud_,
-                .nearest = nearest_.all(),
-                .target_length = deformer_.target_length(),
-                .box = deformer_.complex().box(),
-                .to_normalised = cloud_ != nullptr ? cloud_->transform() : cloud::Transform{},
-                .seed = experiment_.seed,
-                .instance = 0,
-                .cancel = options_.cancel,
-                .workers = &workers_,
-                .planned_steps = told > 0 ? told : planned_,
-                .target_lengths = lengths_,
-                .attributes = attributes_};
+        return told > 0 ? told : planned_;
     }
 
-    /// The nearest points are used by the velocity of the next step and by the figures of this
-    /// step.
+    /// `step`: the number in metrics.csv and events.jsonl; the first one is 1.
+    hooks::StepContext make_context(std::uint64_t step, const Needs& needs = {}) {
+        return data_.context(step, last_step(), needs);
+    }
+
+    /// What the strategy needs of the cloud; without a cloud it is not asked.
+    template <class Hook>
+    Needs needs_of(const Hook& strategy) const {
+        if (cloud_ == nullptr) return {};
+        return {strategy.needs_faces_of_points(), strategy.needs_support()};
+    }
+
+    hooks::StepContext make_velocity_context(std::uint64_t step) {
+        const Needs needs = needs_of(*strategies_.velocity);
+        const Timed timed(result_.totals.seconds.velocity);
+        return make_context(step, needs);
+    }
+
+    hooks::StepContext make_observer_context(const hooks::Observer& observer) {
+        Needs needs = needs_of(observer);
+        needs.volume = true;
+        return make_context(deformer_.step_count(), needs);
+    }
+
+    /// The context of a pass. If the refinement samples the velocity, it contains what the velocity
+    /// needs too.
+    hooks::StepContext make_refinement_context(const hooks::RefinementPolicy& refinement,
+                                               bool sampling) {
+        Needs needs = needs_of(refinement);
+        if (sampling) {
+            const Needs of_velocity = needs_of(*strategies_.velocity);
+            needs.faces_of_points = needs.faces_of_points || of_velocity.faces_of_points;
+            needs.support = needs.support || of_velocity.support;
+        }
+        needs.volume = true;
+        return make_context(deformer_.step_count(), needs);
+    }
+
     void refresh_view() {
         const Timed timed(result_.totals.seconds.velocity);
-        surface::build_view(deformer_.complex(), view_, &workers_, &view_memory_);
-        faces_of_points_.clear();
-        refresh_fields();
-        if (cloud_ == nullptr) return;
-        nearest_.refresh(view_, cloud_->search(), &workers_);
-    }
-
-    void refresh_fields() {
-        lengths_ = deformer_.target_lengths(view_.vertex_ids);
-        attributes_ = attributes_at(deformer_, view_.vertex_ids);
-    }
-
-    /// The context of the velocity's calls: it includes the faces of the points if the velocity
-    /// needs them.
-    hooks::StepContext make_velocity_context(std::uint64_t step) {
-        hooks::StepContext context = make_context(step);
-        if (cloud_ == nullptr || !strategies_.velocity->needs_faces_of_points()) return context;
-        const Timed timed(result_.totals.seconds.velocity);
-        if (faces_of_points_.empty())
-            surface::nearest_faces(view_, cloud_->points(), faces_of_points_, &workers_);
-        context.faces_of_points = faces_of_points_;
-        return context;
+        data_.refresh();
     }
 
     void begin() {
         refresh_view();
-        const hooks::StepContext context = make_context(deformer_.step_count());
-        for (const auto& observer : strategies_.observers) observer->begin(context);
+        for (const auto& observer : strategies_.observers)
+            observer->begin(make_observer_context(*observer));
         StepMetrics row;
         measure_row(row);
         result_.totals.volume_initial = row.volume;
@@ -132,10 +135,10 @@ private:
     void finish() {
         RunTotals& totals = result_.totals;
         totals.target_length = deformer_.target_length();
-        const hooks::StepContext context = make_context(deformer_.step_count());
         for (std::size_t i = 0; i < strategies_.observers.size(); ++i) {
+            hooks::Observer& observer = *strategies_.observers[i];
             totals.observers.emplace_back(experiment_.observers[i].type,
-                                          strategies_.observers[i]->end(context));
+                                          observer.end(make_observer_context(observer)));
         }
         std::vector<mesh::VertexId> ids;
         result_.mesh = deformer_.complex().to_mesh(&ids);
@@ -206,6 +209,7 @@ private:
         StateWriter out;
         deformer_.save(out);
         out.value(place_);
+        data_.history().save(out);
         save(out, result_.totals);
         save(out, strategies_);
         options_.on_checkpoint(out.take(), deformer_.step_count());
@@ -213,10 +217,11 @@ private:
 
     void go_on() {
         resumed_.value(place_);
+        data_.history().load(resumed_);
         load(resumed_, result_.totals);
         load(resumed_, strategies_);
         refresh_view();
-        over_ = view_.vertex_count() == 0;
+        over_ = data_.view().vertex_count() == 0;
     }
 
     /// Makes one step; true if its largest speed was below the stop criterion.
@@ -224,10 +229,13 @@ private:
         const hooks::StepContext context = make_velocity_context(deformer_.step_count() + 1);
         StepMetrics row;
         const double asked = velocities(context, row);
-        const double mean_edge = view_.mean_edge;
+        const surface::SurfaceView& view = data_.view();
+        const double mean_edge = view.mean_edge;
+        data_.history().begin_step(view);
         const kernel::StepReport report =
-            deformer_.step(view_.vertex_ids, displacements_, policy(context));
-        const double came_about = distance_gone(deformer_.complex(), view_, displacements_);
+            deformer_.step(view.vertex_ids, displacements_, policy(context));
+        data_.history().end_step(deformer_.not_arrived());
+        const double came_about = distance_gone(deformer_.complex(), view, displacements_);
         result_.totals.add(report);
         for (const kernel::Event& event : report.events) tell(event);
         tell_repairs(report);
@@ -249,7 +257,7 @@ private:
 
         const bool moving = row.mean_speed > stall_speed * mean_edge;
         place_.stuck = moving && came_about < stall_ratio * asked ? place_.stuck + 1 : 0;
-        if (view_.vertex_count() == 0) over_ = true;
+        if (view.vertex_count() == 0) over_ = true;
         return experiment_.stop && row.max_speed < experiment_.stop->speed * mean_edge;
     }
 
@@ -257,7 +265,7 @@ private:
     /// vertices.
     double velocities(const hooks::StepContext& context, StepMetrics& row) {
         const Timed timed(result_.totals.seconds.velocity);
-        const std::size_t count = view_.vertex_count();
+        const std::size_t count = data_.view().vertex_count();
         displacements_.assign(count, Vec3::Zero());
         strategies_.velocity->advance(context);
         strategies_.velocity->prepare(context);
@@ -267,8 +275,8 @@ private:
         });
         hooks::Attributes attributes;
         strategies_.velocity->publish(attributes);
-        set_attributes(deformer_, view_, attributes);
-        return measure_speeds(view_, displacements_, row);
+        set_attributes(deformer_, data_.view(), attributes);
+        return measure_speeds(data_.view(), displacements_, row);
     }
 
     /// Runs the passes of a refinement, each on a fresh view, until it requests no change of the
@@ -280,17 +288,15 @@ private:
         ++result_.totals.refinements;
         bool asked = true;
         for (unsigned pass = 0; pass < passes && asked; ++pass) {
-            const hooks::StepContext context = sampling
-                                                   ? make_velocity_context(deformer_.step_count())
-                                                   : make_context(deformer_.step_count());
+            const hooks::StepContext context = make_refinement_context(refinement, sampling);
             if (sampling) strategies_.velocity->prepare(context);
             hooks::RefinementRequests requests;
             refinement.refine({context, sampling ? strategies_.velocity.get() : nullptr, pass},
                               requests);
-            set_fields(deformer_, view_, requests);
+            set_fields(deformer_, data_.view(), requests);
             relabel(context, requests);
             kernel::RefineRequests wanted =
-                kernel_requests(view_, requests, refinement.owns_sizing());
+                kernel_requests(data_.view(), requests, refinement.owns_sizing());
             wanted.creases = creases(&refinement);
             const kernel::RefineReport report = deformer_.refine(wanted);
             result_.totals.crease_exceptions += report.crease_exceptions;
@@ -298,7 +304,7 @@ private:
             result_.totals.refine_committed += report.committed;
             result_.totals.refine_edits.add(report);
             asked = report.requested > 0 || !requests.relabel.empty();
-            asked ? refresh_view() : refresh_fields();
+            asked ? refresh_view() : data_.refresh_fields();
         }
     }
 
@@ -321,18 +327,19 @@ private:
 
     void measure_row(StepMetrics& row) {
         const Timed timed(result_.totals.seconds.measure);
-        measure_state(deformer_.complex(), view_, cloud_, nearest_.all(), workers_, row);
+        measure_state(deformer_.complex(), data_.view(), cloud_, data_.nearest(), workers_, row);
     }
 
     void observe(StepMetrics& row) {
         if (strategies_.observers.empty()) return;
         const Timed timed(result_.totals.seconds.measure);
-        const hooks::StepContext context = make_context(deformer_.step_count());
         const hooks::StepFigures figures{row.step, row.interface_vertices, row.tets, row.volume,
                                          row.min_tet_quality};
         for (std::size_t i = 0; i < strategies_.observers.size(); ++i) {
             const std::string prefix = "observers." + experiment_.observers[i].type + ".";
-            for (const auto& [figure, value] : strategies_.observers[i]->step(context, figures)) {
+            hooks::Observer& observer = *strategies_.observers[i];
+            const hooks::StepContext context = make_observer_context(observer);
+            for (const auto& [figure, value] : observer.step(context, figures)) {
                 row.observers.emplace_back(prefix + figure, value);
             }
         }
@@ -381,12 +388,7 @@ private:
     SchedulePlace place_;
     StateReader resumed_;
     kernel::Deformer deformer_;
-    surface::SurfaceView view_;
-    NearestPoints nearest_;
-    std::vector<surface::FacePoint> faces_of_points_;  // empty until they are needed
-    std::vector<double> lengths_;  // per vertex of the view; empty if L is the same everywhere
-    surface::ViewMemory view_memory_;
-    hooks::Attributes attributes_;  // of the view's vertices
+    StepData data_;
     std::vector<Vec3> displacements_;
     bool size_edits_ = true;  // these three: of the current series, for the policy
     std::optional<double> quality_floor_;

@@ -17,21 +17,12 @@ double mean(const std::vector<double>& values) {
 
 }  // namespace
 
-double enclosed_volume(const mesh::Complex& complex, const surface::SurfaceView& view) {
+double enclosed_volume(const surface::SurfaceView& view) {
     double sum = 0.0;
     for (std::size_t f = 0; f < view.face_count(); ++f) {
         const auto& [a, b, c] = view.faces[f];
-        const mesh::TetId t = view.face_tets[f];
-        const mesh::Tet& tet = complex.tet(t);
-        unsigned face = 0;
-        for (; face < 3; ++face) {
-            const mesh::VertexId apex = tet.v[face];
-            if (apex != view.vertex_ids[a] && apex != view.vertex_ids[b] &&
-                apex != view.vertex_ids[c])
-                break;
-        }
         // A face between two labels above 0 is not counted.
-        if (std::min(complex.label(t), complex.label_across(t, face)) > 0) continue;
+        if (view.face_labels[f][0] > 0) continue;
         sum += view.positions[a].dot(view.positions[b].cross(view.positions[c]));
     }
     return sum / 6.0;
@@ -47,7 +38,7 @@ void measure_state(const mesh::Complex& complex, const surface::SurfaceView& vie
                       [&](mesh::VertexId v) { return complex.phases(v) > 2; }));
     row.tets = complex.tet_count();
     row.mean_edge = view.mean_edge;
-    row.volume = enclosed_volume(complex, view);
+    row.volume = enclosed_volume(view);
     row.min_tet_quality = static_cast<double>(std::min(1.0F, complex.least_quality()));
     if (cloud == nullptr || view.face_count() == 0) return;
 

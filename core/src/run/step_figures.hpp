@@ -28,6 +28,6 @@ double distance_gone(const mesh::Complex& complex, const surface::SurfaceView& v
 
 /// Volume of all labels above 0 by the divergence theorem over the interface; the cost grows only
 /// with the interface.
-double enclosed_volume(const mesh::Complex& complex, const surface::SurfaceView& view);
+double enclosed_volume(const surface::SurfaceView& view);
 
 }  // namespace dsc::run

@@ -23,7 +23,8 @@ void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::Te
         for (unsigned f = 0; f < 4; ++f) {
             if (tet.v[f] == v) continue;
             // Of the two tets at a face the one with the larger label reports it.
-            if (c.label(t) <= c.label_across(t, f)) continue;
+            const mesh::Label across = c.label_across(t, f);
+            if (c.label(t) <= across) continue;
             std::array<mesh::VertexId, 3> corners{};
             bool least = true;
             for (unsigned k = 0; k < 3; ++k) {
@@ -33,7 +34,7 @@ void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::Te
             if (!least) continue;
             while (corners[0] != v)
                 std::rotate(corners.begin(), corners.begin() + 1, corners.end());
-            out.push_back({corners, t});
+            out.push_back({corners, t, {across, c.label(t)}});
         }
     }
 }
@@ -66,7 +67,8 @@ void ViewMemory::keep(const mesh::Complex& complex, const SurfaceView& view,
     for (std::size_t f = 0; f < faces_.size(); ++f) {
         const auto& [a, b, c] = view.faces[f];
         faces_[f] = {{view.vertex_ids[a], view.vertex_ids[b], view.vertex_ids[c]},
-                     view.face_tets[f]};
+                     view.face_tets[f],
+                     view.face_labels[f]};
     }
 }
 
@@ -89,6 +91,9 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
         view.positions[i] = c.position(v);
         view.movable[i] = c.movable(v) ? 1 : 0;
     }
+    view.previous_positions = view.positions;
+    view.arrived.assign(n, 1);
+    view.age.assign(n, 0);
     blocks.resize(std::max(blocks.size(), (n + walk_block - 1) / walk_block));
     struct Job {
         const mesh::Complex& c;
@@ -122,11 +127,13 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
     });
     view.faces.clear();
     view.face_tets.clear();
+    view.face_labels.clear();
     for (std::size_t b = 0; b * walk_block < n; ++b) {
         for (const RawFace& face : blocks[b].faces) {
             view.faces.push_back(
                 {index[face.vertices[0]], index[face.vertices[1]], index[face.vertices[2]]});
             view.face_tets.push_back(face.tet);
+            view.face_labels.push_back(face.labels);
         }
     }
     if (memory != nullptr) memory->keep(c, view, counts);

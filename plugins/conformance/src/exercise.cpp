@@ -9,6 +9,7 @@
 #include <dsc/run/mesh_files.hpp>
 #include <dsc/surface/surface_view.hpp>
 
+#include "asked_data.hpp"
 #include "requests.hpp"
 
 namespace dsc::conformance {
@@ -61,6 +62,10 @@ std::string difference(const Fixture& before, const Fixture& after) {
     if (!same_bytes(a.face_areas, b.face_areas)) return "the areas of the faces";
     if (!same_bytes(a.births, b.births) || !same_bytes(a.movable, b.movable))
         return "the ids of the vertices";
+    if (!same_bytes(a.previous_positions, b.previous_positions) ||
+        !same_bytes(a.arrived, b.arrived) || !same_bytes(a.age, b.age))
+        return "what the vertices did before";
+    if (!same_bytes(a.face_labels, b.face_labels)) return "the labels of the faces";
     return {};
 }
 
@@ -145,12 +150,7 @@ private:
     }
 
     void velocity(hooks::VelocityField& field, const hooks::StepContext& given) {
-        hooks::StepContext context = given;
-        std::vector<surface::FacePoint> faces;
-        if (given.cloud != nullptr && field.needs_faces_of_points()) {
-            surface::nearest_faces(given.surface, given.cloud->points(), faces, &workers_);
-            context.faces_of_points = faces;
-        }
+        const hooks::StepContext context = asked_.complete(field, given);
         field.advance(context);
         for (unsigned i = 0; i < how_.prepares; ++i) field.prepare(context);
         const std::size_t count = context.surface.vertex_count();
@@ -220,7 +220,8 @@ private:
         }
     }
 
-    void refinement(hooks::RefinementPolicy& policy, const hooks::StepContext& context) {
+    void refinement(hooks::RefinementPolicy& policy, const hooks::StepContext& given) {
+        const hooks::StepContext context = asked_.complete(policy, given, fixture_);
         Breathing velocity;
         velocity.prepare(context);
         hooks::RefinementRequests requests;
@@ -279,7 +280,8 @@ private:
             t.add(static_cast<double>(f));
     }
 
-    void observer(hooks::Observer& observer, const hooks::StepContext& context) {
+    void observer(hooks::Observer& observer, const hooks::StepContext& given) {
+        const hooks::StepContext context = asked_.complete(observer, given, fixture_);
         if (context.step == 1) observer.begin(context);
         hooks::StepFigures figures;
         figures.step = context.step;
@@ -367,6 +369,7 @@ private:
     const Fixture& fixture_;
     const Exercise& how_;
     Workers workers_;
+    AskedData asked_;
     Answers answers_;
     std::string at_;
 };

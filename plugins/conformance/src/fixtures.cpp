@@ -86,6 +86,8 @@ surface::TriangleMesh with_flat_faces() {
     return mesh;
 }
 
+double scale_at(std::uint64_t step) { return 1.0 - 0.02 * static_cast<double>(step % 10); }
+
 }  // namespace
 
 Fixture ordinary() {
@@ -145,11 +147,17 @@ std::vector<Fixture> hostile_clouds() {
 Fixture at_step(const Fixture& fixture, std::uint64_t step) {
     Fixture result = fixture;
     if (step == 0 || fixture.view.positions.empty()) return result;
-    const double scale = 1.0 - 0.02 * static_cast<double>(step % 10);
+    const double scale = scale_at(step), scale_before = scale_at(step - 1);
     Vec3 centroid = Vec3::Zero();
     for (const Vec3& p : fixture.view.positions) centroid += p;
     centroid /= static_cast<double>(fixture.view.positions.size());
-    for (Vec3& p : result.view.positions) p = centroid + scale * (p - centroid);
+    for (std::size_t v = 0; v < result.view.vertex_count(); ++v) {
+        Vec3& p = result.view.positions[v];
+        result.view.previous_positions[v] = centroid + scale_before * (p - centroid);
+        p = centroid + scale * (p - centroid);
+        result.view.arrived[v] = step > 1 && result.view.births[v] % 5 == 0 ? 0 : 1;
+        result.view.age[v] = static_cast<std::uint32_t>(step - 1);
+    }
     for (double& area : result.view.face_areas) area *= scale * scale;
     result.view.mean_edge *= scale;
     return result;
@@ -161,6 +169,7 @@ Fixture moved(const Fixture& fixture, const Motion& motion) {
     result.complex = nullptr;
     const auto move = [&motion](const Vec3& p) { return Vec3(motion.rotation * p + motion.shift); };
     for (Vec3& p : result.view.positions) p = move(p);
+    for (Vec3& p : result.view.previous_positions) p = move(p);
     for (Vec3& n : result.view.normals) n = motion.rotation * n;
     for (Vec3& n : result.view.face_normals) n = motion.rotation * n;
     if (fixture.cloud) {
@@ -188,6 +197,9 @@ Fixture reordered(const Fixture& fixture, const std::vector<std::uint32_t>& orde
         to.positions[i] = from.positions[old];
         to.normals[i] = from.normals[old];
         to.movable[i] = from.movable[old];
+        to.previous_positions[i] = from.previous_positions[old];
+        to.arrived[i] = from.arrived[old];
+        to.age[i] = from.age[old];
         const auto faces = from.faces_of(old);
         to.vertex_faces.insert(to.vertex_faces.end(), faces.begin(), faces.end());
         to.face_offsets.push_back(static_cast<std::uint32_t>(to.vertex_faces.size()));

@@ -33,7 +33,9 @@ std::vector<Fixture> hostile_surfaces();
 /// distant points.
 std::vector<Fixture> hostile_clouds();
 
-/// The fixture at a step: the surface is moved a little towards its centroid.
+/// The fixture at a step: the surface is moved a little towards its centroid. Its previous
+/// positions are those of the step before, every fifth vertex has not arrived, and the ages count
+/// from 0.
 Fixture at_step(const Fixture& fixture, std::uint64_t step);
 
 /// The fixture moved as a rigid body: x becomes rotation * x + shift.

@@ -20,6 +20,7 @@ const std::vector<Test>& test_table() {
         add_determinism_tests(all);
         add_geometry_tests(all);
         add_state_tests(all);
+        add_prepare_tests(all);
         add_hostile_tests(all);
         add_policy_tests(all);
         add_resource_tests(all);

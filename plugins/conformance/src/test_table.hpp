@@ -34,6 +34,7 @@ void add_output_tests(std::vector<Test>& table);
 void add_determinism_tests(std::vector<Test>& table);
 void add_geometry_tests(std::vector<Test>& table);
 void add_state_tests(std::vector<Test>& table);
+void add_prepare_tests(std::vector<Test>& table);
 void add_hostile_tests(std::vector<Test>& table);
 void add_policy_tests(std::vector<Test>& table);
 void add_resource_tests(std::vector<Test>& table);

@@ -1,6 +1,7 @@
 #include "dsc/sdk/steps.hpp"
 
 #include <dsc/base/workers.hpp>
+#include <dsc/hooks/support.hpp>
 
 namespace dsc::sdk {
 
@@ -16,9 +17,13 @@ std::vector<Vec3> displacements(hooks::VelocityField& field, const hooks::StepCo
                                 unsigned threads, std::size_t block) {
     hooks::StepContext full = context;
     std::vector<surface::FacePoint> faces;
-    if (context.cloud != nullptr && field.needs_faces_of_points()) {
+    std::vector<double> support;
+    if (context.cloud != nullptr && (field.needs_faces_of_points() || field.needs_support()))
         surface::nearest_faces(context.surface, context.cloud->points(), faces);
-        full.faces_of_points = faces;
+    if (field.needs_faces_of_points()) full.faces_of_points = faces;
+    if (context.cloud != nullptr && field.needs_support()) {
+        hooks::measure_support(context.surface, *context.cloud, faces, support);
+        full.support = support;
     }
     field.advance(full);
     field.prepare(full);

@@ -47,6 +47,7 @@ surface::TriangleMesh split_in_four(const surface::TriangleMesh& mesh) {
 void fill_faces(const surface::TriangleMesh& mesh, surface::SurfaceView& view) {
     view.faces = mesh.faces;
     view.face_tets.assign(mesh.faces.size(), mesh::none);
+    view.face_labels.assign(mesh.faces.size(), {0, 1});
     for (const auto& [a, b, c] : mesh.faces) {
         const Vec3& p = mesh.points[a];
         const Vec3& q = mesh.points[b];
@@ -101,6 +102,9 @@ surface::SurfaceView view_of(const surface::TriangleMesh& mesh) {
     for (std::uint32_t i = 0; i < count; ++i) view.births.push_back(i);
     view.positions = mesh.points;
     view.movable.assign(count, 1);
+    view.previous_positions = view.positions;
+    view.arrived.assign(count, 1);
+    view.age.assign(count, 0);
     fill_faces(mesh, view);
     fill_vertex_faces(view);
     for (std::size_t i = 0; i < count; ++i) {

@@ -23,6 +23,7 @@ void check_same(const surface::SurfaceView& a, const surface::SurfaceView& b) {
     CHECK(a.movable == b.movable);
     CHECK(a.faces == b.faces);
     CHECK(a.face_tets == b.face_tets);
+    CHECK(a.face_labels == b.face_labels);
     CHECK(a.face_normals == b.face_normals);
     CHECK(a.face_areas == b.face_areas);
     CHECK(a.face_offsets == b.face_offsets);

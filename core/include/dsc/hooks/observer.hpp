@@ -16,9 +16,14 @@ struct StepFigures {
     double min_tet_quality = 0.0;
 };
 
+/// Reads and measures; it cannot change the run.
 class Observer : public Strategy {
 public:
     ~Observer() override;
+    /// Whether the calls need StepContext::faces_of_points.
+    virtual bool needs_faces_of_points() const { return false; }
+    /// Whether the calls need StepContext::support.
+    virtual bool needs_support() const { return false; }
     /// Called with the state before the first step. [step]
     virtual void begin(const StepContext& context) = 0;
     /// Called after each step. Returns figures for the step's row of metrics.csv. [step]

@@ -77,6 +77,10 @@ public:
     /// Whether refine() calls velocity->sample(). The velocity is prepared for it only if this is
     /// true.
     virtual bool needs_sampling() const { return false; }
+    /// Whether refine() needs StepContext::faces_of_points.
+    virtual bool needs_faces_of_points() const { return false; }
+    /// Whether refine() needs StepContext::support.
+    virtual bool needs_support() const { return false; }
     /// Whether this refinement owns the sizing: it alone decides how long edges are. While its
     /// series runs, the improvement makes no size edits, and L is what the refinement sets; L is
     /// not set to the mean edge after splits.

@@ -17,6 +17,8 @@ public:
 
     /// Whether advance() and prepare() need StepContext::faces_of_points.
     virtual bool needs_faces_of_points() const { return false; }
+    /// Whether advance() and prepare() need StepContext::support.
+    virtual bool needs_support() const { return false; }
 
     /// Called exactly once per step, before prepare(). Use it to update state that continues from
     /// one step to the next, and for work to be done once per step. The context outlives the

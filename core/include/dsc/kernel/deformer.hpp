@@ -138,6 +138,10 @@ public:
     StepReport step(std::span<const mesh::VertexId> vertices, std::span<const Vec3> displacements,
                     const RepairPolicy& policy);
 
+    /// Births of the vertices that did not reach their destination in the last step, in no
+    /// particular order; a birth may occur twice. Valid until the next step; empty after load().
+    std::span<const std::uint32_t> not_arrived() const;
+
     /// Skips requests whose simplex no longer exists and requests that an invariant forbids. If
     /// something was split and the sizing is not owned, L becomes the new mean interface edge, the
     /// same everywhere. [step]

@@ -126,6 +126,9 @@ public:
     std::uint32_t clock() const { return clock_; }
     /// Number of the vertex in the order of creation; it survives renumbering and resuming.
     std::uint32_t birth(VertexId v) const { return vertices_[v].birth; }
+    /// Birth of the vertex that will be created next: greater than all births so far. A birth is
+    /// never used again.
+    std::uint32_t next_birth() const { return next_birth_; }
 
     Box3 box() const { return box_; }
     bool on_box(VertexId v) const { return vertices_[v].on_box != 0; }

@@ -14,12 +14,12 @@ namespace dsc::surface {
 
 /// A snapshot of the interface of a complex. Vertices are in birth order; faces are in the order of
 /// their least vertex and then of the other two. The same complex gives the same view, whatever its
-/// slots. Indices below are view indices.
+/// slots. Indices below are view indices. A view is valid until the next change of the complex.
 struct SurfaceView {
     std::vector<mesh::VertexId> vertex_ids;  ///< complex vertex of each view vertex
     std::vector<std::uint32_t> births;  ///< birth id of each view vertex, ascending; keys of random
-                                        ///< streams
-    std::vector<Vec3> positions;
+                                        ///< streams. A birth id is never used again in a run
+    std::vector<Vec3> positions;        ///< of the vertices
     std::vector<Vec3> normals;  ///< unit, out of the larger label; mean of the unit normals of the
                                 ///< faces round the vertex; zero if they cancel
     std::vector<std::uint8_t> movable;  ///< 0 on the box and where three labels or more meet
@@ -30,8 +30,26 @@ struct SurfaceView {
     std::vector<double> face_areas;
     std::vector<std::uint32_t> face_offsets;  ///< faces of vertex i: vertex_faces[face_offsets[i]
                                               ///< .. face_offsets[i+1])
-    std::vector<std::uint32_t> vertex_faces;
-    double mean_edge = 0.0;
+    std::vector<std::uint32_t> vertex_faces;  ///< faces round each vertex, ascending
+    double mean_edge = 0.0;                   ///< mean over the three edges of all faces
+    /// Labels on the two sides of each face: first the smaller one, into which the face's normal
+    /// points, then the larger one, which is that of `face_tets`. The outside of the box has label
+    /// 0.
+    std::vector<std::array<mesh::Label, 2>> face_labels;
+
+    /// Position of each vertex at the start of the last step; positions - previous_positions is its
+    /// motion since then. It is the vertex' own position if the vertex was not on the interface
+    /// then, or if there has been no step.
+    std::vector<Vec3> previous_positions;
+    /// 1 if the vertex reached its destination in the last step, 0 if the kernel dropped a part of
+    /// its motion. 1 also for vertices that had no destination: those made since, those without a
+    /// displacement, and those that are not movable. A destination outside the box shrunk by 2 L is
+    /// moved to it first.
+    std::vector<std::uint8_t> arrived;
+    /// Number of steps completed since the step (or the refinement after it) that made the vertex:
+    /// 0 for a vertex that the last step or a refinement after it made. The vertices of the initial
+    /// mesh belong to step 0.
+    std::vector<std::uint32_t> age;
 
     std::size_t vertex_count() const { return vertex_ids.size(); }
     std::size_t face_count() const { return faces.size(); }
@@ -56,6 +74,7 @@ public:
     struct Face {
         std::array<mesh::VertexId, 3> vertices;
         mesh::TetId tet;
+        std::array<mesh::Label, 2> labels;  ///< as SurfaceView::face_labels
     };
 
     /// The faces that the vertex leads, in the order of a view, if its star has not changed;
@@ -90,7 +109,9 @@ private:
     std::vector<Face> faces_;
 };
 
-/// Fills `view` and reuses its memory. The cost grows with the interface, not with the volume.
+/// Fills `view` and reuses its memory. previous_positions, arrived and age become those of vertices
+/// that have made no step; the run replaces them. The cost grows with the interface, not with the
+/// volume.
 /// `workers`, null for one thread, share the walks. With `memory`, only vertices whose star has
 /// changed since the last view are visited; the view is the same. [step]
 void build_view(const mesh::Complex& complex, SurfaceView& view, Workers* workers = nullptr,

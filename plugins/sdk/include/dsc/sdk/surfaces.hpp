@@ -16,7 +16,8 @@ surface::TriangleMesh icosphere(unsigned level, double radius);
 /// is open.
 surface::TriangleMesh square(unsigned n, double half);
 
-/// The view of any oriented triangle mesh; every vertex is movable, and births count from 0.
+/// The view of any oriented triangle mesh between the labels 0 (outside) and 1; every vertex is
+/// movable and has made no step, and births count from 0.
 /// `vertex_ids` and `face_tets` do not belong to a complex.
 surface::SurfaceView view_of(const surface::TriangleMesh& mesh);
 
