@@ -72,7 +72,8 @@ std::string report_html(const std::filesystem::path& run_folder, const plugin::C
             headline_section(record) + warnings_section(record) + coverage_section(record) +
             notes_section(record) + viewer_section(record, scene) + thesis_section(record) +
             plots_section(record, scene) + time_section(record) + topology_section(record) +
-            cloud_section(record) + config_section(record) + provenance_section(record);
+            refinement_section(record) + cloud_section(record) + config_section(record) +
+            provenance_section(record);
         return report_page(record.name(), subtitle(record), body);
     });
 }

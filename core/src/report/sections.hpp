@@ -20,6 +20,8 @@ std::string thesis_section(const RunRecord& record);
 std::string plots_section(const RunRecord& record, const Scene& scene);
 std::string time_section(const RunRecord& record);
 std::string topology_section(const RunRecord& record);
+/// What each refinement asked for, and what is left of it; empty without refinements.
+std::string refinement_section(const RunRecord& record);
 /// Statistics of the cloud and figures of the initial mesh; empty if there are neither.
 std::string cloud_section(const RunRecord& record);
 std::string config_section(const RunRecord& record);

@@ -17,6 +17,9 @@ std::string csv_header(const StepMetrics& row) {
     std::string text;
     for (const MetricsColumn& column : metrics_columns)
         (text += text.empty() ? "" : ",") += column.name;
+    if (row.refinement) {
+        for (const MetricsColumn& column : refinement_columns) (text += ",") += column.name;
+    }
     for (const auto& [figure, value] : row.observers) text += "," + figure;
     return text + "\n";
 }
@@ -26,6 +29,9 @@ std::string csv_row(const StepMetrics& row, std::size_t observer_columns) {
     for (const MetricsColumn& column : metrics_columns) {
         if (!text.empty()) text += ",";
         column.append(text, row);
+    }
+    if (row.refinement) {
+        for (const MetricsColumn& column : refinement_columns) column.append(text += ",", row);
     }
     for (const auto& [figure, value] : row.observers) append_cell(text += ",", value);
     for (std::size_t i = row.observers.size(); i < observer_columns; ++i) text += ",";

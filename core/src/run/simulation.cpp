@@ -8,6 +8,7 @@
 
 #include "initial_complex.hpp"
 #include "refinement.hpp"
+#include "refinement_watch.hpp"
 #include "saved_run.hpp"
 #include "step_data.hpp"
 #include "step_figures.hpp"
@@ -45,6 +46,7 @@ public:
                                                      workers_, result_.totals),
                                      {}, &workers_)
                   : kernel::Deformer::load(resumed_, {}, &workers_)),
+          watch_(experiment),
           data_(deformer_, {experiment.seed, options.cancel, cloud}, workers_) {
         // Every step asks again. Asked here too, an improvement with invalid answers ends the run
         // before its first step.
@@ -135,6 +137,7 @@ private:
     void finish() {
         RunTotals& totals = result_.totals;
         totals.target_length = deformer_.target_length();
+        totals.refinement_items = watch_.figures();
         for (std::size_t i = 0; i < strategies_.observers.size(); ++i) {
             hooks::Observer& observer = *strategies_.observers[i];
             totals.observers.emplace_back(experiment_.observers[i].type,
@@ -155,7 +158,7 @@ private:
         size_edits_ = !owned;
         quality_floor_ = owned ? std::optional(kernel::refinement_floor) : std::nullopt;
         if (!item.steps) {
-            refine(*refinement);
+            watch_.comes_too_late(place_.item) ? skip() : refine(*refinement);
             return next_item();
         }
         if (place_.steps == 0) result_.totals.status = Status::max_steps;
@@ -210,6 +213,7 @@ private:
         deformer_.save(out);
         out.value(place_);
         data_.history().save(out);
+        watch_.save(out);
         save(out, result_.totals);
         save(out, strategies_);
         options_.on_checkpoint(out.take(), deformer_.step_count());
@@ -218,6 +222,7 @@ private:
     void go_on() {
         resumed_.value(place_);
         data_.history().load(resumed_);
+        watch_.load(resumed_);
         load(resumed_, result_.totals);
         load(resumed_, strategies_);
         refresh_view();
@@ -286,6 +291,7 @@ private:
         const bool sampling = refinement.needs_sampling();
         const unsigned passes = refinement.passes();
         ++result_.totals.refinements;
+        watch_.begin(deformer_.complex().next_birth());
         bool asked = true;
         for (unsigned pass = 0; pass < passes && asked; ++pass) {
             const hooks::StepContext context = make_refinement_context(refinement, sampling);
@@ -303,9 +309,22 @@ private:
             result_.totals.refine_requested += report.requested;
             result_.totals.refine_committed += report.committed;
             result_.totals.refine_edits.add(report);
+            watch_.add(report.requested, report.committed);
             asked = report.requested > 0 || !requests.relabel.empty();
             asked ? refresh_view() : data_.refresh_fields();
         }
+        watch_.end(place_.item, deformer_.step_count(), data_.view());
+    }
+
+    /// Skips the refinement of the current item: no step would repair and move what it makes.
+    void skip() {
+        watch_.skip(place_.item);
+        result_.totals.warnings.push_back(
+            {"refinement.skipped",
+             "schedule." + std::to_string(place_.item) + ".refine: the refinement '" +
+                 experiment_.schedule[place_.item].refine.type +
+                 "' comes after the last step and was skipped, because no step would repair and "
+                 "move what it makes. Write {steps: N} after it, or remove it."});
     }
 
     void relabel(const hooks::StepContext& context, const hooks::RefinementRequests& requests) {
@@ -317,8 +336,10 @@ private:
             labels.push_back(static_cast<mesh::Label>(label));
         }
         std::vector<kernel::Event> events;
+        const std::size_t committed = deformer_.relabel(tets, labels, policy(context), events);
         result_.totals.refine_requested += tets.size();
-        result_.totals.refine_committed += deformer_.relabel(tets, labels, policy(context), events);
+        result_.totals.refine_committed += committed;
+        watch_.add(tets.size(), committed);
         for (const kernel::Event& event : events) {
             result_.totals.events.add(event.kind);
             tell(event);
@@ -327,6 +348,7 @@ private:
 
     void measure_row(StepMetrics& row) {
         const Timed timed(result_.totals.seconds.measure);
+        row.refinement = watch_.row(deformer_.step_count(), data_.view());
         measure_state(deformer_.complex(), data_.view(), cloud_, data_.nearest(), workers_, row);
     }
 
@@ -388,6 +410,7 @@ private:
     SchedulePlace place_;
     StateReader resumed_;
     kernel::Deformer deformer_;
+    RefinementWatch watch_;
     StepData data_;
     std::vector<Vec3> displacements_;
     bool size_edits_ = true;  // these three: of the current series, for the policy

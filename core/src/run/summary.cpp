@@ -185,6 +185,23 @@ ordered_json observers(const RunTotals& totals) {
     return all;
 }
 
+/// One entry per item of the schedule with a refinement.
+ordered_json refinement_items(const SummaryParts& parts) {
+    ordered_json all = ordered_json::array();
+    for (const RefinementFigures& f : parts.outcome.totals.refinement_items) {
+        all.push_back({{"item", f.item},
+                       {"type", parts.loaded.experiment.schedule[f.item].refine.type},
+                       {"calls", f.calls},
+                       {"skipped", f.skipped},
+                       {"requested", f.requested},
+                       {"committed", f.committed},
+                       {"vertices_made", f.made},
+                       {"vertices_followed", f.followed},
+                       {"vertices_present", f.present}});
+    }
+    return all;
+}
+
 }  // namespace
 
 std::string summary_json(const SummaryParts& parts) {
@@ -251,7 +268,8 @@ std::string summary_json(const SummaryParts& parts) {
           {"splits", counts_row(totals.refine_edits.splits)},
           {"collapses", counts_row(totals.refine_edits.collapses)},
           {"flips", counts_row(totals.refine_edits.flips)},
-          {"moves", counts_row(totals.refine_edits.moves)}}},
+          {"moves", counts_row(totals.refine_edits.moves)},
+          {"items", refinement_items(parts)}}},
         {"operations", operations(totals)},
         {"repair_classes", repair_classes(totals)},
         {"observers", observers(totals)},

@@ -222,6 +222,15 @@ TEST_CASE("metrics: empty cells without a cloud, columns of observers") {
     CHECK(run::csv_row(row) == "3,0,0,0,0,0.1,0,0,,,,0,0,0,0,0,0,0,0,0,0,0,0.5\n");
     row.observers.clear();
     CHECK(run::csv_row(row, 1) == "3,0,0,0,0,0.1,0,0,,,,0,0,0,0,0,0,0,0,0,0,0,\n");
+    CHECK(header.find("refine") == std::string::npos);
+    row.refinement = {.requested = 9, .committed = 8, .made = 7, .present = 6.0};
+    CHECK(run::csv_header(row).find(
+              ",events,refine_requested,refine_committed,refine_made,refine_present\n") !=
+          std::string::npos);
+    CHECK(run::csv_row(row, 1) == "3,0,0,0,0,0.1,0,0,,,,0,0,0,0,0,0,0,0,0,0,0,9,8,7,6,\n");
+    row.refinement->present.reset();
+    CHECK(run::csv_row(row) == "3,0,0,0,0,0.1,0,0,,,,0,0,0,0,0,0,0,0,0,0,0,9,8,7,\n");
+    row.refinement.reset();
     const auto commas = [](const std::string& text) {
         return std::count(text.begin(), text.end(), ',');
     };
@@ -239,6 +248,10 @@ TEST_CASE("metrics: a column has the cell of its figure, and a row of the docume
     const std::string page = read_file(std::string(DSC_SOURCE_DIR) + "/share/doc/experiment.md");
     std::string table;
     for (const run::MetricsColumn& column : run::metrics_columns) {
+        table += "| `" + std::string(column.name) + "` | " + std::string(column.unit) + " | " +
+                 std::string(column.meaning) + " |\n";
+    }
+    for (const run::MetricsColumn& column : run::refinement_columns) {
         table += "| `" + std::string(column.name) + "` | " + std::string(column.unit) + " | " +
                  std::string(column.meaning) + " |\n";
     }

@@ -117,13 +117,13 @@ struct Fixture {
 TEST_CASE(
     "advance runs once per step, and only a refinement that samples prepares the velocity again") {
     for (const bool sampling : {false, true}) {
-        Fixture f("[{steps: 3, every: 1, refine: {type: all}}, {refine: {type: all}}]");
+        Fixture f("[{refine: {type: all}}, {steps: 3, every: 1, refine: {type: all}}]");
         for (auto& r : f.strategies.refinements) static_cast<Remesher&>(*r).sampling = sampling;
         f.simulate();
         CHECK(f.velocity->advances == 3);
         CHECK(f.velocity->wrong == 0);
-        CHECK(f.velocity->order == (sampling ? "appappappp" : "apapap"));
-        CHECK(f.refinement->with_velocity == (sampling ? 1 : 0));
+        CHECK(f.velocity->order == (sampling ? "pappappapp" : "apapap"));
+        CHECK(f.refinement->with_velocity == (sampling ? 3 : 0));
     }
 }
 
@@ -193,7 +193,7 @@ TEST_CASE("where a refinement owns the sizing, steps leave no tet below 0.02; el
 TEST_CASE("attributes are carried to the end of the run, and a run that was stopped goes on to the "
           "same bytes") {
     const std::string schedule =
-        "[{steps: 4, every: 2, refine: {type: all}}, {refine: {type: all}}]";
+        "[{steps: 4, every: 2, refine: {type: all}}, {refine: {type: all}}, {steps: 1}]";
     std::map<std::uint64_t, std::string> states;
     run::SimulationOptions options;
     options.checkpoint_every = 1;
@@ -212,7 +212,7 @@ TEST_CASE("attributes are carried to the end of the run, and a run that was stop
     };
     remesh(f);
     const run::SimulationResult whole = f.simulate(options);
-    CHECK(with_attributes == 4);
+    CHECK(with_attributes == 5);
     CHECK(f.refinement->with_height == 1);
     REQUIRE(whole.attributes.size() == 1);
     CHECK(whole.attributes[0].name == "height");

@@ -50,6 +50,23 @@ struct RefinementCounts {
     void add(const kernel::RefineReport& report);
 };
 
+/// Number of steps after which the vertices that a refinement made are counted again.
+inline constexpr std::uint64_t refinement_watch_steps = 5;
+
+/// What the refinement of one item of the schedule did, over all its calls.
+struct RefinementFigures {
+    std::uint64_t item = 0;       ///< index in the schedule
+    std::uint64_t calls = 0;      ///< number of times that it ran
+    std::uint64_t skipped = 0;    ///< number of times that it was skipped after the last step
+    std::uint64_t requested = 0;  ///< changes of the mesh that it asked for
+    std::uint64_t committed = 0;  ///< those of them that were made
+    std::uint64_t made = 0;  ///< vertices born while it ran that lay on the interface at its end
+    std::uint64_t followed = 0;  ///< those of them that were made at least refinement_watch_steps
+                                 ///< steps before the end of the run
+    std::uint64_t present = 0;   ///< those of the followed ones that were still on the interface
+                                 ///< refinement_watch_steps steps later
+};
+
 /// Sums over all steps, normalised units.
 struct RunTotals {
     std::uint64_t steps = 0;
@@ -69,6 +86,8 @@ struct RunTotals {
     std::uint64_t refine_requested = 0;
     std::uint64_t refine_committed = 0;
     RefinementCounts refine_edits;
+    std::vector<RefinementFigures> refinement_items;  ///< one per item with a refinement; filled at
+                                                      ///< the end of the run
     kernel::OperationTable operations{};
     kernel::RepairClassTable repair_classes{};
     std::vector<std::string> repair_class_names;  ///< names of the first entries of repair_classes

@@ -13,6 +13,15 @@
 
 namespace dsc::run {
 
+/// The figures of the refinements of a run in one row: those between the step before and the row's
+/// step, and what is left of those five steps ago.
+struct RefinementRow {
+    std::uint64_t requested = 0;
+    std::uint64_t committed = 0;
+    std::uint64_t made = 0;
+    std::optional<double> present;
+};
+
 /// A row of metrics.csv, normalised units; metrics_columns says what each figure means. Row 0 is
 /// the state before the first step.
 struct StepMetrics {
@@ -38,6 +47,8 @@ struct StepMetrics {
     double relabelled_volume = 0.0;
     std::uint64_t committed = 0;
     std::size_t events = 0;
+    std::optional<RefinementRow> refinement;  ///< in all rows if the schedule contains a
+                                              ///< refinement, else in none
     std::vector<std::pair<std::string, double>> observers;  ///< "observers.ID.figure"; the last
                                                             ///< columns
 };
@@ -70,8 +81,8 @@ struct MetricsColumn {
     void (*append)(std::string& text, const StepMetrics& row);  ///< appends the row's cell
 };
 
-/// The columns in their order; the figures of observers follow. Header line, rows, reports and
-/// documentation use this table.
+/// The columns in their order; those of refinements and the figures of observers follow. Header
+/// line, rows, reports and documentation use this table.
 inline constexpr std::array<MetricsColumn, 22> metrics_columns = {{
     {"step", "-", "number of the step; 0 is the state before the first step",
      append_figure<&StepMetrics::step>},
@@ -116,6 +127,26 @@ inline constexpr std::array<MetricsColumn, 22> metrics_columns = {{
     {"committed", "-", "operations that were committed in the step",
      append_figure<&StepMetrics::committed>},
     {"events", "-", "topology changes in the step", append_figure<&StepMetrics::events>},
+}};
+
+/// Appends the cell of one figure of the row's refinements.
+template <auto Figure>
+void append_refinement(std::string& text, const StepMetrics& row) {
+    if (row.refinement) append_cell(text, (*row.refinement).*Figure);
+}
+
+/// The columns of a run with a refinement; they follow metrics_columns.
+inline constexpr std::array<MetricsColumn, 4> refinement_columns = {{
+    {"refine_requested", "-", "changes that refinements requested since the step before",
+     append_refinement<&RefinementRow::requested>},
+    {"refine_committed", "-", "those of them that were committed",
+     append_refinement<&RefinementRow::committed>},
+    {"refine_made", "-", "vertices of the interface that these refinements made",
+     append_refinement<&RefinementRow::made>},
+    {"refine_present", "-",
+     "vertices that refinements made five steps before and that are still on the interface; empty "
+     "if there was no refinement then",
+     append_refinement<&RefinementRow::present>},
 }};
 
 /// The name of the column of a figure, for code that reads metrics.csv:
