@@ -274,9 +274,11 @@ def paper_keys(tree):
 
 
 def linked_pages(tree):
-    """A relative link in a page leads to a file that exists."""
+    """A relative link in a page leads to a file that exists. A block of code has no links: a lambda only looks like one."""
+    fenced = False
     for path, number, line in tree.lines({".md"}):
-        for target in re.findall(r"\]\(([^)#\s]+)", line):
+        fenced = line.startswith("```") != (fenced and number > 1)
+        for target in [] if fenced else re.findall(r"\]\(([^)#\s]+)", line):
             if "://" not in target and not target.startswith("mailto:"):
                 if not (tree.root / os.path.dirname(path) / target).exists():
                     yield path, number, f"{target} does not exist"

@@ -29,9 +29,12 @@ class Install(unittest.TestCase):
             self.assertTrue(strategy["file"].startswith(str(package.PREFIX)), strategy)
         self.assertTrue((package.PREFIX / "share/dsc/data/teapot.bpt").is_file())
 
-    def test_man_page_completion_and_workflow_are_there(self):
+    def test_man_page_completion_pages_and_workflow_are_there(self):
         for file in ("share/man/man1/dsc.1", "share/bash-completion/completions/dsc", "share/dsc/workflow/Snakefile"):
             self.assertTrue((package.PREFIX / file).is_file(), file)
+        for page in sorted((package.SOURCE / "share/doc").rglob("*.md")):
+            installed = package.PREFIX / "share/doc/dsc" / page.relative_to(package.SOURCE / "share/doc")
+            self.assertEqual(installed.read_bytes(), page.read_bytes(), page)
         point = package.PREFIX / "share/dsc/workflow/run_point.sh"
         self.assertIn("expected a folder of a point", package.run([point], expect=2))
 

@@ -4,6 +4,7 @@
 A block of the language sh is run. A block after a comment <!-- file: NAME --> is written to that file.
 """
 
+import csv
 import json
 import re
 import unittest
@@ -22,6 +23,20 @@ def steps():
 
 
 class Tutorial(unittest.TestCase):
+    def examples(self, run):
+        """What the page says about the project with three strategies."""
+        with open(run / "metrics.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        areas = [float(row["observers.label_area.area_1"]) for row in rows[1:]]
+        self.assertEqual(len(areas), 15)
+        self.assertLess(areas[5], areas[4])  # the refinement after step 5 has removed a part of the ball
+        asked = int(rows[6]["refine_requested"])
+        self.assertGreater(asked, 20)
+        self.assertEqual(rows[5]["refine_requested"], "0")
+        items = json.loads((run / "summary.json").read_text())["refinements"]["items"]
+        self.assertEqual([(item["type"], item["item"], item["calls"], item["requested"]) for item in items], [("shave", 1, 1, asked)])
+        self.assertEqual(items[0]["committed"], int(rows[6]["refine_committed"]))
+
     def test_every_command_works(self):
         folder = package.fresh_folder("tutorial")
         commands = 0
@@ -35,6 +50,7 @@ class Tutorial(unittest.TestCase):
         for run, volume in (("run", 1.413), ("shrinking", 0.702)):  # the figures of the page
             summary = json.loads((folder / "steady" / run / "summary.json").read_text())
             self.assertAlmostEqual(summary["volume"], volume, places=3)
+        self.examples(folder / "three/run")
         self.assertTrue((folder / "steady.png").stat().st_size > 1000)
         self.assertIn("steady", package.run(["dsc", "plugin", "list"], folder))
         (package.SCRATCH / "home/.local/share/dsc/plugins/libdsc_steady.so").unlink()

@@ -10,24 +10,24 @@ namespace {
 
 constexpr std::uint64_t steps_of_run = 3;
 
-std::string saved(const hooks::Strategy& strategy) {
+std::string state_of(const hooks::Strategy& strategy) {
     std::ostringstream out(std::ios::binary);
     strategy.save(out);
     return out.str();
 }
 
 void require_unchanged(const hooks::Strategy& strategy, const std::string& before) {
-    require(saved(strategy) == before,
+    require(state_of(strategy) == before,
             "prepare() changes what save() writes; only advance() may change the state");
 }
 
 // prepare() with the same context changes nothing that save() writes.
-void state(const Subject& subject) {
+void keep_state(const Subject& subject) {
     subject.require_repeatable();
     const auto strategy = subject.make();
     for (std::uint64_t step = 1; step <= steps_of_run; ++step) {
         exercise(subject.kind(), *strategy, subject.fixture(), {.first_step = step, .steps = 1});
-        const std::string before = saved(*strategy);
+        const std::string before = state_of(*strategy);
         const Fixture now = at_step(subject.fixture(), step);
         const hooks::StepContext context = context_of(now, step, {}, nullptr);
         AskedData asked;
@@ -72,14 +72,14 @@ Trace visit(plugin::Kind kind, hooks::Strategy& strategy, const Fixture& fixture
     return values;
 }
 
-void require_same(const Trace& a, const Trace& b, const std::string& otherwise) {
+void require_equal(const Trace& a, const Trace& b, const std::string& otherwise) {
     if (const auto difference = Trace::difference(a, b))
         throw Failed(otherwise + ": " + *difference);
 }
 
 // A refinement that samples before the first step and after each step, on a surface of another
 // size, has no influence on the steps. What it reads depends only on the state and its surface.
-void refinement(const Subject& subject) {
+void between_steps(const Subject& subject) {
     subject.require_repeatable();
     const plugin::Kind kind = subject.kind();
     const auto alone = subject.make();
@@ -91,16 +91,16 @@ void refinement(const Subject& subject) {
     visit(kind, *visited, other, 0);
     for (std::uint64_t step = 1; step <= steps_of_run; ++step) {
         const Exercise how{.first_step = step, .steps = 1};
-        require_same(exercise(kind, *alone, subject.fixture(), how).trace,
-                     exercise(kind, *visited, subject.fixture(), how).trace,
-                     "a refinement that calls prepare() between two steps changes the answers of "
-                     "the next step; only advance() may change the state");
+        require_equal(exercise(kind, *alone, subject.fixture(), how).trace,
+                      exercise(kind, *visited, subject.fixture(), how).trace,
+                      "a refinement that calls prepare() between two steps changes the answers of "
+                      "the next step; only advance() may change the state");
         const auto resumed = subject.make();
-        std::istringstream in(saved(*visited), std::ios::binary);
+        std::istringstream in(state_of(*visited), std::ios::binary);
         resumed->load(in);
-        require_same(visit(kind, *visited, other, step), visit(kind, *resumed, other, step),
-                     "after a step and in a resumed run it gives a refinement different values; "
-                     "prepare() must compute all that they depend on, except the state");
+        require_equal(visit(kind, *visited, other, step), visit(kind, *resumed, other, step),
+                      "after a step and in a resumed run it gives a refinement different values; "
+                      "prepare() must compute all that they depend on, except the state");
     }
 }
 
@@ -110,12 +110,12 @@ void add_prepare_tests(std::vector<Test>& table) {
     add(table,
         {"prepare.state", Level::standard, false,
          "prepare() changes nothing that a checkpoint contains; advance() does."},
-        state, per_vertex);
+        keep_state, per_vertex);
     add(table,
         {"prepare.refinement", Level::standard, false,
          "A refinement may call prepare() for another surface before the first step and between "
          "steps, without influence on the steps."},
-        refinement, per_vertex);
+        between_steps, per_vertex);
 }
 
 }  // namespace dsc::conformance

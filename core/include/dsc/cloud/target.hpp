@@ -13,50 +13,55 @@
 
 namespace dsc::cloud {
 
-/// Immutable; copies share the points and the tree. All methods may be called from several threads
-/// at once.
+/// The points with what was measured of them, in normalised units. It does not change during a run,
+/// so pointers to it stay valid; copies share the points and the tree. All methods may be called
+/// from several threads at once.
 class TargetCloud {
 public:
     /// Builds the search tree. Attributes that do not have one entry per point are left out. Throws
     /// as NearestSearch. [setup]
     explicit TargetCloud(const Normalized& normalized);
 
-    /// Normalised points, in the order of the cloud. [parallel]
+    /// The points, in the order of the cloud. [P x 3; n] [parallel]
     std::span<const Vec3> points() const noexcept { return search_->points(); }
+    /// Number of points, P. [1; -] [parallel]
     std::size_t size() const noexcept { return points().size(); }
+    /// One point. [3; n] [parallel]
     const Vec3& operator[](std::size_t index) const { return points()[index]; }
-    /// Search for nearest points. [parallel]
+    /// Search for the nearest points of any place (dsc/cloud/search.hpp). [-; -] [parallel]
     const NearestSearch& search() const noexcept { return *search_; }
     /// The neighbour distance: the distance from a point to its sixth neighbour (a vertex of a
     /// triangulated surface has about six). Coinciding points count once. 0 if fewer than two
-    /// points are distinct. The first call computes all values. [parallel]
+    /// points are distinct. The first call computes all values. [1; n] [parallel]
     double neighbour_distance(std::size_t index) const;
-    /// From the input's units to normalised units. [parallel]
+    /// From the input's units to normalised units. [-; -] [parallel]
     const Transform& transform() const noexcept { return transform_; }
-    /// Colours in the order of the points; empty if the input has none. [parallel]
+    /// Colours of the points. Empty if the input has none. [P; -] [parallel]
     std::span<const Colour> colours() const noexcept { return attributes_->colours; }
-    /// Unit vectors that point out of the solid, areas in squared normalised units, and the
-    /// confidence of the normals, 0 to 1; one per point, or empty if no filter added them.
-    /// [parallel]
+    /// Unit normals out of the solid. Empty if no filter added them. [P x 3; -] [parallel]
     std::span<const Vec3> normals() const noexcept { return attributes_->normals; }
+    /// Area vectors: normals, each as long as the area that its point represents. Empty if no
+    /// filter added them. [P x 3; n^2] [parallel]
     std::span<const Vec3> areas() const noexcept { return attributes_->areas; }
+    /// Confidence of the normals, 0 to 1. Empty if no filter added them. [P; -] [parallel]
     std::span<const double> confidence() const noexcept { return attributes_->confidence; }
-    /// The orientation in normalised units; empty without the filter `orient`. [parallel]
+    /// Oriented samples that say what is inside. Empty without the filter `orient`. [-; -]
+    /// [parallel]
     const Orientation& orientation() const noexcept { return attributes_->orientation; }
 
-    /// Statistics of the points, in normalised units. The first call computes all of them, with the
-    /// given workers; a call from inside a parallel block must not pass workers. The result does
-    /// not depend on them. [parallel]
+    /// Statistics of the points (dsc/cloud/statistics.hpp). The first call computes all of them,
+    /// with the given workers; a call from inside a parallel block must not pass workers. The
+    /// result does not depend on them. [-; -] [parallel]
     const Statistics& statistics(Workers* workers = nullptr) const;
-    /// The spacing, which is the square root of the area per point, at a point: from its 12th
-    /// neighbour and from its 8th; see
-    /// Statistics. [parallel]
+    /// The spacing: square root of the area per point at a point, from its 12th neighbour.
+    /// [1; n] [parallel]
     double point_width(std::size_t index) const { return statistics().point_width[index]; }
+    /// The same from the 8th neighbour; see Statistics. [1; n] [parallel]
     double label_width(std::size_t index) const { return statistics().label_width[index]; }
-    /// Standard deviation of the points across the surface. [parallel]
+    /// Standard deviation of the points across the surface. [1; n] [parallel]
     double noise() const { return statistics().noise; }
 
-    /// Box of the normalised points. [parallel]
+    /// Box of the points. [-; n] [parallel]
     const Box3& box() const noexcept { return box_; }
 
 private:

@@ -11,12 +11,17 @@
 
 namespace dsc::hooks {
 
-/// What a filter may read in addition to the cloud.
+/// What a filter may read in addition to the cloud, which is in the units of the file. It is valid
+/// until apply() returns.
 struct FilterContext {
+    /// Seed of the experiment. [1; -]
     std::uint64_t seed = 0;
-    std::uint64_t instance = 0;  ///< stream id of this filter's place in the experiment
+    /// Stream id of this filter's place in the experiment; see InitialMeshContext. [1; -]
+    std::uint64_t instance = 0;
+    /// Says whether the run shall stop. May be null. [-; -]
     const CancelToken* cancel = nullptr;
-    Workers* workers = nullptr;  ///< for the filter's own loops (dsc::for_blocks); null: one thread
+    /// Threads for own loops, with dsc::for_blocks(). Null: one thread. [-; -]
+    Workers* workers = nullptr;
 };
 
 /// Drops points (and reports how many and why), moves them, or adds attributes. Lengths are in the

@@ -27,65 +27,74 @@ struct Range {
     std::size_t size() const { return end - begin; }
 };
 
-/// What a call of a strategy can read, in normalised units. All references, pointers and spans are
-/// valid until the call returns; a velocity or curvature may keep them from prepare() until its
-/// last evaluate(), sample() or publish() call of the step.
+/// What a call of a strategy can read, in normalised units. References, pointers and spans are
+/// valid until the call returns; a velocity or curvature may use those of its last prepare() until
+/// the end of the step, which is the last evaluate(), sample() or publish().
 struct StepContext {
     /// Number of the step. Steps count from 1; 0 is the state before the first step. The calls of a
-    /// velocity, its curvature and the improvement get the step that is being made; observers and
-    /// refinements get the last completed step.
+    /// step (advance, prepare, evaluate, publish, propose, select, and the calls of a curvature)
+    /// get the step that is being made. Observers and refinements, and prepare() for a refinement,
+    /// get the last completed step. [1; -]
     std::uint64_t step = 0;
-    const surface::SurfaceView& surface;  ///< the interface before the step that is being made, or
-                                          ///< after the last completed step
-    const cloud::TargetCloud* cloud = nullptr;  ///< null when the experiment has no input cloud
-    std::span<const cloud::Neighbour> nearest = {};  ///< nearest cloud point of each view vertex;
-                                                     ///< empty without a cloud and in tests; see
-                                                     ///< nearest_point()
-    double target_length = 0.0;                      ///< L, the wanted length of an interface edge
-    Box3 box;                                        ///< box that the tets fill
-    cloud::Transform to_normalised{};     ///< from the units of the input to normalised units; the
-                                          ///< identity without input
-    std::uint64_t seed = 0;               ///< of the experiment; use random()
-    std::uint64_t instance = 0;           ///< stream id of this strategy's place in the experiment
-    const CancelToken* cancel = nullptr;  ///< see cancelled()
-    Workers* workers = nullptr;  ///< for own loops outside evaluate() (dsc::for_blocks); null: one
-                                 ///< thread
-    std::uint64_t planned_steps = 0;  ///< last step of the run, from the velocity or the schedule;
-                                      ///< 0: unknown
-    std::span<const double> target_lengths = {};  ///< target length of each view vertex; empty
-                                                  ///< where it is L everywhere
-    /// For each point of the cloud the nearest place on the surface. Filled in the calls of a
-    /// velocity, refinement or observer whose needs_faces_of_points() returns true; it may be
-    /// empty in all other calls, and it is empty without a cloud or a face.
+    /// The interface: before its motion in the calls of a step, and as it is now for observers and
+    /// refinements. [-; -]
+    const surface::SurfaceView& surface;
+    /// The points. Null when the experiment has no input cloud. [-; -]
+    const cloud::TargetCloud* cloud = nullptr;
+    /// Nearest point of the cloud for each vertex. Empty without a cloud, and in tests;
+    /// nearest_point() searches then. [V; index and n]
+    std::span<const cloud::Neighbour> nearest = {};
+    /// L, the wanted length of an interface edge. [1; n]
+    double target_length = 0.0;
+    /// The box that the tets fill. [-; n]
+    Box3 box;
+    /// From the units of the input to normalised units; the identity without input. Its inverse
+    /// leads back. [-; -]
+    cloud::Transform to_normalised{};
+    /// Seed of the experiment; use random(). [1; -]
+    std::uint64_t seed = 0;
+    /// Stream id of this strategy's place in the experiment; random() uses it. [1; -]
+    std::uint64_t instance = 0;
+    /// Says whether the run shall stop; see cancelled(). May be null. [-; -]
+    const CancelToken* cancel = nullptr;
+    /// Threads for own loops outside evaluate(), with dsc::for_blocks(). Null: one thread. [-; -]
+    Workers* workers = nullptr;
+    /// Last step of the run, from the velocity or the schedule; 0: unknown. [1; -]
+    std::uint64_t planned_steps = 0;
+    /// Target length of each vertex. Empty where it is L everywhere. [V; n]
+    std::span<const double> target_lengths = {};
+    /// Nearest place on the surface for each point of the cloud. Filled in the calls of a velocity,
+    /// refinement or observer whose needs_faces_of_points() returns true; it may be empty in all
+    /// other calls. Empty without a cloud or a face. [P; -]
     std::span<const surface::FacePoint> faces_of_points = {};
-    /// Support of each view vertex: the part of its area, 0 to 1, for which the cloud has points
+    /// Support of each vertex: the part of its area, 0 to 1, for which the cloud has points
     /// (dsc/hooks/support.hpp). Filled in the calls of a velocity, refinement or observer whose
-    /// needs_support() returns true; it may be empty in all other calls, and it is empty
-    /// without a cloud or a face.
+    /// needs_support() returns true; it may be empty in all other calls. Empty without a cloud or a
+    /// face. [V; -]
     std::span<const double> support = {};
-    /// The labelled tets. Filled in the calls of observers and refinements; null in all other
-    /// calls, and in tests that have only a surface.
+    /// The labelled tets. Filled in the calls of observers and refinements. Null in all other
+    /// calls, and in tests that have only a surface. [-; -]
     const mesh::VolumeView* volume = nullptr;
-    std::span<const Attribute> attributes = {};  ///< numbers per vertex that strategies have
-                                                 ///< published, updated to this surface
+    /// What strategies have published, updated to this surface: V values per attribute. [-; -]
+    std::span<const Attribute> attributes = {};
 
-    /// The point of the cloud nearest to a view vertex, from `nearest` or by a search. There must
-    /// be a cloud. [parallel]
+    /// The point of the cloud nearest to a vertex, from `nearest` or by a search. There must be a
+    /// cloud. [-; index and n] [parallel]
     cloud::Neighbour nearest_point(std::size_t vertex) const {
         return nearest.empty() ? cloud->search().nearest(surface.positions[vertex])
                                : nearest[vertex];
     }
-    /// The target length at a view vertex. [parallel]
+    /// The target length at a vertex. [1; n] [parallel]
     double target_length_at(std::size_t vertex) const {
         return target_lengths.empty() ? target_length : target_lengths[vertex];
     }
-
-    /// The random stream of one element (a birth id) in this step. It does not depend on the order
-    /// of calls or the number of threads. [parallel]
+    /// The random stream of one element, such as a birth id, in this step. It does not depend on
+    /// the order of calls or the number of threads. [-; -] [parallel]
     RandomStream random(std::uint64_t element) const {
         return RandomStream(RandomKey{seed, instance, step, element});
     }
-    /// Whether the run shall stop; long loops ask now and then and return early. [parallel]
+    /// Whether the run shall stop. A long loop asks now and then, and returns early. [1; -]
+    /// [parallel]
     bool cancelled() const { return cancel != nullptr && cancel->cancelled(); }
 };
 

@@ -10,7 +10,9 @@ class CurvatureEstimator : public Strategy {
 public:
     ~CurvatureEstimator() override;
 
-    /// Called once per step; the context outlives the evaluate() calls. [step]
+    /// Called before the evaluate() calls; the context outlives them. The velocity that contains
+    /// the curvature calls it, so it may run any number of times per step and for several surfaces,
+    /// as VelocityField::prepare(). For the same context the answers must be the same. [step]
     virtual void prepare(const StepContext& context) = 0;
 
     /// `scalar[i]` is the signed curvature of vertex range.begin + i. `vector[i]` is its curvature

@@ -23,15 +23,21 @@ public:
     virtual surface::TriangleMesh read_surface(const std::string& file) const = 0;
 };
 
-/// What a generator may read.
+/// What a generator may read. It is valid until build() returns.
 struct InitialMeshContext {
+    /// The points, in normalised units. Null when the experiment has no input cloud. [-; -]
     const cloud::TargetCloud* cloud = nullptr;
+    /// Seed of the experiment. [1; -]
     std::uint64_t seed = 0;
+    /// Stream id of this strategy's place in the experiment: RandomStream(RandomKey{seed, instance,
+    /// 0, element}) is the random stream of an element. [1; -]
     std::uint64_t instance = 0;
+    /// Says whether the run shall stop. May be null. [-; -]
     const CancelToken* cancel = nullptr;
-    const MeshFiles* files = nullptr;  ///< null if the host reads no files
-    Workers* workers = nullptr;  ///< for the generator's own loops (dsc::for_blocks); null: one
-                                 ///< thread
+    /// Reads files that a parameter names. Null if the host reads no files. [-; -]
+    const MeshFiles* files = nullptr;
+    /// Threads for own loops, with dsc::for_blocks(). Null: one thread. [-; -]
+    Workers* workers = nullptr;
 };
 
 /// Returns plain arrays; the kernel validates and adopts them. [setup]

@@ -7,12 +7,18 @@
 
 namespace dsc::hooks {
 
-/// Figures of the run so far; the host passes them to observers after each step.
+/// Figures of the last completed step, which an observer gets with it. They are values that an
+/// observer may keep.
 struct StepFigures {
+    /// Number of the step, from 1. [1; -]
     std::uint64_t step = 0;
+    /// Number of vertices of the interface. [1; -]
     std::size_t interface_vertices = 0;
+    /// Number of tets, inside and outside. [1; -]
     std::size_t tets = 0;
-    double volume = 0.0;  ///< of all labels above 0, normalised units
+    /// Volume of all labels above 0. [1; n^3]
+    double volume = 0.0;
+    /// Least quality of a tet. [1; -]
     double min_tet_quality = 0.0;
 };
 

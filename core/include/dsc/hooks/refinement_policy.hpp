@@ -16,12 +16,16 @@ namespace dsc::hooks {
 /// The largest number of calls of refine() within one refinement.
 inline constexpr unsigned refinement_passes = 32;
 
-/// What a refinement can read, in addition to the data of a step.
+/// What a refinement can read. It is valid until the call returns.
 struct RefinementContext {
+    /// The data of the last completed step, step 0 before the first one; `surface` and `volume` are
+    /// those of this pass. [-; -]
     const StepContext& step;
-    const VelocityField* velocity = nullptr;  ///< prepared for this surface if needs_sampling() is
-                                              ///< true, else null
-    unsigned pass = 0;                        ///< pass of this refinement: 0 in the first call
+    /// The velocity, prepared for this surface, to be read with sample(). Filled if
+    /// needs_sampling() returns true, else null. [-; -]
+    const VelocityField* velocity = nullptr;
+    /// Pass of this refinement: 0 in the first call. [1; -]
+    unsigned pass = 0;
 };
 
 /// An edge that shall become one vertex.
@@ -94,7 +98,9 @@ public:
     /// The largest number of calls of refine() within one refinement, from 1 to refinement_passes.
     /// Each call gets a fresh view. The calls end early when one requests no change of the mesh.
     virtual unsigned passes() const { return 1; }
-    /// Appends the requests of one pass. A new refinement begins if context.pass is 0.
+    /// Appends the requests of one pass. It is called exactly once per pass, so it may change state
+    /// that continues from one pass or refinement to the next. A new refinement begins if
+    /// context.pass is 0. [step]
     virtual void refine(const RefinementContext& context, RefinementRequests& out) = 0;
 };
 

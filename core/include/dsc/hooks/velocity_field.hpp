@@ -20,14 +20,18 @@ public:
     /// Whether advance() and prepare() need StepContext::support.
     virtual bool needs_support() const { return false; }
 
-    /// Called exactly once per step, before prepare(). Use it to update state that continues from
-    /// one step to the next, and for work to be done once per step. The context outlives the
-    /// evaluate() calls of the step. [step]
+    /// Called exactly once per step, before prepare(). It is the only call that may change state
+    /// that continues from one step to the next, which is what save() writes; it is also the place
+    /// for work to be done once per step. The context outlives the evaluate() calls of the step.
+    /// [step]
     virtual void advance(const StepContext& context);
 
-    /// Called before the evaluate() and sample() calls; the context outlives them. It may be called
-    /// more than once per step, because a refinement may sample too. For the same surface it must
-    /// then give the same answers, so it must not change what save() writes. [step]
+    /// Called before the evaluate() and sample() calls; the context outlives them. It computes all
+    /// that the answers need of this surface. It may run any number of times: once in the step, and
+    /// once before each pass of a refinement that samples, then with the surface of that pass and
+    /// the number of the last completed step, even before the first advance(). For the same state
+    /// and context the answers must be the same, so it must not change what save() writes, and
+    /// advance() must not use what it has computed. [step]
     virtual void prepare(const StepContext& context) = 0;
 
     /// Displacements of the vertices in `range`. `out` has range.size() entries and starts at

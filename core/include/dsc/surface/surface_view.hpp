@@ -14,45 +14,64 @@ namespace dsc::surface {
 
 /// A snapshot of the interface of a complex. Vertices are in birth order; faces are in the order of
 /// their least vertex and then of the other two. The same complex gives the same view, whatever its
-/// slots. Indices below are view indices. A view is valid until the next change of the complex.
+/// slots. Indices are view indices, from 0; they change with every step and refinement, birth ids
+/// do not. In a run a view is valid during the call that gets it; a velocity or curvature may use
+/// the view of its last prepare() until the end of the step.
 struct SurfaceView {
-    std::vector<mesh::VertexId> vertex_ids;  ///< complex vertex of each view vertex
-    std::vector<std::uint32_t> births;  ///< birth id of each view vertex, ascending; keys of random
-                                        ///< streams. A birth id is never used again in a run
-    std::vector<Vec3> positions;        ///< of the vertices
-    std::vector<Vec3> normals;  ///< unit, out of the larger label; mean of the unit normals of the
-                                ///< faces round the vertex; zero if they cancel
-    std::vector<std::uint8_t> movable;  ///< 0 on the box and where three labels or more meet
-    std::vector<std::array<std::uint32_t, 3>> faces;  ///< counter-clockwise seen from the smaller
-                                                      ///< label
-    std::vector<mesh::TetId> face_tets;  ///< the tet with the larger label behind each face
-    std::vector<Vec3> face_normals;      ///< unit
+    /// Vertex of the complex; see VolumeView. [V; id]
+    std::vector<mesh::VertexId> vertex_ids;
+    /// Birth id of each vertex, ascending: its number in the order of creation. It belongs to the
+    /// vertex as long as the vertex exists and is never used again; use it for random streams and
+    /// for state per vertex. [V; id]
+    std::vector<std::uint32_t> births;
+    /// Positions of the vertices. [V x 3; n]
+    std::vector<Vec3> positions;
+    /// Unit normals, out of the larger label: means of the unit normals of the faces round the
+    /// vertices; zero if they cancel. [V x 3; -]
+    std::vector<Vec3> normals;
+    /// 1 if the kernel moves the vertex, 0 on the box and where three labels or more meet. [V; -]
+    std::vector<std::uint8_t> movable;
+    /// Vertices of each face, counter-clockwise seen from the smaller label. [F x 3; index]
+    std::vector<std::array<std::uint32_t, 3>> faces;
+    /// The tet with the larger label behind each face. [F; id]
+    std::vector<mesh::TetId> face_tets;
+    /// Unit normals of the faces, out of the larger label; zero for a face without area.
+    /// [F x 3; -]
+    std::vector<Vec3> face_normals;
+    /// Areas of the faces. [F; n^2]
     std::vector<double> face_areas;
-    std::vector<std::uint32_t> face_offsets;  ///< faces of vertex i: vertex_faces[face_offsets[i]
-                                              ///< .. face_offsets[i+1])
-    std::vector<std::uint32_t> vertex_faces;  ///< faces round each vertex, ascending
-    double mean_edge = 0.0;                   ///< mean over the three edges of all faces
+    /// The faces round vertex i are the entries from face_offsets[i] up to, and without,
+    /// face_offsets[i+1] of vertex_faces. [V+1; index]
+    std::vector<std::uint32_t> face_offsets;
+    /// Faces round the vertices, ascending for each vertex; see faces_of(). [3 F; index]
+    std::vector<std::uint32_t> vertex_faces;
+    /// Mean length of the edges, each counted once per face. [1; n]
+    double mean_edge = 0.0;
     /// Labels on the two sides of each face: first the smaller one, into which the face's normal
     /// points, then the larger one, which is that of `face_tets`. The outside of the box has label
-    /// 0.
+    /// 0. [F x 2; label]
     std::vector<std::array<mesh::Label, 2>> face_labels;
 
-    /// Position of each vertex at the start of the last step; positions - previous_positions is its
-    /// motion since then. It is the vertex' own position if the vertex was not on the interface
-    /// then, or if there has been no step.
+    /// Position of each vertex at the start of the last step. positions - previous_positions is the
+    /// motion since then, that of a refinement after the step included. It is the vertex' own
+    /// position before the first step, and if the vertex was not on the interface at that time.
+    /// [V x 3; n]
     std::vector<Vec3> previous_positions;
     /// 1 if the vertex reached its destination in the last step, 0 if the kernel dropped a part of
     /// its motion. 1 also for vertices that had no destination: those made since, those without a
-    /// displacement, and those that are not movable. A destination outside the box shrunk by 2 L is
-    /// moved to it first.
+    /// displacement, and those that were not movable. The kernel moves a destination outside the
+    /// box shrunk by 2 L to the border of this box first. [V; -]
     std::vector<std::uint8_t> arrived;
-    /// Number of steps completed since the step (or the refinement after it) that made the vertex:
-    /// 0 for a vertex that the last step or a refinement after it made. The vertices of the initial
-    /// mesh belong to step 0.
+    /// Number of steps completed since the vertex was made: 0 for a vertex that the last step or a
+    /// refinement after it made. The vertices of the initial mesh are made before step 1. [V;
+    /// steps]
     std::vector<std::uint32_t> age;
 
+    /// Number of vertices, V. [1; -]
     std::size_t vertex_count() const { return vertex_ids.size(); }
+    /// Number of faces, F. [1; -]
     std::size_t face_count() const { return faces.size(); }
+    /// The faces round a vertex, ascending. [number of these faces; index]
     std::span<const std::uint32_t> faces_of(std::size_t vertex) const {
         return std::span(vertex_faces)
             .subspan(face_offsets[vertex], face_offsets[vertex + 1] - face_offsets[vertex]);
