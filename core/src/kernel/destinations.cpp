@@ -15,6 +15,8 @@ void Destinations::clear() {
     entries_.clear();
     near_collapses_.clear();
     not_arrived_.clear();
+    // Few vertices need the list, so without this it could still grow in a settled step.
+    not_arrived_.reserve(entries_.capacity());
     tried_ = 0;
     stranded_ = 0;
 }

@@ -1,5 +1,10 @@
 // A view that remembers the last one is the view that walks round every vertex, whatever happened
 // in between.
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
 #include <doctest/doctest.h>
 
 #include <dsc/base/random.hpp>
@@ -104,4 +109,37 @@ TEST_CASE("memory of unchanged stars is used, and one changed star is walked aga
     for (const mesh::VertexId v : view.vertex_ids) after += known(v) ? 1 : 0;
     CHECK(after > view.vertex_count() / 2);
     CHECK(after < view.vertex_count());
+}
+
+TEST_CASE("the labels of a face are those of its two tets, the smaller one first") {
+    for (const test::LabelledMesh& mesh : test::labelled_meshes()) {
+        CAPTURE(mesh.name);
+        const mesh::Complex& c = mesh.complex;
+        // All interface faces by their vertices, without the view.
+        std::map<std::array<mesh::VertexId, 3>, std::array<mesh::Label, 2>> expected;
+        for (mesh::TetId t = 0; t < c.tet_slots(); ++t) {
+            if (!c.tet_alive(t)) continue;
+            for (unsigned f = 0; f < 4; ++f) {
+                if (!c.interface_face(t, f)) continue;
+                std::array<mesh::VertexId, 3> key{};
+                for (unsigned k = 0; k < 3; ++k) key[k] = c.tet(t).v[mesh::face_vertices[f][k]];
+                std::sort(key.begin(), key.end());
+                expected[key] = {std::min(c.label(t), c.label_across(t, f)),
+                                 std::max(c.label(t), c.label_across(t, f))};
+            }
+        }
+        surface::SurfaceView view;
+        surface::build_view(c, view);
+        REQUIRE(view.face_labels.size() == expected.size());
+        std::set<mesh::Label> seen;
+        for (std::size_t f = 0; f < view.face_count(); ++f) {
+            std::array<mesh::VertexId, 3> key{};
+            for (unsigned k = 0; k < 3; ++k) key[k] = view.vertex_ids[view.faces[f][k]];
+            std::sort(key.begin(), key.end());
+            CHECK(view.face_labels[f] == expected.at(key));
+            CHECK(view.face_labels[f][1] == c.label(view.face_tets[f]));
+            seen.insert(view.face_labels[f].begin(), view.face_labels[f].end());
+        }
+        CHECK(seen.size() == (std::string(mesh.name) == "two phases" ? 3 : 2));
+    }
 }

@@ -6,6 +6,7 @@
 #include <dsc/base/random.hpp>
 #include <dsc/geometry/quality.hpp>
 #include <dsc/surface/face_points.hpp>
+#include <dsc/surface/support.hpp>
 
 using namespace dsc;
 using surface::SurfaceView;
@@ -110,4 +111,30 @@ TEST_CASE("faces without area are no trouble, and without faces there are no ans
     view.faces.clear();
     surface::nearest_faces(view, std::vector<Vec3>{Vec3(0.5, 1, 0)}, found);
     CHECK(found.empty());
+}
+
+TEST_CASE("the support of a vertex is the area of its points over its own area, at most 1") {
+    // Two triangles of area 1/2 with a common side: the vertices 1 and 2 have 1/3, 0 and 3 have
+    // 1/6.
+    SurfaceView view;
+    view.vertex_ids = {0, 1, 2, 3};
+    view.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 1, 0)};
+    view.faces = {{0, 1, 2}, {1, 3, 2}};
+    view.face_areas = {0.5, 0.5};
+    view.face_offsets = {0, 1, 3, 5, 6};
+    view.vertex_faces = {0, 0, 1, 0, 1, 1};
+    const std::vector<surface::FacePoint> places = {{0, {0.5, 0.5, 0.0}, 0.0},
+                                                    {1, {0.25, 0.0, 0.75}, 0.1},
+                                                    {1, {0.0, 1.0, 0.0}, 9.0},
+                                                    {0, {1.0, 0.0, 0.0}, 9.0}};
+    const std::vector<double> areas = {0.1, 0.2, 5.0, 0.0};  // the last one does not count
+    std::vector<double> support = {7.0};
+    surface::vertex_support(view, places, areas, support);
+    REQUIRE(support.size() == 4);
+    CHECK(support[0] == doctest::Approx(0.05 * 6));
+    CHECK(support[1] == doctest::Approx((0.05 + 0.05) * 3));
+    CHECK(support[2] == doctest::Approx(0.15 * 3));
+    CHECK(support[3] == 1.0);
+    surface::vertex_support(view, {}, {}, support);
+    CHECK(support == std::vector<double>(4, 0.0));
 }
