@@ -30,7 +30,8 @@ public:
 
     @CLASS@(const Params& params, const dsc::plugin::Setup&) : params_(params) {}
 
-    // Called once per step. The context is valid until the next call.
+    // Called before evaluate(), any number of times per step and for any surface; it only computes.
+    // The context is valid until the next call.
     void prepare(const dsc::hooks::StepContext& context) override {
         surface_ = &context.surface;
         limit_ = 1 / (params_.smallest_circle * surface_->mean_edge);
