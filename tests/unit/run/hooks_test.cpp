@@ -208,7 +208,9 @@ TEST_CASE("attributes are carried to the end of the run, and a run that was stop
     };
     Fixture f(schedule, 4);
     const auto remesh = [](Fixture& fixture) {
-        for (auto& r : fixture.strategies.refinements) static_cast<Remesher&>(*r).wanted = 1;
+        for (auto& r : fixture.strategies.refinements) {
+            if (r) static_cast<Remesher&>(*r).wanted = 1;
+        }
     };
     remesh(f);
     const run::SimulationResult whole = f.simulate(options);

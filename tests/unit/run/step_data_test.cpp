@@ -110,7 +110,7 @@ TEST_CASE("previous positions are those of the last step, ages count completed s
         }
     }
     CHECK(moved > 100);
-    CHECK(born > 100);
+    CHECK(born > 50);
 }
 
 TEST_CASE("a vertex has arrived if it is where it was to go, and the number of the others is in "
