@@ -1,4 +1,6 @@
 // The section of a report about the refinements of the run.
+#include <limits>
+
 #include "html.hpp"
 #include "sections.hpp"
 
