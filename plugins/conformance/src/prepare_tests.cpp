@@ -16,6 +16,14 @@ std::string state_of(const hooks::Strategy& strategy) {
     return out.str();
 }
 
+// Skips if a second prepare() changes the answers, which state.prepare tests.
+void require_preparing_only(const Subject& subject) {
+    subject.require_repeatable();
+    const Trace once = subject.answers({.steps = 3}).trace;
+    if (Trace::difference(once, subject.answers({.steps = 3, .prepares = 3}).trace))
+        throw Skipped("a second call of prepare() changes its answers; see state.prepare");
+}
+
 void require_unchanged(const hooks::Strategy& strategy, const std::string& before) {
     require(state_of(strategy) == before,
             "prepare() changes what save() writes; only advance() may change the state");
@@ -23,7 +31,7 @@ void require_unchanged(const hooks::Strategy& strategy, const std::string& befor
 
 // prepare() with the same context changes nothing that save() writes.
 void keep_state(const Subject& subject) {
-    subject.require_repeatable();
+    require_preparing_only(subject);
     const auto strategy = subject.make();
     for (std::uint64_t step = 1; step <= steps_of_run; ++step) {
         exercise(subject.kind(), *strategy, subject.fixture(), {.first_step = step, .steps = 1});
@@ -80,7 +88,7 @@ void require_equal(const Trace& a, const Trace& b, const std::string& otherwise)
 // A refinement that samples before the first step and after each step, on a surface of another
 // size, has no influence on the steps. What it reads depends only on the state and its surface.
 void between_steps(const Subject& subject) {
-    subject.require_repeatable();
+    require_preparing_only(subject);
     const plugin::Kind kind = subject.kind();
     const auto alone = subject.make();
     const auto visited = subject.make();
@@ -112,7 +120,7 @@ void add_prepare_tests(std::vector<Test>& table) {
          "prepare() changes nothing that a checkpoint contains; advance() does."},
         keep_state, per_vertex);
     add(table,
-        {"prepare.refinement", Level::standard, false,
+        {"prepare.surface", Level::standard, false,
          "A refinement may call prepare() for another surface before the first step and between "
          "steps, without influence on the steps."},
         between_steps, per_vertex);

@@ -103,6 +103,6 @@ private:
 
 DSC_PLUGIN("bad_prepare", "1.0.0", "MIT", "Witnesses of prepare.*") {
     registrar.add<Counting>("prepare_state", "counts its preparations in its state");
-    registrar.add<Momentum>("prepare_refinement", "continues from what it has prepared last");
-    registrar.add<Startled>("prepare_refinement", "counts the surfaces that it has prepared for");
+    registrar.add<Momentum>("prepare_surface", "continues from what it has prepared last");
+    registrar.add<Startled>("prepare_surface", "counts the surfaces that it has prepared for");
 }
