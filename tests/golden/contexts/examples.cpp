@@ -186,7 +186,7 @@ bool counts_agree(const mesh::VolumeView& volume) {
 // end
 
 // example: TargetCloud
-/// The mean of the points within two point widths of the point nearest to a place, weighted with
+/// The mean of the points within two spacings of the point nearest to a place, weighted with
 /// the confidence of their normals if there are any.
 Vec3 local_mean(const cloud::TargetCloud& cloud, const Vec3& place) {
     const cloud::Neighbour nearest = cloud.search().nearest(place);
@@ -207,12 +207,13 @@ Vec3 local_mean(const cloud::TargetCloud& cloud, const Vec3& place) {
 hooks::Figures described(const cloud::TargetCloud& cloud) {
     const double scale = cloud.transform().scale;
     double widest = 0.0;
-    for (std::size_t i = 0; i < cloud.size(); ++i) widest = std::max(widest, cloud.spacing(i));
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+        widest = std::max(widest, cloud.neighbour_distance(i));
     return {{"points", static_cast<double>(cloud.size())},
             {"noise", cloud.noise() / scale},
             {"median_width", cloud.statistics().width / scale},
             {"label_width_of_point_0", cloud.label_width(0) / scale},
-            {"widest_spacing", widest / scale},
+            {"largest_neighbour_distance", widest / scale},
             {"diagonal", cloud.box().diagonal() / scale},
             {"has_colours", cloud.colours().empty() ? 0.0 : 1.0},
             {"has_normals", cloud.normals().empty() || cloud.areas().empty() ? 0.0 : 1.0},
@@ -239,7 +240,7 @@ void split_fast_faces(const hooks::RefinementContext& context, double bound,
 // end
 
 // example: InitialMeshContext
-/// The cells along an edge of the box so that a cell is about two point widths wide, with a random
+/// The cells along an edge of the box so that a cell is about two spacings wide, with a random
 /// change of at most one.
 int cells_for(const hooks::InitialMeshContext& context) {
     if (context.cancel != nullptr && context.cancel->cancelled()) return 1;

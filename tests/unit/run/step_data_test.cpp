@@ -343,7 +343,7 @@ TEST_CASE("support is the part of the area for which there are points") {
                 const Vec3& p = context.surface.positions[v];
                 const bool inner = std::max(std::abs(p.x()), std::abs(p.y())) < 0.4;
                 if (p.z() > 0.49 && inner) {
-                    // A regular grid of width w has the area w^2 per point; the point width is that
+                    // A regular grid of width w has the area w^2 per point; the spacing is that
                     // of 12 neighbours, within 2 w.
                     CHECK(context.support[v] > 0.9);
                     ++covered;
