@@ -93,8 +93,8 @@ Vec3 momentum(const surface::SurfaceView& view, std::size_t vertex) {
     if (view.movable[vertex] == 0) return Vec3::Zero();
     Vec3 middle = Vec3::Zero();
     for (const std::uint32_t f : view.faces_of(vertex)) {
-        const auto& [a, b, c] = view.faces[f];
-        middle += (view.positions[a] + view.positions[b] + view.positions[c]) / 3.0;
+        const auto [p, q, r] = view.corners_from(vertex, f);
+        middle += (p + q + r) / 3.0;
     }
     middle /= static_cast<double>(view.faces_of(vertex).size());
     const Vec3 motion = view.positions[vertex] - view.previous_positions[vertex];

@@ -77,6 +77,7 @@ struct SurfaceView {
             .subspan(face_offsets[vertex], face_offsets[vertex + 1] - face_offsets[vertex]);
     }
     /// Positions of the corners of a face, in its order, from one of its vertices on.
+    /// [3 x 3; n]
     std::array<Vec3, 3> corners_from(std::size_t vertex, std::uint32_t face) const {
         const auto& f = faces[face];
         const std::size_t k = f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2;
