@@ -295,7 +295,9 @@ private:
         bool asked = true;
         for (unsigned pass = 0; pass < passes && asked; ++pass) {
             const hooks::StepContext context = make_refinement_context(refinement, sampling);
-            if (sampling) strategies_.velocity->prepare(context);
+            hooks::StepContext of_velocity = context;
+            of_velocity.volume = nullptr;
+            if (sampling) strategies_.velocity->prepare(of_velocity);
             hooks::RefinementRequests requests;
             refinement.refine({context, sampling ? strategies_.velocity.get() : nullptr, pass},
                               requests);
