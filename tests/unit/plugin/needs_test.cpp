@@ -5,8 +5,6 @@
 
 namespace {
 
-namespace hooks = dsc::hooks;
-
 template <class Hook, bool Faces, bool Support>
 struct Asking : Hook {
     struct Params {};
@@ -17,27 +15,28 @@ struct Asking : Hook {
 };
 
 template <bool Faces, bool Support>
-struct Velocity final : Asking<hooks::VelocityField, Faces, Support> {
-    using Params = typename Asking<hooks::VelocityField, Faces, Support>::Params;
-    Velocity(const Params&, const dsc::plugin::Setup&) {}
-    void prepare(const hooks::StepContext&) override {}
-    void evaluate(hooks::Range, std::span<dsc::Vec3>) const override {}
+struct AskingVelocity final : Asking<dsc::hooks::VelocityField, Faces, Support> {
+    using Params = typename Asking<dsc::hooks::VelocityField, Faces, Support>::Params;
+    AskingVelocity(const Params&, const dsc::plugin::Setup&) {}
+    void prepare(const dsc::hooks::StepContext&) override {}
+    void evaluate(dsc::hooks::Range, std::span<dsc::Vec3>) const override {}
 };
 template <bool Faces, bool Support>
-struct Refinement final : Asking<hooks::RefinementPolicy, Faces, Support> {
-    using Params = typename Asking<hooks::RefinementPolicy, Faces, Support>::Params;
-    Refinement(const Params&, const dsc::plugin::Setup&) {}
-    void refine(const hooks::RefinementContext&, hooks::RefinementRequests&) override {}
+struct AskingRefinement final : Asking<dsc::hooks::RefinementPolicy, Faces, Support> {
+    using Params = typename Asking<dsc::hooks::RefinementPolicy, Faces, Support>::Params;
+    AskingRefinement(const Params&, const dsc::plugin::Setup&) {}
+    void refine(const dsc::hooks::RefinementContext&, dsc::hooks::RefinementRequests&) override {}
 };
 template <bool Faces, bool Support>
-struct Observer final : Asking<hooks::Observer, Faces, Support> {
-    using Params = typename Asking<hooks::Observer, Faces, Support>::Params;
-    Observer(const Params&, const dsc::plugin::Setup&) {}
-    void begin(const hooks::StepContext&) override {}
-    hooks::Figures step(const hooks::StepContext&, const hooks::StepFigures&) override {
+struct AskingObserver final : Asking<dsc::hooks::Observer, Faces, Support> {
+    using Params = typename Asking<dsc::hooks::Observer, Faces, Support>::Params;
+    AskingObserver(const Params&, const dsc::plugin::Setup&) {}
+    void begin(const dsc::hooks::StepContext&) override {}
+    dsc::hooks::Figures step(const dsc::hooks::StepContext&,
+                             const dsc::hooks::StepFigures&) override {
         return {};
     }
-    hooks::Figures end(const hooks::StepContext&) override { return {}; }
+    dsc::hooks::Figures end(const dsc::hooks::StepContext&) override { return {}; }
 };
 
 template <class Hook>
@@ -50,12 +49,12 @@ void check_needs(const FakeCatalogue& catalogue, const char* id, bool faces, boo
 template <bool Faces, bool Support>
 void check_kinds() {
     FakeCatalogue catalogue;
-    catalogue.add<Velocity<Faces, Support>>("asking", "a velocity");
-    catalogue.add<Refinement<Faces, Support>>("asking", "a refinement");
-    catalogue.add<Observer<Faces, Support>>("asking", "an observer");
-    check_needs<hooks::VelocityField>(catalogue, "asking", Faces, Support);
-    check_needs<hooks::RefinementPolicy>(catalogue, "asking", Faces, Support);
-    check_needs<hooks::Observer>(catalogue, "asking", Faces, Support);
+    catalogue.add<AskingVelocity<Faces, Support>>("asking", "a velocity");
+    catalogue.add<AskingRefinement<Faces, Support>>("asking", "a refinement");
+    catalogue.add<AskingObserver<Faces, Support>>("asking", "an observer");
+    check_needs<dsc::hooks::VelocityField>(catalogue, "asking", Faces, Support);
+    check_needs<dsc::hooks::RefinementPolicy>(catalogue, "asking", Faces, Support);
+    check_needs<dsc::hooks::Observer>(catalogue, "asking", Faces, Support);
 }
 
 }  // namespace

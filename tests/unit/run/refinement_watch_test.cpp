@@ -16,18 +16,18 @@ using dsc::test::minimal;
 
 namespace {
 
-struct Simulated {
+struct WatchedRun {
     run::SimulationResult result;
     std::vector<run::StepMetrics> rows;
     std::map<std::uint64_t, std::string> states;
 };
 
-Simulated simulate(const std::string& schedule, const std::string& resume = "") {
+WatchedRun watched_run(const std::string& schedule, const std::string& resume = "") {
     static const dsc::test::Strategies catalogue;
     const run::LoadedExperiment loaded =
         load_text(minimal, {"velocity.factor=-0.01", "schedule=" + schedule});
     run::Strategies strategies = run::make_strategies(loaded.experiment, catalogue);
-    Simulated simulated;
+    WatchedRun simulated;
     run::SimulationOptions options;
     options.resume = resume;
     options.checkpoint_every = 1;
@@ -41,7 +41,7 @@ Simulated simulate(const std::string& schedule, const std::string& resume = "") 
     return simulated;
 }
 
-bool same(const run::RefinementFigures& a, const run::RefinementFigures& b) {
+bool same_figures(const run::RefinementFigures& a, const run::RefinementFigures& b) {
     return a.item == b.item && a.calls == b.calls && a.skipped == b.skipped &&
            a.requested == b.requested && a.committed == b.committed && a.made == b.made &&
            a.followed == b.followed && a.present == b.present;
@@ -53,7 +53,7 @@ TEST_CASE("a refinement is followed for five steps; one after the last step is s
           "warning") {
     const std::string schedule =
         "[{steps: 2}, {refine: {type: all}}, {steps: 7}, {refine: {type: all}}]";
-    const Simulated run = simulate(schedule);
+    const WatchedRun run = watched_run(schedule);
     REQUIRE(run.rows.size() == 10);
     const std::uint64_t faces = run.rows[2].interface_faces;
     const std::uint64_t made = run.rows[3].interface_vertices - run.rows[2].interface_vertices;
@@ -87,9 +87,9 @@ TEST_CASE("a refinement is followed for five steps; one after the last step is s
 
     for (const auto& [steps, state] : run.states) {
         CAPTURE(steps);
-        const Simulated rest = simulate(schedule, state);
+        const WatchedRun rest = watched_run(schedule, state);
         const auto& resumed = rest.result.totals.refinement_items;
-        CHECK(std::equal(resumed.begin(), resumed.end(), items.begin(), items.end(), same));
+        CHECK(std::equal(resumed.begin(), resumed.end(), items.begin(), items.end(), same_figures));
         for (const run::StepMetrics& row : rest.rows)
             CHECK(run::csv_row(row) == run::csv_row(run.rows[row.step]));
         CHECK(rest.result.totals.warnings.size() == 1);
@@ -97,16 +97,16 @@ TEST_CASE("a refinement is followed for five steps; one after the last step is s
 }
 
 TEST_CASE("vertices of the last steps are not followed; without refinements there are no figures") {
-    const Simulated late = simulate("[{steps: 2}, {refine: {type: all}}, {steps: 4}]");
+    const WatchedRun late = watched_run("[{steps: 2}, {refine: {type: all}}, {steps: 4}]");
     REQUIRE(late.result.totals.refinement_items.size() == 1);
     CHECK(late.result.totals.refinement_items[0].made > 50);
     CHECK(late.result.totals.refinement_items[0].followed == 0);
     CHECK(late.result.totals.warnings.empty());
-    const Simulated none = simulate("[{steps: 2}]");
+    const WatchedRun none = watched_run("[{steps: 2}]");
     CHECK(none.result.totals.refinement_items.empty());
     CHECK_FALSE(none.rows[0].refinement.has_value());
     // A schedule of refinements only has no last step.
-    const Simulated only = simulate("[{refine: {type: all}}]");
+    const WatchedRun only = watched_run("[{refine: {type: all}}]");
     CHECK(only.result.totals.refinement_items[0].calls == 1);
 }
 

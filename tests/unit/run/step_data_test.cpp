@@ -69,15 +69,15 @@ private:
     const SurfaceView* surface_ = nullptr;
 };
 
-const std::vector<std::string> schedule = {
+const std::vector<std::string> six_steps = {
     "schedule=[{steps: 3}, {refine: {type: all}}, {steps: 3}]"};
 
-run::SimulationResult simulate(Record& record, const run::SimulationOptions& options = {},
-                               const cloud::TargetCloud* cloud = nullptr,
-                               std::unique_ptr<hooks::Observer> observer = nullptr) {
+run::SimulationResult recorded_run(Record& record, const run::SimulationOptions& options = {},
+                                   const cloud::TargetCloud* cloud = nullptr,
+                                   std::unique_ptr<hooks::Observer> observer = nullptr) {
     const dsc::test::Strategies catalogue;
     const run::LoadedExperiment loaded =
-        load_text(minimal + (observer ? "observers: [{type: counter}]\n" : ""), schedule);
+        load_text(minimal + (observer ? "observers: [{type: counter}]\n" : ""), six_steps);
     run::Strategies strategies = run::make_strategies(loaded.experiment, catalogue);
     strategies.velocity = std::make_unique<Restless>(record);
     if (observer) strategies.observers[0] = std::move(observer);
@@ -88,7 +88,7 @@ run::SimulationResult simulate(Record& record, const run::SimulationOptions& opt
 
 TEST_CASE("previous positions are those of the last step, ages count completed steps") {
     Record record;
-    simulate(record);
+    recorded_run(record);
     const auto& calls = record.calls;
     REQUIRE(calls.size() == 6);
     std::size_t moved = 0, born = 0;
@@ -150,7 +150,7 @@ TEST_CASE("a vertex has arrived if it is where it was to go, and the number of t
         CHECK(found == static_cast<double>(row.requested - row.arrived));
         late += static_cast<std::size_t>(found);
     };
-    simulate(record, options, nullptr, std::make_unique<Watch>(record));
+    recorded_run(record, options, nullptr, std::make_unique<Watch>(record));
     CHECK(late > 20);
 }
 
@@ -162,13 +162,13 @@ TEST_CASE("a resumed run gives the same bytes though its velocity depends on the
         states[steps] = std::move(state);
     };
     Record record;
-    const run::SimulationResult whole = simulate(record, options);
+    const run::SimulationResult whole = recorded_run(record, options);
     REQUIRE(states.size() >= 5);
     for (const auto& [steps, state] : states) {
         CAPTURE(steps);
         run::SimulationOptions resumed;
         resumed.resume = state;
-        const run::SimulationResult rest = simulate(record, resumed);
+        const run::SimulationResult rest = recorded_run(record, resumed);
         CHECK(rest.mesh.points == whole.mesh.points);
         CHECK(rest.mesh.tets == whole.mesh.tets);
         CHECK(rest.mesh.labels == whole.mesh.labels);
@@ -282,7 +282,7 @@ TEST_CASE("the volume view is the complex: labels, volumes, neighbours, in ascen
         double volume_ = 0.0, quality_ = 1.0;
     };
     Record record;
-    simulate(record, {}, nullptr, std::make_unique<Volume>());
+    recorded_run(record, {}, nullptr, std::make_unique<Volume>());
 }
 
 TEST_CASE("faces of points and support are filled where they are asked for") {
@@ -320,7 +320,7 @@ TEST_CASE("faces of points and support are filled where they are asked for") {
     Record record;
     for (const bool faces : {false, true}) {
         for (const bool support : {false, true})
-            simulate(record, {}, &target, std::make_unique<Asking>(faces, support));
+            recorded_run(record, {}, &target, std::make_unique<Asking>(faces, support));
     }
 }
 
@@ -361,5 +361,5 @@ TEST_CASE("support is the part of the area for which there are points") {
         }
         hooks::Figures end(const hooks::StepContext&) override { return {}; }
     };
-    simulate(record, {}, &target, std::make_unique<Support>());
+    recorded_run(record, {}, &target, std::make_unique<Support>());
 }
