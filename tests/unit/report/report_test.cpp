@@ -226,6 +226,32 @@ TEST_CASE("report: a run writes it, and dsc report the same bytes; nothing in it
     CHECK(later.find("table 6.2") == std::string::npos);
 }
 
+TEST_CASE(
+    "report: each refinement with what is left of it, and a warning for one after the last step") {
+    const Folder folder;
+    work(folder, "run", minimal + "output: {report: true}\n",
+         {"velocity.factor=-0.01",
+          "schedule=[{steps: 1}, {refine: {type: all}}, {steps: 6}, {refine: {type: all}}]"});
+    const std::string page = folder.read("run/report.html");
+    const nlohmann::json items =
+        nlohmann::json::parse(folder.read("run/summary.json"))["refinements"]["items"];
+    REQUIRE(items.size() == 2);
+    CHECK(items[0]["vertices_made"].get<int>() > 50);
+    CHECK(items[0]["vertices_present"] == items[0]["vertices_made"]);
+    std::string row = "<td>schedule.1 all</td>";
+    for (const char* key : {"calls", "skipped", "requested", "committed", "vertices_made",
+                            "vertices_followed", "vertices_present"})
+        row += "<td>" + std::to_string(items[0][key].get<int>()) + "</td>";
+    CHECK(count(page, row) == 1);
+    CHECK(count(page, "<td>schedule.3 all</td><td>0</td><td>1</td>") == 1);
+    CHECK(count(page, "comes after the last step and was skipped") > 0);
+    CHECK(folder.read("run/metrics.csv").find(",refine_present") != std::string::npos);
+    work(folder, "plain", minimal);
+    CHECK(folder.read("plain/metrics.csv").find("refine") == std::string::npos);
+    CHECK(report::report_html(folder.path() / "plain", abscissas()).find("Refinements") ==
+          std::string::npos);
+}
+
 TEST_CASE("report: a missing or different cloud is reported and not shown") {
     const Folder folder;
     work(folder, "run", with_cloud(folder, "output: {report: true}\n"));
