@@ -54,9 +54,8 @@ void add_columns(CLI::App& command, std::vector<std::string>& columns) {
 
 surface::TriangleMesh read_any_surface(const fs::path& path) {
     if (fs::is_directory(path)) {
-        for (const char* name : {"surface.obj", "surface.ply", "surface.off", "surface.stl"}) {
-            if (fs::exists(path / "result" / name)) return io::read_surface(path / "result" / name);
-        }
+        const fs::path result = run::result_surface(path);
+        if (!result.empty()) return io::read_surface(result);
         throw IoError("io.no_result", path.string(), "",
                       "is a folder that does not contain result/surface.*",
                       "name a file or the folder of a finished run");
