@@ -9,6 +9,7 @@
 #include <dsc/cloud/read.hpp>
 #include <dsc/io/formats.hpp>
 #include <dsc/io/read.hpp>
+#include <dsc/run/run_folder.hpp>
 #include <dsc/surface/surface_view.hpp>
 #include <dsc/text/words.hpp>
 

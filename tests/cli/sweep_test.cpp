@@ -37,8 +37,8 @@ TEST_CASE("a sweep of 12 points: expand, run two of them, collect") {
     cli.write("base/cube.yaml", base);
     cli.write("a.yaml",
               "sweep: 1\nbase: base/cube.yaml\naxes:\n"
-              "  - grid: {velocity.part: [0.25, 0.5, 0.75], initial_mesh.cells: [10, 12]}\n"
-              "repeat: 2\n");
+              "  - grid: {velocity.part: [0.25, 0.5, 0.75], initial_mesh.cells: [10, 12], "
+              "schedule.0.steps: [2, 3]}\n");
     const Result check = cli.dsc({"sweep", "expand", "a.yaml", "--check"});
     CHECK(check.code == 0);
     CHECK(check.out == "a.yaml: valid, 12 points\n");
@@ -51,7 +51,7 @@ TEST_CASE("a sweep of 12 points: expand, run two of them, collect") {
     const std::string table = cli.read("out/jobs.tsv");
     const std::vector<std::string> rows = lines(table);
     REQUIRE(rows.size() == 13);
-    CHECK(rows[1].find("\t{velocity.part: 0.25, initial_mesh.cells: 10, seed: 1}") !=
+    CHECK(rows[1].find("\t{velocity.part: 0.25, initial_mesh.cells: 10, schedule.0.steps: 2}") !=
           std::string::npos);
     for (std::size_t i = 1; i < rows.size(); ++i)
         CHECK(cli.dsc({"run", "out/" + folder_of(rows[i]) + "/experiment.yaml", "--check"}).code ==
@@ -71,11 +71,11 @@ TEST_CASE("a sweep of 12 points: expand, run two of them, collect") {
           std::string::npos);
     const std::vector<std::string> results = lines(cli.read("results.csv"));
     REQUIRE(results.size() == 13);
-    CHECK(results[0].find(
-              "index,folder,status,ended,error,velocity.part,initial_mesh.cells,seed,steps,") == 0);
-    CHECK(results[1].find("0," + folder_of(rows[1]) + ",done,max_steps,,0.25,10,1,2,") == 0);
-    CHECK(results[6].find("5," + folder_of(rows[6]) + ",done,max_steps,,0.5,10,2,2,") == 0);
-    CHECK(results[2].find("1," + folder_of(rows[2]) + ",missing,,,0.25,10,2,,") == 0);
+    CHECK(results[0].find("index,folder,status,ended,error,velocity.part,initial_mesh.cells,"
+                          "schedule.0.steps,steps,") == 0);
+    CHECK(results[1].find("0," + folder_of(rows[1]) + ",done,max_steps,,0.25,10,2,2,") == 0);
+    CHECK(results[6].find("5," + folder_of(rows[6]) + ",done,max_steps,,0.5,10,3,3,") == 0);
+    CHECK(results[2].find("1," + folder_of(rows[2]) + ",missing,,,0.25,10,3,,") == 0);
     for (const std::string& line : results)
         CHECK(std::count(line.begin(), line.end(), ',') ==
               std::count(results[0].begin(), results[0].end(), ','));

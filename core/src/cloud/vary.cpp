@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <dsc/base/random.hpp>
+#include <dsc/cloud/filter.hpp>
 #include <dsc/cloud/statistics.hpp>
 
 namespace dsc::cloud {
@@ -27,13 +28,6 @@ std::vector<std::size_t> kept_points(std::size_t count, double part, std::uint64
     order.resize(std::min(kept, count));
     std::sort(order.begin(), order.end());
     return order;
-}
-
-template <class T>
-void keep(std::vector<T>& values, const std::vector<std::size_t>& indices, std::size_t count) {
-    if (values.size() != count) return;  // the cloud does not have this attribute
-    for (std::size_t i = 0; i < indices.size(); ++i) values[i] = values[indices[i]];
-    values.resize(indices.size());
 }
 
 void move_points(std::vector<Vec3>& points, const std::vector<std::size_t>& indices,
@@ -80,15 +74,10 @@ Varied vary(Cloud given, const Variation& variation, std::uint64_t seed, Workers
     const std::size_t count = given.points.size();
     if (variation.jitter > 0.0)
         varied.jitter = variation.jitter * measure_cloud(given.points, workers).width;
-    varied.cloud = std::move(given);
-    Cloud& cloud = varied.cloud;
     const std::vector<std::size_t> kept = kept_points(count, variation.subsample, seed);
     varied.left_out = count - kept.size();
-    keep(cloud.colours, kept, count);
-    keep(cloud.normals, kept, count);
-    keep(cloud.areas, kept, count);
-    keep(cloud.confidence, kept, count);
-    keep(cloud.points, kept, count);
+    varied.cloud = varied.left_out == 0 ? std::move(given) : pick(given, kept);
+    Cloud& cloud = varied.cloud;
     if (varied.jitter > 0.0) move_points(cloud.points, kept, varied.jitter, seed);
     if (variation.rotate && !cloud.points.empty()) {
         varied.rotation = drawn_rotation_matrix(seed);

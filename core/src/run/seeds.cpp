@@ -26,9 +26,8 @@ bool is_stochastic(const ConfigNode& strategy, const std::string& kind,
 
 bool any_in(const ConfigNode& value, const Field& field, const plugin::Catalogue& catalogue) {
     if (value.is_list()) {
-        return std::any_of(value.items().begin(), value.items().end(), [&](const ConfigNode& item) {
-            return any_in(item, field, catalogue);
-        });
+        return std::any_of(value.items().begin(), value.items().end(),
+                           [&](const ConfigNode& item) { return any_in(item, field, catalogue); });
     }
     if (field.type == FieldType::strategy || field.type == FieldType::strategy_list)
         return is_stochastic(value, field.kind, catalogue);
