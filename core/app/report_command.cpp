@@ -3,7 +3,6 @@
 #include <thread>
 
 #include <dsc/base/error.hpp>
-#include <dsc/base/log.hpp>
 #include <dsc/config/overrides.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/report/report.hpp>
@@ -31,25 +30,20 @@ fs::path output_of(const ReportArguments& arguments) {
                                          : fs::path("comparison.html");
 }
 
-/// The runs, and what is known of those that belong to a sweep. A truth that cannot be read is left
-/// out with a warning.
+/// The runs, and what is known of those that belong to a sweep.
 std::vector<report::ComparedRun> compared_runs(const std::vector<fs::path>& folders,
                                                Workers& workers) {
     std::vector<report::ComparedRun> runs;
-    for (const fs::path& folder : folders) {
-        report::ComparedRun& run = runs.emplace_back(report::ComparedRun{folder});
-        try {
-            const auto point = sweep::point_of_run(folder, &workers);
-            if (!point) continue;
-            run.index = point->index;
-            run.truth = point->truth;
-            for (const config::ConfigEntry& entry : point->overrides.entries()) {
-                run.overrides.emplace_back(entry.key, entry.value.is_string()
-                                                          ? entry.value.as_string()
-                                                          : config::flow_text(entry.value));
-            }
-        } catch (const IoError& error) {
-            log(LogLevel::warning, error.what());
+    const auto points = sweep::points_of_runs(folders, &workers);
+    for (std::size_t i = 0; i < folders.size(); ++i) {
+        report::ComparedRun& run = runs.emplace_back(report::ComparedRun{folders[i]});
+        if (!points[i]) continue;
+        run.index = points[i]->index;
+        run.truth = points[i]->truth;
+        for (const config::ConfigEntry& entry : points[i]->overrides.entries()) {
+            run.overrides.emplace_back(entry.key, entry.value.is_string()
+                                                      ? entry.value.as_string()
+                                                      : config::flow_text(entry.value));
         }
     }
     return runs;

@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <map>
 #include <set>
 
 #include <nlohmann/json.hpp>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/log.hpp>
 #include <dsc/surface/truth_figures.hpp>
 #include <dsc/sweep/results.hpp>
 #include <dsc/text/numbers.hpp>
@@ -155,18 +157,35 @@ SweepResults collect_sweep(const fs::path& folder, Workers* workers) {
     return results;
 }
 
-std::optional<PointOfRun> point_of_run(const fs::path& run_folder, Workers* workers) {
-    std::error_code error;
-    const fs::path point = fs::weakly_canonical(run_folder, error).parent_path();
-    const fs::path folder = point.parent_path().parent_path();
-    if (error || !fs::exists(table_file(folder), error)) return std::nullopt;
-    std::vector<SweepJob> jobs = read_table(folder);
-    const auto job = std::find_if(jobs.begin(), jobs.end(), [&](const SweepJob& known) {
-        return folder / point_folder(known.name) / "run" == point / "run";
-    });
-    if (job == jobs.end()) return std::nullopt;
-    return PointOfRun{static_cast<std::size_t>(job - jobs.begin()), std::move(job->overrides),
-                      Truths(workers).figures(point)};
+std::vector<std::optional<PointOfRun>> points_of_runs(std::span<const fs::path> run_folders,
+                                                      Workers* workers) {
+    std::vector<std::optional<PointOfRun>> points;
+    std::map<fs::path, std::vector<SweepJob>> tables;
+    Truths truths(workers);
+    bool readable = true;
+    for (const fs::path& run : run_folders) {
+        std::optional<PointOfRun>& found = points.emplace_back();
+        std::error_code error;
+        const fs::path place = fs::weakly_canonical(run / "status.json", error).parent_path();
+        const fs::path point = place.parent_path(), folder = point.parent_path().parent_path();
+        if (error || !fs::exists(table_file(folder), error)) continue;
+        const auto [table, fresh] = tables.try_emplace(folder);
+        if (fresh) table->second = read_table(folder);
+        const std::vector<SweepJob>& jobs = table->second;
+        const auto job = std::find_if(jobs.begin(), jobs.end(), [&](const SweepJob& known) {
+            return folder / point_folder(known.name) / "run" == place;
+        });
+        if (job == jobs.end()) continue;
+        found = PointOfRun{static_cast<std::size_t>(job - jobs.begin()), job->overrides, {}};
+        try {
+            if (readable) found->truth = truths.figures(point);
+        } catch (const IoError& fault) {
+            log(LogLevel::warning,
+                std::string("without the figures of the truth: ") + fault.what());
+            readable = false;
+        }
+    }
+    return points;
 }
 
 }  // namespace dsc::sweep

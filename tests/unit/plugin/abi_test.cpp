@@ -42,14 +42,14 @@ TEST_CASE("the layout of what crosses the door is that of its ABI number") {
                                  "config::Field 344\n"
                                  "config::Schema 72\n"
                                  "config::ConfigNode 16\n"
-                                 "hooks::StepContext 216\n"
+                                 "hooks::StepContext 296\n"
                                  "hooks::RefinementContext 24\n"
                                  "hooks::RefinementRequests 224\n"
                                  "hooks::InitialMeshContext 48\n"
                                  "hooks::StepFigures 40\n"
                                  "surface::SurfaceView 272\n"
                                  "surface::TriangleMesh 72\n"
-                                 "cloud::TargetCloud 144\n"
+                                 "cloud::TargetCloud 224\n"
                                  "cloud::Cloud 264\n"
                                  "cloud::FilterReport 120\n"
                                  "hooks::FilterContext 32\n"
@@ -71,6 +71,6 @@ TEST_CASE("the layout of what crosses the door is that of its ABI number") {
                                  "surface::ViewEdge 20\n";
     INFO("give DSC_ABI_MAJOR in dsc/plugin/fingerprint.hpp another number, say so in CHANGELOG.md, "
          "and record the new layout here");
-    CHECK(DSC_ABI_MAJOR == 2);
+    CHECK(DSC_ABI_MAJOR == 3);
     CHECK(layout() == recorded);
 }

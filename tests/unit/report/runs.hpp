@@ -32,7 +32,7 @@ private:
     const surface::SurfaceView* surface_ = nullptr;
 };
 
-class Catalogue : public Strategies {
+class Abscissas : public Strategies {
 public:
     Abscissas() {
         plugin::Registrar& registrar = *this;

@@ -225,7 +225,12 @@ TEST_CASE("truth: the figures of each result, kept until one of the surfaces cha
     json.replace(json.find(key), key.size(), "\"f_score_1_percent\": 33.0");
     bench.folder.write(kept, json);
     CHECK(number(table(), 2, "truth.f_score_1_percent") == 33.0);  // not measured again
-    const auto point = sweep::point_of_run(bench.folder.path() / "out/points" / all[1] / "run");
+    const std::filesystem::path runs[] = {bench.folder.path() / "out/points" / all[1] / "run",
+                                          bench.folder.path() / "out"};
+    const auto points = sweep::points_of_runs(runs);
+    REQUIRE(points.size() == 2);
+    CHECK_FALSE(points[1].has_value());
+    const auto& point = points[0];
     REQUIRE(point.has_value());
     CHECK(point->index == 1);
     CHECK(point->overrides.at("velocity.factor").as_real() == 0.2);
@@ -234,5 +239,8 @@ TEST_CASE("truth: the figures of each result, kept until one of the surfaces cha
     CHECK(number(table(), 2, "truth.f_score_1_percent") == doctest::Approx(100.0));
     bench.folder.write("truth.obj", cube(-0.1, 1.1));
     CHECK(number(table(), 1, "truth.f_score_1_percent") == 0.0);
-    CHECK_FALSE(sweep::point_of_run(bench.folder.path() / "out").has_value());
+    // A page is made without the figures of a truth that is gone.
+    std::filesystem::remove(bench.folder.path() / "truth.obj");
+    CHECK(sweep::points_of_runs(runs)[0]->truth.empty());
+    CHECK_THROWS_AS(table(), IoError);
 }

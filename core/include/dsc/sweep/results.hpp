@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,9 +78,10 @@ struct PointOfRun {
     std::vector<std::pair<std::string, double>> truth;  ///< figures without the prefix `truth.`
 };
 
-/// Finds the point by the place of the run's folder, points/NAME/run of a sweep; empty for any
-/// other folder. Throws IoError as collect_sweep. [setup]
-std::optional<PointOfRun> point_of_run(const std::filesystem::path& run_folder,
-                                       Workers* workers = nullptr);
+/// One entry per folder: the point, found by the place of the folder, points/NAME/run of a sweep;
+/// empty for any other folder. A truth that cannot be read becomes a warning. Throws IoError
+/// "sweep.table". [setup]
+std::vector<std::optional<PointOfRun>> points_of_runs(
+    std::span<const std::filesystem::path> run_folders, Workers* workers = nullptr);
 
 }  // namespace dsc::sweep
