@@ -85,8 +85,7 @@ std::string joined(const Comparison& comparison, const Compared& run,
     std::string text;
     for (const std::string& key : keys) {
         std::string value = run.value(key);
-        if (key == "truth" || key.rfind("file") == key.size() - 4)
-            value = fs::path(value).filename().string();
+        if (key == "truth" || key.ends_with("file")) value = fs::path(value).filename().string();
         text += (text.empty() ? "" : ", ") + comparison.short_key(key) + "=" + value;
     }
     return text;
@@ -131,10 +130,8 @@ std::string Comparison::short_key(const std::string& path) const {
     for (std::size_t dot = path.rfind('.'); dot != std::string::npos && dot > 0;
          dot = path.rfind('.', dot - 1)) {
         const std::string end = path.substr(dot);
-        const auto same = std::count_if(keys.begin(), keys.end(), [&](const std::string& key) {
-            return key.size() >= end.size() &&
-                   key.compare(key.size() - end.size(), end.size(), end) == 0;
-        });
+        const auto same = std::count_if(keys.begin(), keys.end(),
+                                        [&](const std::string& key) { return key.ends_with(end); });
         // A number alone says nothing: "schedule.0.steps" is "0.steps" only if needed.
         if (same <= 1 && end.find_first_not_of(".0123456789") != std::string::npos)
             return end.substr(1);

@@ -50,6 +50,7 @@ std::vector<Figure> all_figures(const Comparison& comparison) {
                                    {"normal consistency", "truth.normal_consistency"},
                                    {"F-score at 1 %", "truth.f_score_1_percent"},
                                    {"mean distance, cloud to surface", "cloud_to_surface.mean"},
+                                   {"CPU time, s", "cpu_s"},
                                    {"mean distance, vertex to cloud", "vertex_to_cloud.mean"},
                                    {"volume", "volume"}};
     std::set<std::string> observed;
@@ -64,7 +65,6 @@ std::vector<Figure> all_figures(const Comparison& comparison) {
         }
     }
     for (const std::string& name : observed) figures.push_back({name, "observers." + name});
-    figures.push_back({"CPU time, s", "cpu_s"});
     figures.push_back({"wall time, s", "wall_s"});
     figures.push_back({"peak memory, MB", "peak_rss_mb", true});
     return figures;
@@ -250,7 +250,8 @@ ordered_json runs_data(const Comparison& comparison) {
     ordered_json header = {"index", "run", "status"};
     for (const std::string& key : comparison.keys) header.push_back(key);
     for (const std::string& path : paths) header.push_back(path);
-    ordered_json rows = {header};
+    ordered_json rows = ordered_json::array();
+    rows.push_back(header);
     for (const Compared& run : comparison.runs) {
         ordered_json row = {run.index, run.name, run.record.word("status")};
         for (const std::string& key : comparison.keys) row.push_back(run.value(key));
@@ -267,7 +268,8 @@ ordered_json groups_data(const Comparison& comparison) {
         for (const char* part : {".mean", ".deviation", ".low", ".high"})
             header.push_back(figure.path + part);
     }
-    ordered_json rows = {header};
+    ordered_json rows = ordered_json::array();
+    rows.push_back(header);
     for (std::size_t g = 0; g < comparison.groups.size(); ++g) {
         const statistics::Group& group = comparison.groups[g];
         ordered_json row = {g, group.setting, comparison.group_name(group), group.runs.size()};
