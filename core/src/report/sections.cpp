@@ -20,11 +20,10 @@ using run::StepMetrics;
 
 using html::integer;
 using html::real;
+using html::seconds;
 using html::tag;
 using html::text;
 using nlohmann::ordered_json;
-
-std::string seconds(double value) { return std::isfinite(value) ? real(value) + " s" : "-"; }
 
 std::string how_it_ended(const RunRecord& record) {
     const std::string status = record.word("status");

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 
 #include "html.hpp"
@@ -14,6 +13,7 @@ namespace {
 
 using html::integer;
 using html::real;
+using html::seconds;
 using html::tag;
 
 /// The rows of tables 6.1 and 6.2 of the thesis [Saul2015]: seconds, vertices, faces; mean, least
@@ -26,8 +26,6 @@ constexpr std::array<ThesisRow, 3> thesis_rows = {
     {{"bunny", 946, 5063, 10154, 0.02915, 0.00015, 0.11350},
      {"teapot", 845, 2550, 5110, 0.03291, 0.00034, 0.10509},
      {"cow", 893, 2355, 4848, 0.02443, 0.00026, 0.16622}}};
-
-std::string seconds(double value) { return std::isfinite(value) ? real(value) + " s" : "-"; }
 
 /// The row of the thesis for the cloud of a run; null for any other cloud.
 const ThesisRow* row_of(const RunRecord& record) {

@@ -95,8 +95,9 @@ Signs sign_test(std::span<const double> differences) {
 
 PairedComparison compare_pairs(std::span<const double> first, std::span<const double> second) {
     if (first.size() != second.size())
-        throw UsageError("statistics.pairs",
-                         "a paired comparison needs as many values of one setting as of the other");
+        throw UsageError("statistics.pairs", "paired comparison",
+                         "the two settings have different numbers of values",
+                         "give one value of each setting for every pair");
     std::vector<double> a, b, difference;
     for (std::size_t i = 0; i < first.size(); ++i) {
         if (std::isnan(first[i]) || std::isnan(second[i])) continue;

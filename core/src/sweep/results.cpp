@@ -131,10 +131,9 @@ SettingsComparison compare_settings(const SweepResults& results, std::size_t fir
             std::find_if(groups.begin(), groups.end(),
                          [&](const statistics::Group& g) { return g.setting == setting; });
         if (group == groups.end())
-            throw UsageError("sweep.setting",
-                             "the sweep has no setting " + std::to_string(setting) +
-                                 "; dsc sweep collect DIR --groups FILE lists the settings and "
-                                 "their numbers");
+            throw UsageError("sweep.setting", "setting " + std::to_string(setting),
+                             "the sweep has no setting with this number",
+                             "dsc sweep collect DIR --groups FILE lists the settings");
         return group->runs.front();
     };
     const std::size_t a = first_run(first), b = first_run(second);
@@ -146,10 +145,10 @@ SettingsComparison compare_settings(const SweepResults& results, std::size_t fir
                results.points[pair.second].status != "done";
     });
     if (pairs.empty())
-        throw UsageError("sweep.pairs", "the settings " + std::to_string(first) + " and " +
-                                            std::to_string(second) +
-                                            " have no finished points with the same seed and the "
-                                            "same cloud; run them with the same seeds");
+        throw UsageError("sweep.pairs",
+                         "settings " + std::to_string(first) + " and " + std::to_string(second),
+                         "they have no finished points with the same seed and the same cloud",
+                         "run both settings with the same seeds");
     comparison.pairs = pairs.size();
     for (const std::string& name : results.figures) {
         std::vector<double> of_first, of_second;

@@ -9,10 +9,10 @@
 #include "runs.hpp"
 
 using namespace dsc;
+using dsc::test::abscissas;
 using dsc::test::count;
 using dsc::test::Folder;
 using dsc::test::minimal;
-using dsc::test::abscissas;
 using dsc::test::with_cloud;
 using dsc::test::work;
 namespace fs = std::filesystem;

@@ -161,7 +161,7 @@ TEST_CASE("groups: n, mean, deviation and interval of the repeats that are finis
 TEST_CASE("compare: pairs of the same seed, by hand") {
     const Repeated sweep;
     CHECK(contains(sweep.bench.fault([&] { sweep::compare_settings(sweep.results(), 0, 1); }),
-                   "the settings 0 and 1 have no finished points with the same seed"));
+                   "settings 0 and 1: they have no finished points with the same seed"));
     // Seeds 1 to 5 of the first setting, then of the second; seed 5 is not finished in the second.
     const double volumes[] = {1.0, 2.0, 3.0, 4.0, 5.0, 1.5, 2.25, 2.875, 4.75};
     for (std::size_t i = 0; i < 9; ++i) sweep.finish(i, volumes[i]);
@@ -183,7 +183,7 @@ TEST_CASE("compare: pairs of the same seed, by hand") {
     CHECK(volume.signs.negative == 1);
     CHECK(volume.signs.probability == doctest::Approx(2.0 * 5.0 / 16.0));
     CHECK(contains(sweep.bench.fault([&] { sweep::compare_settings(sweep.results(), 0, 2); }),
-                   "the sweep has no setting 2"));
+                   "setting 2: the sweep has no setting with this number"));
 }
 
 TEST_CASE("truth: the figures of each result, kept until one of the surfaces changes") {
