@@ -23,7 +23,7 @@ struct Plot {
     std::vector<Curve> curves;  ///< up to 8 colours, then they repeat
     bool logarithmic = false;   ///< the y axis
     bool from_zero = false;     ///< the y axis begins at 0
-    std::size_t points = 1200;  ///< a curve with more points is thinned to about so many
+    std::size_t points = 1200;  ///< a curve with more points is thinned to about this many
 };
 
 /// Number of curves with colours of their own.

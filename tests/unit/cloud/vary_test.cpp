@@ -15,7 +15,7 @@ using namespace dsc::cloud;
 namespace {
 
 Cloud given(std::size_t count = 2000) {
-    const test::Solid solid = test::sphere(count);
+    const known::Solid solid = known::sphere(count);
     Cloud cloud;
     cloud.points = solid.points;
     cloud.normals = solid.normals;
