@@ -106,7 +106,7 @@ FILES = [
 EXAMPLES = [
     ("A surface and a volume from a point cloud:", "dsc reconstruct cloud.ply -o surface.obj -o volume.vtu"),
     ("An experiment with one value changed:", "dsc run experiment.yaml velocity.alpha=0.3 -o run"),
-    ("The folders of a sweep, and the table of their results:", "dsc sweep expand sweep.yaml -o sweep\ndsc sweep collect sweep -o results.csv"),
+    ("The folders of a sweep, and the table of their results:", "dsc sweep expand sweep.yaml -o sweep\ndsc sweep collect sweep -o results.csv --groups groups.csv"),
 ]
 
 

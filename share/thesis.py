@@ -1,10 +1,21 @@
 #!/usr/bin/env python3
-"""Runs the experiments of share/doc/thesis.md and writes its figures and pictures.
+"""Runs the experiments of the thesis, prints their tables, and writes the figures and pictures of share/doc/thesis.md.
 
-    share/thesis.py [--dsc build/release/bin/dsc] [--runs build/thesis] [--only NAME ...]
+    share/thesis.py [--dsc build/release/bin/dsc] [--runs build/thesis] [--only NAME ...] [--page]
 
-DSC_DATA names the folder with the thesis' clouds bunny.obj, teapot.obj and cow.obj. A run that is in the folder --runs with the
-same command and the same config is not repeated. Only the text between the markers of the page is replaced.
+The tables are printed in the terminal. With --page, the text between the markers of share/doc/thesis.md and its pictures are
+replaced as well. A run that the folder --runs already contains, with the same command and the same config, is not repeated.
+The page RUNS/comparison.html shows tables 6.1 and 6.2 and all figures of the three clouds side by side.
+
+DSC_DATA names the folder with the thesis' clouds:
+
+    bunny.obj    2,503 points, 4,968 faces    the Stanford bunny with fewer points (Stanford Computer Graphics Laboratory)
+    teapot.obj   1,202 points, 2,256 faces    a triangulation of Newell's teapot
+    cow.obj      4,583 points, 5,804 faces    a cow, a common test model of computer graphics
+
+The thesis calls them common OBJ files; this project does not contain them. Only their points are the clouds; their faces are the
+truth with which results are compared. Other files with these names also work, but then the figures cannot be compared with those
+of the thesis. If clouds are missing, only the experiments without these clouds run, and only their tables are printed.
 """
 import argparse
 import json
@@ -179,6 +190,19 @@ def motions(s):
     return table(["demo", "steps", "end", "inverted tets", "held at the box", "figures"], rows)
 
 
+# The clouds of the thesis: points and faces.
+CLOUDS = {"bunny": (2503, 4968), "teapot": (1202, 2256), "cow": (4583, 5804)}
+# What each table needs.
+NEEDS = {"chapter 3": ["rotate", "illinois", "corner_box", "deadlock"],
+         "motions": ["average", "normal", "box_tunnel"],
+         "chapter 4": ["teapot", "default_quality", "subpar", "no_curvature", "angular_defect", "split_first", "no_split"],
+         "table 6.1": ["bunny", "teapot", "cow"], "table 6.2": ["bunny", "teapot", "cow"],
+         "filters": ["bunny_adaptive", "teapot_adaptive", "cow_adaptive"],
+         "chapter 7": ["teapot", "one_per_cent", "teapot_adaptive", "bunny", "bunny_adaptive", "cow", "cow_fourth", "cow_adaptive"]}
+TITLES = {"chapter 3": "Chapter 3: the rotated sphere", "motions": "Chapter 4: motions without a cloud",
+          "chapter 4": "Chapter 4: trials with the teapot", "table 6.1": "Table 6.1: time and size",
+          "table 6.2": "Table 6.2: from the vertices of the interface to the cloud, normalised units",
+          "filters": "Chapter 7: points that the filters set aside", "chapter 7": "Chapter 7: adaptive protocol and other trials"}
 BLOCKS = {"chapter 3": chapter3, "chapter 4": chapter4, "table 6.1": table61, "table 6.2": table62, "chapter 7": chapter7,
           "filters": filters, "motions": motions}
 
@@ -191,26 +215,88 @@ def with_block(page, name, text):
     return pattern.sub(lambda m: m.group(1) + text + "\n" + m.group(2), page)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--dsc", type=Path, default=ROOT / "build" / "release" / "bin" / "dsc")
-    parser.add_argument("--runs", type=Path, default=ROOT / "build" / "thesis")
-    parser.add_argument("--only", nargs="+", choices=RUNS, help="run these and leave the page as it is")
-    words = parser.parse_args()
+def needs_cloud(name):
+    return RUNS[name][0].startswith("thesis/")
+
+
+def counts(file):
+    """Points and faces of an OBJ file."""
+    words = [line[:2] for line in file.read_text(errors="replace").splitlines()]
+    return words.count("v "), words.count("f ")
+
+
+def missing_clouds():
+    """What keeps the experiments with clouds from running, as a sentence; empty if nothing does."""
     if "DSC_DATA" not in os.environ:
-        raise SystemExit("thesis.py: DSC_DATA must name the folder with bunny.obj, teapot.obj and cow.obj")
-    words.runs.mkdir(parents=True, exist_ok=True)
-    workshop = Workshop(words.dsc.resolve(), words.runs)
-    for name in words.only or RUNS:
-        workshop.run(name)
-    if words.only:
-        return
+        return "the variable DSC_DATA, which names the folder with the clouds, is not set"
+    folder = Path(os.environ["DSC_DATA"])
+    absent = [f"{name}.obj" for name in CLOUDS if not (folder / f"{name}.obj").is_file()]
+    if absent:
+        return f"{' and '.join(absent)} not found in {folder} (DSC_DATA)"
+    for name, expected in CLOUDS.items():
+        found = counts(folder / f"{name}.obj")
+        if found != expected:
+            print(f"thesis.py: warning: {name}.obj has {found[0]:,} points and {found[1]:,} faces; the cloud of the thesis has "
+                  f"{expected[0]:,} and {expected[1]:,}. The figures cannot be compared with those of the thesis.", file=sys.stderr)
+    return ""
+
+
+def in_columns(markdown):
+    """A table of the page as text with aligned columns."""
+    rows = [[cell.strip().replace("`", "") for cell in line.strip("|").split("|")] for line in markdown.splitlines()]
+    right = [cell.endswith(":") for cell in rows.pop(1)]
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    lines = ["  ".join(cell.rjust(width) if to_right else cell.ljust(width) for cell, width, to_right in zip(row, widths, right)).rstrip()
+             for row in rows]
+    return "\n".join([lines[0], "-" * max(map(len, lines)), *lines[1:]])
+
+
+def print_tables(summaries):
+    for name, needed in NEEDS.items():
+        if all(run in summaries for run in needed):
+            print(f"\n{TITLES[name]}\n\n{in_columns(BLOCKS[name](summaries))}")
+
+
+def write_page(workshop):
     page = PAGE.read_text()
     for name, write in BLOCKS.items():
         page = with_block(page, name, write(workshop.summaries))
     for name in SHOTS:
         workshop.picture(name)
     PAGE.write_text(page)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--dsc", type=Path, default=ROOT / "build" / "release" / "bin" / "dsc")
+    parser.add_argument("--runs", type=Path, default=ROOT / "build" / "thesis")
+    parser.add_argument("--only", nargs="+", choices=RUNS, help="run only these; tables for which runs are missing are left out")
+    parser.add_argument("--page", action="store_true", help="also write the tables and pictures of share/doc/thesis.md")
+    words = parser.parse_args()
+    names = words.only or list(RUNS)
+    absent = missing_clouds()
+    if absent and (words.page or any(map(needs_cloud, words.only or []))):
+        raise SystemExit(f"thesis.py: {absent}; share/thesis.py --help describes the clouds")
+    if absent:
+        names = [name for name in names if not needs_cloud(name)]
+    if words.page and words.only:
+        raise SystemExit("thesis.py: --page needs all runs; leave --only out")
+    if not words.dsc.is_file():
+        raise SystemExit(f"thesis.py: {words.dsc} does not exist; build it with share/setup.sh run, or name another dsc with --dsc")
+    words.runs.mkdir(parents=True, exist_ok=True)
+    workshop = Workshop(words.dsc.resolve(), words.runs)
+    for name in names:
+        workshop.run(name)
+    print_tables(workshop.summaries)
+    compared = [name for name in workshop.summaries if RUNS[name][2] and RUNS[name][0].startswith("thesis/")]
+    if len(compared) > 1:
+        page = words.runs / "comparison.html"
+        workshop.call("report", *(words.runs / name for name in compared), "-o", page)
+        print(f"\nAll figures of these runs side by side: {page}")
+    if absent:
+        print(f"\nThe tables with the thesis' clouds are missing: {absent}.\nshare/thesis.py --help describes the clouds.")
+    if words.page:
+        write_page(workshop)
 
 
 if __name__ == "__main__":

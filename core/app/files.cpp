@@ -9,6 +9,7 @@
 #include <dsc/cloud/read.hpp>
 #include <dsc/io/formats.hpp>
 #include <dsc/io/read.hpp>
+#include <dsc/run/run_folder.hpp>
 #include <dsc/surface/surface_view.hpp>
 #include <dsc/text/words.hpp>
 
@@ -54,9 +55,8 @@ void add_columns(CLI::App& command, std::vector<std::string>& columns) {
 
 surface::TriangleMesh read_any_surface(const fs::path& path) {
     if (fs::is_directory(path)) {
-        for (const char* name : {"surface.obj", "surface.ply", "surface.off", "surface.stl"}) {
-            if (fs::exists(path / "result" / name)) return io::read_surface(path / "result" / name);
-        }
+        const fs::path result = run::result_surface(path);
+        if (!result.empty()) return io::read_surface(result);
         throw IoError("io.no_result", path.string(), "",
                       "is a folder that does not contain result/surface.*",
                       "name a file or the folder of a finished run");

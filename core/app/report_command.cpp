@@ -2,8 +2,11 @@
 #include <memory>
 #include <thread>
 
+#include <dsc/base/error.hpp>
+#include <dsc/config/overrides.hpp>
 #include <dsc/io/atomic_file.hpp>
 #include <dsc/report/report.hpp>
+#include <dsc/sweep/results.hpp>
 
 #include "commands.hpp"
 #include "files.hpp"
@@ -27,6 +30,25 @@ fs::path output_of(const ReportArguments& arguments) {
                                          : fs::path("comparison.html");
 }
 
+/// The runs, and what is known of those that belong to a sweep.
+std::vector<report::ComparedRun> compared_runs(const std::vector<fs::path>& folders,
+                                               Workers& workers) {
+    std::vector<report::ComparedRun> runs;
+    const auto points = sweep::points_of_runs(folders, &workers);
+    for (std::size_t i = 0; i < folders.size(); ++i) {
+        report::ComparedRun& run = runs.emplace_back(report::ComparedRun{folders[i]});
+        if (!points[i]) continue;
+        run.index = points[i]->index;
+        run.truth = points[i]->truth;
+        for (const config::ConfigEntry& entry : points[i]->overrides.entries()) {
+            run.overrides.emplace_back(entry.key, entry.value.is_string()
+                                                      ? entry.value.as_string()
+                                                      : config::flow_text(entry.value));
+        }
+    }
+    return runs;
+}
+
 int execute(const ReportArguments& arguments) {
     const std::vector<fs::path> folders(arguments.folders.begin(), arguments.folders.end());
     const fs::path output = output_of(arguments);
@@ -36,9 +58,10 @@ int execute(const ReportArguments& arguments) {
     // states what is missing.
     Plugins plugins(arguments.plugins);
     const host::Host& host = plugins.load_what_works(report::plugins_of_runs(folders));
-    const std::string page = folders.size() == 1
-                                 ? report::report_html(folders.front(), host, &workers)
-                                 : report::comparison_html(folders, host, &workers);
+    const std::string page =
+        folders.size() == 1
+            ? report::report_html(folders.front(), host, &workers)
+            : report::comparison_html(compared_runs(folders, workers), host, &workers);
     io::write_file(output, page);
     data_out() << output.string() << "\n";
     return 0;

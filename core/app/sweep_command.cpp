@@ -1,15 +1,22 @@
-// dsc sweep expand | collect
+// dsc sweep expand | collect | compare
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <thread>
 
 #include <fmt/core.h>
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
+#include <dsc/base/workers.hpp>
 #include <dsc/io/atomic_file.hpp>
+#include <dsc/sweep/results.hpp>
 #include <dsc/sweep/sweep.hpp>
+#include <dsc/text/numbers.hpp>
 #include <dsc/text/words.hpp>
 
 #include "commands.hpp"
+#include "figures_output.hpp"
 #include "files.hpp"
 #include "plugins.hpp"
 #include "standard_streams.hpp"
@@ -29,6 +36,14 @@ struct ExpandArguments {
 struct CollectArguments {
     std::string folder;
     std::string output;
+    std::string groups;
+};
+
+struct CompareArguments {
+    std::string folder;
+    std::size_t first = 0;
+    std::size_t second = 0;
+    bool json = false;
 };
 
 int expand(const ExpandArguments& arguments) {
@@ -60,18 +75,95 @@ int expand(const ExpandArguments& arguments) {
     return 0;
 }
 
+sweep::SweepResults results_of(const std::string& folder) {
+    Workers workers(std::max(1U, std::thread::hardware_concurrency()));
+    return sweep::collect_sweep(folder, &workers);
+}
+
 int collect(const CollectArguments& arguments) {
-    if (!arguments.output.empty()) require_output(arguments.output, arguments.folder);
-    sweep::SweepStates states;
-    const std::string table = sweep::collect_sweep(arguments.folder, states);
+    for (const std::string& output : {arguments.output, arguments.groups}) {
+        if (!output.empty()) require_output(output, arguments.folder);
+    }
+    const sweep::SweepResults results = results_of(arguments.folder);
+    const sweep::SweepStates& states = results.states;
     log(LogLevel::info, fmt::format("{}: {} done, {} failed, {} unfinished, {} not started",
                                     text::counted(states.points, "point"), states.done,
                                     states.failed, states.unfinished, states.missing));
     if (arguments.output.empty()) {
-        data_out() << table;
+        if (arguments.groups.empty()) data_out() << sweep::results_csv(results);
     } else {
-        io::write_file(arguments.output, table);
+        io::write_file(arguments.output, sweep::results_csv(results));
         data_out() << arguments.output << "\n";
+    }
+    if (!arguments.groups.empty()) {
+        io::write_file(arguments.groups, sweep::groups_csv(results));
+        data_out() << arguments.groups << "\n";
+    }
+    return 0;
+}
+
+nlohmann::ordered_json sample_json(const statistics::Sample& sample) {
+    return {{"n", sample.n},
+            {"mean", sample.mean},
+            {"deviation", sample.deviation},
+            {"low", sample.low},
+            {"high", sample.high}};
+}
+
+nlohmann::ordered_json comparison_json(const sweep::SettingsComparison& comparison) {
+    nlohmann::ordered_json json = {{"first", comparison.first},
+                                   {"second", comparison.second},
+                                   {"pairs", comparison.pairs},
+                                   {"figures", nlohmann::ordered_json::object()}};
+    for (const auto& [name, found] : comparison.figures) {
+        json["figures"][name] = {{"first", sample_json(found.first)},
+                                 {"second", sample_json(found.second)},
+                                 {"difference", sample_json(found.difference)},
+                                 {"wilcoxon",
+                                  {{"n", found.ranks.n},
+                                   {"statistic", found.ranks.statistic},
+                                   {"p", found.ranks.probability},
+                                   {"exact", found.ranks.exact}}},
+                                 {"signs",
+                                  {{"positive", found.signs.positive},
+                                   {"negative", found.signs.negative},
+                                   {"zero", found.signs.zero},
+                                   {"p", found.signs.probability}}}};
+    }
+    return json;
+}
+
+void print_comparison(const sweep::SettingsComparison& comparison) {
+    data_out() << "first   " << comparison.first << "\nsecond  " << comparison.second << "\n"
+               << comparison.pairs << " pairs with the same seed and cloud\n\n";
+    constexpr auto row = "{:<28} {:>11} {:>11} {:>11} {:>25} {:>8} {:>10} {:>8}\n";
+    data_out() << fmt::format(row, "figure", "first", "second", "difference", "95 % interval",
+                              "Wilcoxon", "+ / - / 0", "signs");
+    const auto number = [](double value) {
+        return std::isfinite(value) ? text::rounded(value, 4) : "-";
+    };
+    for (const auto& [name, found] : comparison.figures) {
+        const statistics::Signs& signs = found.signs;
+        data_out() << fmt::format(
+            row, name, number(found.first.mean), number(found.second.mean),
+            number(found.difference.mean),
+            number(found.difference.low) + " to " + number(found.difference.high),
+            number(found.ranks.probability),
+            fmt::format("{} / {} / {}", signs.positive, signs.negative, signs.zero),
+            number(signs.probability));
+    }
+    data_out() << "\nDifference: second - first; its interval is that of the paired t test. "
+                  "Wilcoxon and signs: two-sided\nprobabilities of such differences without an "
+                  "effect.\n";
+}
+
+int compare(const CompareArguments& arguments) {
+    const sweep::SettingsComparison comparison =
+        sweep::compare_settings(results_of(arguments.folder), arguments.first, arguments.second);
+    if (arguments.json) {
+        print_figures(comparison_json(comparison), true);
+    } else {
+        print_comparison(comparison);
     }
     return 0;
 }
@@ -94,18 +186,35 @@ void add_collect(CLI::App& sweep, Context& context) {
     const auto arguments = std::make_shared<CollectArguments>();
     command->add_option("DIR", arguments->folder, "Folder that dsc sweep expand wrote")->required();
     command->add_option("-o,--output", arguments->output, "File for the table; default: stdout");
+    command->add_option("--groups", arguments->groups,
+                        "File for a second table: n, mean, standard deviation and 95 % confidence "
+                        "interval of the points that differ only in their seeds");
     set_action(*command, context, [arguments] { return collect(*arguments); });
+}
+
+void add_compare(CLI::App& sweep, Context& context) {
+    CLI::App* command = sweep.add_subcommand(
+        "compare", "Compare two settings of a sweep by their runs with the same seeds and clouds");
+    const auto arguments = std::make_shared<CompareArguments>();
+    command->add_option("DIR", arguments->folder, "Folder that dsc sweep expand wrote")->required();
+    command
+        ->add_option("FIRST", arguments->first,
+                     "Number of a setting, as dsc sweep collect --groups lists it")
+        ->required();
+    command->add_option("SECOND", arguments->second, "Number of the other setting")->required();
+    command->add_flag("--json", arguments->json, "Print JSON instead of text");
+    set_action(*command, context, [arguments] { return compare(*arguments); });
 }
 
 }  // namespace
 
 void add_sweep(CLI::App& app, Context& context) {
     CLI::App* command = app.add_subcommand(
-        "sweep", "Expand a parameter sweep into run folders; collect their results into a "
-                 "table");
+        "sweep", "Expand a parameter sweep into run folders; collect and compare their results");
     command->require_subcommand(1);
     add_expand(*command, context);
     add_collect(*command, context);
+    add_compare(*command, context);
 }
 
 }  // namespace dsc::app

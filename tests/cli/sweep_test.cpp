@@ -37,8 +37,8 @@ TEST_CASE("a sweep of 12 points: expand, run two of them, collect") {
     cli.write("base/cube.yaml", base);
     cli.write("a.yaml",
               "sweep: 1\nbase: base/cube.yaml\naxes:\n"
-              "  - grid: {velocity.part: [0.25, 0.5, 0.75], initial_mesh.cells: [10, 12]}\n"
-              "repeat: 2\n");
+              "  - grid: {velocity.part: [0.25, 0.5, 0.75], initial_mesh.cells: [10, 12], "
+              "schedule.0.steps: [2, 3]}\n");
     const Result check = cli.dsc({"sweep", "expand", "a.yaml", "--check"});
     CHECK(check.code == 0);
     CHECK(check.out == "a.yaml: valid, 12 points\n");
@@ -51,7 +51,7 @@ TEST_CASE("a sweep of 12 points: expand, run two of them, collect") {
     const std::string table = cli.read("out/jobs.tsv");
     const std::vector<std::string> rows = lines(table);
     REQUIRE(rows.size() == 13);
-    CHECK(rows[1].find("\t{velocity.part: 0.25, initial_mesh.cells: 10, seed: 1}") !=
+    CHECK(rows[1].find("\t{velocity.part: 0.25, initial_mesh.cells: 10, schedule.0.steps: 2}") !=
           std::string::npos);
     for (std::size_t i = 1; i < rows.size(); ++i)
         CHECK(cli.dsc({"run", "out/" + folder_of(rows[i]) + "/experiment.yaml", "--check"}).code ==
@@ -71,11 +71,11 @@ TEST_CASE("a sweep of 12 points: expand, run two of them, collect") {
           std::string::npos);
     const std::vector<std::string> results = lines(cli.read("results.csv"));
     REQUIRE(results.size() == 13);
-    CHECK(results[0].find(
-              "index,folder,status,ended,error,velocity.part,initial_mesh.cells,seed,steps,") == 0);
-    CHECK(results[1].find("0," + folder_of(rows[1]) + ",done,max_steps,,0.25,10,1,2,") == 0);
-    CHECK(results[6].find("5," + folder_of(rows[6]) + ",done,max_steps,,0.5,10,2,2,") == 0);
-    CHECK(results[2].find("1," + folder_of(rows[2]) + ",missing,,,0.25,10,2,,") == 0);
+    CHECK(results[0].find("index,folder,status,ended,error,velocity.part,initial_mesh.cells,"
+                          "schedule.0.steps,steps,") == 0);
+    CHECK(results[1].find("0," + folder_of(rows[1]) + ",done,max_steps,,0.25,10,2,2,") == 0);
+    CHECK(results[6].find("5," + folder_of(rows[6]) + ",done,max_steps,,0.5,10,3,3,") == 0);
+    CHECK(results[2].find("1," + folder_of(rows[2]) + ",missing,,,0.25,10,3,,") == 0);
     for (const std::string& line : results)
         CHECK(std::count(line.begin(), line.end(), ',') ==
               std::count(results[0].begin(), results[0].end(), ','));
@@ -121,4 +121,64 @@ TEST_CASE("a refinement that a point's velocity cannot serve is told at expansio
     CHECK(expand.err.find("note: in the point {velocity: {type: average}}") != std::string::npos);
     CHECK(expand.err.find("1 error; nothing was written") != std::string::npos);
     CHECK_FALSE(cli.exists("out"));
+}
+
+TEST_CASE(
+    "repeats on a cloud file: varied by the seed, compared with the truth, in groups and pairs") {
+    const Cli cli;
+    REQUIRE(
+        cli.dsc({"sample", "torus", "-n", "500", "-o", "ring.xyz", "--mesh", "ring.obj"}).code ==
+        0);
+    const std::string input = "input: {cloud: {file: ring.xyz}, normalize: {scale: 0.9}}\n";
+    cli.write("ring.yaml",
+              "dsc: 1\n" + input +
+                  "initial_mesh: {type: grid, cells: 10, shape: cube, half_width: 1.0}\nvelocity: "
+                  "{type: point_cloud}\nimprovement: {type: dsc}\nschedule: [{steps: 6}]\noutput: "
+                  "{surface: [obj], volume: [dsc]}\n");
+    const std::string sweep =
+        "sweep: 1\nbase: ring.yaml\ntruth: ring.obj\naxes: [{grid: {velocity.alpha: [0.1, "
+        "0.3]}}]\nrepeat: 3\n";
+    cli.write("a.yaml", sweep);
+    const Result same = cli.dsc({"sweep", "expand", "a.yaml", "-o", "out"});
+    CHECK(same.code == 3);
+    CHECK(same.err.find("a.yaml:5:9: error: runs that differ only in their seeds would all be the "
+                        "same") != std::string::npos);
+    CHECK(same.err.find("set input.cloud.vary: {subsample: 0.9, rotate: true}") !=
+          std::string::npos);
+    cli.write("a.yaml", sweep + "set: {input.cloud.vary: {subsample: 0.9}}\n");
+    REQUIRE(cli.dsc({"sweep", "expand", "a.yaml", "-o", "out"}).code == 0);
+    const std::vector<std::string> rows = lines(cli.read("out/jobs.tsv"));
+    REQUIRE(rows.size() == 7);
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const std::string point = "out/" + folder_of(rows[i]);
+        REQUIRE(cli.dsc({"run", point + "/experiment.yaml", "-o", point + "/run", "-q"}).code == 0);
+    }
+    const std::string first = "out/" + folder_of(rows[1]), second = "out/" + folder_of(rows[2]);
+    const std::string surface = cli.read(first + "/run/result/surface.obj");
+    CHECK(surface != cli.read(second + "/run/result/surface.obj"));
+    // The same bytes again, with more threads.
+    REQUIRE(
+        cli.dsc({"run", first + "/experiment.yaml", "-o", "again", "-q", "--threads", "3"}).code ==
+        0);
+    CHECK(cli.read("again/result/surface.obj") == surface);
+    CHECK(cli.read("again/provenance.json").find("\"variation\"") != std::string::npos);
+    CHECK(cli.read("again/summary.json").find("\"rotation\"") != std::string::npos);
+
+    const Result collect =
+        cli.dsc({"sweep", "collect", "out", "-o", "results.csv", "--groups", "groups.csv"});
+    CHECK(collect.code == 0);
+    CHECK(collect.out == "results.csv\ngroups.csv\n");
+    CHECK(lines(cli.read("results.csv"))[0].find(",truth.chamfer_percent,") != std::string::npos);
+    const std::vector<std::string> groups = lines(cli.read("groups.csv"));
+    REQUIRE(groups.size() == 3);
+    CHECK(groups[1].find("0,0,3,0.1,") == 0);
+    CHECK(groups[2].find("1,1,3,0.3,") == 0);
+    const Result compare = cli.dsc({"sweep", "compare", "out", "0", "1"});
+    CHECK(compare.code == 0);
+    CHECK(compare.out.find("first   {velocity.alpha: 0.1}\nsecond  {velocity.alpha: 0.3}\n3 pairs "
+                           "with the same seed and cloud\n") == 0);
+    CHECK(compare.out.find("\ntruth.chamfer_percent ") != std::string::npos);
+    CHECK(cli.dsc({"sweep", "compare", "out", "0", "2"}).code == 2);
+    std::filesystem::remove(cli.folder() / "ring.obj");
+    CHECK(cli.dsc({"sweep", "collect", "out"}).code == 6);
 }

@@ -22,6 +22,7 @@ Finding = namedtuple("Finding", "rule path line text")
 BELOW = {
     "base": set(),
     "text": {"base"},
+    "statistics": {"base"},
     "geometry": {"base", "text"},
     "decode": {"base", "text", "geometry"},
     "mesh": {"base", "text", "geometry"},
@@ -37,7 +38,7 @@ BELOW = {
     "run": {"base", "text", "geometry", "decode", "mesh", "repair", "kernel", "surface", "cloud", "config", "io", "hooks", "plugin"},
 }
 # What uses finished runs does so through the public headers of `run`, which knows neither of them.
-BELOW["report"] = BELOW["sweep"] = BELOW["run"] | {"run"}
+BELOW["report"] = BELOW["sweep"] = BELOW["run"] | {"run", "statistics"}
 FOR_STRATEGIES = BELOW["plugin"] | {"plugin"}
 
 # A third-party header and the folders that may include it.

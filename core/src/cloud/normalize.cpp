@@ -114,7 +114,7 @@ void require_volume(std::span<const Vec3> points, std::string_view name) {
 
 namespace {
 
-// Directions do not change, because the transform has no rotation; areas grow with the square of
+// Directions do not change, because normalisation does not rotate; areas grow with the square of
 // its scale.
 void set_attributes(const Cloud& cloud, Normalized& result) {
     const Transform& transform = result.transform;

@@ -104,6 +104,8 @@ std::string integer(double value) {
 
 std::string real(double value) { return std::isfinite(value) ? dsc::text::rounded(value, 4) : "-"; }
 
+std::string seconds(double value) { return std::isfinite(value) ? real(value) + " s" : "-"; }
+
 std::string base64(std::string_view bytes) {
     constexpr std::size_t block = 3U << 20U;                // OpenSSL counts in int
     std::string out((bytes.size() + 2) / 3 * 4 + 1, '\0');  // and ends its text with a zero

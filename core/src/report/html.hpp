@@ -29,6 +29,8 @@ std::string facts(const std::vector<std::pair<std::string, std::string>>& rows);
 /// Numbers for people: "12,345"; other numbers with four digits; "-" for NaN.
 std::string integer(double value);
 std::string real(double value);
+/// "4.8 s", or "-".
+std::string seconds(double value);
 
 /// Standard base64.
 std::string base64(std::string_view bytes);

@@ -38,7 +38,7 @@ std::string rectangle(double x, double y, double w, double h, const std::string&
     return out + (title.empty() ? "/>\n" : "><title>" + html::text(title) + "</title></rect>\n");
 }
 
-std::string colour(std::size_t index) { return "c" + std::to_string(index % 8); }
+std::string colour(std::size_t index) { return "c" + std::to_string(index % most_colours); }
 
 std::string open_svg(const std::string& title, double w, double h) {
     return "<svg viewBox=\"0 0 " + at(w) + " " + at(h) + "\" role=\"img\" aria-label=\"" +
@@ -117,8 +117,7 @@ std::string frame(const PlotAxis& x, const PlotAxis& y, const std::string& title
 
 /// Thins a long curve to the resolution of the page: the first, least, greatest and last value of
 /// each part keep its outline.
-std::vector<std::size_t> outline(const Curve& curve) {
-    constexpr std::size_t most = 1200;
+std::vector<std::size_t> outline(const Curve& curve, std::size_t most) {
     std::vector<std::size_t> kept;
     const std::size_t count = std::min(curve.x.size(), curve.y.size());
     if (count <= most) {
@@ -142,24 +141,33 @@ std::vector<std::size_t> outline(const Curve& curve) {
     return kept;
 }
 
-std::string path(const Curve& curve, const PlotAxis& x, const PlotAxis& y, std::size_t index) {
+/// The classes of a curve or of its mark in the legend, and the number of its run.
+std::string classes(const Curve& curve, const std::string& own, std::size_t index) {
+    if (!curve.run) return "class=\"" + own + colour(index) + "\"";
+    return "class=\"" + own + (curve.slot ? colour(*curve.slot) : "off") + "\" data-run=\"" +
+           std::to_string(*curve.run) + "\"";
+}
+
+std::string path(const Curve& curve, const PlotAxis& x, const PlotAxis& y, std::size_t index,
+                 std::size_t most) {
     std::string d;
     bool pen_down = false;
-    for (const std::size_t i : outline(curve)) {
+    for (const std::size_t i : outline(curve, most)) {
         const bool drawn = x.takes(curve.x[i]) && y.takes(curve.y[i]);
         if (drawn)
             d += (pen_down ? "L" : "M") + at(x.place(curve.x[i])) + " " + at(y.place(curve.y[i]));
         pen_down = drawn;
     }
-    return "<path d=\"" + d + "\" class=\"curve " + colour(index) + "\"><title>" +
+    return "<path d=\"" + d + "\" " + classes(curve, "curve ", index) + "><title>" +
            html::text(curve.name) + "</title></path>\n";
 }
 
 std::string legend(const std::vector<Curve>& curves) {
     std::string items;
     for (std::size_t i = 0; i < curves.size(); ++i) {
-        items +=
-            "<span><i class=\"" + colour(i) + "\"></i>" + html::text(curves[i].name) + "</span>";
+        const Curve& curve = curves[i];
+        items += std::string("<span") + (curve.run && !curve.slot ? " hidden" : "") + "><i " +
+                 classes(curve, "", i) + "></i>" + html::text(curve.name) + "</span>";
     }
     return "<figcaption>" + items + "</figcaption>";
 }
@@ -202,7 +210,8 @@ std::string svg_plot(const Plot& plot) {
     x.settle();
     y.settle();
     std::string out = open_svg(plot.title, width, height) + frame(x, y, plot.title, plot.x_label);
-    for (std::size_t i = 0; i < plot.curves.size(); ++i) out += path(plot.curves[i], x, y, i);
+    for (std::size_t i = 0; i < plot.curves.size(); ++i)
+        out += path(plot.curves[i], x, y, i, plot.points);
     return html::tag("figure",
                      out + "</svg>" + (plot.curves.size() > 1 ? legend(plot.curves) : "")) +
            "\n";

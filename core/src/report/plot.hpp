@@ -1,6 +1,7 @@
 #pragma once
 // Plots of figures: small SVGs whose bytes are always the same, readable in print.
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,8 @@ struct Curve {
     std::string name;
     std::vector<double> x;
     std::vector<double> y;
+    std::optional<std::size_t> run{};   ///< number of the run that a page can show or hide
+    std::optional<std::size_t> slot{};  ///< its colour if it is shown; empty: it is hidden at first
 };
 
 struct Plot {
@@ -20,9 +23,13 @@ struct Plot {
     std::vector<Curve> curves;  ///< up to 8 colours, then they repeat
     bool logarithmic = false;   ///< the y axis
     bool from_zero = false;     ///< the y axis begins at 0
+    std::size_t points = 1200;  ///< a curve with more points is thinned to about this many
 };
 
-/// Empty if no curve has two points.
+/// Number of curves with colours of their own.
+inline constexpr std::size_t most_colours = 8;
+
+/// Empty if no curve has two points. The axes have room for all curves, also for hidden ones.
 std::string svg_plot(const Plot& plot);
 
 /// Number of values in each of equal parts of [low, high]; values outside count for the nearest

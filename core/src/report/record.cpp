@@ -112,11 +112,36 @@ bool RunRecord::has(std::string_view path) const {
     return value != nullptr && !value->is_null();
 }
 
+cloud::Transform RunRecord::to_normalised() const {
+    cloud::Transform transform;
+    const double scale = number("to_normalised.scale");
+    if (scale > 0.0) transform.scale = scale;
+    const ordered_json* centre = find(summary, "to_normalised.centre");
+    if (centre != nullptr) transform.centre = vector_of(*centre);
+    const ordered_json* rows = find(summary, "to_normalised.rotation");
+    if (rows != nullptr && rows->is_array() && rows->size() == 3) {
+        Eigen::Matrix3d rotation;
+        for (int row = 0; row < 3; ++row)
+            rotation.row(row) = vector_of((*rows)[static_cast<std::size_t>(row)]).transpose();
+        transform.rotation = rotation;
+    }
+    return transform;
+}
+
 bool RunRecord::several_labels() const {
     const ordered_json* labels = find(summary, "labels");
     if (labels == nullptr || !labels->is_object()) return false;
     return std::any_of(labels->begin(), labels->end(),
                        [](const ordered_json& label) { return label.contains("surface"); });
+}
+
+Vec3 vector_of(const ordered_json& list) {
+    Vec3 vector = Vec3::Zero();
+    if (!list.is_array() || list.size() != 3) return vector;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (list[k].is_number()) vector[static_cast<Eigen::Index>(k)] = list[k].get<double>();
+    }
+    return vector;
 }
 
 RunRecord read_record(const fs::path& folder) {

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <dsc/cloud/normalize.hpp>
 #include <dsc/config/node.hpp>
 
 namespace dsc::report {
@@ -42,6 +43,8 @@ struct RunRecord {
     /// Whether there is a value other than null.
     bool has(std::string_view path) const;
     std::string name() const { return word("name"); }
+    /// From the input's units to normalised units; the identity if the summary does not say.
+    cloud::Transform to_normalised() const;
     /// Whether there are several labels above 0. The interface is not a manifold where they meet;
     /// each label has its own surface.
     bool several_labels() const;
@@ -49,6 +52,9 @@ struct RunRecord {
 
 /// Value at a dotted path; null if there is none.
 const nlohmann::ordered_json* find(const nlohmann::ordered_json& root, std::string_view path);
+
+/// The numbers of a list of three; zero for anything else.
+Vec3 vector_of(const nlohmann::ordered_json& list);
 
 /// Reads the files. Throws IoError "report.no_run" for a folder that no run wrote or whose run has
 /// no result, "report.damaged" for a file that cannot be parsed, and what readers throw. [setup]

@@ -39,12 +39,15 @@ std::string subtitle(const RunRecord& record) {
 
 }  // namespace
 
-std::string report_page(const std::string& title, const std::string& subtitle,
+std::string report_page(PageKind kind, const std::string& title, const std::string& subtitle,
                         const std::string& body) {
+    const bool comparison = kind == PageKind::comparison;
     return html::fill(file("page.html"), {{"title", html::text(title)},
                                           {"subtitle", subtitle},
                                           {"licence", file("three_licence.txt")},
                                           {"style", file("style.css")},
+                                          {"kind", comparison ? "comparison" : "run"},
+                                          {"compare", comparison ? file("compare.js") : ""},
                                           {"body", body},
                                           {"three", file("three.min.js")},
                                           {"orbit", file("OrbitControls.js")},
@@ -74,7 +77,7 @@ std::string report_html(const std::filesystem::path& run_folder, const plugin::C
             plots_section(record, scene) + time_section(record) + topology_section(record) +
             refinement_section(record) + cloud_section(record) + config_section(record) +
             provenance_section(record);
-        return report_page(record.name(), subtitle(record), body);
+        return report_page(PageKind::run, record.name(), subtitle(record), body);
     });
 }
 

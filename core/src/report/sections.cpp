@@ -20,11 +20,10 @@ using run::StepMetrics;
 
 using html::integer;
 using html::real;
+using html::seconds;
 using html::tag;
 using html::text;
 using nlohmann::ordered_json;
-
-std::string seconds(double value) { return std::isfinite(value) ? real(value) + " s" : "-"; }
 
 std::string how_it_ended(const RunRecord& record) {
     const std::string status = record.word("status");
@@ -37,17 +36,6 @@ std::string card(const std::string& name, const std::string& value,
                  const std::string& classes = "") {
     return tag("div", tag("b", text(value)) + tag("span", text(name)), "card " + classes);
 }
-
-/// The rows of tables 6.1 and 6.2 of the thesis [Saul2015]: seconds, vertices, faces; mean, least
-/// and largest distance.
-struct ThesisRow {
-    const char* mesh;
-    double seconds, vertices, faces, mean, least, largest;
-};
-constexpr std::array<ThesisRow, 3> thesis_rows = {
-    {{"bunny", 946, 5063, 10154, 0.02915, 0.00015, 0.11350},
-     {"teapot", 845, 2550, 5110, 0.03291, 0.00034, 0.10509},
-     {"cow", 893, 2355, 4848, 0.02443, 0.00026, 0.16622}}};
 
 Curve curve(const RunRecord& record, std::string_view column, const std::string& name) {
     const std::vector<double>* x = record.metrics.find(column_name<&StepMetrics::step>);
@@ -182,54 +170,6 @@ std::string warnings_section(const RunRecord& record) {
     return list.empty() ? "" : section("Warnings", tag("ul", list), "warnings");
 }
 
-std::string coverage_section(const RunRecord& record) {
-    if (!record.has("coverage")) return "";
-    const double width = record.number("cloud.point_width"),
-                 scale = record.number("to_normalised.scale");
-    const auto percent = [&](const char* path) { return real(100.0 * record.number(path)) + " %"; };
-    std::vector<html::Row> rows = {
-        {"points farther from the surface than 3 noise scales and 1 spacing",
-         percent("coverage.far_share")},
-        {"largest distance of a point from the surface",
-         real(record.number("coverage.largest_distance") / width) + " spacings"},
-        {"area of the surface without a point within 3 spacings",
-         percent("coverage.unsupported_share")},
-        {"mean edge of the surface", real(record.number("coverage.edge_to_spacing")) + " spacings"},
-        {"spacing, root of the area per point",
-         real(width / scale) + ", in the units of the input"}};
-    if (record.has("trimmed"))
-        rows.push_back({"area removed by trimming", percent("trimmed.area_share")});
-    std::string body = html::table({"how well the surface explains its points", ""}, rows);
-    std::vector<html::Row> groups;
-    const ordered_json* told = find(record.summary, "coverage.groups_of_far_points");
-    const ordered_json* centre = find(record.summary, "to_normalised.centre");
-    if (told != nullptr && told->is_array() && centre != nullptr && centre->is_array() &&
-        centre->size() == 3) {
-        for (const ordered_json& group : *told) {
-            html::Row row = {integer(group.value("points", 0.0))};
-            std::string place;
-            for (std::size_t k = 0; k < 3; ++k) {
-                place += (k == 0 ? "" : ", ") + real(group["centre"][k].get<double>() / scale +
-                                                     (*centre)[k].get<double>());
-            }
-            row.push_back(place);
-            row.push_back(real(group.value("diameter", 0.0) / scale));
-            row.push_back(real(group.value("farthest", 0.0) / scale));
-            groups.push_back(std::move(row));
-        }
-    }
-    if (!groups.empty()) {
-        body += tag("p", "Groups of points without a surface, in the units of the input:") + "\n" +
-                html::table({"points", "centre", "diameter", "largest distance"}, groups);
-    }
-    return section(
-        "Points and surface",
-        body + tag("p",
-                   "The viewer can colour the surface by gap (the distance to the nearest point, "
-                   "in spacings) and by support, if the velocity publishes them.",
-                   "hint"));
-}
-
 std::string notes_section(const RunRecord& record) {
     const nlohmann::ordered_json* filters = find(record.summary, "input.filters");
     if (filters == nullptr || !filters->is_array()) return "";
@@ -267,37 +207,6 @@ std::string viewer_section(const RunRecord& record, const Scene& scene) {
                               "Drag to rotate, use the wheel to zoom, drag with the right button "
                               "to move. Intermediate surfaces are drawn with fewer triangles.",
                               "hint"));
-}
-
-std::string thesis_section(const RunRecord& record) {
-    std::vector<html::Row> times = {
-        {record.name(), seconds(record.number("wall_s")), seconds(record.number("cpu_s")),
-         integer(record.number("interface_vertices")), integer(record.number("interface_faces"))}};
-    std::vector<html::Row> distances;
-    if (record.has("vertex_to_cloud")) {
-        distances.push_back(
-            {record.name(), real(record.number("vertex_to_cloud.mean")),
-             real(record.number("vertex_to_cloud.min")), real(record.number("vertex_to_cloud.max")),
-             integer(record.number("shells")) + " / " + integer(record.number("genus")),
-             integer(record.number("self_intersections"))});
-        for (const ThesisRow& row : thesis_rows) {
-            times.push_back({"thesis: " + std::string(row.mesh), integer(row.seconds) + " s", "-",
-                             integer(row.vertices), integer(row.faces)});
-            distances.push_back({"thesis: " + std::string(row.mesh), real(row.mean),
-                                 real(row.least), real(row.largest), "-", "-"});
-        }
-    }
-    std::string body = tag("h3", "Time and size (table 6.1)") + "\n" +
-                       html::table({"mesh", "wall time", "CPU time", "vertices", "faces"}, times);
-    if (!distances.empty()) {
-        body += tag("h3",
-                    "From the vertices of the surface to the cloud, normalised units (table 6.2)") +
-                "\n" +
-                html::table(
-                    {"mesh", "mean", "least", "largest", "shells / genus", "self-intersections"},
-                    distances);
-    }
-    return section("The thesis' tables", body, "thesis");
 }
 
 std::string plots_section(const RunRecord& record, const Scene& scene) {

@@ -36,6 +36,25 @@ void declare_sample(config::ParamSchema<SampleInput>& s) {
         .doc("Fraction of the points that lie anywhere in the shape's box, enlarged 1.2 times.");
 }
 
+void declare_vary(config::ParamSchema<cloud::Variation>& s) {
+    s.real("subsample", &cloud::Variation::subsample)
+        .range(0, 1)
+        .open_low()
+        .unit("dimensionless")
+        .doc("Fraction of the points that is kept.");
+    s.real("jitter", &cloud::Variation::jitter)
+        .range(0, 10)
+        .unit("spacings")
+        .doc("Standard deviation by which each coordinate is moved. A spacing is the square root "
+             "of the area per point, its median over the points.");
+    s.boolean("rotate", &cloud::Variation::rotate)
+        .doc("Whether the cloud is rotated, uniformly over all rotations. Results are rotated "
+             "back: they have the coordinates of the file.");
+    s.check([](const cloud::Variation& p) { return !p.nothing(); },
+            "'vary' changes nothing; give a 'subsample' below 1, a 'jitter' above 0 or 'rotate: "
+            "true', or leave 'vary' out");
+}
+
 void declare_cloud(config::ParamSchema<CloudInput>& s) {
     s.file("file", &CloudInput::file)
         .doc("Point cloud: .obj, .ply, .pcd, .xyz, .txt, .asc, .pts or .csv. Positions are read, "
@@ -48,6 +67,9 @@ void declare_cloud(config::ParamSchema<CloudInput>& s) {
              "three.");
     s.object("sample", &CloudInput::sample, declare_sample)
         .doc("A cloud sampled from a built-in shape.");
+    s.object("vary", &CloudInput::vary, declare_vary)
+        .doc("A variation of the points, drawn by the seed: runs with different seeds see "
+             "different points of the same cloud. Left out: the points do not change.");
     s.strategies("filters", &CloudInput::filters, "filter")
         .doc("Filters of the cloud, in the order in which they are applied.");
     s.check([](const CloudInput& p) { return p.file.has_value() != p.sample.has_value(); },

@@ -61,13 +61,25 @@ std::vector<Vec3> places_lost(std::vector<Vec3> before, std::vector<Vec3> after)
     return lost;
 }
 
+/// Varies the cloud as the input asks.
+cloud::Varied varied_cloud(cloud::Cloud given, const CloudInput& input, std::uint64_t seed,
+                           Workers* workers, InputReport& report) {
+    if (!input.vary) return {.cloud = std::move(given)};
+    cloud::Varied varied = cloud::vary(std::move(given), *input.vary, seed, workers);
+    report.variation = VariationReport{varied.left_out, varied.jitter, std::nullopt};
+    if (input.vary->rotate) report.variation->rotation = varied.rotation;
+    return varied;
+}
+
 }  // namespace
 
 LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Catalogue& catalogue,
                        InputFiles& files, Workers* workers, const CancelToken* cancel) {
     const Filters filters = make_filters(input.cloud, catalogue);
     InputReport report;
-    cloud::Cloud cloud = read_points(input.cloud, seed, files, report);
+    cloud::Varied varied = varied_cloud(read_points(input.cloud, seed, files, report), input.cloud,
+                                        seed, workers, report);
+    cloud::Cloud& cloud = varied.cloud;
     const std::vector<Vec3> given = filters.empty() ? std::vector<Vec3>() : cloud.points;
     hooks::FilterContext context;
     context.seed = seed;
@@ -83,13 +95,15 @@ LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Cat
         }
     }
     report.used = cloud.points.size();
-    report.diagonal = bounding_box(cloud.points).diagonal();
-    const cloud::Normalized normalized = input.normalize
-                                             ? cloud::normalize(cloud, input.normalize->scale)
-                                             : cloud::keep_coordinates(cloud);
+    cloud::Normalized normalized = input.normalize ? cloud::normalize(cloud, input.normalize->scale)
+                                                   : cloud::keep_coordinates(cloud);
     std::vector<Vec3> removed;
     if (given.size() > cloud.points.size()) removed = places_lost(given, cloud.points);
     for (Vec3& p : removed) p = normalized.transform.apply(p);
+    normalized.transform = cloud::before_variation(normalized.transform, varied);
+    if (normalized.transform.rotation)
+        cloud::rotate(cloud, varied.rotation.transpose(), varied.centre);
+    report.diagonal = bounding_box(cloud.points).diagonal();
     return {std::move(cloud), cloud::TargetCloud(normalized), std::move(report),
             std::move(removed)};
 }

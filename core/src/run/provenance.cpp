@@ -97,6 +97,17 @@ std::string shown(const std::filesystem::path& file, const std::vector<std::stri
     return below ? relative.string() : without_homes(file.string(), homes);
 }
 
+/// How the points of the input were varied; the quaternion is w, x, y, z.
+ordered_json variation(const cloud::Variation& vary, std::uint64_t seed) {
+    ordered_json json = {{"random", "Philox-4x32-10"},
+                         {"seed", seed},
+                         {"subsample", vary.subsample},
+                         {"jitter_spacings", vary.jitter},
+                         {"rotation", nullptr}};
+    if (vary.rotate) json["rotation"] = cloud::drawn_rotation(seed);
+    return json;
+}
+
 ordered_json versions() {
     return {{"dsc", DSC_VERSION},
             {"compiler", DSC_RUN_COMPILER},
@@ -172,20 +183,21 @@ std::string provenance_json(const LoadedExperiment& loaded, const plugin::Catalo
     }
     ordered_json typed = ordered_json::array();
     for (const std::string& word : command) typed.push_back(without_homes(word, homes));
-    const ordered_json root = {
-        {"format", "dsc-provenance-1"},
-        {"name", loaded.experiment.name},
-        {"config_sha256", hash},
-        {"seed", loaded.experiment.seed},
-        {"command", typed},
-        {"started", started},
-        {"finished", finished.empty() ? ordered_json() : ordered_json(finished)},
-        {"usage", usage(wall_seconds)},
-        {"versions", versions()},
-        {"fingerprint", std::string(plugin::core_fingerprint())},
-        {"machine", machine(threads)},
-        {"inputs", inputs},
-        {"plugins", plugins}};
+    ordered_json root = {{"format", "dsc-provenance-1"},
+                         {"name", loaded.experiment.name},
+                         {"config_sha256", hash},
+                         {"seed", loaded.experiment.seed},
+                         {"command", typed},
+                         {"started", started},
+                         {"finished", finished.empty() ? ordered_json() : ordered_json(finished)},
+                         {"usage", usage(wall_seconds)},
+                         {"versions", versions()},
+                         {"fingerprint", std::string(plugin::core_fingerprint())},
+                         {"machine", machine(threads)},
+                         {"inputs", inputs},
+                         {"plugins", plugins}};
+    if (const auto& input = loaded.experiment.input; input && input->cloud.vary)
+        root["variation"] = variation(*input->cloud.vary, loaded.experiment.seed);
     return root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

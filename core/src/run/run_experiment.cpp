@@ -265,6 +265,10 @@ private:
         std::string text = fmt::format("{}: {} points", report.source, report.points);
         if (report.dropped > 0)
             text += fmt::format(", {} with NaN or infinity dropped", report.dropped);
+        if (report.variation) {
+            text += fmt::format(", variation left out {}{}", report.variation->left_out,
+                                report.variation->rotation ? " and rotated the others" : "");
+        }
         for (const cloud::FilterReport& filter : report.filters) {
             text += fmt::format(", {} removed {}", filter.filter, filter.removed);
         }

@@ -125,4 +125,13 @@ void RunFolder::remove_results() const {
     for (const char* name : result_names) discard(folder_ / name);
 }
 
+fs::path result_surface(const fs::path& run_folder) {
+    std::error_code error;
+    for (const char* name : {"surface.obj", "surface.ply", "surface.off", "surface.stl"}) {
+        const fs::path file = run_folder / "result" / name;
+        if (fs::exists(file, error)) return file;
+    }
+    return {};
+}
+
 }  // namespace dsc::run

@@ -178,6 +178,10 @@ void StateSeries::write_surface(const hooks::StepContext& context, const mesh::C
     if (curvature_ != nullptr) data.points.push_back({"curvature", curvatures(context)});
     for (const hooks::Attribute& a : context.attributes) data.points.push_back({a.name, a.values});
     data.vectors.push_back({"normal", view.normals});
+    if (context.to_normalised.rotation) {
+        for (Vec3& normal : data.vectors.back().values)
+            normal = context.to_normalised.direction_to_input(normal);
+    }
     surface::TriangleMesh mesh{view.positions, view.faces};
     to_input(mesh.points, context.to_normalised);
     if (context.cloud != nullptr && !context.cloud->colours().empty()) {

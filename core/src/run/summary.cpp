@@ -71,9 +71,30 @@ ordered_json input(const LoadedInput* loaded) {
         for (const std::string& note : f.notes) row["notes"].push_back(note);
         filters.push_back(std::move(row));
     }
-    return {{"source", report.source},    {"format", report.format}, {"points", report.points},
-            {"dropped", report.dropped},  {"filters", filters},      {"used", report.used},
-            {"diagonal", report.diagonal}};
+    ordered_json json = {{"source", report.source},
+                         {"format", report.format},
+                         {"points", report.points},
+                         {"dropped", report.dropped}};
+    if (report.variation) {
+        json["variation"] = {{"left_out", report.variation->left_out},
+                             {"jitter", report.variation->jitter},
+                             {"rotated", report.variation->rotation.has_value()}};
+    }
+    json["filters"] = filters;
+    json["used"] = report.used;
+    json["diagonal"] = report.diagonal;
+    return json;
+}
+
+/// From the input's units to normalised units. `rotation` has the rows of the matrix; it is left
+/// out if there is none.
+ordered_json transform(const cloud::Transform& to_normalised) {
+    ordered_json json = {{"centre", point(to_normalised.centre)}, {"scale", to_normalised.scale}};
+    if (to_normalised.rotation) {
+        for (int row = 0; row < 3; ++row)
+            json["rotation"].push_back(point(to_normalised.rotation->row(row).transpose()));
+    }
+    return json;
 }
 
 /// Volume of all labels above 0; if there are several, the interface as a whole does not enclose
@@ -249,7 +270,7 @@ std::string summary_json(const SummaryParts& parts) {
         {"cloud_to_surface", distances(parts.distances, false)},
         {"units", "volume and volume_initial: units of the input, cubed; every other length and "
                   "volume: normalised units, (input - centre) * scale"},
-        {"to_normalised", {{"centre", point(parts.to_normalised.centre)}, {"scale", scale}}},
+        {"to_normalised", transform(parts.to_normalised)},
         {"input", input(parts.input)},
         {"cloud", statistics(parts.input)},
         {"coverage", coverage(parts.outcome)},

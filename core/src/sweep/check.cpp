@@ -4,7 +4,9 @@
 #include <string_view>
 
 #include <dsc/base/error.hpp>
+#include <dsc/config/diagnostics.hpp>
 #include <dsc/config/overrides.hpp>
+#include <dsc/run/seeds.hpp>
 #include <dsc/run/simulation.hpp>
 #include <dsc/sweep/sweep.hpp>
 #include <dsc/text/words.hpp>
@@ -100,6 +102,7 @@ ConfigNode with_all(ConfigNode root, const ConfigNode& overrides, const SweepPoi
                     Faults& faults) {
     if (overrides.is_null()) return root;
     for (const config::ConfigEntry& entry : overrides.entries()) {
+        if (entry.key == truth_key) continue;  // it is not part of the experiment
         try {
             root = config::with_value(root, entry.key, entry.value, entry.position);
         } catch (const ConfigError& error) {
@@ -108,6 +111,50 @@ ConfigNode with_all(ConfigNode root, const ConfigNode& overrides, const SweepPoi
     }
     return root;
 }
+
+/// Reports a truth that does not exist.
+void require_truth(const SweepPoint& point) {
+    const ConfigNode& file = point.truth.value;
+    std::error_code ignored;
+    if (file.is_null() || fs::exists(file.as_string(), ignored)) return;
+    throw IoError("io.open", config::format({config::Severity::error,
+                                             "io.open",
+                                             file.position(),
+                                             "'truth': " + file.as_string() + " does not exist",
+                                             "check the path; it is relative to the folder of this "
+                                             "file",
+                                             {}}) +
+                                 "1 error");
+}
+
+/// Repeats of a point are refused if the seed has no influence: they would all be the same.
+class Repeats {
+public:
+    void require_different(const SweepPoint& point, const run::LoadedExperiment& loaded,
+                           const plugin::Catalogue& catalogue) {
+        const config::ConfigEntry* seed = point.overrides.find_entry("seed");
+        if (seed == nullptr) return;
+        std::string others;
+        for (const config::ConfigEntry& entry : point.overrides.entries()) {
+            if (entry.key != "seed")
+                others += entry.key + "=" + config::flow_text(entry.value) + "\n";
+        }
+        if (first_.insert(others).second || run::depends_on_seed(loaded, catalogue)) return;
+        const auto& input = loaded.experiment.input;
+        config::fail(
+            "config.sweep_repeat", seed->value.position(),
+            "runs that differ only in their seeds would all be the same: nothing in this "
+            "experiment depends on the seed",
+            input && input->cloud.file
+                ? "set input.cloud.vary: {subsample: 0.9, rotate: true}, so that each seed "
+                  "draws a variation of the cloud, or do not repeat"
+                : "do not repeat, or use a sampled or varied cloud or a stochastic "
+                  "strategy");
+    }
+
+private:
+    std::set<std::string> first_;  ///< the overrides, except the seed, of the points before
+};
 
 }  // namespace
 
@@ -123,6 +170,7 @@ std::vector<std::string> sweep_experiments(const Sweep& sweep,
     const run::PluginLoader load_once =
         [&loader](const auto& paths) -> const config::StrategyLookup& { return loader(paths); };
     Faults faults;
+    Repeats repeats;
     std::set<std::vector<std::string>> read;  // files that were already hashed, because a cloud may
                                               // be large
     std::vector<std::string> texts;
@@ -132,6 +180,8 @@ std::vector<std::string> sweep_experiments(const Sweep& sweep,
                 with_all(with_all(base, sweep.set, point, faults), point.overrides, point, faults);
             const run::LoadedExperiment loaded = run::resolve_experiment(root, load_once);
             run::make_strategies(loaded.experiment, catalogue);
+            repeats.require_different(point, loaded, catalogue);
+            require_truth(point);
             if (read.insert(run::input_files(loaded, catalogue)).second)
                 run::config_hash(loaded, catalogue);
             texts.push_back("# Point " + point.name + " of a sweep: " +

@@ -1,16 +1,20 @@
-// Collects the results of a sweep in one table.
+// Reads the results of the points of a sweep.
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
 #include <dsc/base/error.hpp>
-#include <dsc/config/overrides.hpp>
-#include <dsc/sweep/sweep.hpp>
+#include <dsc/base/log.hpp>
+#include <dsc/surface/truth_figures.hpp>
+#include <dsc/sweep/results.hpp>
+#include <dsc/text/numbers.hpp>
 
 #include "table.hpp"
+#include "truth.hpp"
 
 namespace dsc::sweep {
 namespace {
@@ -39,14 +43,7 @@ constexpr std::array figure_names = {"steps",
                                      "cloud_to_surface.mean",
                                      "cloud_to_surface.max"};
 constexpr std::array cost_names = {"wall_s", "cpu_s", "peak_rss_mb"};
-
-/// A row, before the columns of all rows are known.
-struct Row {
-    std::string status;  ///< done, failed, stopped, unfinished, missing
-    std::string ended;   ///< how the schedule ended: converged, max_steps, ...
-    std::string error;   ///< its error code
-    std::map<std::string, std::string> figures;
-};
+const std::string truth_prefix = "truth.";
 
 json read_point_json(const fs::path& file) {
     std::ifstream stream(file);
@@ -71,48 +68,30 @@ void add_figures(const json& value, const std::string& name,
 
 /// status.json of a killed run also says "running": such a run is unfinished, whether or not it is
 /// still active.
-Row read_row(const fs::path& folder) {
+void read_run(const fs::path& folder, PointResult& row) {
     const json status = read_point_json(folder / "status.json");
-    Row row;
     if (!status.is_object()) {
         row.status = "missing";
-        return row;
+        return;
     }
     const std::string state = text_at(status, "state");
     row.status = state == "running" ? "unfinished" : state;
     row.error = text_at(status, "error_code");
-    if (state != "done" && state != "stopped") return row;
+    if (state != "done" && state != "stopped") return;
     const json summary = read_point_json(folder / "summary.json");
     if (!summary.is_object()) {
         row.status = "unfinished";  // files are missing in the folder
-        return row;
+        return;
     }
     row.ended = text_at(summary, "status");
     add_figures(summary, "", row.figures);
-    return row;
-}
-
-std::string cell(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"') quoted += '"';
-        quoted += c;
-    }
-    return quoted + "\"";
-}
-
-/// A string without quotes, everything else as in YAML.
-std::string value_cell(const config::ConfigNode* value) {
-    if (value == nullptr) return {};
-    return cell(value->is_string() ? value->as_string() : config::flow_text(*value));
 }
 
 /// All paths that at least one point overrides, in the order in which they first appear.
-std::vector<std::string> override_names(const std::vector<SweepJob>& jobs) {
+std::vector<std::string> override_names(const std::vector<PointResult>& points) {
     std::vector<std::string> names;
-    for (const SweepJob& job : jobs) {
-        for (const config::ConfigEntry& entry : job.overrides.entries()) {
+    for (const PointResult& point : points) {
+        for (const config::ConfigEntry& entry : point.overrides.entries()) {
             if (std::find(names.begin(), names.end(), entry.key) == names.end())
                 names.push_back(entry.key);
         }
@@ -120,26 +99,32 @@ std::vector<std::string> override_names(const std::vector<SweepJob>& jobs) {
     return names;
 }
 
-std::vector<std::string> column_names(const std::vector<Row>& rows) {
+std::vector<std::string> figure_columns(const std::vector<PointResult>& points) {
     std::vector<std::string> names(figure_names.begin(), figure_names.end());
-    std::map<std::string, int> observed;
-    for (const Row& row : rows) {
-        for (const auto& figure : row.figures) {
-            if (figure.first.rfind("observers.", 0) == 0) ++observed[figure.first];
+    std::set<std::string> observed;
+    bool truth = false;
+    for (const PointResult& point : points) {
+        for (const auto& figure : point.figures) {
+            if (figure.first.rfind("observers.", 0) == 0) observed.insert(figure.first);
+            truth = truth || figure.first.rfind(truth_prefix, 0) == 0;
         }
     }
-    for (const auto& name : observed) names.push_back(name.first);
+    names.insert(names.end(), observed.begin(), observed.end());
+    if (truth) {
+        for (const auto& figure : surface::truth_figures({}))
+            names.push_back(truth_prefix + figure.first);
+    }
     names.insert(names.end(), cost_names.begin(), cost_names.end());
     return names;
 }
 
-void count(const Row& row, SweepStates& states) {
+void count(const PointResult& point, SweepStates& states) {
     ++states.points;
-    if (row.status == "done") {
+    if (point.status == "done") {
         ++states.done;
-    } else if (row.status == "failed") {
+    } else if (point.status == "failed") {
         ++states.failed;
-    } else if (row.status == "missing") {
+    } else if (point.status == "missing") {
         ++states.missing;
     } else {
         ++states.unfinished;
@@ -148,37 +133,59 @@ void count(const Row& row, SweepStates& states) {
 
 }  // namespace
 
-std::string collect_sweep(const fs::path& folder, SweepStates& states) {
+SweepResults collect_sweep(const fs::path& folder, Workers* workers) {
     std::error_code ignored;
     if (!fs::exists(table_file(folder), ignored)) {
         throw UsageError("sweep.folder", folder.string(), "does not contain jobs.tsv",
                          "use a folder that dsc sweep expand wrote");
     }
-    const std::vector<SweepJob> jobs = read_table(folder);
-    std::vector<Row> rows;
-    for (const SweepJob& job : jobs) {
-        rows.push_back(read_row(folder / point_folder(job.name) / "run"));
-        count(rows.back(), states);
+    SweepResults results;
+    Truths truths(workers);
+    for (SweepJob& job : read_table(folder)) {
+        PointResult& point = results.points.emplace_back();
+        point.name = std::move(job.name);
+        point.overrides = std::move(job.overrides);
+        const fs::path place = folder / point_folder(point.name);
+        read_run(place / "run", point);
+        count(point, results.states);
+        if (point.figures.empty()) continue;
+        for (const auto& [name, value] : truths.figures(place))
+            point.figures[truth_prefix + name] = text::exact(value);
     }
-    const std::vector<std::string> overrides = override_names(jobs);
-    const std::vector<std::string> columns = column_names(rows);
+    results.overrides = override_names(results.points);
+    results.figures = figure_columns(results.points);
+    return results;
+}
 
-    std::string text = "index,folder,status,ended,error";
-    for (const std::string& name : overrides) text += "," + cell(name);
-    for (const std::string& name : columns) text += "," + cell(name);
-    text += "\n";
-    for (std::size_t i = 0; i < jobs.size(); ++i) {
-        text += std::to_string(i) + "," + point_folder(jobs[i].name) + "," + cell(rows[i].status) +
-                "," + cell(rows[i].ended) + "," + cell(rows[i].error);
-        for (const std::string& name : overrides)
-            text += "," + value_cell(jobs[i].overrides.find(name));
-        for (const std::string& name : columns) {
-            const auto found = rows[i].figures.find(name);
-            text += "," + (found == rows[i].figures.end() ? std::string() : found->second);
+std::vector<std::optional<PointOfRun>> points_of_runs(std::span<const fs::path> run_folders,
+                                                      Workers* workers) {
+    std::vector<std::optional<PointOfRun>> points;
+    std::map<fs::path, std::vector<SweepJob>> tables;
+    Truths truths(workers);
+    bool readable = true;
+    for (const fs::path& run : run_folders) {
+        std::optional<PointOfRun>& found = points.emplace_back();
+        std::error_code error;
+        const fs::path place = fs::weakly_canonical(run / "status.json", error).parent_path();
+        const fs::path point = place.parent_path(), folder = point.parent_path().parent_path();
+        if (error || !fs::exists(table_file(folder), error)) continue;
+        const auto [table, fresh] = tables.try_emplace(folder);
+        if (fresh) table->second = read_table(folder);
+        const std::vector<SweepJob>& jobs = table->second;
+        const auto job = std::find_if(jobs.begin(), jobs.end(), [&](const SweepJob& known) {
+            return folder / point_folder(known.name) / "run" == place;
+        });
+        if (job == jobs.end()) continue;
+        found = PointOfRun{static_cast<std::size_t>(job - jobs.begin()), job->overrides, {}};
+        try {
+            if (readable) found->truth = truths.figures(point);
+        } catch (const IoError& fault) {
+            log(LogLevel::warning,
+                std::string("without the figures of the truth: ") + fault.what());
+            readable = false;
         }
-        text += "\n";
     }
-    return text;
+    return points;
 }
 
 }  // namespace dsc::sweep

@@ -11,6 +11,7 @@
 #include <dsc/text/words.hpp>
 
 #include "table.hpp"
+#include "truth.hpp"
 
 namespace dsc::sweep {
 namespace {
@@ -92,6 +93,7 @@ Expansion expand_sweep(const Sweep& sweep, const std::vector<std::string>& exper
             make_folder(file.parent_path());
             io::write_file(file, experiments[i]);
         }
+        name_truth(file.parent_path(), point.truth.value);
         if (known.insert(point.name).second) {
             jobs.push_back({point.name, point.overrides});
             ++expansion.added;

@@ -2,6 +2,7 @@
 #include "dsc/sweep/sweep.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <set>
 
@@ -40,6 +41,7 @@ struct SweepAxis {
 struct SweepFile {
     std::uint32_t format = 1;  ///< key `sweep`
     std::string base;
+    std::optional<std::string> truth;
     std::optional<Paths> set;
     std::vector<SweepAxis> axes;
     std::vector<int> seeds;
@@ -83,6 +85,9 @@ void declare_sweep(config::ParamSchema<SweepFile>& s) {
     s.file("base", &SweepFile::base)
         .required()
         .doc("The experiment on which all points are based.");
+    s.file("truth", &SweepFile::truth)
+        .doc("The true surface. The results of all points are compared with it. An axis may have "
+             "the key 'truth' instead, for example in a zip with input.cloud.file.");
     s.object("set", &SweepFile::set, declare_paths)
         .doc("Dotted path to value: overrides of all points.");
     s.list("axes", &SweepFile::axes, declare_axis)
@@ -194,6 +199,26 @@ private:
     std::set<std::string> earlier_;
 };
 
+/// The truth of a point: a value of an axis, relative to the file that names it, or the truth of
+/// all points.
+ConfigEntry truth_of(const Overrides& overrides, const ConfigEntry& of_all,
+                     Diagnostics& diagnostics) {
+    const auto own = std::find_if(overrides.begin(), overrides.end(),
+                                  [](const ConfigEntry& entry) { return entry.key == truth_key; });
+    if (own == overrides.end()) return of_all;
+    const config::SourcePosition& place = own->value.position();
+    if (!own->value.is_string()) {
+        diagnostics.error("config.wrong_type", place.known() ? place : own->position,
+                          "'truth' must be the name of a file", "write the path of a surface");
+        return of_all;
+    }
+    namespace fs = std::filesystem;
+    const fs::path folder =
+        place.known() ? fs::absolute(place.source->name).parent_path() : fs::current_path();
+    const std::string file = (folder / own->value.as_string()).lexically_normal().string();
+    return ConfigEntry(truth_key, ConfigNode(file).placed(place), own->position);
+}
+
 /// 1, 1.0 and 1e0 are the same value.
 ConfigNode canonical(const ConfigNode& node) {
     if (node.is_number()) return ConfigNode(node.as_real());
@@ -211,8 +236,9 @@ ConfigNode canonical(const ConfigNode& node) {
     return ConfigNode::map(std::move(entries));
 }
 
-SweepPoint point_of(const Overrides& overrides) {
+SweepPoint point_of(const Overrides& overrides, ConfigEntry truth) {
     SweepPoint point;
+    point.truth = std::move(truth);
     point.overrides = ConfigNode::map(overrides);
     point.name = run::sha256(config::flow_text(canonical(point.overrides))).substr(0, 12);
     return point;
@@ -242,6 +268,13 @@ Sweep load_sweep(const std::string& file, const config::YamlOptions& options) {
     Sweep sweep;
     sweep.base = given.base;
     Order order(diagnostics);
+    ConfigEntry truth(truth_key, ConfigNode());
+    if (given.truth) {
+        const ConfigEntry& entry = *root.find_entry("truth");
+        truth = ConfigEntry(truth_key, ConfigNode(*given.truth).placed(entry.value.position()),
+                            entry.position);
+        order.add({{truth}});
+    }
     if (given.set) {
         sweep.set = root.at("set");
         order.add({sweep.set.entries()});
@@ -256,13 +289,14 @@ Sweep load_sweep(const std::string& file, const config::YamlOptions& options) {
 
     std::set<std::string> names;
     for (const Overrides& overrides : all) {
-        SweepPoint point = point_of(overrides);
+        SweepPoint point = point_of(overrides, truth_of(overrides, truth, diagnostics));
         if (names.insert(point.name).second) {
             sweep.points.push_back(std::move(point));
         } else {
             ++sweep.repeated;
         }
     }
+    diagnostics.throw_if_errors();
     return sweep;
 }
 

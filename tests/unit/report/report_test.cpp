@@ -15,86 +15,22 @@
 #include <dsc/surface/measure.hpp>
 #include <dsc/surface/surface_view.hpp>
 
-#include "../run/fakes.hpp"
 #include "report/record.hpp"
 #include "report/warnings.hpp"
 #include "run/state_series.hpp"
+#include "runs.hpp"
 
 using namespace dsc;
+using dsc::test::abscissas;
+using dsc::test::cloud_of_a_cube;
+using dsc::test::count;
 using dsc::test::Folder;
-using dsc::test::load_text;
 using dsc::test::minimal;
+using dsc::test::with_cloud;
+using dsc::test::work;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// The curvature of a vertex is its x.
-class Abscissa final : public hooks::CurvatureEstimator {
-public:
-    struct Params {};
-    static void declare(config::ParamSchema<Params>&) {}
-    Abscissa(const Params&, const plugin::Setup&) {}
-    void prepare(const hooks::StepContext& context) override { surface_ = &context.surface; }
-    void evaluate(hooks::Range range, std::span<double> scalar,
-                  std::span<Vec3> vectors) const override {
-        for (std::size_t i = 0; i < scalar.size(); ++i) {
-            scalar[i] = surface_->positions[range.begin + i].x();
-            vectors[i] = Vec3::Zero();
-        }
-    }
-
-private:
-    const surface::SurfaceView* surface_ = nullptr;
-};
-
-class Abscissas : public dsc::test::Strategies {
-public:
-    Abscissas() {
-        plugin::Registrar& registrar = *this;
-        registrar.add<Abscissa>("abscissa", "x");
-    }
-};
-
-const Abscissas& abscissas() {
-    static const Abscissas catalogue;
-    return catalogue;
-}
-
-/// Runs in `folder`, where the linked-in plugin has a file.
-run::RunOutcome work(const Folder& folder, const std::string& name, const std::string& text,
-                     const std::vector<std::string>& overrides = {}) {
-    const Abscissas& catalogue = abscissas();
-    const fs::path here = fs::current_path();
-    folder.write("libdsc_fake.so", "stands for a plugin");
-    const run::LoadedExperiment loaded =
-        run::load_experiment(folder.write("test.yaml", text), overrides, catalogue.loader());
-    fs::current_path(folder.path());
-    run::RunOptions options;
-    options.folder = folder.path() / name;
-    options.command = {"dsc", "run", "<b>bold</b>.yaml"};
-    options.make_report = report::report_html;
-    const run::RunOutcome outcome = run::run_experiment(loaded, catalogue, options);
-    fs::current_path(here);
-    return outcome;
-}
-
-std::string cloud_of_a_cube() {
-    std::string text;
-    for (int i = 0; i <= 4; ++i)
-        for (int j = 0; j <= 4; ++j)
-            for (int k = 0; k <= 4; ++k) {
-                if (i % 4 != 0 && j % 4 != 0 && k % 4 != 0) continue;
-                text += std::to_string(10 + i) + " " + std::to_string(20 + j) + " " +
-                        std::to_string(30 + k) + "\n";
-            }
-    return text;
-}
-
-/// Four steps towards a cube of edge 4 at (12, 22, 32); normalised its half-edge is 0.4.
-std::string with_cloud(const Folder& folder, const std::string& output) {
-    return minimal + "input: {cloud: {file: \"" + folder.write("cloud.xyz", cloud_of_a_cube()) +
-           "\"}, normalize: {scale: 0.4}}\n" + output;
-}
 
 const std::vector<double>& array(const std::vector<io::DataArray>& arrays,
                                  const std::string& name) {
@@ -103,13 +39,6 @@ const std::vector<double>& array(const std::vector<io::DataArray>& arrays,
     }
     FAIL("no array " << name);
     return arrays.front().values;
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-    std::size_t found = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-        ++found;
-    return found;
 }
 
 }  // namespace
@@ -333,7 +262,7 @@ TEST_CASE("report: hostile names in every file of the run stay text") {
                  folder.read("run/config.resolved.yaml") + "# " + evil + "\n");
     CHECK(report::report_html(folder.path() / "run", abscissas()).find("Notes on the cloud") !=
           std::string::npos);
-    const fs::path folders[] = {folder.path() / "run", folder.path() / "run"};
+    const report::ComparedRun folders[] = {{folder.path() / "run"}, {folder.path() / "run"}};
     for (const std::string& page : {report::report_html(folder.path() / "run", abscissas()),
                                     report::comparison_html(folders, abscissas())}) {
         CHECK(page.find("<script>alert") == std::string::npos);
@@ -362,22 +291,4 @@ TEST_CASE("warnings: what a reader must know") {
     CHECK(with("clamped", 1) == "1 destination was outside the box and was moved inside.");
     CHECK(with("min_tet_quality", 1e-5).find("nearly flat") != std::string::npos);
     CHECK(with("components", 2) == "The surface has 2 components.");
-}
-
-TEST_CASE("comparison: a column a run, named by name or folder, what differs in the experiments") {
-    const Folder folder;
-    work(folder, "slow", with_cloud(folder, ""), {"velocity.factor=-0.01"});
-    work(folder, "quick", with_cloud(folder, ""), {"velocity.factor=-0.02"});
-    const fs::path folders[] = {folder.path() / "slow", folder.path() / "quick/"};
-    const std::string page = report::comparison_html(folders, abscissas());
-    for (const char* part : {"2 runs compared", "<th>slow</th>", "<th>quick</th>",
-                             "velocity.factor", "-0.02", "id=\"view-1-scene\""}) {
-        CAPTURE(part);
-        CHECK(page.find(part) != std::string::npos);
-    }
-    CHECK(page.find("<td>velocity.shift") == std::string::npos);
-    const fs::path same[] = {folder.path() / "slow", folder.path() / "slow"};
-    CHECK(report::comparison_html(same, abscissas()).find("The experiments are the same.") !=
-          std::string::npos);
-    CHECK_THROWS_AS(report::comparison_html({}, abscissas()), UsageError);
 }

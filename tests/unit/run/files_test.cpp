@@ -12,6 +12,7 @@
 #include <dsc/run/measure.hpp>
 #include <dsc/run/metrics.hpp>
 #include <dsc/run/run_folder.hpp>
+#include <dsc/text/numbers.hpp>
 
 #include "fakes.hpp"
 
@@ -73,6 +74,65 @@ TEST_CASE("input: the same sample for the same seed, filters in order, normalise
     CHECK(small.target.box().high.maxCoeff() == doctest::Approx(0.5));
     const Vec3 back = small.target.transform().inverse(small.target[0]);
     CHECK((back - small.cloud.points[0]).norm() < 1e-14);
+}
+
+TEST_CASE("input: a variation comes before the filters, and the file's coordinates come back") {
+    const Folder folder;
+    const run::LoadedInput plain = load(sampled(400), 3);
+    std::string text;
+    for (const Vec3& p : plain.cloud.points) {
+        for (int k = 0; k < 3; ++k) text += text::exact(p[k] + 10.0 * k) + (k < 2 ? " " : "\n");
+    }
+    run::Input input;
+    input.cloud.file = folder.write("cloud.xyz", text);
+    input.normalize = run::NormalizeInput{0.5};
+    const run::LoadedInput whole = load(input, 1);
+    CHECK(load(input, 2).cloud.points == whole.cloud.points);
+    CHECK_FALSE(whole.report.variation.has_value());
+
+    input.cloud.vary = cloud::Variation{0.75, 0.0, true};
+    input.cloud.filters = {filter("every_nth")};
+    const run::LoadedInput varied = load(input, 2);
+    REQUIRE(varied.report.variation.has_value());
+    CHECK(varied.report.points == 400);
+    CHECK(varied.report.variation->left_out == 100);
+    CHECK(varied.report.used == 150);
+    CHECK(load(input, 2).target[7] == varied.target[7]);
+    CHECK(load(input, 1).target[7] != varied.target[7]);
+    // Points of the file, where they are in the file.
+    REQUIRE(varied.cloud.points.size() == 150);
+    std::size_t found = 0;
+    for (const Vec3& p : varied.cloud.points)
+        for (const Vec3& q : whole.cloud.points) found += (p - q).norm() < 1e-12 ? 1U : 0U;
+    CHECK(found == 150);
+    const cloud::Transform& transform = varied.target.transform();
+    REQUIRE(transform.rotation.has_value());
+    for (std::size_t i = 0; i < 150; ++i) {
+        CHECK((transform.inverse(varied.target[i]) - varied.cloud.points[i]).norm() < 1e-12);
+        CHECK((transform.apply(varied.cloud.points[i]) - varied.target[i]).norm() < 1e-12);
+    }
+    // The rotated cloud is what is normalised.
+    CHECK(varied.target.box().high.maxCoeff() == doctest::Approx(0.5));
+    CHECK(varied.target.box().centre().norm() < 1e-12);
+    // What a filter left out is known in normalised units.
+    REQUIRE(varied.removed.size() == 150);
+    for (const Vec3& p : varied.removed) CHECK(p.cwiseAbs().maxCoeff() < 0.5 + 1e-12);
+}
+
+TEST_CASE("input: a variation that changes nothing is refused") {
+    const std::string text =
+        test::minimal + "input: {cloud: {sample: {n: 100}, vary: {subsample: 1, rotate: false}}}\n";
+    try {
+        test::load_text(text);
+        FAIL("no error");
+    } catch (const ConfigError& error) {
+        CHECK(std::string(error.what()).find("'vary' changes nothing") != std::string::npos);
+    }
+    const auto loaded =
+        test::load_text(test::minimal + "input: {cloud: {sample: {n: 100}, vary: {}}}\n");
+    REQUIRE(loaded.experiment.input->cloud.vary.has_value());
+    CHECK(loaded.experiment.input->cloud.vary->subsample == 0.9);
+    CHECK(loaded.experiment.input->cloud.vary->rotate);
 }
 
 TEST_CASE("input: a filter that cannot be created is reported before the cloud is read") {

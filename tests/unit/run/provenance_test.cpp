@@ -133,3 +133,27 @@ TEST_CASE("provenance: everything that made the result, nobody who made it") {
                                                      "now", "", 0.0))["finished"]
               .is_null());
 }
+
+TEST_CASE("provenance: how the seed varied the cloud") {
+    const Folder folder;
+    const dsc::test::Strategies catalogue;
+    folder.write("libdsc_fake.so", "stands for a plugin");
+    const At at(folder.path(), folder.path());
+    const std::string file = folder.write("near.csv", "x,y,z\n1,2,3\n");
+    const auto variation = [&](const std::string& vary) {
+        const run::LoadedExperiment loaded = load_text(
+            minimal + "seed: 77\ninput: {cloud: {file: " + file + ", vary: " + vary + "}}\n");
+        return nlohmann::json::parse(
+            run::provenance_json(loaded, catalogue, "", {}, 1, "now", "", 0.0))["variation"];
+    };
+    const nlohmann::json turned = variation("{subsample: 0.8, jitter: 0.5}");
+    CHECK(turned["seed"] == 77);
+    CHECK(turned["subsample"] == 0.8);
+    CHECK(turned["jitter_spacings"] == 0.5);
+    REQUIRE(turned["rotation"].size() == 4);
+    double squares = 0.0;
+    for (const auto& part : turned["rotation"]) squares += part.get<double>() * part.get<double>();
+    CHECK(squares == doctest::Approx(1.0));
+    CHECK(variation("{rotate: false}")["rotation"].is_null());
+    CHECK(variation("null").is_null());
+}

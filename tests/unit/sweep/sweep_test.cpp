@@ -1,61 +1,21 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
 
 #include <doctest/doctest.h>
 
-#include <dsc/base/error.hpp>
 #include <dsc/config/overrides.hpp>
-#include <dsc/sweep/sweep.hpp>
 
-#include "../run/fakes.hpp"
+#include "bench.hpp"
 
 using namespace dsc;
-using dsc::test::Folder;
+using dsc::test::Bench;
+using dsc::test::contains;
+using dsc::test::lines;
 using dsc::test::minimal;
+using dsc::test::names;
 
 namespace {
-
-/// A folder with base.yaml in it, and what becomes of sweep files there.
-struct Bench {
-    Folder folder;
-    test::Strategies strategies;
-
-    Bench() { folder.write("base.yaml", minimal); }
-
-    sweep::Sweep load(const std::string& text) const {
-        return sweep::load_sweep(folder.write("sweep.yaml", "sweep: 1\nbase: base.yaml\n" + text));
-    }
-    std::vector<std::string> experiments(const sweep::Sweep& sweep) const {
-        return sweep::sweep_experiments(sweep, strategies.loader(), strategies);
-    }
-    sweep::Expansion expand(const std::string& text) const {
-        const sweep::Sweep sweep = load(text);
-        return sweep::expand_sweep(sweep, experiments(sweep), folder.path() / "out");
-    }
-    std::string table() const { return folder.read("out/jobs.tsv"); }
-    /// Message of the Error that `action` ends in, the folder shown as DIR.
-    template <class Action>
-    std::string fault(Action action) const {
-        try {
-            action();
-        } catch (const Error& error) {
-            std::string text = error.what();
-            const std::string path = folder.path().string();
-            for (std::size_t at = 0; (at = text.find(path)) != std::string::npos;)
-                text.replace(at, path.size(), "DIR");
-            return text;
-        }
-        return "no error";
-    }
-    std::string load_fault(const std::string& text) const {
-        return fault([&] { load(text); });
-    }
-    std::string expand_fault(const std::string& text) const {
-        return fault([&] { expand(text); });
-    }
-};
 
 std::vector<std::string> texts(const sweep::Sweep& sweep) {
     std::vector<std::string> all;
@@ -64,22 +24,22 @@ std::vector<std::string> texts(const sweep::Sweep& sweep) {
     return all;
 }
 
-std::vector<std::string> names(const sweep::Sweep& sweep) {
-    std::vector<std::string> all;
-    for (const sweep::SweepPoint& point : sweep.points) all.push_back(point.name);
-    return all;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
-
-std::size_t lines(const std::string& text) {
-    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
-
 const std::string six =
     "axes: [{grid: {velocity.factor: [0.1, 0.2, 0.3], initial_mesh.cells: [6, 8]}}]\n";
+
+/// An observer whose figures depend on the seed.
+class Noisy final : public hooks::Observer {
+public:
+    static constexpr hooks::Traits traits = {.stochastic = true};
+    struct Params {};
+    static void declare(config::ParamSchema<Params>&) {}
+    Noisy(const Params&, const plugin::Setup&) {}
+    void begin(const hooks::StepContext&) override {}
+    hooks::Figures step(const hooks::StepContext&, const hooks::StepFigures&) override {
+        return {};
+    }
+    hooks::Figures end(const hooks::StepContext&) override { return {}; }
+};
 
 }  // namespace
 
@@ -372,57 +332,63 @@ TEST_CASE("a folder with something else in it, or a damaged table, is refused") 
     CHECK(bench.expand(six).added == 6);
 }
 
-TEST_CASE("collect: a row a point, whatever its state") {
-    const Bench bench;
-    const std::string text = "axes: [{list: [{seed: 1}, {seed: 2}, {seed: 3, output.surface: [obj, "
-                             "ply]}, {seed: 4}, {seed: 5}, {seed: 6}]}]\n";
-    bench.expand(text);
-    const std::vector<std::string> all = names(bench.load(text));
-    const auto write = [&](std::size_t point, const std::string& file, const std::string& content) {
-        bench.folder.write("out/points/" + all[point] + "/run/" + file, content);
+TEST_CASE("repeats of a deterministic run are refused, with what makes them differ") {
+    Bench bench;
+    bench.folder.write("cloud.xyz", "0 0 0\n1 0 0\n0 1 0\n0 0 1\n");
+    const auto fault = [&](const std::string& base, const std::string& text) {
+        bench.folder.write("base.yaml", minimal + base);
+        return bench.expand_fault(text);
     };
-    write(0, "status.json", R"({"format": "dsc-run-1", "state": "done", "exit_code": 0})");
-    write(0, "summary.json",
-          R"({"status": "max_steps", "steps": 2, "volume": 0.1, "genus": 0, "vertex_to_cloud": null,
-              "observers": {"analytic": {"radius_error": 1e-3}}, "wall_s": 0.5})");
-    write(
-        1, "status.json",
-        R"({"format": "dsc-run-1", "state": "failed", "error_code": "run.vanished", "exit_code": 5})");
-    write(2, "status.json", R"({"format": "dsc-run-1", "state": "running"})");
-    // cannot be: of another run
-    write(2, "summary.json", R"({"status": "max_steps", "steps": 99})");
-    // its summary was taken away
-    write(4, "status.json", R"({"format": "dsc-run-1", "state": "done"})");
-    write(5, "status.json", R"({"format": "dsc-run-1", "state": "stopped", "exit_code": 75})");
-    write(5, "summary.json",
-          R"({"status": "cancelled", "steps": 1, "vertex_to_cloud": {"mean": 0.25}})");
+    const std::string three = fault("", "repeat: 3\n");
+    CAPTURE(three);
+    CHECK(contains(three, "DIR/sweep.yaml:3:9: error: runs that differ only in their seeds would "
+                          "all be the same"));
+    CHECK(contains(three, "note: in the point {seed: 2} and 1 other"));
+    CHECK(contains(three, "1 error; nothing was written"));
+    const std::string file = "input: {cloud: {file: cloud.xyz}, normalize: {scale: 0.9}}\n";
+    CHECK(contains(fault(file, "seeds: [4, 7]\n"), "set input.cloud.vary: {subsample: 0.9"));
+    CHECK(contains(fault("", "axes: [{grid: {seed: [1, 2]}}]\n"), "would all be the same"));
+    CHECK_FALSE(std::filesystem::exists(bench.folder.path() / "out"));
 
-    sweep::SweepStates states;
-    const std::string table = sweep::collect_sweep(bench.folder.path() / "out", states);
-    CAPTURE(table);
-    CHECK(states.points == 6);
-    CHECK(states.done == 1);
-    CHECK(states.failed == 1);
-    CHECK(states.unfinished == 3);
-    CHECK(states.missing == 1);
-    CHECK(lines(table) == 7);
-    CHECK(table.substr(0, table.find('\n')) ==
-          "index,folder,status,ended,error,seed,output.surface,steps,interface_vertices,interface_"
-          "faces,tets,"
-          "min_tet_quality,inverted_tets,components,genus,volume,volume_initial,boundary_edges,"
-          "nonmanifold_edges,"
-          "nonmanifold_vertices,self_intersections,vertex_to_cloud.mean,vertex_to_cloud.max,cloud_"
-          "to_surface.mean,"
-          "cloud_to_surface.max,observers.analytic.radius_error,wall_s,cpu_s,peak_rss_mb");
-    const std::string none(15, ',');
-    CHECK(contains(table, "\n0,points/" + all[0] +
-                              ",done,max_steps,,1,,2,,,,,,,0,0.1,,,,,,,,,,0.001,0.5,,\n"));
-    CHECK(contains(table, "\n1,points/" + all[1] + ",failed,,run.vanished,2,,"));
-    CHECK(contains(table, "\n2,points/" + all[2] + ",unfinished,,,3,\"[obj, ply]\"," + none));
-    CHECK(contains(table, "\n3,points/" + all[3] + ",missing,,,4,," + none));
-    CHECK(contains(table, "\n4,points/" + all[4] + ",unfinished,,,5,,"));
-    CHECK(contains(table, "\n5,points/" + all[5] + ",stopped,cancelled,,6,,1,"));
-    CHECK(contains(table, ",0.25,"));
-    CHECK(contains(bench.fault([&] { sweep::collect_sweep(bench.folder.path(), states); }),
-                   "DIR: does not contain jobs.tsv"));
+    // One run per setting, another cloud per seed, and what depends on the seed.
+    CHECK(fault("", "repeat: 1\naxes: [{grid: {velocity.factor: [0.1, 0.2]}}]\n") == "no error");
+    std::filesystem::remove_all(bench.folder.path() / "out");
+    CHECK(fault("", "axes: [{zip: {velocity.factor: [0.1, 0.2], seed: [1, 2]}}]\n") == "no error");
+    std::filesystem::remove_all(bench.folder.path() / "out");
+    CHECK(fault(file, "repeat: 3\nset: {input.cloud.vary: {}}\n") == "no error");
+    std::filesystem::remove_all(bench.folder.path() / "out");
+    CHECK(fault("input: {cloud: {sample: {n: 100}}}\n", "repeat: 3\n") == "no error");
+    std::filesystem::remove_all(bench.folder.path() / "out");
+    plugin::Registrar& registrar = bench.strategies;
+    registrar.add<Noisy>("noisy", "depends on the seed");
+    CHECK(fault("observers: [{type: counter}, {type: noisy}]\n", "repeat: 3\n") == "no error");
+}
+
+TEST_CASE("truth: of the sweep or of an axis, relative to the sweep file, never in an experiment") {
+    const Bench bench;
+    for (const char* name : {"a.obj", "b.obj"}) bench.folder.write(name, "v 0 0 0\n");
+    const sweep::Sweep all = bench.load("truth: a.obj\n" + six);
+    for (const sweep::SweepPoint& point : all.points)
+        CHECK(point.truth.value.as_string() == (bench.folder.path() / "a.obj").string());
+    CHECK(names(all) == names(bench.load(six)));
+    bench.expand("truth: a.obj\n" + six);
+    const std::string point = "out/points/" + all.points[3].name;
+    CHECK(contains(bench.folder.read(point + "/truth.json"),
+                   "\"mesh\": \"" + (bench.folder.path() / "a.obj").string() + "\""));
+    CHECK(bench.folder.read(point + "/experiment.yaml").find("truth") == std::string::npos);
+    CHECK(bench.expand("truth: b.obj\n" + six).kept == 6);
+    CHECK(contains(bench.folder.read(point + "/truth.json"), "b.obj"));
+    CHECK(bench.expand(six).kept == 6);
+    CHECK_FALSE(std::filesystem::exists(bench.folder.path() / point / "truth.json"));
+
+    const std::string zip = "axes: [{zip: {velocity.factor: [0.1, 0.2], truth: [a.obj, b.obj]}}]\n";
+    const sweep::Sweep each = bench.load(zip);
+    REQUIRE(each.points.size() == 2);
+    CHECK(each.points[1].truth.value.as_string() == (bench.folder.path() / "b.obj").string());
+    CHECK(bench.experiments(each).size() == 2);
+    CHECK(contains(bench.load_fault("truth: a.obj\n" + zip),
+                   "'truth' is already set by an earlier axis"));
+    CHECK(contains(bench.load_fault("axes: [{grid: {truth: [3]}}]\n"),
+                   "'truth' must be the name of a file"));
+    CHECK(contains(bench.expand_fault("truth: c.obj\n" + six), "DIR/c.obj does not exist"));
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Converts a cloud to normalised units, and results back.
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -10,14 +11,24 @@
 
 namespace dsc::cloud {
 
-/// Uniform: normalised = (input - centre) * scale. The default is the identity.
+/// Uniform: normalised = rotation * (input - centre) * scale. The default is the identity.
 struct Transform {
     Vec3 centre = Vec3::Zero();
-    double scale = 1.0;  ///< above 0
+    double scale = 1.0;                         ///< above 0
+    std::optional<Eigen::Matrix3d> rotation{};  ///< only if the cloud was rotated (cloud/vary.hpp)
 
-    Vec3 apply(const Vec3& input) const { return (input - centre) * scale; }
-    Vec3 inverse(const Vec3& normalised) const { return normalised / scale + centre; }
-    bool identity() const { return scale == 1.0 && centre == Vec3::Zero(); }
+    Vec3 apply(const Vec3& input) const {
+        const Vec3 scaled = (input - centre) * scale;
+        return rotation ? Vec3(*rotation * scaled) : scaled;
+    }
+    Vec3 inverse(const Vec3& normalised) const {
+        return direction_to_input(normalised) / scale + centre;
+    }
+    /// Turns a direction, for example a normal, back to the input's axes.
+    Vec3 direction_to_input(const Vec3& normalised) const {
+        return rotation ? Vec3(rotation->transpose() * normalised) : normalised;
+    }
+    bool identity() const { return !rotation && scale == 1.0 && centre == Vec3::Zero(); }
 };
 
 /// The box of the thesis: 3 units wide, centred at the origin.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <dsc/cloud/vary.hpp>
 #include <dsc/config/diagnostics.hpp>
 #include <dsc/config/node.hpp>
 #include <dsc/config/params.hpp>
@@ -32,6 +33,7 @@ struct CloudInput {
     std::vector<std::string> columns;  ///< of a text cloud (cloud::ReadOptions); empty: by the
                                        ///< header, else the first three
     std::optional<SampleInput> sample;
+    std::optional<cloud::Variation> vary;  ///< before the filters; drawn by the experiment's seed
     std::vector<config::StrategyConfig> filters;  ///< of kind "filter", in the order in which they
                                                   ///< are applied
 };

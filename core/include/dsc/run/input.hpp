@@ -10,10 +10,18 @@
 #include <dsc/cloud/cloud.hpp>
 #include <dsc/cloud/filter.hpp>
 #include <dsc/cloud/target.hpp>
+#include <dsc/cloud/vary.hpp>
 #include <dsc/plugin/catalogue.hpp>
 #include <dsc/run/experiment.hpp>
 
 namespace dsc::run {
+
+/// What the seed changed in the points, before the filters.
+struct VariationReport {
+    std::size_t left_out = 0;                 ///< number of points
+    double jitter = 0.0;                      ///< standard deviation, in the input's units
+    std::optional<Eigen::Matrix3d> rotation;  ///< empty if the cloud was not rotated
+};
 
 /// What happened to the input.
 struct InputReport {
@@ -21,6 +29,7 @@ struct InputReport {
     std::string format;       ///< "OBJ", ..., or "sample"
     std::size_t points = 0;   ///< number of points in the source
     std::size_t dropped = 0;  ///< points that are not finite; the reader left them out
+    std::optional<VariationReport> variation;  ///< empty without `vary`
     std::vector<cloud::FilterReport> filters;
     double filter_seconds = 0.0;  ///< CPU seconds
     double filter_wall_seconds = 0.0;
@@ -38,9 +47,10 @@ struct LoadedInput {
 
 /// Reads (through `files`) or samples, filters and normalises. `seed` is the seed of the
 /// experiment. `catalogue` creates the filters, which may use `workers` (null: one thread) and
-/// `cancel` (may be null). The result depends on neither. Throws IoError, GeometryError as the
-/// parts of the cloud module, and as Catalogue::create and the filters: PluginError, StrategyError,
-/// CancelledError. [setup]
+/// `cancel` (may be null). The result depends on neither. A variation of the input comes before the
+/// filters; the cloud, the transform and the report are those of the input's coordinates. Throws
+/// IoError, GeometryError as the parts of the cloud module, and as Catalogue::create and the
+/// filters: PluginError, StrategyError, CancelledError. [setup]
 LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Catalogue& catalogue,
                        InputFiles& files, Workers* workers = nullptr,
                        const CancelToken* cancel = nullptr);

@@ -10,6 +10,10 @@
 
 namespace dsc::run {
 
+/// The first of result/surface.obj, .ply, .off and .stl in a run folder; empty if there is none.
+/// [setup]
+std::filesystem::path result_surface(const std::filesystem::path& run_folder);
+
 class RunLock;
 
 /// Writes in an order that never makes an incomplete run look finished: status.json says "running"

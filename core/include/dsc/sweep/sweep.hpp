@@ -1,6 +1,6 @@
 #pragma once
-// Expands a parameter sweep into run folders and collects their results; an existing engine
-// executes the runs.
+// Expands a parameter sweep into run folders; an existing engine executes the runs, and results.hpp
+// collects what they have.
 
 #include <cstddef>
 #include <filesystem>
@@ -18,6 +18,8 @@ namespace dsc::sweep {
 struct SweepPoint {
     std::string name;              ///< 12 hex digits that depend only on the overrides
     config::ConfigNode overrides;  ///< dotted path to value, in the order of the axes
+    config::ConfigEntry truth{"truth", config::ConfigNode()};  ///< file of the true surface,
+                                                               ///< absolute; null without one
 };
 
 /// A sweep file with all combinations of its axes.
@@ -39,9 +41,15 @@ std::shared_ptr<const config::Schema> sweep_schema();
 /// [setup]
 Sweep load_sweep(const std::string& file, const config::YamlOptions& options = {});
 
+/// Key of an axis that is not part of an experiment: the true surface with which the result is
+/// compared.
+inline constexpr const char* truth_key = "truth";
+
 /// Validates every point as `dsc run --check` does and returns the texts of their experiment.yaml,
 /// with all defaults written out. Throws one ConfigError (IoError if only files are missing) with
-/// the faults of all points: each fault once, with the first point that has it. [setup]
+/// the faults of all points: each fault once, with the first point that has it. Points that differ
+/// only in the seed are a fault ("config.sweep_repeat") if nothing in them depends on the seed.
+/// [setup]
 std::vector<std::string> sweep_experiments(const Sweep& sweep,
                                            const run::PluginLoader& load_plugins,
                                            const plugin::Catalogue& catalogue,
@@ -54,25 +62,11 @@ struct Expansion {
     std::size_t others = 0;  ///< points of the table that are no longer in the sweep; they are kept
 };
 
-/// Writes FOLDER/points/NAME/experiment.yaml for every point, then FOLDER/jobs.tsv (index, folder,
-/// overrides). Lines of jobs.tsv are never removed, and an existing folder of a point is kept.
-/// Throws UsageError "sweep.folder" for a folder with other content, "sweep.changed" if a point
-/// that was started would become another experiment. [setup]
+/// Writes FOLDER/points/NAME/experiment.yaml for every point, and truth.json if it has a truth,
+/// then FOLDER/jobs.tsv (index, folder, overrides). Lines of jobs.tsv are never removed, and an
+/// existing folder of a point is kept. Throws UsageError "sweep.folder" for a folder with other
+/// content, "sweep.changed" if a point that was started would become another experiment. [setup]
 Expansion expand_sweep(const Sweep& sweep, const std::vector<std::string>& experiments,
                        const std::filesystem::path& folder);
-
-/// Progress of the points of a folder.
-struct SweepStates {
-    std::size_t points = 0;
-    std::size_t done = 0;
-    std::size_t failed = 0;      ///< ended with an error
-    std::size_t unfinished = 0;  ///< running, stopped or killed
-    std::size_t missing = 0;     ///< not started
-};
-
-/// One CSV table: index, folder and status of each point, its overrides and the main figures of its
-/// summary.json, empty if there are none. Throws UsageError "sweep.folder" for a folder without a
-/// job table. [setup]
-std::string collect_sweep(const std::filesystem::path& folder, SweepStates& states);
 
 }  // namespace dsc::sweep
