@@ -209,7 +209,10 @@ std::string all_warnings(const Comparison& comparison) {
         list +=
             tag("li", text(warning) + " " + tag("span", "(" + text(names) + ")", "hint")) + "\n";
     }
-    return list.empty() ? "" : section("Warnings", tag("ul", list), "warnings");
+    const std::string title = text::counted(found.size(), "warning") + ", each once";
+    return list.empty()
+               ? ""
+               : section("Warnings", folded(title, tag("ul", list), found.size()), "warnings");
 }
 
 }  // namespace

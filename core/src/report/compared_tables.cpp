@@ -32,9 +32,9 @@ struct Figure {
     std::string show(double value) const { return whole ? html::integer(value) : real(value); }
 };
 
-/// Columns that fit beside each other on a page, after what differs.
-constexpr std::size_t most_figures = 11;
+/// Columns that fit beside each other on a page.
 constexpr std::size_t most_keys = 5;
+constexpr std::size_t most_columns = 12;
 /// More settings than this are compared only with the first one.
 constexpr std::size_t most_settings = 30;
 
@@ -82,7 +82,7 @@ bool same_for_all(const Comparison& comparison, const Figure& figure) {
 std::vector<Figure> column_figures(const Comparison& comparison) {
     std::vector<Figure> figures;
     for (Figure& figure : all_figures(comparison)) {
-        if (figures.size() == most_figures) break;
+        if (figures.size() + std::min(comparison.keys.size(), most_keys) == most_columns) break;
         if (comparison.runs.size() == 1 || !same_for_all(comparison, figure))
             figures.push_back(std::move(figure));
     }
@@ -95,6 +95,12 @@ std::string data_cell(const std::string& markup, const std::string& key) {
 }
 
 std::string key_of(double value) { return std::isfinite(value) ? dsc::text::exact(value) : ""; }
+
+/// The same for what differs: short values stay on one line.
+std::string key_cell(const std::string& value, const std::string& key) {
+    return "<td class=\"key\" title=\"" + text(value) + "\" data-key=\"" + text(key) + "\">" +
+           text(value) + "</td>";
+}
 
 /// A header that sorts its column.
 std::string head_cell(const std::string& title, const std::string& full) {
@@ -134,10 +140,9 @@ std::string key_heads(const Comparison& comparison, bool seed) {
 
 std::string key_cells(const Comparison& comparison, const Compared& run, const std::string& name,
                       bool seed) {
-    std::string cells =
-        comparison.sweep ? data_cell(name, std::to_string(run.index)) : data_cell(text(name), name);
+    std::string cells = key_cell(name, comparison.sweep ? std::to_string(run.index) : name);
     for (const std::string& key : shown_keys(comparison, seed))
-        cells += data_cell(text(run.value(key)), run.value(key));
+        cells += key_cell(run.value(key), run.value(key));
     return cells;
 }
 

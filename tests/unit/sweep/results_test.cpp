@@ -207,7 +207,7 @@ TEST_CASE("truth: the figures of each result, kept until one of the surfaces cha
     const std::string first = table();
     CAPTURE(first);
     CHECK(number(first, 1, "truth.chamfer_percent") == doctest::Approx(0.0));
-    CHECK(number(first, 1, "truth.f_score_1_percent") == doctest::Approx(100.0));
+    CHECK(number(first, 1, "truth.f_score_1_percent") == doctest::Approx(1.0));
     CHECK(number(first, 1, "truth.normal_consistency") == doctest::Approx(1.0).epsilon(1e-3));
     // The corners are root 3 times 0.1 away, which is 10 % of the diagonal; the faces 0.1.
     CHECK(number(first, 2, "truth.hausdorff_percent") < 10.0 + 1e-9);
@@ -222,9 +222,9 @@ TEST_CASE("truth: the figures of each result, kept until one of the surfaces cha
     std::string json = bench.folder.read(kept);
     const std::string key = "\"f_score_1_percent\": 0.0";
     REQUIRE(contains(json, key));
-    json.replace(json.find(key), key.size(), "\"f_score_1_percent\": 33.0");
+    json.replace(json.find(key), key.size(), "\"f_score_1_percent\": 0.33");
     bench.folder.write(kept, json);
-    CHECK(number(table(), 2, "truth.f_score_1_percent") == 33.0);  // not measured again
+    CHECK(number(table(), 2, "truth.f_score_1_percent") == 0.33);  // not measured again
     const std::filesystem::path runs[] = {bench.folder.path() / "out/points" / all[1] / "run",
                                           bench.folder.path() / "out"};
     const auto points = sweep::points_of_runs(runs);
@@ -234,9 +234,9 @@ TEST_CASE("truth: the figures of each result, kept until one of the surfaces cha
     REQUIRE(point.has_value());
     CHECK(point->index == 1);
     CHECK(point->overrides.at("velocity.factor").as_real() == 0.2);
-    CHECK(point->truth[7] == std::pair<std::string, double>("f_score_1_percent", 33.0));
+    CHECK(point->truth[7] == std::pair<std::string, double>("f_score_1_percent", 0.33));
     finish(1, cube(0.0, 1.0));
-    CHECK(number(table(), 2, "truth.f_score_1_percent") == doctest::Approx(100.0));
+    CHECK(number(table(), 2, "truth.f_score_1_percent") == doctest::Approx(1.0));
     bench.folder.write("truth.obj", cube(-0.1, 1.1));
     CHECK(number(table(), 1, "truth.f_score_1_percent") == 0.0);
     // A page is made without the figures of a truth that is gone.

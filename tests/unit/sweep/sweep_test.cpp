@@ -144,7 +144,7 @@ TEST_CASE("faults of a sweep file, all at once, with their places") {
           "DIR/sweep.yaml:4:1: error: unknown key 'repaet' in the sweep\n"
           "    4 | repaet: 2\n"
           "      | ^~~~~~  did you mean 'repeat'? (integer, [1, 20000], optional)\n"
-          "      note: accepted keys: sweep, base, set, axes, seeds, repeat\n"
+          "      note: accepted keys: sweep, base, truth, set, axes, seeds, repeat\n"
           "2 errors; nothing was run");
     const std::string several = bench.load_fault(
         "axes:\n"

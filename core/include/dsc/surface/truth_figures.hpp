@@ -10,8 +10,9 @@
 
 namespace dsc::surface {
 
-/// Names and values, in the order in which `dsc evaluate` prints them. Names that end in `_percent`
-/// are per cent; of distances, per cent of the diagonal of the true surface's box. [parallel]
+/// Names and values, in the order in which `dsc evaluate` prints them. Distances are in per cent of
+/// the diagonal of the true surface's box. F-scores are 0 to 1; their names contain the distance,
+/// in per cent of the diagonal, up to which a sample counts. [parallel]
 std::vector<std::pair<std::string, double>> truth_figures(const Evaluation& evaluation);
 
 }  // namespace dsc::surface
