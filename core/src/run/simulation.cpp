@@ -8,6 +8,7 @@
 
 #include "initial_complex.hpp"
 #include "nearest_points.hpp"
+#include "offered_rescue.hpp"
 #include "refinement.hpp"
 #include "saved_run.hpp"
 #include "step_figures.hpp"
@@ -53,6 +54,7 @@ public:
     }
 
     SimulationResult execute() {
+        const OfferedRescue offered(options_, [this] { report_failure(); });
         try {
             options_.resume.empty() ? begin() : go_on();
             while (place_.item < experiment_.schedule.size() && !over_) series();
@@ -62,14 +64,18 @@ public:
             }
             finish();
         } catch (const StrategyError&) {
-            if (options_.on_strategy_failure)
-                options_.on_strategy_failure(deformer_.complex().to_mesh(), deformer_.step_count());
+            report_failure();
             throw;
         }
         return std::move(result_);
     }
 
 private:
+    void report_failure() const {
+        if (options_.on_strategy_failure)
+            options_.on_strategy_failure(deformer_.complex().to_mesh(), deformer_.step_count());
+    }
+
     /// `step`: the number in metrics.csv and events.jsonl; the first one is 1.
     hooks::StepContext make_context(std::uint64_t step) const {
         const std::uint64_t told = strategies_.velocity->planned_steps();
