@@ -37,6 +37,7 @@ void add_state_tests(std::vector<Test>& table);
 void add_hostile_tests(std::vector<Test>& table);
 void add_policy_tests(std::vector<Test>& table);
 void add_resource_tests(std::vector<Test>& table);
+void add_long_tests(std::vector<Test>& table);
 
 /// All tests.
 const std::vector<Test>& test_table();

@@ -11,7 +11,7 @@ class DividesByNormals final : public Velocity {
     using Velocity::Velocity;
     dsc::Vec3 displacement(std::size_t vertex) const override {
         const dsc::Vec3& n = context().surface.normals[vertex];
-        return 0.01 * n / n.squaredNorm();
+        return 0.1 * context().surface.mean_edge * n / n.squaredNorm();
     }
 };
 
