@@ -79,9 +79,8 @@ const plugin::PluginInfo* plugin_at(std::uintptr_t address) {
     return nullptr;
 }
 
-constexpr std::string_view help =
-    "; share/doc/debugging.md describes how to find the line of code, report it to the plugin's "
-    "authors";
+constexpr std::string_view help = "; to find the line of code, see share/doc/debugging.md, or "
+                                  "report this to the plugin's authors";
 
 /// A crash outside every call: of a thread that a plugin has started, or of the program itself.
 Error outside_a_call() {

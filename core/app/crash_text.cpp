@@ -93,7 +93,7 @@ void add_cause(CrashText& text, const siginfo_t& info, const CrashPlace& place) 
     } else if (info.si_signo == SIGFPE) {
         text << "its arithmetic has no result";
     } else if (info.si_signo == SIGILL) {
-        text << "it executed an instruction that does not exist";
+        text << "it executed an instruction that does not exist, such as the trap of a sanitizer";
     } else if (info.si_signo == SIGBUS) {
         text << "it used memory beyond the end of a file, or at an unaligned address";
     } else {
