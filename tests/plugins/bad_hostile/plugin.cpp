@@ -58,7 +58,8 @@ public:
     bool owns_sizing() const override { return true; }
     void refine(const dsc::hooks::RefinementContext& context,
                 dsc::hooks::RefinementRequests& out) override {
-        out.target_lengths.assign(context.step.surface.face_count(), 0.1);
+        out.target_lengths.assign(context.step.surface.face_count(),
+                                  context.step.surface.mean_edge);
     }
 };
 
