@@ -79,27 +79,25 @@ const plugin::PluginInfo* plugin_at(std::uintptr_t address) {
     return nullptr;
 }
 
-constexpr std::string_view help = "; to find the line of code, see share/doc/debugging.md, or "
-                                  "report this to the plugin's authors";
+constexpr std::string_view help = "to find the line of code, see share/doc/debugging.md, or report "
+                                  "this to the plugin's authors";
 
 /// A crash outside every call: of a thread that a plugin has started, or of the program itself.
 Error outside_a_call() {
     const std::string cause(guard->text.view());
     if (const plugin::PluginInfo* plugin = plugin_at(guard->place.code)) {
-        return StrategyError("strategy.crash", "plugin " + plugin->name + " (" +
-                                                   plugin->file.string() +
-                                                   ") crashed in a thread of its own with " +
-                                                   cause + std::string(help));
+        const std::string who = "plugin " + plugin->name + " (" + plugin->file.string() + ")";
+        return StrategyError("strategy.crash", "",
+                             who + " crashed in a thread of its own with " + cause, help);
     }
-    return Error(ExitCode::internal, "internal.crash",
-                 "internal: dsc crashed outside every strategy with " + cause +
-                     "; please report it with the command");
+    return Error(ExitCode::internal, "internal.crash", "internal",
+                 "dsc crashed outside every strategy with " + cause,
+                 "please report it with the command");
 }
 
 void rescue() {
     if (guard->in_call) {
-        const std::string text(guard->text.view());
-        run::abandon_runs(StrategyError("strategy.crash", text), true);
+        run::abandon_runs(StrategyError("strategy.crash", "", guard->text.view(), help), true);
         return;
     }
     const Error error = outside_a_call();
@@ -146,7 +144,6 @@ void describe_crash(const siginfo_t& info, const void* context) noexcept {
     guard->in_call = guard->text.call();
     if (!guard->in_call) return add_cause(guard->text, info, guard->place);
     add_cause(guard->text << " crashed with ", info, guard->place);
-    guard->text << help;
 }
 
 void on_crash(int, siginfo_t* info, void* context) {
@@ -160,9 +157,9 @@ void on_crash(int, siginfo_t* info, void* context) {
     if (guard->busy.exchange(true)) wait_for_the_end();
     describe_crash(*info, context);
     if (guard->in_call) {
-        tell("error: ");
-        tell(guard->text.view());
-        tell("\n");
+        for (const std::string_view part : {std::string_view("error: "), guard->text.view(),
+                                            std::string_view("; "), help, std::string_view("\n")})
+            tell(part);
     }
     ::sem_post(&guard->crashed);
     wait_for_rescuer();
