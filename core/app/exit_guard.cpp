@@ -59,8 +59,14 @@ void end_now(int code) noexcept {
 
 void guard_exit() {
     guarded_process = ::getpid();
-    std::atexit(on_exit_of_anyone);
-    std::at_quick_exit(on_exit_of_anyone);
+    // Each call of exit() takes the handlers from one list. If several threads of a strategy call
+    // it, the second one takes the next handler, which must be a guard too and not a destructor of
+    // what the first one still needs.
+    constexpr int most_threads = 256;
+    for (int i = 0; i < most_threads; ++i) {
+        std::atexit(on_exit_of_anyone);
+        std::at_quick_exit(on_exit_of_anyone);
+    }
 }
 
 int leave(int code) noexcept {
