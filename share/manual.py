@@ -93,6 +93,7 @@ def leaves(command):
 # ---- man page -----------------------------------------------------------------------------------------------------------
 
 ENVIRONMENT = [
+    ("DSC_CORE_DUMP", "1: after a crash in a run and the report about it, the process ends by the signal, so that the system writes a core file."),
     ("DSC_PLUGIN_PATH", "Folders of plugins, parted by colons; dsc plugin path shows what is looked through."),
     ("DSC_SHARE", "Folder of the data that dsc brings, where it is not the installed one."),
 ]

@@ -19,16 +19,18 @@ namespace dsc::app {
 namespace {
 
 std::atomic<pid_t> guarded_process{0};
+std::atomic<pid_t> refusing_thread{0};  // that handles the end of the process
 
-[[noreturn]] void end_now(int code) noexcept {
-    while (true) ::syscall(SYS_exit_group, code);
-}
-
-/// Whether the process ends although main() has not ended. Returns true at the first call only, so
-/// that a failure while the error is handled does not cause a second error.
+/// Whether the process ends although main() has not ended. Returns true at the first call only: if
+/// the thread that handles the end fails meanwhile, the process ends. Other threads that want to
+/// end it wait, because the exit code is not theirs.
 bool unexpected() noexcept {
-    pid_t self = ::getpid();
-    return guarded_process.compare_exchange_strong(self, 0);
+    if (guarded_process != ::getpid()) return false;
+    const pid_t self = ::gettid();
+    pid_t handled_by = 0;
+    if (refusing_thread.compare_exchange_strong(handled_by, self)) return true;
+    while (handled_by != self) ::pause();
+    return false;
 }
 
 [[noreturn]] void refuse_end() noexcept {
@@ -38,7 +40,7 @@ bool unexpected() noexcept {
                                 "ended the process instead of throwing an exception",
                                 "report this to the plugin's authors");
         tell(fmt::format("error: {}\n", error.what()));
-        run::abandon_runs(error);
+        run::abandon_runs(error, !call.empty());
     } catch (...) {
         tell("error: a plugin or a library ended the process\n");
     }
@@ -51,10 +53,20 @@ void on_exit_of_anyone() {
 
 }  // namespace
 
+void end_now(int code) noexcept {
+    while (true) ::syscall(SYS_exit_group, code);
+}
+
 void guard_exit() {
     guarded_process = ::getpid();
-    std::atexit(on_exit_of_anyone);
-    std::at_quick_exit(on_exit_of_anyone);
+    // Each call of exit() takes the handlers from one list. If several threads of a strategy call
+    // it, the second one takes the next handler, which must be a guard too and not a destructor of
+    // what the first one still needs.
+    constexpr int most_threads = 256;
+    for (int i = 0; i < most_threads; ++i) {
+        std::atexit(on_exit_of_anyone);
+        std::at_quick_exit(on_exit_of_anyone);
+    }
 }
 
 int leave(int code) noexcept {

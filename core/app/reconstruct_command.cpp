@@ -19,6 +19,7 @@
 #include <dsc/text/words.hpp>
 
 #include "commands.hpp"
+#include "crash_guard.hpp"
 #include "exit_guard.hpp"
 #include "files.hpp"
 #include "outcome.hpp"
@@ -217,6 +218,7 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     run::LoadedExperiment loaded = run::resolve_experiment(root, plugins.loader());
     loaded.files = files;
     guard_exit();
+    guard_crashes(plugins.host().plugins());
     if (arguments.print_config) {
         data_out() << run::resolved_text(loaded);
         return 0;

@@ -9,6 +9,7 @@
 #include <dsc/run/run_experiment.hpp>
 
 #include "commands.hpp"
+#include "crash_guard.hpp"
 #include "duration.hpp"
 #include "exit_guard.hpp"
 #include "outcome.hpp"
@@ -54,6 +55,7 @@ int execute(const RunArguments& arguments, const std::vector<std::string>& comma
     const run::LoadedExperiment loaded =
         run::load_experiment(arguments.config, arguments.overrides, plugins.loader());
     guard_exit();
+    guard_crashes(plugins.host().plugins());
     if (!loaded.warnings.empty()) log(LogLevel::warning, loaded.warnings);
     if (arguments.print_config) data_out() << run::resolved_text(loaded);
     if (arguments.check) return check(loaded, plugins.host(), arguments);

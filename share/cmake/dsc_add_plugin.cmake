@@ -11,9 +11,21 @@
 #            CMake are filled in; the result lies beside the library, as libdsc_NAME.check.yaml
 # Targets: plugin_NAME (the library), test_plugin_NAME.
 #
-# Outside of this project also: the build ends with loading the library into dsc, and fails where that does; ctest has
+# Outside of this project also: the headers of dsc are compiled once into a precompiled header, which makes each later build
+# faster (CMAKE_DISABLE_PRECOMPILE_HEADERS=ON turns it off); the build ends with loading the library into dsc, and fails where that does; ctest has
 # NAME.conformance, which is `dsc plugin check`; and `cmake --install` copies the library to DSC_PLUGIN_INSTALL_DIR, which is
 # the user's folder of plugins, or lib/dsc/plugins of CMAKE_INSTALL_PREFIX where one is given when configuring.
+
+# What every strategy includes is parsed once and not with each change of a source: most of the time of a compilation goes into
+# these headers, and most of that into Eigen. The warnings are off for the reason that dsc_add_plugin() gives below.
+function(_dsc_precompile_headers name)
+  set(headers <dsc/plugin/plugin.hpp>)
+  foreach(hook IN ITEMS cloud_filter curvature_estimator improvement initial_mesh observer refinement_policy velocity_field)
+    list(APPEND headers <dsc/hooks/${hook}.hpp>)
+  endforeach()
+  target_precompile_headers(plugin_${name}_objects PRIVATE ${headers})
+  target_compile_options(plugin_${name}_objects PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-stringop-overflow>)
+endfunction()
 
 # The library is loaded into the installed program as part of the build.
 function(_dsc_add_load_test name)
@@ -114,6 +126,7 @@ function(dsc_add_plugin name)
     _dsc_add_notes(${name} ${arg_CHECK})
   endif()
   if(outside)
+    _dsc_precompile_headers(${name})
     _dsc_add_load_test(${name})
     _dsc_install_plugin(${name})
     if(NOT DEFINED BUILD_TESTING OR BUILD_TESTING)

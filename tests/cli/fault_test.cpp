@@ -86,6 +86,7 @@ TEST_CASE("a strategy that ends the process: no success, and the run folder tell
         CHECK(cli.read("out/status.json").find("\"error_code\": \"strategy.exit\"") !=
               std::string::npos);
         CHECK(cli.read("out/status.json").find("\"failed\"") != std::string::npos);
+        CHECK(cli.dsc({"info", "out/last_good/surface.obj", "--require-solid"}).code == 0);
     }
 }
 

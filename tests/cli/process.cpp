@@ -28,11 +28,11 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
     }
 }
 
-[[noreturn]] void child(const std::vector<std::string>& arguments, const fs::path& folder,
-                        const fs::path& out, const fs::path& err,
+[[noreturn]] void child(const std::string& file, const std::vector<std::string>& arguments,
+                        const fs::path& folder, const fs::path& out, const fs::path& err,
                         const std::map<std::string, std::string>& environment) {
-    const auto redirect = [](const char* file, int to, int flags) {
-        const int from = open(file, flags, 0600);
+    const auto redirect = [](const char* stream, int to, int flags) {
+        const int from = open(stream, flags, 0600);
         if (from < 0 || dup2(from, to) < 0) _exit(127);
     };
     redirect("/dev/null", STDIN_FILENO, O_RDONLY);
@@ -46,7 +46,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
             setenv(name.c_str(), value.c_str(), 1);
         }
     }
-    std::vector<std::string> copy = {DSC_TEST_COMMAND};
+    std::vector<std::string> copy = {file};
     copy.insert(copy.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& argument : copy) argv.push_back(argument.data());
@@ -82,10 +82,14 @@ std::string Cli::write(const std::string& name, const std::string& text) const {
 std::string Cli::read(const std::string& name) const { return content(folder_ / name); }
 
 Result Cli::dsc(const std::vector<std::string>& arguments) const {
+    return program(DSC_TEST_COMMAND, arguments);
+}
+
+Result Cli::program(const std::string& file, const std::vector<std::string>& arguments) const {
     const fs::path out = folder_.string() + ".out", err = folder_.string() + ".err";
     const pid_t process = fork();
     if (process < 0) throw std::runtime_error("fork failed");
-    if (process == 0) child(arguments, folder_, out, err, environment);
+    if (process == 0) child(file, arguments, folder_, out, err, environment);
     int status = 0;
     waitpid(process, &status, 0);
     Result result;

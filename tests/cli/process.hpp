@@ -34,6 +34,8 @@ public:
     /// `dsc` with these arguments, the scratch folder as the current one. The folder's path is
     /// shown as "DIR" in what was said.
     Result dsc(const std::vector<std::string>& arguments) const;
+    /// Another program instead of `dsc`.
+    Result program(const std::string& file, const std::vector<std::string>& arguments) const;
 
 private:
     std::filesystem::path folder_;

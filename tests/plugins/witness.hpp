@@ -1,7 +1,7 @@
 #pragma once
 // What the witnesses of `dsc plugin check` have in common: strategies without a fault, of which
 // each witness changes the one thing that its test asks for. The id of a witness is that of its
-// test, with an underscore for the point.
+// test, with an underscore for the point, and a word of its own where a test has several.
 
 #include <dsc/plugin/plugin.hpp>
 
@@ -22,7 +22,7 @@ public:
 
 protected:
     virtual dsc::Vec3 displacement(std::size_t vertex) const {
-        return 0.01 * context().surface.normals[vertex];
+        return 0.1 * context().surface.mean_edge * context().surface.normals[vertex];
     }
     const dsc::hooks::StepContext& context() const { return *context_; }
     /// True on the surface and cloud that most tests use, and on no hostile one.
@@ -30,6 +30,25 @@ protected:
 
 private:
     const dsc::hooks::StepContext* context_ = nullptr;
+};
+
+/// Along the normals, multiplied by a factor for the whole step.
+class Timed : public Velocity {
+public:
+    using Velocity::Velocity;
+    void prepare(const dsc::hooks::StepContext& context) override {
+        Velocity::prepare(context);
+        factor_ = factor();
+    }
+
+protected:
+    virtual double factor() const = 0;
+    dsc::Vec3 displacement(std::size_t vertex) const override {
+        return factor_ * Velocity::displacement(vertex);
+    }
+
+private:
+    double factor_ = 1.0;
 };
 
 /// The same with a parameter.

@@ -8,6 +8,9 @@
 #include <thread>
 #include <vector>
 
+#include <dsc/base/signal_stack.hpp>
+#include <dsc/base/thread_mark.hpp>
+
 namespace dsc {
 
 struct Workers::Pool {
@@ -17,6 +20,7 @@ struct Workers::Pool {
     std::condition_variable work_ready;
     std::condition_variable work_done;
     const Body* body = nullptr;
+    const void* mark = nullptr;  // of the thread that runs the loop, for the threads that help
     std::size_t count = 0;
     std::size_t block = 1;
     std::size_t next = 0;
@@ -40,6 +44,7 @@ struct Workers::Pool {
     }
 
     void serve() {
+        const SignalStack stack;
         std::unique_lock lock(mutex);
         while (true) {
             work_ready.wait(lock, [this] { return stopping || (body != nullptr && next < count); });
@@ -58,6 +63,7 @@ struct Workers::Pool {
             lock.unlock();
             std::exception_ptr error;
             try {
+                const ThreadMark marked(mark);
                 (*body)(begin, end);
             } catch (...) {
                 error = std::current_exception();
@@ -75,6 +81,7 @@ struct Workers::Pool {
     void run(std::size_t total, std::size_t size, const Body& loop) {
         std::unique_lock lock(mutex);
         body = &loop;
+        mark = thread_mark();
         count = total;
         block = size;
         next = 0;

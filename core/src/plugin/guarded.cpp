@@ -1,37 +1,74 @@
 // Turns the faults of a strategy into errors that name it.
 #include "dsc/plugin/guarded.hpp"
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <exception>
 
 namespace dsc::plugin {
 namespace {
 
-thread_local const Call* call_of_thread = nullptr;
+// Passes the parts of the text to `add`, one after the other.
+template <class Add>
+void describe(const Identity& who, const Add& add) {
+    for (const std::string_view part :
+         {kind_name(who.kind), std::string_view(" '"), std::string_view(who.id),
+          std::string_view("' (plugin "), std::string_view(who.plugin), std::string_view(" "),
+          std::string_view(who.version), std::string_view(", "), std::string_view(who.file),
+          std::string_view(", at '"), std::string_view(who.path),
+          std::string_view("' in the experiment")})
+        add(part);
+    if (!who.place.empty()) {
+        add(", ");
+        add(who.place);
+    }
+    add(")");
+}
+
+template <class Add>
+void describe(const Call& call, const Add& add) {
+    describe(call.who, add);
+    add(": ");
+    add(call.hook);
+    if (!call.step) return;
+    std::array<char, 20> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), *call.step).ptr;
+    add(" at step ");
+    add(std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data())));
+}
 
 std::string call_text(const Call& call) {
-    std::string text = call.who.describe();
-    text.append(": ").append(call.hook);
-    if (call.step) text.append(" at step ").append(std::to_string(*call.step));
+    std::string text;
+    describe(call, [&text](std::string_view part) { text.append(part); });
     return text;
 }
 
 }  // namespace
 
-Inside::Inside(const Call& call) noexcept : outer_(call_of_thread) { call_of_thread = &call; }
-Inside::~Inside() { call_of_thread = outer_; }
-
 std::string current_call() {
-    return call_of_thread == nullptr ? std::string() : call_text(*call_of_thread);
+    const auto* const call = static_cast<const Call*>(thread_mark());
+    return call == nullptr ? std::string() : call_text(*call);
+}
+
+std::size_t current_call(std::span<char> out) noexcept {
+    std::size_t size = 0;
+    const auto* const call = static_cast<const Call*>(thread_mark());
+    if (call == nullptr) return size;
+    describe(*call, [&](std::string_view part) {
+        const std::size_t fits = std::min(part.size(), out.size() - size);
+        std::copy_n(part.begin(), fits, out.begin() + static_cast<std::ptrdiff_t>(size));
+        size += fits;
+    });
+    return size;
 }
 
 StrategyFailure::~StrategyFailure() = default;
 
 std::string Identity::describe() const {
-    std::string text(kind_name(kind));
-    text.append(" '").append(id).append("' (plugin ").append(plugin).append(" ").append(version);
-    text.append(", ").append(file).append(", at '").append(path).append("' in the experiment");
-    if (!place.empty()) text.append(", ").append(place);
-    return text + ")";
+    std::string text;
+    plugin::describe(*this, [&text](std::string_view part) { text.append(part); });
+    return text;
 }
 
 void fail(const Call& call, std::string code, std::string_view cause, std::string_view remedy) {

@@ -98,11 +98,11 @@ public:
                           path.string()));
         }
         folder.write("status.json", status_json(state_));
-        const Running running([this, &folder](const Error& error) {
+        Running running([this, &folder](const Error& error) {
             fail(folder, static_cast<int>(error.exit_code()), error.code(), error.what());
         });
         try {
-            RunOutcome outcome = work(folder, strategies, checkpoints);
+            RunOutcome outcome = work(folder, strategies, checkpoints, running);
             state_.finished = utc_now();
             state_.state = outcome.totals.status == Status::cancelled ? "stopped" : "done";
             state_.exit_code =
@@ -131,8 +131,8 @@ private:
     /// Of the whole run, including the time before a checkpoint.
     double run_seconds() const { return watch_.seconds() + (resumed_ ? resumed_->seconds : 0.0); }
 
-    RunOutcome work(const RunFolder& folder, Strategies& strategies,
-                    const Checkpoints& checkpoints) {
+    RunOutcome work(const RunFolder& folder, Strategies& strategies, const Checkpoints& checkpoints,
+                    Running& running) {
         const Experiment& experiment = loaded_.experiment;
         folder.write("config.resolved.yaml", resolved_text(loaded_));
         folder.write("provenance.json", provenance(""));
@@ -179,6 +179,9 @@ private:
         simulation_options.on_strategy_failure = [&](const mesh::TetMesh& mesh,
                                                      std::uint64_t steps) {
             save_last_good(folder, to_input(mesh, to_normalised), steps);
+        };
+        simulation_options.on_rescue = [&running](std::function<void()> rescue) {
+            running.set_rescue(std::move(rescue));
         };
         SimulationResult end = simulate(experiment, strategies, target, simulation_options);
         run_log.close();

@@ -13,7 +13,7 @@ namespace {
 
 struct RunsOfProcess {
     std::mutex mutex;
-    std::vector<const Running::Abandon*> all;
+    std::vector<const Running*> all;
 };
 RunsOfProcess& runs_of_process() {
     static auto* const runs = new RunsOfProcess;  // lives as long as the process, including exit()
@@ -24,18 +24,28 @@ RunsOfProcess& runs_of_process() {
 
 Running::Running(Abandon abandon) : abandon_(std::move(abandon)) {
     const std::lock_guard lock(runs_of_process().mutex);
-    runs_of_process().all.push_back(&abandon_);
+    runs_of_process().all.push_back(this);
 }
 
 Running::~Running() {
     const std::lock_guard lock(runs_of_process().mutex);
     auto& all = runs_of_process().all;
-    all.erase(std::find(all.begin(), all.end(), &abandon_));
+    all.erase(std::find(all.begin(), all.end(), this));
 }
 
-void abandon_runs(const Error& error) {
+void Running::set_rescue(Rescue rescue) {
     const std::lock_guard lock(runs_of_process().mutex);
-    for (const Running::Abandon* abandon : runs_of_process().all) (*abandon)(error);
+    rescue_ = std::move(rescue);
+}
+
+void abandon_runs(const Error& error, bool unchanged) {
+    const std::lock_guard lock(runs_of_process().mutex);
+    // The cause comes first: a fault while a state is saved must not hide it.
+    for (const Running* run : runs_of_process().all) run->abandon_(error);
+    if (!unchanged) return;
+    for (const Running* run : runs_of_process().all) {
+        if (run->rescue_) run->rescue_();
+    }
 }
 
 }  // namespace dsc::run

@@ -7,6 +7,7 @@
 #include <dsc/run/repair_policy.hpp>
 
 #include "initial_complex.hpp"
+#include "offered_rescue.hpp"
 #include "refinement.hpp"
 #include "refinement_watch.hpp"
 #include "saved_run.hpp"
@@ -56,6 +57,7 @@ public:
     }
 
     SimulationResult execute() {
+        const OfferedRescue offered(options_, [this] { report_failure(); });
         try {
             options_.resume.empty() ? begin() : go_on();
             while (place_.item < experiment_.schedule.size() && !over_) series();
@@ -65,14 +67,18 @@ public:
             }
             finish();
         } catch (const StrategyError&) {
-            if (options_.on_strategy_failure)
-                options_.on_strategy_failure(deformer_.complex().to_mesh(), deformer_.step_count());
+            report_failure();
             throw;
         }
         return std::move(result_);
     }
 
 private:
+    void report_failure() const {
+        if (options_.on_strategy_failure)
+            options_.on_strategy_failure(deformer_.complex().to_mesh(), deformer_.step_count());
+    }
+
     /// The last step of the run as far as it is known; 0: unknown.
     std::uint64_t last_step() const {
         const std::uint64_t told = strategies_.velocity->planned_steps();

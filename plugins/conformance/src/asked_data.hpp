@@ -9,6 +9,7 @@
 #include <dsc/mesh/volume_view.hpp>
 
 #include "fixtures.hpp"
+#include "guarded_input.hpp"
 
 namespace dsc::conformance {
 
@@ -18,18 +19,27 @@ public:
     /// The context with what the strategy asks for, as in a run.
     template <class Hook>
     hooks::StepContext complete(const Hook& hook, hooks::StepContext context) {
-        faces_.clear();
-        support_.clear();
+        faces_ = {};
+        support_ = {};
         if (context.cloud == nullptr || context.surface.face_count() == 0) return context;
         const bool faces = hook.needs_faces_of_points(), support = hook.needs_support();
+        std::vector<surface::FacePoint> found;
         if (faces || support)
-            surface::nearest_faces(context.surface, context.cloud->points(), faces_,
+            surface::nearest_faces(context.surface, context.cloud->points(), found,
                                    context.workers);
-        if (support)
-            hooks::measure_support(context.surface, *context.cloud, faces_, support_,
+        if (support) {
+            std::vector<double> measured;
+            hooks::measure_support(context.surface, *context.cloud, found, measured,
                                    context.workers);
-        if (faces) context.faces_of_points = faces_;
-        context.support = support_;
+            support_ = in_guarded_memory([&] { return std::vector<double>(measured); });
+            name_memory(support_.data(), "the support of the vertices");
+            context.support = support_;
+        }
+        if (faces) {
+            faces_ = in_guarded_memory([&] { return std::vector<surface::FacePoint>(found); });
+            name_memory(faces_.data(), "the nearest faces of the points");
+            context.faces_of_points = faces_;
+        }
         return context;
     }
 

@@ -13,6 +13,7 @@
 
 #include <dsc/base/random.hpp>
 
+#include "clock_shift.hpp"
 #include "test_table.hpp"
 
 namespace dsc::conformance {
@@ -142,6 +143,28 @@ void environment(const Subject& subject) {
         "a different locale, time zone, home folder or working folder changes the answers");
 }
 
+// Some hours, a month and years later or earlier, and a machine so slow that each look at a clock
+// takes a minute.
+void clock(const Subject& subject) {
+    subject.require_repeatable();
+    constexpr long hour = 3600;
+    constexpr long day = 24 * hour;
+    const Trace now = subject.answers().trace;
+    for (const ClockShift& shift :
+         {ClockShift{13 * hour + 17 * 60, 0}, ClockShift{day + hour, 0}, ClockShift{45 * day, 0},
+          ClockShift{200 * day, 0}, ClockShift{-3 * 365 * day, 0}, ClockShift{0, 60}}) {
+        shift_clocks(shift);
+        const Trace then = subject.answers().trace;
+        shift_clocks({});
+        require_same(now, then,
+                     shift.seconds_more > 0
+                         ? std::string("on a slower machine its answers differ: it reads a clock")
+                         : fmt::format("{} hours {} its answers differ: it reads a clock",
+                                       std::abs(shift.seconds) / hour,
+                                       shift.seconds > 0 ? "later" : "earlier"));
+    }
+}
+
 void seed(const Subject& subject) {
     subject.require_repeatable();
     const Trace one = subject.answers({.seed = 1}).trace;
@@ -178,6 +201,10 @@ void add_determinism_tests(std::vector<Test>& table) {
         {"det.env", Level::strict, false,
          "Locale, time zone, home folder and working folder change no answer."},
         environment);
+    add(table,
+        {"det.clock", Level::standard, false,
+         "The time of day, the date and the speed of the machine change no answer."},
+        clock);
     add(table,
         {"seed.used", Level::standard, false,
          "The seed changes the answers of strategies that are declared stochastic, and of no "

@@ -10,45 +10,13 @@
 #include <dsc/surface/surface_view.hpp>
 
 #include "asked_data.hpp"
+#include "call_note.hpp"
+#include "exercise_parts.hpp"
+#include "guarded_input.hpp"
 #include "requests.hpp"
 
 namespace dsc::conformance {
 namespace {
-
-constexpr std::size_t margin = 32;
-
-// An output with guard entries before and after it, which a strategy must not write.
-template <class T>
-class Output {
-public:
-    Output(std::size_t size, const T& fill) : memory_(size + 2 * margin, fill) {}
-    std::span<T> entries() {
-        return std::span(memory_).subspan(margin, memory_.size() - 2 * margin);
-    }
-    // "2 entries after its end", or nothing.
-    std::string touched() const {
-        for (std::size_t i = 0; i < margin; ++i) {
-            if (!untouched(memory_[margin - 1 - i]))
-                return std::to_string(i + 1) + " entries before its beginning";
-            if (!untouched(memory_[memory_.size() - margin + i]))
-                return std::to_string(i + 1) + " entries after its end";
-        }
-        return {};
-    }
-
-private:
-    static bool untouched(double value) { return is_unwritten(value); }
-    static bool untouched(const Vec3& value) {
-        return is_unwritten(value.x()) && is_unwritten(value.y()) && is_unwritten(value.z());
-    }
-    std::vector<T> memory_;
-};
-
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
 
 // The part of the input that differs; empty: none.
 std::string difference(const Fixture& before, const Fixture& after) {
@@ -69,34 +37,26 @@ std::string difference(const Fixture& before, const Fixture& after) {
     return {};
 }
 
-bool same_bytes(const cloud::Cloud& a, const cloud::Cloud& b) {
+bool same_cloud(const cloud::Cloud& a, const cloud::Cloud& b) {
     return same_bytes(a.points, b.points) && same_bytes(a.colours, b.colours) &&
            same_bytes(a.normals, b.normals) && same_bytes(a.areas, b.areas) &&
            same_bytes(a.confidence, b.confidence) &&
            same_bytes(a.orientation.samples, b.orientation.samples) && a.source == b.source;
 }
 
-// A velocity along the normals that decreases with the distance from the middle, for refinements to
-// read.
-class Breathing final : public hooks::VelocityField {
-public:
-    void prepare(const hooks::StepContext& context) override { surface_ = &context.surface; }
-    void evaluate(hooks::Range range, std::span<Vec3> out) const override {
-        for (std::size_t i = 0; i < out.size(); ++i) {
-            const bool rests = surface_->births[range.begin + i] % 3 != 0;
-            out[i] = rests ? Vec3::Zero() : Vec3(0.01 * surface_->normals[range.begin + i]);
-        }
-    }
-    bool can_sample() const override { return true; }
-    void sample(std::span<const Vec3> points, std::span<const Vec3> unit_normals,
-                std::span<Vec3> out) const override {
-        for (std::size_t i = 0; i < out.size(); ++i)
-            out[i] = (0.05 * std::abs(points[i].x())) * unit_normals[i];
-    }
-
-private:
-    const surface::SurfaceView* surface_ = nullptr;
-};
+void name_parts(const surface::SurfaceView& view) {
+    name_memory(view.vertex_ids.data(), "the vertex ids of the surface");
+    name_memory(view.births.data(), "the birth ids of the surface");
+    name_memory(view.positions.data(), "the positions of the surface");
+    name_memory(view.normals.data(), "the normals of the surface");
+    name_memory(view.movable.data(), "the movable vertices of the surface");
+    name_memory(view.faces.data(), "the faces of the surface");
+    name_memory(view.face_tets.data(), "the tets behind the faces of the surface");
+    name_memory(view.face_normals.data(), "the face normals of the surface");
+    name_memory(view.face_areas.data(), "the face areas of the surface");
+    name_memory(view.face_offsets.data(), "the face offsets of the surface");
+    name_memory(view.vertex_faces.data(), "the faces of the vertices of the surface");
+}
 
 class Exerciser {
 public:
@@ -114,7 +74,8 @@ public:
         }
         for (std::uint64_t step = how_.first_step; step < how_.first_step + how_.steps; ++step) {
             const Fixture before = at_step(fixture_, step);
-            const Fixture now = before;
+            const Fixture now = in_guarded_memory([&] { return before; });
+            name_parts(now.view);
             const hooks::StepContext context = context_of(now, step, how_, &workers_);
             at_ = " at step " + std::to_string(step);
             one_step(kind, strategy, now, context);
@@ -151,26 +112,29 @@ private:
 
     void velocity(hooks::VelocityField& field, const hooks::StepContext& given) {
         const hooks::StepContext context = asked_.complete(field, given);
-        field.advance(context);
-        for (unsigned i = 0; i < how_.prepares; ++i) field.prepare(context);
+        noted("advance", context.step, [&] { field.advance(context); });
+        for (unsigned i = 0; i < how_.prepares; ++i)
+            noted("prepare", context.step, [&] { field.prepare(context); });
         const std::size_t count = context.surface.vertex_count();
         std::vector<Vec3> all(count);
         std::vector<std::string> touched((count + how_.block - 1) / how_.block);
-        workers_.for_blocks(count, how_.block, [&](std::size_t begin, std::size_t end) {
+        const auto evaluate = [&](std::size_t begin, std::size_t end) {
             Output<Vec3> out(end - begin, Vec3::Constant(unwritten()));
             field.evaluate({begin, end}, out.entries());
             std::copy(out.entries().begin(), out.entries().end(),
                       all.begin() + static_cast<std::ptrdiff_t>(begin));
             touched[begin / how_.block] = out.touched();
-        });
+        };
+        noted("evaluate", context.step, [&] { workers_.for_blocks(count, how_.block, evaluate); });
         note_touched(touched, "displacements");
         record("displacements", std::span<const Vec3>(all), 3);
         if (field.can_sample()) sample(field, context);
         hooks::Attributes attributes;
-        field.publish(attributes);
+        noted("publish", context.step, [&] { field.publish(attributes); });
         record(attributes, context);
         part("end of the motion", 1);
-        answers_.trace.add(field.finished() ? 1.0 : 0.0);
+        const bool finished = noted("finished", context.step, [&] { return field.finished(); });
+        answers_.trace.add(finished ? 1.0 : 0.0);
         answers_.trace.add(static_cast<double>(field.planned_steps()));
     }
 
@@ -187,18 +151,20 @@ private:
         for (const auto& [a, b, c] : view.faces)
             points.push_back((view.positions[a] + view.positions[b] + view.positions[c]) / 3.0);
         Output<Vec3> out(points.size(), Vec3::Constant(unwritten()));
-        field.sample(points, view.face_normals, out.entries());
+        noted("sample", context.step,
+              [&] { field.sample(points, view.face_normals, out.entries()); });
         check_output(out, "sampled displacements");
         record("sampled displacements", std::span<const Vec3>(out.entries()), 3);
     }
 
     void curvature(hooks::CurvatureEstimator& estimator, const hooks::StepContext& context) {
-        for (unsigned i = 0; i < how_.prepares; ++i) estimator.prepare(context);
+        for (unsigned i = 0; i < how_.prepares; ++i)
+            noted("prepare", context.step, [&] { estimator.prepare(context); });
         const std::size_t count = context.surface.vertex_count();
         std::vector<double> scalars(count);
         std::vector<Vec3> vectors(count);
         std::vector<std::string> touched((count + how_.block - 1) / how_.block);
-        workers_.for_blocks(count, how_.block, [&](std::size_t begin, std::size_t end) {
+        const auto evaluate = [&](std::size_t begin, std::size_t end) {
             Output<double> scalar(end - begin, unwritten());
             Output<Vec3> vector(end - begin, Vec3::Constant(unwritten()));
             estimator.evaluate({begin, end}, scalar.entries(), vector.entries());
@@ -206,7 +172,8 @@ private:
             std::copy(scalar.entries().begin(), scalar.entries().end(), scalars.begin() + to);
             std::copy(vector.entries().begin(), vector.entries().end(), vectors.begin() + to);
             touched[begin / how_.block] = scalar.touched() + vector.touched();
-        });
+        };
+        noted("evaluate", context.step, [&] { workers_.for_blocks(count, how_.block, evaluate); });
         note_touched(touched, "curvatures");
         record("curvatures", std::span<const double>(scalars), 1);
         record("curvature vectors", std::span<const Vec3>(vectors), 3);
@@ -225,7 +192,9 @@ private:
         Breathing velocity;
         velocity.prepare(context);
         hooks::RefinementRequests requests;
-        policy.refine({context, policy.needs_sampling() ? &velocity : nullptr, 0}, requests);
+        noted("refine", context.step, [&] {
+            policy.refine({context, policy.needs_sampling() ? &velocity : nullptr, 0}, requests);
+        });
         if (answers_.unfit_lengths.empty())
             answers_.unfit_lengths = unfit_lengths(requests, context.surface.vertex_count());
         add_requests(requests, at_, answers_.trace);
@@ -250,7 +219,7 @@ private:
         const repair::RepairRound round{
             complex,           dirty, blocked,        {}, {}, context.target_length,
             policy.flatness(), 0,     how_.steps == 1};
-        policy.propose(context, round, requests);
+        noted("propose", context.step, [&] { policy.propose(context, round, requests); });
         part("requests", 10);
         for (const repair::Request& r : requests) add(r);
         select(policy, context);
@@ -265,7 +234,7 @@ private:
             candidates[i].volume = 1.0;
         }
         std::vector<std::uint8_t> accept(candidates.size(), 0);
-        policy.select(context, candidates, accept);
+        noted("select", context.step, [&] { policy.select(context, candidates, accept); });
         part("accepted candidates", 1);
         for (const std::uint8_t a : accept) answers_.trace.add(a);
     }
@@ -282,15 +251,17 @@ private:
 
     void observer(hooks::Observer& observer, const hooks::StepContext& given) {
         const hooks::StepContext context = asked_.complete(observer, given, fixture_);
-        if (context.step == 1) observer.begin(context);
+        if (context.step == 1) noted("begin", context.step, [&] { observer.begin(context); });
         hooks::StepFigures figures;
         figures.step = context.step;
         figures.interface_vertices = context.surface.vertex_count();
         figures.tets = 1000;
         figures.volume = 3.0;
         figures.min_tet_quality = 0.2;
-        add("figures of the step", observer.step(context, figures));
-        add("figures of the end", observer.end(context));
+        add("figures of the step",
+            noted("step", context.step, [&] { return observer.step(context, figures); }));
+        add("figures of the end",
+            noted("end", context.step, [&] { return observer.end(context); }));
     }
 
     void add(const std::string& what, const hooks::Figures& figures) {
@@ -311,7 +282,8 @@ private:
         context.cancel = how_.cancel;
         context.files = &files;
         context.workers = &workers_;
-        const mesh::TetMesh mesh = generator.build(context);
+        const mesh::TetMesh mesh =
+            noted("build", std::nullopt, [&] { return generator.build(context); });
         record("points", std::span<const Vec3>(mesh.points), 3);
         part("tets", 4);
         for (const auto& tet : mesh.tets) {
@@ -322,11 +294,14 @@ private:
     }
 
     void filter(hooks::CloudFilter& filter) {
-        const cloud::Cloud cloud = cloud_of(fixture_);
-        if (cloud.points.empty()) return;  // in a run there is at least one point
-        const cloud::Cloud before = cloud;
-        const cloud::Filtered result = filter.apply(cloud, filter_context(how_, &workers_));
-        if (!same_bytes(before, cloud)) answers_.changed = "the cloud";
+        const cloud::Cloud before = cloud_of(fixture_);
+        if (before.points.empty()) return;  // in a run there is at least one point
+        const cloud::Cloud cloud = in_guarded_memory([&] { return before; });
+        name_memory(cloud.points.data(), "the points of the cloud");
+        const cloud::Filtered result = noted("apply", std::nullopt, [&] {
+            return filter.apply(cloud, filter_context(how_, &workers_));
+        });
+        if (!same_cloud(before, cloud)) answers_.changed = "the cloud";
         record("points", std::span<const Vec3>(result.cloud.points), 3);
         part("colours", 3);
         for (const cloud::Colour& colour : result.cloud.colours) {
@@ -409,7 +384,7 @@ hooks::StepContext context_of(const Fixture& fixture, std::uint64_t step, const 
             .surface = fixture.view,
             .cloud = fixture.cloud ? &*fixture.cloud : nullptr,
             .target_length = fixture.view.mean_edge,
-            .box = cloud::simulation_box(),
+            .box = fixture.box,
             .to_normalised = {},
             .seed = how.seed,
             .instance = stream_id("conformance"),

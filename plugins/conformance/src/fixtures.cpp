@@ -9,6 +9,8 @@
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/sdk/surfaces.hpp>
 
+#include "guarded_input.hpp"
+
 namespace dsc::conformance {
 namespace {
 
@@ -29,7 +31,10 @@ std::vector<Vec3> ellipsoid(std::size_t count) {
 }
 
 cloud::TargetCloud target(std::vector<Vec3> points) {
-    return cloud::TargetCloud({std::move(points), {}});
+    const cloud::Normalized normalized{std::move(points), {}};
+    auto made = in_guarded_memory([&] { return cloud::TargetCloud(normalized); });
+    name_memory(made.points().data(), "the points of the cloud");
+    return made;
 }
 
 mesh::Complex sphere_complex() {
@@ -175,6 +180,22 @@ Fixture moved(const Fixture& fixture, const Motion& motion) {
     if (fixture.cloud) {
         std::vector<Vec3> points;
         for (const Vec3& p : fixture.cloud->points()) points.push_back(move(p));
+        result.cloud = target(std::move(points));
+    }
+    return result;
+}
+
+Fixture scaled(const Fixture& fixture, double factor) {
+    Fixture result = fixture;
+    result.name += ", scaled";
+    result.complex = nullptr;
+    for (Vec3& p : result.view.positions) p *= factor;
+    for (double& area : result.view.face_areas) area *= factor * factor;
+    result.view.mean_edge *= factor;
+    result.box = {factor * fixture.box.low, factor * fixture.box.high};
+    if (fixture.cloud) {
+        std::vector<Vec3> points(fixture.cloud->points().begin(), fixture.cloud->points().end());
+        for (Vec3& p : points) p *= factor;
         result.cloud = target(std::move(points));
     }
     return result;

@@ -19,6 +19,7 @@ struct Fixture {
     std::shared_ptr<const mesh::Complex> complex;  ///< complex of the view; null if there are only
                                                    ///< triangles
     std::optional<cloud::TargetCloud> cloud;
+    Box3 box = cloud::simulation_box();
 };
 
 /// A sphere in a box of tets, and 1,500 points of an ellipsoid as its target.
@@ -44,6 +45,9 @@ struct Motion {
     Vec3 shift;
 };
 Fixture moved(const Fixture& fixture, const Motion& motion);
+
+/// The fixture with all its lengths multiplied by `factor`, the box too.
+Fixture scaled(const Fixture& fixture, double factor);
 
 /// Vertex i of the result is vertex order[i] of the fixture; birth ids go with the vertices.
 Fixture reordered(const Fixture& fixture, const std::vector<std::uint32_t>& order);

@@ -1,8 +1,9 @@
-// out.*: what a strategy writes and where, and what it must not change.
+// out.*, in.bounds: what a strategy writes and where, and what it must not change or read.
 #include <fmt/core.h>
 
 #include <dsc/base/log.hpp>
 
+#include "guarded_input.hpp"
 #include "process.hpp"
 #include "test_table.hpp"
 
@@ -39,6 +40,13 @@ void output_attributes(const Subject& subject) {
     require(answers.unfit.empty(), answers.unfit);
 }
 
+void input_bounds(const Subject& subject) {
+    if (!input_is_guarded())
+        throw Skipped("input is guarded only in a process of its own, without a sanitizer");
+    for (const std::size_t block : {std::size_t{64}, std::size_t{1}})
+        subject.answers({.block = block});
+}
+
 void quiet(const Subject& subject) {
     set_log_sink([](LogLevel, std::string_view) {});  // messages through the log are allowed
     const std::size_t before = printed_so_far();
@@ -62,7 +70,11 @@ void add_output_tests(std::vector<Test>& table) {
         {"out.attributes", Level::standard, false,
          "Published attributes have one value per vertex, and valid names that differ."},
         output_attributes, {plugin::Kind::velocity, plugin::Kind::refinement});
-    add(table, {"out.quiet", Level::strict, false, "Nothing is printed."}, quiet);
+    add(table, {"in.bounds", Level::smoke, false, "Nothing beyond the end of an input is read."},
+        input_bounds,
+        {plugin::Kind::velocity, plugin::Kind::curvature, plugin::Kind::refinement,
+         plugin::Kind::improvement, plugin::Kind::observer, plugin::Kind::filter});
+    add(table, {"out.quiet", Level::standard, false, "Nothing is printed."}, quiet);
 }
 
 }  // namespace dsc::conformance

@@ -2,6 +2,7 @@
 // Makes sets of parameters for a strategy from its schema.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,5 +29,13 @@ Variation random_variation(const config::Schema& schema, const config::ConfigNod
 /// One wrong value for each parameter and each kind of error: below and above the range, another
 /// type, an unknown choice; and a key that does not exist.
 std::vector<Variation> wrong(const config::Schema& schema, const config::ConfigNode& base);
+
+/// The parameters after a change of the unit of length: every real parameter is multiplied by
+/// `factor` to the power of the length in its unit ("length" 1, "length^2" 2, "1/length" -1).
+/// "curvature" counts as `curvature_power`, because it depends on the estimator: -1 for 1/length, 0
+/// for radians. Empty if a unit depends on another parameter.
+std::optional<config::ConfigNode> with_scaled_lengths(const config::Schema& schema,
+                                                      const config::ConfigNode& given,
+                                                      double factor, int curvature_power);
 
 }  // namespace dsc::conformance

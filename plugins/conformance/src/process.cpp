@@ -19,6 +19,9 @@
 #include <dsc/base/error.hpp>
 #include <dsc/host/child_process.hpp>
 
+#include "call_note.hpp"
+#include "guarded_input.hpp"
+
 namespace dsc::conformance {
 namespace {
 
@@ -61,17 +64,31 @@ private:
     fs::path path_;
 };
 
+int answer_to = -1;  // in a child: where its verdict goes
+Verdict beyond_input;
+
+[[noreturn]] void answer(const Verdict& verdict) {
+    host::write_all(answer_to, std::string(1, static_cast<char>(verdict.status)) + verdict.message);
+    _exit(0);
+}
+
+void end_beyond_input(const std::string& what) {
+    answer({beyond_input.status, beyond_input.message + what});
+}
+
 [[noreturn]] void live(const std::function<Verdict()>& body, int to, int output,
-                       const fs::path& folder) {
+                       const fs::path& folder, const Verdict& beyond) {
     setpgid(0, 0);
     host::keep_to_itself(output);
     printed = output;
+    answer_to = to;
+    beyond_input = beyond;
     if (chdir(folder.c_str()) != 0) _exit(1);
+    guard_input(end_beyond_input);
     const Verdict verdict = body();
     std::cout.flush();
     std::fflush(nullptr);
-    host::write_all(to, std::string(1, static_cast<char>(verdict.status)) + verdict.message);
-    _exit(0);
+    answer(verdict);
 }
 
 std::string last_line(const std::string& text) {
@@ -97,15 +114,19 @@ std::string sanitizer_report(const std::string& output) {
 
 Verdict verdict_of(int status, bool in_time, const std::string& bytes, const std::string& output,
                    std::chrono::milliseconds limit) {
+    const std::string call = call_in_progress();
+    const std::string where = call.empty() ? "" : " in " + call;
     if (!in_time)
-        return {Status::timeout, fmt::format("it did not end within {} s", limit.count() / 1000)};
+        return {Status::timeout,
+                fmt::format("it did not end within {} s{}", limit.count() / 1000, where)};
     if (const std::string report = sanitizer_report(output); !report.empty())
         return {Status::fail, report};
     const std::string said = last_line(output);
     const std::string last_words = said.empty() ? "" : "; it printed: " + said;
-    if (WIFSIGNALED(status)) return {Status::crash, host::end_text(status) + last_words};
+    if (WIFSIGNALED(status)) return {Status::crash, host::end_text(status) + where + last_words};
     if (bytes.empty() || WEXITSTATUS(status) != 0)
-        return {Status::crash, "it ended the process with " + host::end_text(status) + last_words};
+        return {Status::crash,
+                "it ended the process with " + host::end_text(status) + where + last_words};
     return {static_cast<Status>(bytes[0]), bytes.substr(1)};
 }
 
@@ -129,7 +150,8 @@ double cpu_seconds() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::milliseconds limit) {
+Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::milliseconds limit,
+                     const Verdict& beyond) {
     const Scratch scratch;
     std::array<int, 2> ends{};
     const int output = memfd_create("output", MFD_CLOEXEC);
@@ -139,10 +161,11 @@ Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::millisec
                           "close other programs");
     std::cout.flush();
     std::fflush(nullptr);
+    share_call_note();
     const pid_t child = fork();
     if (child == 0) {
         close(ends[0]);
-        live(body, ends[1], output, scratch.path());
+        live(body, ends[1], output, scratch.path(), beyond);
     }
     close(ends[1]);
     std::string bytes;

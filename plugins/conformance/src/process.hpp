@@ -25,7 +25,10 @@ struct Verdict {
 };
 
 /// Runs `body` in a child process, in its own empty folder, for at most `limit`. Output with a
-/// sanitizer's report is a failure, whatever the body returns. [setup]
-Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::milliseconds limit);
+/// sanitizer's report is a failure, whatever the body returns. A read beyond the end of an input
+/// ends the process; the verdict is then `beyond`, with the name of the input appended. A verdict
+/// about a crash names the call into the strategy that was in progress. [setup]
+Verdict run_in_child(const std::function<Verdict()>& body, std::chrono::milliseconds limit,
+                     const Verdict& beyond = {Status::fail, ""});
 
 }  // namespace dsc::conformance

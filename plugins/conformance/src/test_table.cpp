@@ -24,6 +24,7 @@ const std::vector<Test>& test_table() {
         add_hostile_tests(all);
         add_policy_tests(all);
         add_resource_tests(all);
+        add_long_tests(all);
         return all;
     }();
     return table;

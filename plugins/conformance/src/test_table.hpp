@@ -38,6 +38,7 @@ void add_prepare_tests(std::vector<Test>& table);
 void add_hostile_tests(std::vector<Test>& table);
 void add_policy_tests(std::vector<Test>& table);
 void add_resource_tests(std::vector<Test>& table);
+void add_long_tests(std::vector<Test>& table);
 
 /// All tests.
 const std::vector<Test>& test_table();

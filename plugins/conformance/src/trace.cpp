@@ -31,7 +31,7 @@ std::vector<Trace::Stretch> Trace::stretches() const {
     std::vector<Stretch> all;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const std::size_t end = i + 1 < parts_.size() ? parts_[i + 1].begin : values_.size();
-        all.push_back({parts_[i].begin, end, parts_[i].width});
+        all.push_back({parts_[i].begin, end, parts_[i].width, parts_[i].name});
     }
     return all;
 }

@@ -31,6 +31,7 @@ public:
         std::size_t begin;
         std::size_t end;
         std::size_t width;
+        std::string name;
     };
     std::vector<Stretch> stretches() const;
     /// "entry 12 of displacements at step 2" for the value at `index`.

@@ -11,7 +11,7 @@ class DividesByNormals final : public Velocity {
     using Velocity::Velocity;
     dsc::Vec3 displacement(std::size_t vertex) const override {
         const dsc::Vec3& n = context().surface.normals[vertex];
-        return 0.01 * n / n.squaredNorm();
+        return 0.1 * context().surface.mean_edge * n / n.squaredNorm();
     }
 };
 
@@ -58,7 +58,8 @@ public:
     bool owns_sizing() const override { return true; }
     void refine(const dsc::hooks::RefinementContext& context,
                 dsc::hooks::RefinementRequests& out) override {
-        out.target_lengths.assign(context.step.surface.face_count(), 0.1);
+        out.target_lengths.assign(context.step.surface.face_count(),
+                                  context.step.surface.mean_edge);
     }
 };
 

@@ -1,5 +1,6 @@
 // Witnesses of out.*: answers that are wrong, missing or in the wrong place.
 #include <cstdio>
+#include <iostream>
 #include <limits>
 
 #include "witness.hpp"
@@ -55,6 +56,24 @@ public:
     }
 };
 
+class Streams final : public Velocity {
+public:
+    using Velocity::Velocity;
+    void prepare(const dsc::hooks::StepContext& context) override {
+        Velocity::prepare(context);
+        std::cout << "step " << context.step << "\n";
+    }
+};
+
+class PrintsInEvaluate final : public Velocity {
+public:
+    using Velocity::Velocity;
+    void evaluate(dsc::hooks::Range range, std::span<dsc::Vec3> out) const override {
+        Velocity::evaluate(range, out);
+        std::printf("vertices from %zu\n", range.begin);
+    }
+};
+
 class Short final : public Velocity {
 public:
     using Velocity::Velocity;
@@ -73,4 +92,6 @@ DSC_PLUGIN("bad_output", "1.0.0", "MIT", "Witnesses of out.*") {
     registrar.add<Meddler>("out_const", "changes the surface");
     registrar.add<Short>("out_attributes", "an attribute with one value too few");
     registrar.add<Chatterbox>("out_quiet", "prints");
+    registrar.add<Streams>("out_quiet_stream", "writes to std::cout");
+    registrar.add<PrintsInEvaluate>("out_quiet_evaluate", "prints in evaluate()");
 }

@@ -53,7 +53,7 @@ private:
 class Upwards final : public Velocity {
     using Velocity::Velocity;
     dsc::Vec3 displacement(std::size_t vertex) const override {
-        return Velocity::displacement(vertex) + dsc::Vec3(0, 0, 0.01);
+        return Velocity::displacement(vertex) + dsc::Vec3(0, 0, 0.1 * context().surface.mean_edge);
     }
 };
 

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <dsc/base/thread_mark.hpp>
 #include <dsc/base/workers.hpp>
 
 TEST_CASE("every index is visited once, whatever the number of threads") {
@@ -38,4 +39,27 @@ TEST_CASE("the failure of the first block is reported") {
         one.for_blocks(30, 10, [&](std::size_t, std::size_t) { ++blocks; });
         CHECK(blocks == 3);
     }
+}
+
+TEST_CASE("the threads of a loop have the mark of the thread that runs it") {
+    dsc::Workers workers(4);
+    const int task = 0;
+    std::atomic<int> wrong = 0;
+    const auto require_mark = [&](const void* mark) {
+        workers.for_blocks(1000, 1, [&](std::size_t, std::size_t) {
+            if (dsc::thread_mark() != mark) ++wrong;
+        });
+    };
+    {
+        const dsc::ThreadMark marked(&task);
+        require_mark(&task);
+        {
+            const dsc::ThreadMark inner(&wrong);
+            require_mark(&wrong);
+        }
+        CHECK(dsc::thread_mark() == &task);
+    }
+    require_mark(nullptr);
+    CHECK(dsc::thread_mark() == nullptr);
+    CHECK(wrong == 0);
 }

@@ -3,12 +3,15 @@
 // that names the strategy, its plugin, the hook and the step. Catalogue::create wraps every
 // strategy this way.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include <dsc/base/error.hpp>
+#include <dsc/base/thread_mark.hpp>
 #include <dsc/plugin/kind.hpp>
 
 namespace dsc::plugin {
@@ -53,21 +56,23 @@ public:
 /// files. Everything else becomes StrategyFailure "strategy.threw".
 [[noreturn]] void rethrow_attributed(const Call& call);
 
-/// Marks that this thread is inside that call, during the lifetime of the object. [parallel]
+/// Marks that this thread, and the threads that help it in a loop of Workers, are inside that call,
+/// during the lifetime of the object. [parallel]
 class Inside {
 public:
-    explicit Inside(const Call& call) noexcept;
-    ~Inside();
-    Inside(const Inside&) = delete;
-    Inside& operator=(const Inside&) = delete;
+    explicit Inside(const Call& call) noexcept : mark_(&call) {}
 
 private:
-    const Call* outer_;
+    ThreadMark mark_;
 };
 
 /// The innermost call into a strategy that this thread is in: "DESCRIPTION: HOOK at step N"; empty
 /// outside a call. [parallel]
 std::string current_call();
+
+/// The same text, cut off at the end of `out`; returns its length. It needs no memory and no lock,
+/// so a signal handler may call it. [parallel]
+std::size_t current_call(std::span<char> out) noexcept;
 
 /// Runs `body`, a call into a strategy. [parallel]
 template <class Body>

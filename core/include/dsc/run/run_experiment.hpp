@@ -67,8 +67,9 @@ RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogu
                           const RunOptions& options);
 
 /// To be called when the process ends during its runs: their folders then say "failed", and why.
-/// [setup]
-void abandon_runs(const Error& error);
+/// `unchanged`: the thread of the run is inside a call of a strategy, so that the complex is valid
+/// and does not change. The state after the last complete step is then kept in last_good/. [setup]
+void abandon_runs(const Error& error, bool unchanged);
 
 /// Whether the folder contains the finished run of this experiment, so that there is nothing to
 /// resume. [setup]

@@ -52,6 +52,10 @@ struct SimulationOptions {
     /// Called if a strategy fails: with the complex, which is still valid, and the number of
     /// complete steps. The error is rethrown afterwards.
     std::function<void(const mesh::TetMesh&, std::uint64_t steps)> on_strategy_failure;
+    /// Called before the schedule with a function that reports the present state as a strategy's
+    /// failure does, and afterwards with an empty one. While a strategy is called, any thread may
+    /// call that function, for the case that the strategy never returns.
+    std::function<void(std::function<void()> rescue)> on_rescue;
     /// Called every `checkpoint_every` steps and when the run is stopped: with the state of the run
     /// and the number of complete steps. A later simulate() of the same experiment with this state
     /// as `resume` gives the same result.
