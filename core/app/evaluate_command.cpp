@@ -9,6 +9,7 @@
 #include <dsc/cloud/statistics.hpp>
 #include <dsc/run/coverage.hpp>
 #include <dsc/surface/distance.hpp>
+#include <dsc/surface/truth_figures.hpp>
 
 #include "commands.hpp"
 #include "figures_output.hpp"
@@ -33,19 +34,11 @@ ordered_json against_truth(const surface::TriangleMesh& result, const EvaluateAr
     surface::EvaluateOptions options;
     options.samples = arguments.samples;
     options.workers = &workers;
-    const surface::Evaluation e =
+    const surface::Evaluation evaluation =
         surface::evaluate(result, read_any_surface(arguments.truth), options);
-    return {{"file", arguments.truth},
-            {"samples", arguments.samples},
-            {"diagonal", e.diagonal},
-            {"accuracy_percent", 100.0 * e.accuracy},
-            {"completeness_percent", 100.0 * e.completeness},
-            {"chamfer_percent", 100.0 * e.chamfer},
-            {"hausdorff_percent", 100.0 * e.hausdorff},
-            {"hausdorff99_percent", 100.0 * e.hausdorff99},
-            {"f_score_0.5_percent", e.f_score_05},
-            {"f_score_1_percent", e.f_score_1},
-            {"normal_consistency", e.normal_consistency}};
+    ordered_json figures = {{"file", arguments.truth}, {"samples", arguments.samples}};
+    for (const auto& [name, value] : surface::truth_figures(evaluation)) figures[name] = value;
+    return figures;
 }
 
 ordered_json truth_formulas() {

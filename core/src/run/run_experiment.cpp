@@ -191,10 +191,10 @@ private:
         if (target != nullptr && !end.surface.faces.empty())
             distances = measure_cloud_distances(end.surface, *target, outcome);
         ResultFiles files(folder, experiment.output, workers_);
-        files.write(to_input(end.mesh, to_normalised), end.attributes, target,
-                    outcome.coverage ? std::span<const double>(outcome.coverage->gaps)
-                                     : std::span<const double>(),
-                    outcome);
+        const mesh::TetMesh volume = to_input(end.mesh, to_normalised);
+        const auto gaps = outcome.coverage ? std::span<const double>(outcome.coverage->gaps)
+                                           : std::span<const double>();
+        files.write(volume, end.attributes, target, gaps, outcome);
         files.measure_files(outcome);
         require_valid(outcome);
         if (options_.picture && !outcome.surfaces.empty()) {
@@ -207,6 +207,10 @@ private:
         folder.write("summary.json",
                      summary_json({loaded_, state_.hash, input ? &*input : nullptr, distances,
                                    outcome, to_normalised, run_seconds(), process_usage()}));
+        if (options_.on_result) {
+            options_.on_result(
+                {volume, files.surface(), files.vertex_of(), end.attributes, gaps});
+        }
         return outcome;
     }
 
