@@ -1,11 +1,11 @@
 // Runs a reconstruction; its errors name remedies that its user can follow.
-#include "dsc/run/reconstruct.hpp"
-
 #include <algorithm>
 #include <array>
 #include <string_view>
 
 #include <dsc/base/error.hpp>
+
+#include "dsc/run/reconstruct.hpp"
 
 namespace dsc::run {
 namespace {

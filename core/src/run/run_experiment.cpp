@@ -208,8 +208,7 @@ private:
                      summary_json({loaded_, state_.hash, input ? &*input : nullptr, distances,
                                    outcome, to_normalised, run_seconds(), process_usage()}));
         if (options_.on_result) {
-            options_.on_result(
-                {volume, files.surface(), files.vertex_of(), end.attributes, gaps});
+            options_.on_result({volume, files.surface(), files.vertex_of(), end.attributes, gaps});
         }
         return outcome;
     }

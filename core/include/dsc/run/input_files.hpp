@@ -31,9 +31,9 @@ bool is_memory(const std::filesystem::path& file);
 /// is used.
 class InputFiles {
 public:
-    /// Makes a cloud in memory readable as the file that is returned, "/memory/NAME". Its SHA-256 is
-    /// that of the little-endian doubles of the points, then of the normals if there are any, then
-    /// of the bytes of the colours. [setup]
+    /// Makes a cloud in memory readable as the file that is returned, "/memory/NAME". Its SHA-256
+    /// is that of the little-endian doubles of the points, then of the normals if there are any,
+    /// then of the bytes of the colours. [setup]
     std::filesystem::path add_cloud(const std::string& name, cloud::Cloud cloud);
     /// Makes a text in memory known by the name of a file that does not exist. [setup]
     void add_text(const std::filesystem::path& name, const std::string& text);
@@ -61,7 +61,7 @@ private:
         std::string sha256{};
         std::optional<std::string> content{};
         std::optional<ReadCloud> cloud{};
-        std::vector<std::string> columns{};  ///< columns with which the cloud was read
+        std::vector<std::string> columns{};            ///< columns with which the cloud was read
         std::optional<std::uintmax_t> memory_bytes{};  ///< size of something in memory
     };
 
