@@ -23,13 +23,13 @@ hooks::CurvatureEstimator& curvature_of(const Nested& nested) {
     return static_cast<hooks::CurvatureEstimator&>(*nested.strategy);
 }
 
-void advance(Nested& nested, const StepView& view) {
+void advance_nested(Nested& nested, const StepView& view) {
     const hooks::StepContext& context = view.context();
     const py::gil_scoped_release released;
     if (hooks::VelocityField* velocity = velocity_of(nested)) velocity->advance(context);
 }
 
-void prepare(Nested& nested, const StepView& view) {
+void prepare_nested(Nested& nested, const StepView& view) {
     const hooks::StepContext& context = view.context();
     nested.vertices = context.surface.vertex_count();
     nested.workers = context.workers;
@@ -41,7 +41,7 @@ void prepare(Nested& nested, const StepView& view) {
     }
 }
 
-py::object evaluate(const Nested& nested) {
+py::object evaluate_nested(const Nested& nested) {
     std::vector<Vec3> vectors(nested.vertices, Vec3::Zero());
     std::vector<double> scalars(nested.vertices, 0.0);
     const hooks::VelocityField* const velocity = velocity_of(nested);
@@ -65,9 +65,9 @@ py::object evaluate(const Nested& nested) {
 
 void declare_nested(py::module_& module) {
     py::class_<Nested, std::shared_ptr<Nested>>(module, "Strategy")
-        .def("advance", &advance, py::arg("context"))
-        .def("prepare", &prepare, py::arg("context"))
-        .def("evaluate", &evaluate);
+        .def("advance", &advance_nested, py::arg("context"))
+        .def("prepare", &prepare_nested, py::arg("context"))
+        .def("evaluate", &evaluate_nested);
 }
 
 }  // namespace dsc::python
