@@ -36,7 +36,7 @@ class Page(common.Scratch):
         self.assertEqual(ran, {"python": 5, "sh": 1})
         self.assertIn("<dsc.Result: converged", said.getvalue())
         self.assertIn("array.not_finite | points | contains NaN in row 2", said.getvalue())
-        self.assertEqual(names["figures"]["f_score_1_percent"], 100)
+        self.assertEqual(names["figures"]["f_score_1_percent"], 1)
         self.assertEqual(names["columns"]["velocity.alpha"].tolist(), [0.1, 0.3])
         self.assertGreater(names["grown"].metrics["volume"][-1], names["grown"].metrics["volume"][1])
         for name in ("result/surface.obj", "result/volume.dsc", "metrics.csv"):

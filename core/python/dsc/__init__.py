@@ -19,6 +19,10 @@ from ._runs import load_run, load_runs
 from ._start import version as __version__
 from ._strategies import curvature, initial_mesh, observer, refinement, velocity
 
+for _name in ("Error", "UsageError", "ConfigError", "PluginError", "StrategyError", "GeometryError", "IoError", "CancelledError",
+              "Result", "Warning"):
+    globals()[_name].__module__ = __name__  # the name under which users know them
+
 __all__ = [
     "reconstruct", "run", "evaluate", "load_run", "load_runs", "Result", "Warning",
     "velocity", "curvature", "refinement", "initial_mesh", "observer",
