@@ -23,7 +23,7 @@ class Attraction:
     def evaluate(self, context):
         x, y, z = (context.cloud.points[context.nearest_index] - context.positions).T
         nx, ny, nz = context.normals.T
-        speed = self.alpha * (nx * x + (ny * y + nz * z))
+        speed = self.alpha * (nx * x + ny * y + nz * z)
         return speed[:, None] * context.normals
 '''
 LIMIT = 1.5
