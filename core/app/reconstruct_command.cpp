@@ -213,7 +213,7 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     if (!kept) temporary.emplace();
     run::RunOptions options;
     options.folder = kept ? fs::path(arguments.keep_run) : temporary->path() / "run";
-    options.picture = kept;
+    options.picture = options.last_good = kept;
     options.threads = thread_count(arguments.threads);
     options.cancel = &cancel_on_signals();
     options.command = command;

@@ -22,7 +22,11 @@ using surface::SurfaceView;
 template <class Make>
 auto lent(const char* name, Make make) {
     return [name, make](StepView& view) {
-        return view.lent().get(name, [&] { return make(view.context()); });
+        return view.lent().get(name, [&] {
+            py::object array = make(view.context());
+            array.attr("setflags")(py::arg("write") = false);  // some are copies
+            return array;
+        });
     };
 }
 

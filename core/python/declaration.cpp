@@ -118,10 +118,20 @@ std::unique_ptr<hooks::Strategy> adapt(plugin::Kind kind, Instance instance) {
     throw Error(ExitCode::internal, "python.kind", "a Python strategy of an unknown kind");
 }
 
+/// The parameters with the defaults of those that are missing.
+ConfigNode with_defaults(const config::Schema& schema, ConfigNode parameters) {
+    for (const Field& field : schema.fields()) {
+        if (!field.required && parameters.find(field.name) == nullptr)
+            parameters = parameters.with(field.name, field.default_value);
+    }
+    return parameters;
+}
+
 plugin::Factory factory_of(plugin::Kind kind, const py::object& type,
                            std::shared_ptr<const config::Schema> schema) {
     return [kind, shared = SharedClass(type), schema = std::move(schema)](
-               const ConfigNode& resolved, const plugin::Setup& setup) {
+               const ConfigNode& given, const plugin::Setup& setup) {
+        const ConfigNode resolved = with_defaults(*schema, given);
         const auto nested = nested_of(*schema, resolved, setup);
         return with_python([&] {
             py::dict values = object_from(resolved);

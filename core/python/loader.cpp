@@ -30,10 +30,8 @@ public:
             throw PluginError("plugin.script", file.string(),
                               "does not run as a Python file: " + text_of(error),
                               "correct the file");
-        } catch (const PluginError&) {
-            throw;
         } catch (const Error& error) {
-            throw PluginError("plugin.script", file.string(), error.what(), "correct the file");
+            throw PluginError(error.code(), file.string(), error.what(), "correct the file");
         }
     }
 };

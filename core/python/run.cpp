@@ -116,7 +116,7 @@ private:
 run::RunOptions run_options(const CallOptions& call, Watch& watch, Outcome& outcome) {
     run::RunOptions options;
     options.folder = call.folder;
-    options.picture = call.keep;
+    options.picture = options.last_good = call.keep;
     options.resume = call.resume;
     options.threads =
         call.threads != 0 ? call.threads : std::max(1U, std::thread::hardware_concurrency());

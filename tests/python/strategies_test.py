@@ -273,7 +273,7 @@ class Volume:
     def test_wrong_answers(self):
         for answer, words, code in (("None", "NoneType", None), ("context.positions[:-1]", "rows", None),
                                     ("context.positions.T", "shape", None), ("'text'", "data type", None),
-                                    ("context.positions + numpy.nan", "NaN", "strategy.not_finite")):
+                                    ("context.positions + numpy.nan", "(nan, nan, nan)", "strategy.not_finite")):
             self.fault(f"def evaluate(self, context):\n    return {answer}", words, "velocity 'mine'", code=code)
 
     def test_the_context_cannot_be_changed_or_kept(self):
@@ -337,14 +337,14 @@ class Volume:
     def test_a_class_of_the_program(self):
         @dsc.velocity("of_program")
         class OfProgram:
-            """Moves outwards."""
+            """Moves inwards."""
             speed = dsc.real(0.01, unit="length", doc="Speed.")
 
             def evaluate(self, context):
-                return self.speed * context.normals
+                return -self.speed * context.normals
 
         result = dsc.run(common.EXPERIMENT, {"velocity": {"type": "of_program"}}, output="run")
-        self.assertGreater(result.metrics["volume"][-1], result.metrics["volume"][0])
+        self.assertTrue((numpy.diff(result.metrics["volume"]) < 0).all())
         (entry,) = [p for p in dsc.load_run("run")["provenance"]["plugins"] if p["file"].endswith("strategies_test.py")]
         self.assertEqual(entry["sha256"], digest(__file__))
 

@@ -178,6 +178,7 @@ private:
         }
         simulation_options.on_strategy_failure = [&](const mesh::TetMesh& mesh,
                                                      std::uint64_t steps) {
+            if (!options_.last_good) return;
             save_last_good(folder, to_input(mesh, to_normalised), steps);
         };
         SimulationResult end = simulate(experiment, strategies, target, simulation_options);

@@ -35,6 +35,7 @@ struct RunOptions {
     std::optional<double> time_budget{};  ///< seconds; the run ends after the step in which this
                                           ///< time is exceeded
     const CancelToken* cancel = nullptr;
+    bool last_good = true;  ///< keep the last state before a strategy failed in the folder
     bool picture = true;  ///< draw preview.png; not useful for a temporary folder
     bool resume = false;  ///< continue from the last checkpoint in the folder; in a new folder,
                           ///< start at the beginning
