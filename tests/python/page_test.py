@@ -53,7 +53,7 @@ class Page(common.Scratch):
 
     def test_readme(self):
         text = (common.SOURCE / "README.md").read_text(encoding="utf-8")
-        block = re.search(r"```\n((?:.*\n)*?.*import dsc.*\n(?:.*\n)*?)```", text)[1]
+        (block,) = [block for block in re.findall(r"^```\w*\n(.*?)^```$", text, re.M | re.S) if "import dsc" in block]
         (self.folder / "build/release/lib").mkdir(parents=True)
         packages = os.environ["PYTHONPATH"]
         (self.folder / "build/release/lib/python3").mkdir()
