@@ -41,5 +41,5 @@ class Scratch(unittest.TestCase):
         """Runs the command; its standard output, or its standard error where an error is expected."""
         environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}  # the command needs no help to find the package
         done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, env=environment, check=False)
-        self.assertEqual(done.returncode, expect, done.stderr)
+        self.assertEqual(done.returncode, expect, done.stdout + done.stderr)
         return done.stdout if expect == 0 else done.stderr

@@ -117,6 +117,17 @@ class Runs(common.Scratch):
         for name in ("result/surface.obj", "result/volume.dsc", "metrics.csv"):
             self.assertEqual(digest("whole/" + name), digest("parts/" + name), name)
 
+    def test_a_class_without_source_is_hashed_by_its_code(self):
+        script = ("import dsc\n@dsc.velocity('typed')\nclass Typed:\n    'Typed.'\n    def evaluate(self, c): return -0.01 * c.normals\n"
+                  f"dsc.run({common.EXPERIMENT!r}, {{'velocity': {{'type': 'typed'}}}}, output=OUT)\n")
+        hashes = []
+        for out, text in (("a", script), ("b", script), ("c", script.replace("0.01", "0.02"))):
+            subprocess.run([sys.executable, "-c", text.replace("OUT", repr(out))], check=True, capture_output=True)
+            (plugin,) = [p for p in dsc.load_run(out)["provenance"]["plugins"] if p["file"] == "/memory/session.py"]
+            hashes.append(plugin["sha256"])
+        self.assertEqual(hashes[0], hashes[1])
+        self.assertNotEqual(hashes[0], hashes[2])
+
     def test_other_threads_run_meanwhile(self):
         counts = [0]
         over = threading.Event()

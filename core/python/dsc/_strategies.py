@@ -2,6 +2,7 @@
 
 import hashlib
 import inspect
+import marshal
 import os
 import re
 import sys
@@ -169,12 +170,16 @@ def _group(file, classes):
     module = sys.modules.get(classes[0].__module__)
     if file is not None and os.path.exists(file):
         return Loaded(About(os.path.realpath(file), module), classes)
+    return Loaded(About("/memory/session.py", module), classes, "\n".join(_text(cls) for cls in classes))
+
+
+def _text(cls):
+    """What the provenance of a run hashes: the source of a class, or its code where there is no source, as at the prompt."""
     try:
-        text = "\n".join(inspect.getsource(cls) for cls in classes)
-    except (OSError, TypeError) as error:
-        raise usage_error("python.declaration", classes[0].__qualname__, "has no source text, which the provenance of a run names",
-                          "declare the class in a file") from error
-    return Loaded(About("/memory/session.py", module), classes, text)
+        return inspect.getsource(cls)
+    except (OSError, TypeError):
+        codes = {name: value.__code__ for name, value in vars(cls).items() if hasattr(value, "__code__")}
+        return "\n".join(f"{cls.__qualname__}.{name} {marshal.dumps(code, 2).hex()}" for name, code in codes.items())
 
 
 def make_instance(cls, values):
