@@ -36,9 +36,9 @@ struct RunOptions {
                                           ///< time is exceeded
     const CancelToken* cancel = nullptr;
     bool last_good = true;  ///< keep the last state before a strategy failed in the folder
-    bool picture = true;  ///< draw preview.png; not useful for a temporary folder
-    bool resume = false;  ///< continue from the last checkpoint in the folder; in a new folder,
-                          ///< start at the beginning
+    bool picture = true;    ///< draw preview.png; not useful for a temporary folder
+    bool resume = false;    ///< continue from the last checkpoint in the folder; in a new folder,
+                            ///< start at the beginning
     std::vector<std::string> command{};  ///< as typed, for provenance.json
     std::function<void(const StepMetrics&, std::uint64_t planned)> on_step{};
     /// Receives the result when its files are complete. The references are valid during the call.
