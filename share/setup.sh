@@ -18,7 +18,7 @@ os_release=${DSC_OS_RELEASE:-/etc/os-release}  # replaced by the script's own te
 build_packages=(
     cmake ninja-build g++ doctest-dev
     libboost-dev libcli11-dev libeigen3-dev libembree-dev libfmt-dev libjs-three libnanoflann-dev libopenmesh-dev libpcl-dev libpng-dev librandom123-dev
-    libspdlog-dev libssl-dev libvtk9-dev libyaml-cpp-dev nlohmann-json3-dev
+    libspdlog-dev libssl-dev libvtk9-dev libyaml-cpp-dev nlohmann-json3-dev pybind11-dev python3-dev python3-numpy
 )
 test_packages=(clang-format-14 libcgal-dev libgmp-dev libmpfr-dev python3 python3-jsonschema python3-yaml)
 package_packages=(dpkg-dev file)

@@ -84,6 +84,17 @@ ordered_json list_schema(const Field& field, ordered_json items) {
 
 ordered_json string_item(const Field& field) {
     if (field.has_tag("or_integers")) return {{"type", {"string", "integer"}}};
+    for (const std::string& tag : field.tags) {
+        constexpr std::string_view keyed = "or_keyed ";
+        if (tag.rfind(keyed, 0) != 0) continue;
+        const std::string key = tag.substr(keyed.size());
+        return {{"anyOf",
+                 {{{"type", "string"}},
+                  {{"type", "object"},
+                   {"properties", {{key, {{"type", "string"}}}}},
+                   {"required", ordered_json::array({key})},
+                   {"additionalProperties", false}}}}};
+    }
     if (field.choices.empty()) return {{"type", "string"}};
     Field item = field;
     item.optional = false;

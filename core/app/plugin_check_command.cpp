@@ -115,7 +115,7 @@ void add_plugin_check(CLI::App& plugin, Context& context) {
     CLI::App* command = plugin.add_subcommand("check", "Run the conformance tests on a plugin");
     const auto arguments = std::make_shared<CheckArguments>();
     command->add_option("FILE|ID", arguments->target,
-                        "Plugin library, or the id of a strategy on the search path");
+                        "Plugin library, Python file, or the id of a strategy on the search path");
     command->add_option("--kind", arguments->kind,
                         "Kind of the strategy, needed if two kinds have the same id");
     command

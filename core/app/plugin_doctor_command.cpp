@@ -65,7 +65,8 @@ void add_plugin_doctor(CLI::App& plugin, Context& context) {
     CLI::App* command =
         plugin.add_subcommand("doctor", "Find out step by step why a file is not a working plugin");
     const auto arguments = std::make_shared<DoctorArguments>();
-    command->add_option("FILE", arguments->file, "Plugin library, libdsc_NAME.so")->required();
+    command->add_option("FILE", arguments->file, "Plugin library, libdsc_NAME.so, or Python file")
+        ->required();
     command->add_flag("--json", arguments->json, "Print JSON instead of text");
     set_action(*command, context, [arguments] { return execute(*arguments); });
 }

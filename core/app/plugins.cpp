@@ -4,7 +4,8 @@ namespace dsc::app {
 
 void add_plugins(CLI::App& command, std::vector<std::string>& plugins) {
     command
-        .add_option("--plugin", plugins, "Plugin library or folder of libraries; may be repeated")
+        .add_option("--plugin", plugins,
+                    "Plugin library, folder of libraries, or Python file; may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }

@@ -25,7 +25,6 @@
 #include "outcome.hpp"
 #include "plugins.hpp"
 #include "progress.hpp"
-#include "reconstruct_remedies.hpp"
 #include "standard_streams.hpp"
 #include "temporary_folder.hpp"
 #include "threads.hpp"
@@ -86,20 +85,14 @@ std::vector<Target> targets(const ReconstructArguments& arguments) {
 }
 
 /// The formats that a run must write so that every target can be copied from its result.
-config::ConfigNode wanted(const std::vector<Target>& list, bool volume,
-                          const std::vector<std::string>& always) {
-    std::vector<std::string> formats = always;
+std::vector<std::string> wanted(const std::vector<Target>& list, bool volume,
+                                std::vector<std::string> formats) {
     for (const Target& target : list) {
-        if (target.volume == volume) formats.push_back(target.format);
+        if (target.volume == volume &&
+            std::find(formats.begin(), formats.end(), target.format) == formats.end())
+            formats.push_back(target.format);
     }
-    std::vector<config::ConfigNode> nodes;
-    for (std::size_t i = 0; i < formats.size(); ++i) {
-        if (std::find(formats.begin(), formats.begin() + static_cast<std::ptrdiff_t>(i),
-                      formats[i]) == formats.begin() + static_cast<std::ptrdiff_t>(i)) {
-            nodes.emplace_back(formats[i]);
-        }
-    }
-    return config::ConfigNode::list(std::move(nodes));
+    return formats;
 }
 
 fs::path source_of(const Target& target, const run::RunOutcome& outcome) {
@@ -181,15 +174,13 @@ fs::path plain_name(const fs::path& cloud, std::optional<TemporaryFolder>& links
 run::RunOutcome carry_out(const run::LoadedExperiment& loaded, const Plugins& plugins,
                           const run::RunOptions& options) {
     try {
-        return run::run_experiment(loaded, plugins.host(), options);
+        return run::reconstruct(loaded, plugins.host(), options);
     } catch (const CancelledError& error) {
         throw CancelledError(
             fmt::format("{}; it was stopped before there was a surface, so no output was written "
                         "and nothing is kept; with --keep-run FOLDER the run folder is kept even "
                         "if the run is stopped",
                         error.what()));
-    } catch (const Error& error) {
-        throw with_own_remedy(error);
     }
 }
 
@@ -206,14 +197,10 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
         run::reconstruction_of(plain_name(arguments.cloud, links).string(), options_of(arguments));
     const bool kept = !arguments.keep_run.empty();
     using Names = std::vector<std::string>;
-    const config::ConfigNode* const given = root.find("output");
-    const config::ConfigNode output =
-        (given != nullptr ? *given : config::ConfigNode::map())
-            .with("report", kept)
-            .with("normals", true)
-            .with("surface", wanted(list, false, kept ? Names{"obj", "ply"} : Names{"obj"}))
-            .with("volume", wanted(list, true, kept ? Names{"vtu", "dsc"} : Names{"dsc"}));
-    root = root.with("output", output);
+    root = run::with_output(
+        root, {.surface = wanted(list, false, kept ? Names{"obj", "ply"} : Names{"obj"}),
+               .volume = wanted(list, true, kept ? Names{"vtu", "dsc"} : Names{"dsc"}),
+               .report = kept});
     Plugins plugins(arguments.plugins);
     run::LoadedExperiment loaded = run::resolve_experiment(root, plugins.loader());
     loaded.files = files;
@@ -228,7 +215,7 @@ int execute(const ReconstructArguments& arguments, const std::vector<std::string
     if (!kept) temporary.emplace();
     run::RunOptions options;
     options.folder = kept ? fs::path(arguments.keep_run) : temporary->path() / "run";
-    options.picture = kept;
+    options.picture = options.last_good = kept;
     options.threads = thread_count(arguments.threads);
     options.cancel = &cancel_on_signals();
     options.command = command;

@@ -52,6 +52,8 @@ WALLS = {
     "embree": ("core/src/io/",),
     "CLI/": ("core/app/",),
     "CGAL/": ("tests/",),
+    "pybind11/": ("core/python/", "plugins/python/"),
+    "Python.h": ("core/python/", "plugins/python/"),
     "doctest/": ("tests/", "plugins/sdk/"),
 }
 TOP_LEVEL = {"core", "plugins", "strategies", "configs", "tests", "share"}
@@ -329,6 +331,13 @@ def error_codes(tree):
             written.add(match[1])
             if match[1] not in known:
                 yield path, text.count("\n", 0, match.start()) + 1, f"the code {match[1]} is not in {page}"
+    for path, lines in tree.files.items():
+        if path.startswith("core/python/") and path.endswith(".py"):
+            for number, line in enumerate(lines, 1):
+                for name in re.findall(r'usage_error\("([a-z0-9_.]+)"', line):
+                    written.add(name)
+                    if name not in known:
+                        yield path, number, f"the code {name} is not in {page}"
     for name in sorted(known.keys() - written):
         yield page, known[name], f"{name} is no error's code"
 

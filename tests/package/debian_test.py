@@ -20,6 +20,7 @@ if missing := [tool for tool in TOOLS if shutil.which(tool) is None]:
     print(f"SKIPPED: {', '.join(missing)} missing; install dpkg-dev")
     sys.exit(77)
 
+PYTHON = os.environ["DSC_PACKAGE_PYTHON"]  # empty where the build has no Python package
 MAY_INSTALL = os.environ.get("DSC_TEST_DEBIAN_INSTALL") == "1" and os.geteuid() == 0
 
 
@@ -60,6 +61,12 @@ class Debian(unittest.TestCase):
                        r"/usr/share/doc/dsc/copyright", r"/usr/share/dsc/configs/quickstart\.yaml",
                        r"/usr/share/dsc/data/teapot\.bpt"):
             self.assertTrue([f for f in files if re.fullmatch(wanted, f)], wanted)
+        if PYTHON:
+            modules = "/usr/lib/python3/dist-packages/dsc"
+            for wanted in ("__init__.py", "__init__.pyi", "py.typed"):
+                self.assertIn(f"{modules}/{wanted}", files)
+            self.assertTrue([f for f in files if f.startswith(f"{modules}/_dsc.cpython")])
+            self.assertTrue([f for f in files if f.startswith(f"{modules}/__pycache__/_run.")])
         for file in files:
             self.assertTrue(file.startswith("/usr/"), file)
             self.assertNotIn("/tests/", file)
@@ -68,6 +75,7 @@ class Debian(unittest.TestCase):
         depends = self.field("Depends")
         for library in ("libc6", "libstdc++6", "libpcl-io", "libvtk9", "libyaml-cpp", "libembree3", "libeigen3-dev"):
             self.assertIn(library, depends)
+        self.assertEqual("python3-numpy" in depends, bool(PYTHON))
         for file in ("test", "doctest", "chromium"):
             self.assertNotIn(file, depends)
 
@@ -94,6 +102,7 @@ class Debian(unittest.TestCase):
         self.assertEqual(left, set())
         self.assertFalse(Path("/usr/lib/dsc").exists())
         self.assertFalse(Path("/usr/include/dsc").exists())
+        self.assertFalse(Path("/usr/lib/python3/dist-packages/dsc").exists())
 
     def use(self):
         work = package.fresh_folder("debian use")
@@ -106,6 +115,12 @@ class Debian(unittest.TestCase):
         plain(["cmake", "--build", "my_flow/build"], work)
         (library,) = (work / "my_flow" / "build").rglob("libdsc_my_flow.so")
         plain([dsc, "plugin", "check", library, "--level", "smoke"], work)
+        if PYTHON:
+            plain(["/usr/bin/python3", "-c", "import dsc; dsc.reconstruct('cloud.ply', detail='low').save('python.ply')"], work)
+            self.assertGreater((work / "python.ply").stat().st_size, 1000)
+            (work / "mine.py").write_text('import dsc\n\n@dsc.velocity("mine")\nclass Mine:\n    """Rests."""\n'
+                                          "    def evaluate(self, context):\n        return 0 * context.positions\n", encoding="utf-8")
+            plain([dsc, "plugin", "check", "mine.py", "--level", "smoke"], work)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 """What an installation holds: relocatable, complete, its headers free of everything but Eigen."""
 
 import json
+import os
 import re
 import unittest
 
@@ -37,6 +38,21 @@ class Install(unittest.TestCase):
             self.assertEqual(installed.read_bytes(), page.read_bytes(), page)
         point = package.PREFIX / "share/dsc/workflow/run_point.sh"
         self.assertIn("expected a folder of a point", package.run([point], expect=2))
+
+    def test_python_imports_the_moved_package_and_the_command_runs_python(self):
+        modules = package.PREFIX / "lib/python3/dist-packages"
+        python = os.environ["DSC_PACKAGE_PYTHON"]
+        if not python:
+            self.skipTest("this build has no Python package")
+        said = package.run([python, "-c", "import dsc; print(dsc.__file__); r = dsc.run({'dsc': 1, 'initial_mesh': {'type': 'grid', "
+                            "'cells': 8}, 'velocity': {'type': 'normal'}, 'improvement': {'type': 'dsc'}, 'schedule': [{'steps': 1}]}); "
+                            "r.save('p.obj'); print(r.steps)"], PYTHONPATH=str(modules))
+        self.assertEqual(said.split("\n")[0], str(modules / "dsc/__init__.py"))
+        self.assertEqual(said.split()[-1], "1")
+        (package.SCRATCH / "mine.py").write_text('import dsc\n\n@dsc.velocity("mine")\nclass Mine:\n    """Rests."""\n'
+                                                 "    def evaluate(self, context):\n        return 0 * context.positions\n",
+                                                 encoding="utf-8")
+        self.assertIn("passes at level smoke", package.run(["dsc", "plugin", "check", "mine.py", "--level", "smoke"]))
 
     def test_headers_need_the_standard_library_and_eigen(self):
         headers = sorted((package.PREFIX / "include").rglob("*.hpp"))

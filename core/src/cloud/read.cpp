@@ -102,6 +102,18 @@ Cloud parse_cloud(const std::filesystem::path& path, std::string bytes, ReadRepo
     return cloud;
 }
 
+Cloud cloud_of(std::vector<Vec3> points, std::vector<Vec3> normals, std::vector<Colour> colours,
+               std::string source) {
+    Cloud cloud;
+    cloud.points = std::move(points);
+    cloud.normals = std::move(normals);
+    for (Vec3& normal : cloud.normals) normal = direction_of(normal);
+    keep_whole_normals(cloud);
+    cloud.colours = std::move(colours);
+    cloud.source = std::move(source);
+    return cloud;
+}
+
 Cloud read_cloud(const std::filesystem::path& path, ReadReport* report,
                  const ReadOptions& options) {
     require_cloud_file(path, options);

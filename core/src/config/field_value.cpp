@@ -56,7 +56,8 @@ public:
         return ConfigNode(node.as_real()).placed(node.position()).with_path(path);
     }
 
-    ConfigNode string(const ConfigNode& node, const std::string& path) {
+    ConfigNode string(const ConfigNode& item, const std::string& path) {
+        const ConfigNode& node = field_.text_of(item);
         if (node.is_integer() && field_.has_tag("or_integers")) {
             return ConfigNode(std::to_string(node.as_integer()))
                 .placed(node.position())

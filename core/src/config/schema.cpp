@@ -156,6 +156,12 @@ bool Field::has_tag(std::string_view tag) const {
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
 }
 
+const ConfigNode& Field::text_of(const ConfigNode& item) const {
+    if (!item.is_map() || item.size() != 1) return item;
+    const ConfigEntry& entry = item.entries().front();
+    return has_tag("or_keyed " + entry.key) ? entry.value : item;
+}
+
 std::string Field::range_text() const {
     const auto text = [&](const Bound& bound) { return bound_text(*this, bound.value); };
     if (minimum && maximum && minimum->value == maximum->value) return "exactly " + text(*minimum);

@@ -34,7 +34,9 @@ std::vector<std::string> plugin_paths(const ConfigNode& root) {
     std::vector<std::string> paths;
     const ConfigNode* list = root.find("plugins");
     if (list == nullptr || !list->is_list()) return paths;
-    for (const ConfigNode& item : list->items()) {
+    const Field& field = *experiment_schema()->find("plugins");
+    for (const ConfigNode& given : list->items()) {
+        const ConfigNode& item = field.text_of(given);
         if (!item.is_string()) continue;
         paths.push_back((folder_of(item) / item.as_string()).lexically_normal().string());
     }
@@ -106,12 +108,12 @@ ConfigNode plugin_content(const std::string& path, InputFiles& known) {
 }
 
 /// Reports all missing files at once, each at its place.
-void require_files(const ConfigNode& resolved, const StrategyLookup& lookup) {
+void require_files(const ConfigNode& resolved, const StrategyLookup& lookup,
+                   const InputFiles& known) {
     config::Diagnostics missing;
     map_files(resolved, *experiment_schema(), lookup, [&](const ConfigNode& file) {
-        std::error_code ignored;
         const bool typed = file.position().from_command_line();
-        if (!fs::exists(file.as_string(), ignored)) {
+        if (!known.exists(file.as_string())) {
             missing.error("io.open", file.position(),
                           fmt::format("'{}': {} does not exist", file.path(), file.as_string()),
                           fmt::format("check the path; it is relative to the {}",
@@ -150,15 +152,20 @@ LoadedExperiment resolve_experiment(const ConfigNode& root, const PluginLoader& 
     return loaded;
 }
 
-LoadedExperiment load_experiment(const std::string& file, std::span<const std::string> overrides,
-                                 const PluginLoader& load_plugins,
-                                 const config::YamlOptions& options) {
+ConfigNode read_experiment(const std::string& file, std::span<const std::string> overrides,
+                           const config::YamlOptions& options) {
     ConfigNode root = config::load_yaml(file, options);
     root = config::apply_overrides(root, overrides, options);
     if (root.is_map() && root.find("name") == nullptr) {
         root = root.with("name", ConfigNode(fs::path(file).stem().string()));
     }
-    return resolve_experiment(root, load_plugins);
+    return root;
+}
+
+LoadedExperiment load_experiment(const std::string& file, std::span<const std::string> overrides,
+                                 const PluginLoader& load_plugins,
+                                 const config::YamlOptions& options) {
+    return resolve_experiment(read_experiment(file, overrides, options), load_plugins);
 }
 
 std::string resolved_text(const LoadedExperiment& loaded) {
@@ -166,7 +173,7 @@ std::string resolved_text(const LoadedExperiment& loaded) {
 }
 
 std::string config_hash(const LoadedExperiment& loaded, const StrategyLookup& lookup) {
-    require_files(loaded.resolved, lookup);
+    require_files(loaded.resolved, lookup, *loaded.files);
     ConfigNode canonical =
         map_files(loaded.resolved, *experiment_schema(), lookup, [&loaded](const ConfigNode& file) {
             return ConfigNode("sha256:" + loaded.files->sha256(file.as_string()));

@@ -206,7 +206,9 @@ void Experiment::declare(config::ParamSchema<Experiment>& s) {
         .at_least(0, "dimensionless")
         .doc("Seed of all random streams.");
     s.strings("plugins", &Experiment::plugins)
-        .doc("Plugin libraries, or folders that contain them, relative to the experiment's file.");
+        .or_keyed("python")
+        .doc("Plugin libraries, folders that contain them, or Python files ('python: FILE.py'), "
+             "relative to the experiment's file.");
     s.object("input", &Experiment::input, declare_input)
         .doc("The point cloud. Left out: there is no cloud, and results are in normalised units.");
     s.strategy("initial_mesh", &Experiment::initial_mesh, "initial_mesh")

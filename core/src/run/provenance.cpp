@@ -178,7 +178,7 @@ std::string provenance_json(const LoadedExperiment& loaded, const plugin::Catalo
     ordered_json inputs = ordered_json::array();
     for (const std::string& file : input_files(loaded, catalogue)) {
         inputs.push_back({{"file", shown(file, homes)},
-                          {"bytes", std::filesystem::file_size(file)},
+                          {"bytes", loaded.files->bytes(file)},
                           {"sha256", loaded.files->sha256(file)}});
     }
     ordered_json typed = ordered_json::array();

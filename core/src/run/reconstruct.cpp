@@ -83,4 +83,16 @@ ConfigNode reconstruction_of(const std::string& file, const ReconstructOptions& 
     return root.with("input", input.with("cloud", cloud));
 }
 
+ConfigNode with_output(const ConfigNode& reconstruction, const ReconstructOutput& output) {
+    const auto list = [](const std::vector<std::string>& formats) {
+        return ConfigNode::list(std::vector<ConfigNode>(formats.begin(), formats.end()));
+    };
+    const ConfigNode* const given = reconstruction.find("output");
+    return reconstruction.with("output", (given != nullptr ? *given : ConfigNode::map())
+                                             .with("report", output.report)
+                                             .with("normals", true)
+                                             .with("surface", list(output.surface))
+                                             .with("volume", list(output.volume)));
+}
+
 }  // namespace dsc::run

@@ -62,8 +62,7 @@ void ResultFiles::write(const mesh::TetMesh& mesh, const hooks::Attributes& attr
                         const cloud::TargetCloud* target, std::span<const double> gaps,
                         RunOutcome& outcome) {
     folder_.open_staging();
-    std::vector<std::uint32_t> vertex_of;
-    surface_ = surface::extract_interface(mesh, &vertex_of);
+    surface_ = surface::extract_interface(mesh, &vertex_of_);
     if (surface_.faces.empty() && target != nullptr) {
         throw GeometryError(
             "run.vanished", "result",
@@ -71,15 +70,16 @@ void ResultFiles::write(const mesh::TetMesh& mesh, const hooks::Attributes& attr
             "parts of the object may be thinner than the mesh resolution",
             "use more cells or smaller steps, or stop earlier");
     }
-    if (output_.trim && target != nullptr) trim_surface(attributes, gaps, vertex_of, outcome);
+    if (output_.trim && target != nullptr) trim_surface(attributes, gaps, vertex_of_, outcome);
     if (target != nullptr) paint(surface_, *target);
     for (const std::string& extension : output_.surface) {
         if (surface_.faces.empty()) break;
-        io::write_surface(staged("surface.", extension), surface_, arrays(attributes, vertex_of),
+        io::write_surface(staged("surface.", extension), surface_, arrays(attributes, vertex_of_),
                           normals(output_, surface_));
         outcome.surfaces.push_back(folder_.file("result") / ("surface." + extension));
     }
     for (const mesh::Label label : several_phases(mesh)) {
+        std::vector<std::uint32_t> vertex_of;
         surface::TriangleMesh phase = surface::extract_phase(mesh, label, &vertex_of);
         if (target != nullptr) paint(phase, *target);
         for (const std::string& extension : output_.surface) {

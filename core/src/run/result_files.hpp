@@ -34,6 +34,8 @@ public:
 
     /// The surface in the files surface.*, after write().
     const surface::TriangleMesh& surface() const { return surface_; }
+    /// The point of the volume of each of its points.
+    const std::vector<std::uint32_t>& vertex_of() const { return vertex_of_; }
 
 private:
     SurfaceMeasure measure_surface(const std::string& stem, const surface::TriangleMesh& expected,
@@ -46,6 +48,7 @@ private:
     const Output& output_;
     Workers& workers_;
     surface::TriangleMesh surface_;
+    std::vector<std::uint32_t> vertex_of_;
     std::vector<double> gaps_, support_;  // for trimming
 };
 

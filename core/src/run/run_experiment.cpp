@@ -178,6 +178,7 @@ private:
         }
         simulation_options.on_strategy_failure = [&](const mesh::TetMesh& mesh,
                                                      std::uint64_t steps) {
+            if (!options_.last_good) return;
             save_last_good(folder, to_input(mesh, to_normalised), steps);
         };
         simulation_options.on_rescue = [&running](std::function<void()> rescue) {
@@ -194,10 +195,10 @@ private:
         if (target != nullptr && !end.surface.faces.empty())
             distances = measure_cloud_distances(end.surface, *target, outcome);
         ResultFiles files(folder, experiment.output, workers_);
-        files.write(to_input(end.mesh, to_normalised), end.attributes, target,
-                    outcome.coverage ? std::span<const double>(outcome.coverage->gaps)
-                                     : std::span<const double>(),
-                    outcome);
+        const mesh::TetMesh volume = to_input(end.mesh, to_normalised);
+        const auto gaps = outcome.coverage ? std::span<const double>(outcome.coverage->gaps)
+                                           : std::span<const double>();
+        files.write(volume, end.attributes, target, gaps, outcome);
         files.measure_files(outcome);
         require_valid(outcome);
         if (options_.picture && !outcome.surfaces.empty()) {
@@ -210,6 +211,9 @@ private:
         folder.write("summary.json",
                      summary_json({loaded_, state_.hash, input ? &*input : nullptr, distances,
                                    outcome, to_normalised, run_seconds(), process_usage()}));
+        if (options_.on_result) {
+            options_.on_result({volume, files.surface(), files.vertex_of(), end.attributes, gaps});
+        }
         return outcome;
     }
 

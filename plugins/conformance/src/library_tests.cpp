@@ -7,6 +7,7 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/host/doctor.hpp>
+#include <dsc/plugin/script_loader.hpp>
 
 #include "process.hpp"
 #include "test_table.hpp"
@@ -38,7 +39,8 @@ plugin::PluginInfo info_of(const fs::path& file) {
 void entry(const Subject& subject) {
     require_steps(subject, {"file", "permissions", "library", "build", "register"}, "lib.bind");
     const plugin::PluginInfo info = info_of(subject.file());
-    require(subject.file().filename() == "libdsc_" + info.name + ".so",
+    require(plugin::is_script(subject.file()) ||
+                subject.file().filename() == "libdsc_" + info.name + ".so",
             "the file of plugin '" + info.name + "' must be libdsc_" + info.name + ".so");
     static const std::regex semver(
         R"((0|[1-9]\d*)\.(0|[1-9]\d*)\.(0|[1-9]\d*)([-+][0-9A-Za-z.+-]+)?)");

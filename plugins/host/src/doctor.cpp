@@ -6,6 +6,7 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/host/host.hpp>
+#include <dsc/plugin/script_loader.hpp>
 
 #include "admission.hpp"
 #include "entry_file.hpp"
@@ -30,6 +31,29 @@ public:
             require_safe_file(real_);
             return std::string("nobody else can write it");
         });
+        if (plugin::is_script(real_)) {
+            examine_script();
+        } else {
+            examine_library();
+        }
+        step("register", [this] { return examine_strategies(); });
+        step("names", [this] { return examine_names(); });
+        return std::move(all_);
+    }
+
+private:
+    void examine_script() {
+        step("load", [this] {
+            try {
+                Host().load(real_);
+            } catch (const PluginError& error) {
+                if (error.code() != "plugin.enroll") throw;
+            }
+            return std::string("a Python file, it runs to its end");
+        });
+    }
+
+    void examine_library() {
         step("library", [this] {
             entry_ = read_entry(real_);
             return fmt::format("a shared library with the symbol {}", plugin::entry_symbol);
@@ -41,12 +65,8 @@ public:
             if (rehearsed_ && rehearsed_->error.code() != "plugin.enroll") throw rehearsed_->error;
             return std::string("opened in a child process, nothing missing");
         });
-        step("register", [this] { return examine_strategies(); });
-        step("names", [this] { return examine_names(); });
-        return std::move(all_);
     }
 
-private:
     template <class Body>
     void step(const std::string& name, Body&& body) {
         Examination examination{name, Result::not_reached, "not reached"};

@@ -7,6 +7,7 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
+#include <dsc/plugin/script_loader.hpp>
 
 #include "admission.hpp"
 #include "entry_file.hpp"
@@ -32,6 +33,20 @@ plugin::PluginInfo info_of(const plugin::PluginEntry& entry, const fs::path& fil
             text_of(entry.authors),
             text_of(entry.fingerprint),
             file};
+}
+
+fs::path library_folder() { return installed_folder().parent_path().parent_path(); }
+
+fs::path script_library() { return library_folder() / "libdsc_python.so"; }
+
+// Beside the core library, or one level above it where the libraries of an architecture have a
+// folder of their own, as in Debian's packages.
+fs::path script_modules() {
+    const fs::path modules = fs::path("python3") / "dist-packages";
+    std::error_code error;
+    const fs::path beside = library_folder() / modules;
+    if (fs::is_directory(beside / "dsc", error)) return beside;
+    return library_folder().parent_path() / modules;
 }
 
 void log_soft_differences(const plugin::PluginInfo& info) {
@@ -82,6 +97,7 @@ bool Host::is_loaded(const fs::path& real) const {
 void Host::load(const fs::path& file) {
     const fs::path real = real_path(file);
     if (is_loaded(real)) return;
+    if (plugin::is_script(real)) return load_script(real);
     if (rehearsed_.count(real) == 0) {
         require_admissible(real);
         rehearse({&real, 1});
@@ -89,11 +105,23 @@ void Host::load(const fs::path& file) {
     if (const std::optional<Fault>& fault = rehearsed_.at(real)) throw fault->error;
 
     const plugin::PluginEntry& entry = open_library(real);
-    auto loaded = std::make_unique<Loaded>(Loaded{info_of(entry, real), enroll(entry, real)});
+    add(info_of(entry, real), enroll(entry, real));
+    log_soft_differences(loaded_.back()->info);
+}
+
+// A fault of a script is an exception, so it needs no child process.
+void Host::load_script(const fs::path& real) {
+    require_safe_file(real);
+    Script script = run_script(real, script_library(), script_modules());
+    add(std::move(script.info), std::move(script.strategies));
+}
+
+void Host::add(plugin::PluginInfo info, std::vector<plugin::StrategyRecord> strategies) {
+    auto loaded = std::make_unique<Loaded>(Loaded{std::move(info), std::move(strategies)});
     for (const plugin::StrategyRecord& record : loaded->strategies) {
         const auto taken = strategies_.find({record.kind, record.id});
         if (taken == strategies_.end()) continue;
-        refuse(real, "plugin.duplicate",
+        refuse(loaded->info.file, "plugin.duplicate",
                fmt::format("{} '{}' already exists, from {}", plugin::kind_name(record.kind),
                            record.id, taken->second.plugin->file.string()),
                "load only one of the two files, or give one strategy a different id");
@@ -101,7 +129,6 @@ void Host::load(const fs::path& file) {
     for (const plugin::StrategyRecord& record : loaded->strategies) {
         strategies_[{record.kind, record.id}] = {&record, &loaded->info};
     }
-    log_soft_differences(loaded->info);
     loaded_.push_back(std::move(loaded));
 }
 

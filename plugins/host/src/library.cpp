@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <dsc/base/error.hpp>
+#include <dsc/plugin/script_loader.hpp>
 #include <dsc/text/words.hpp>
 
 #include "entry_file.hpp"
@@ -38,14 +39,42 @@ protected:
     }
 };
 
+std::string dl_reason() {
+    const char* reason = dlerror();
+    return reason == nullptr ? "no reason given" : reason;
+}
+
+// The libraries of Python's own modules look for its functions among the global symbols.
+void start_scripts(const std::filesystem::path& file, const std::filesystem::path& library,
+                   const std::filesystem::path& modules) {
+    void* const opened = dlopen(library.c_str(), RTLD_NOW | RTLD_GLOBAL | RTLD_NODELETE);
+    if (opened == nullptr) {
+        refuse(file, "plugin.no_python",
+               "is a Python file, and this dsc cannot run Python (" + dl_reason() + ")",
+               "build dsc with DSC_PYTHON=ON, which needs python3-dev, python3-numpy and "
+               "pybind11-dev");
+    }
+    using Start = void (*)(const char* modules);
+    const auto start = reinterpret_cast<Start>(dlsym(opened, "dsc_start_python"));
+    if (start == nullptr)
+        refuse(file, "plugin.no_python", library.string() + " has no function dsc_start_python",
+               "install dsc again");
+    start(modules.c_str());
+}
+
+void require_strategies(const Staging& staging, const std::filesystem::path& file,
+                        const std::string& name) {
+    if (!staging.records.empty()) return;
+    refuse(file, "plugin.enroll", "plugin '" + name + "' registers no strategy",
+           "report this to the plugin's authors");
+}
+
 }  // namespace
 
 const plugin::PluginEntry& open_library(const std::filesystem::path& file) {
     void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-    const char* reason = library == nullptr ? dlerror() : nullptr;
     if (library == nullptr) {
-        refuse(file, "plugin.load",
-               fmt::format("does not load: {}", reason == nullptr ? "no reason given" : reason),
+        refuse(file, "plugin.load", "does not load: " + dl_reason(),
                "a symbol or library that it needs is missing; link with -Wl,-z,defs to find it at "
                "build time");
     }
@@ -78,10 +107,22 @@ std::vector<plugin::StrategyRecord> enroll(const plugin::PluginEntry& entry,
                            name),
                remedy);
     }
-    if (staging.records.empty())
-        refuse(file, "plugin.enroll", fmt::format("plugin '{}' registers no strategy", name),
-               remedy);
+    require_strategies(staging, file, name);
     return std::move(staging.records);
+}
+
+Script run_script(const std::filesystem::path& file, const std::filesystem::path& library,
+                  const std::filesystem::path& modules) {
+    if (plugin::script_loader() == nullptr) start_scripts(file, library, modules);
+    const std::shared_ptr<plugin::ScriptLoader> loader = plugin::script_loader();
+    if (loader == nullptr)
+        refuse(file, "plugin.no_python", library.string() + " registers no loader of scripts",
+               "install dsc again");
+    Staging staging;
+    Script script{loader->load(file, staging), {}};
+    require_strategies(staging, file, script.info.name);
+    script.strategies = std::move(staging.records);
+    return script;
 }
 
 }  // namespace dsc::host

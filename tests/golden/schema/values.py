@@ -186,6 +186,9 @@ def fields_of_schema(schema):
             inner = next((part["$ref"] for part in items.get("allOf", []) if "$ref" in part), None)
             if inner:
                 field.update(type="list of strategies", kind=inner.rsplit("/", 1)[1])
+            elif "anyOf" in items:  # a text, or a map with one key that holds the text
+                (key,) = items["anyOf"][1]["properties"]
+                field.update(type="list of strings", tags=[f"or_keyed {key}"])
             elif items.get("type") == "object":
                 field.update(type="list of maps", fields=fields_of_schema(items))
             elif items["type"] == ["string", "integer"]:

@@ -37,7 +37,7 @@ std::string layout() {
 // them.
 TEST_CASE("the layout of what crosses the door is that of its ABI number") {
     const std::string recorded = "plugin::PluginEntry 824\n"
-                                 "plugin::StrategyRecord 104\n"
+                                 "plugin::StrategyRecord 128\n"
                                  "plugin::Setup 48\n"
                                  "config::Field 344\n"
                                  "config::Schema 72\n"

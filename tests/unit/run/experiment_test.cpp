@@ -180,6 +180,21 @@ TEST_CASE(
     CHECK(loaded.experiment.plugins == expected);
 }
 
+TEST_CASE("a plugin may be named as a Python file") {
+    const Folder folder;
+    const std::string file =
+        folder.write("sub/a.yaml", minimal + "plugins: [{python: x.py}, y.py]\n");
+    const dsc::test::Strategies strategies;
+    const auto loaded = run::load_experiment(file, {}, strategies.loader());
+    const std::string sub = (folder.path() / "sub").string();
+    CHECK(strategies.asked == std::vector{sub + "/x.py", sub + "/y.py"});
+    CHECK(loaded.experiment.plugins == strategies.asked);
+    for (const char* wrong : {"{perl: x.pl}", "{python: 3}", "{python: x.py, more: 1}", "{}"}) {
+        folder.write("sub/a.yaml", minimal + "plugins: [" + wrong + "]\n");
+        CHECK_THROWS_AS(run::load_experiment(file, {}, strategies.loader()), ConfigError);
+    }
+}
+
 TEST_CASE("the hash depends on what is computed, not on names of files") {
     const dsc::test::Strategies lookup;
     const Folder folder;

@@ -43,6 +43,42 @@ TEST_CASE("the points of a cloud are those that were hashed, also under another 
     CHECK(files.cloud(file, {}).cloud.points.size() == 2);
 }
 
+TEST_CASE("a cloud in memory is read like a file and hashed by its numbers") {
+    cloud::Cloud cloud = cloud::cloud_of({{1, 2, 3}, {4, 5, 6}}, {{0, 0, 2}, {0, 0, 0}},
+                                         {{1, 2, 3}, {255, 0, 7}}, "points");
+    CHECK(cloud.normals[0] == Vec3(0, 0, 1));  // as in a file
+    run::InputFiles files;
+    const auto name = files.add_cloud("points", cloud);
+    CHECK(name == "/memory/points");
+    CHECK(run::is_memory(name));
+    CHECK_FALSE(run::is_memory("/memory"));
+    CHECK_FALSE(run::is_memory("/memoryless/points"));
+    CHECK(files.exists(name));
+    CHECK_FALSE(files.exists("/memory/others"));
+    // printf of the doubles 1 to 6, of 0 0 1 0 0 0 and of the bytes 1 2 3 255 0 7 | sha256sum
+    std::string bytes;
+    for (const double value : {1., 2., 3., 4., 5., 6., 0., 0., 1., 0., 0., 0.})
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    bytes.append("\x01\x02\x03\xff\x00\x07", 6);
+    CHECK(files.sha256(name) == run::sha256(bytes));
+    CHECK(files.bytes(name) == bytes.size());
+    CHECK(files.take_cloud(name, {}).cloud.points.size() == 2);
+    CHECK(files.take_cloud(name, {}).cloud.colours[1] == cloud::Colour{255, 0, 7});  // it is kept
+    CHECK(files.cloud(name, {}).report.points == 2);
+}
+
+TEST_CASE("normals without a direction are no normals") {
+    CHECK(cloud::cloud_of({{1, 2, 3}}, {{0, 0, 0}}, {}, "points").normals.empty());
+}
+
+TEST_CASE("a text in memory has a hash and a size") {
+    run::InputFiles files;
+    files.add_text("/memory/session.py", "abc");
+    CHECK(files.sha256("/memory/session.py") == run::sha256("abc"));
+    CHECK(files.bytes("/memory/session.py") == 3);
+    CHECK_THROWS_AS(files.bytes("/memory/none"), IoError);
+}
+
 TEST_CASE("the same file by other columns is another cloud") {
     const Folder folder;
     const auto file = folder.write("a.xyz", "0 1 2\n3 4 5\n6 7 8\n");

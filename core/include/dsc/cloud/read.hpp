@@ -62,6 +62,12 @@ Cloud parse_cloud(const std::filesystem::path& file, std::string bytes,
 Cloud read_cloud(const std::filesystem::path& path, ReadReport* report = nullptr,
                  const ReadOptions& options = {});
 
+/// A cloud from arrays, as a file with the same columns would give it: normals as above. `normals`
+/// and `colours` are empty or have one entry per point; `source` names the cloud in messages.
+/// [setup]
+Cloud cloud_of(std::vector<Vec3> points, std::vector<Vec3> normals, std::vector<Colour> colours,
+               std::string source);
+
 /// ".pcd .ply .obj .xyz .txt .asc .pts .csv": the extensions of read_cloud() and write_cloud().
 /// [parallel]
 std::string_view cloud_extensions();

@@ -56,6 +56,8 @@ public:
     }
     /// A list of strings also accepts integers, as their digits.
     FieldBuilder& or_integers() { return tag("or_integers"); }
+    /// An item of a list of strings may also be a map with this one key: `- KEY: text`.
+    FieldBuilder& or_keyed(const std::string& key) { return tag("or_keyed " + key); }
     FieldBuilder& tag(std::string name) { return field().tags.push_back(std::move(name)), *this; }
     /// Time or memory grows with it: tests keep it at or below its default.
     FieldBuilder& costly() { return tag("costly"); }

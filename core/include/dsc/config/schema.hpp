@@ -62,7 +62,7 @@ struct Field {
     bool optional = false;                ///< may stay unset; `null` says so explicitly
     ConfigNode default_value;             ///< null for a required or an unset optional field
     std::vector<std::string> tags;  ///< "advanced": not on the first page of the documentation;
-                                    ///< "costly"; "or_integers"
+                                    ///< "costly"; "or_integers"; "or_keyed KEY"
     std::shared_ptr<const Schema> object;  ///< of an object or of each item of an object_list
     std::string kind;                      ///< of a strategy or of each item of a strategy_list
     std::int64_t storage_min = std::numeric_limits<std::int64_t>::min();  ///< range of the bound
@@ -70,6 +70,9 @@ struct Field {
     std::int64_t storage_max = std::numeric_limits<std::int64_t>::max();
 
     bool has_tag(std::string_view tag) const;
+    /// The text in an item `{KEY: text}` of a list whose tag "or_keyed KEY" allows it; otherwise
+    /// the item itself.
+    const ConfigNode& text_of(const ConfigNode& item) const;
     /// "(0, 1]", "at least 1", "above 0"; empty without a bound.
     std::string range_text() const;
     /// "real, (0, 1], default 0.2": the accepted values, on one line.

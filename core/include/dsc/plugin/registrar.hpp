@@ -1,6 +1,7 @@
 #pragma once
 // Registrar: a plugin's enroll function registers the strategies of the library with it.
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,9 +14,10 @@ namespace dsc::plugin {
 
 class Setup;
 
-/// Makes a strategy from its resolved parameters.
-using Factory = std::unique_ptr<hooks::Strategy> (*)(const config::ConfigNode& resolved,
-                                                     const Setup& setup);
+/// Makes a strategy from its resolved parameters. A function object, so that it can contain a class
+/// of another language.
+using Factory = std::function<std::unique_ptr<hooks::Strategy>(const config::ConfigNode& resolved,
+                                                               const Setup& setup)>;
 
 /// One strategy as its plugin declares it.
 struct StrategyRecord {
@@ -23,7 +25,7 @@ struct StrategyRecord {
     std::string id;       ///< [a-z][a-z0-9_]*, unique within its kind
     std::string summary;  ///< one line
     std::shared_ptr<const config::Schema> schema;
-    Factory make = nullptr;
+    Factory make{};
     hooks::Traits traits{};
 };
 
@@ -43,6 +45,9 @@ public:
         enroll({kind_of<T>(), std::move(id), std::move(summary), params.shared_schema(), &make<T>,
                 traits_of<T>()});
     }
+
+    /// Registers a strategy that has no C++ class. Throws PluginError as above. [setup]
+    void add(StrategyRecord record) { enroll(std::move(record)); }
 
 protected:
     Registrar() = default;

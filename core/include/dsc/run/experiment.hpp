@@ -126,8 +126,13 @@ struct LoadedExperiment {
 /// absolute paths of `plugins:` and returns a lookup that outlives the call.
 using PluginLoader = std::function<const config::StrategyLookup&(const std::vector<std::string>&)>;
 
-/// Reads `file`, applies the overrides, loads the plugins and validates. Throws ConfigError with
-/// every fault found, IoError for an unreadable file, and what the loader throws. [setup]
+/// Reads `file` and applies the overrides; an experiment without a name gets that of the file.
+/// Throws ConfigError, IoError for an unreadable file. [setup]
+config::ConfigNode read_experiment(const std::string& file, std::span<const std::string> overrides,
+                                   const config::YamlOptions& options = {});
+
+/// read_experiment(); then it loads the plugins and validates. Throws ConfigError with every fault
+/// found, IoError for an unreadable file, and what the loader throws. [setup]
 LoadedExperiment load_experiment(const std::string& file, std::span<const std::string> overrides,
                                  const PluginLoader& load_plugins,
                                  const config::YamlOptions& options = {});

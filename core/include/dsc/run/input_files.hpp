@@ -1,10 +1,13 @@
 #pragma once
-// The files that a command reads; each is read from the disk once.
+// The files that a command reads, each once, and clouds and texts in memory that take the place of
+// files.
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <dsc/cloud/cloud.hpp>
@@ -18,10 +21,28 @@ struct ReadCloud {
     cloud::ReadReport report;
 };
 
+/// Begins the names of what is only in memory. No file has such a name.
+inline constexpr std::string_view memory_folder = "/memory";
+
+/// Whether the name is one of something in memory. [parallel]
+bool is_memory(const std::filesystem::path& file);
+
 /// Remembers what was read. If a file changes while the command runs, its content at the first call
 /// is used.
 class InputFiles {
 public:
+    /// Makes a cloud in memory readable as the file that is returned, "/memory/NAME". Its SHA-256
+    /// is that of the little-endian doubles of the points, then of the normals if there are any,
+    /// then of the bytes of the colours. [setup]
+    std::filesystem::path add_cloud(const std::string& name, cloud::Cloud cloud);
+    /// Makes a text in memory known by the name of a file that does not exist. [setup]
+    void add_text(const std::filesystem::path& name, const std::string& text);
+
+    /// Whether sha256() would find something: a file, or something in memory. [setup]
+    bool exists(const std::filesystem::path& file) const;
+    /// Size of the file, or of what is in memory, in bytes. Throws IoError "io.open". [setup]
+    std::uintmax_t bytes(const std::filesystem::path& file);
+
     /// SHA-256 of the file's content. The content of a cloud file is kept in memory until its
     /// points are requested. Throws what read_file() throws. [setup]
     const std::string& sha256(const std::filesystem::path& file);
@@ -40,7 +61,8 @@ private:
         std::string sha256{};
         std::optional<std::string> content{};
         std::optional<ReadCloud> cloud{};
-        std::vector<std::string> columns{};  ///< columns with which the cloud was read
+        std::vector<std::string> columns{};            ///< columns with which the cloud was read
+        std::optional<std::uintmax_t> memory_bytes{};  ///< size of something in memory
     };
 
     Entry& entry(const std::filesystem::path& file);

@@ -9,6 +9,7 @@
 
 #include <dsc/cloud/statistics.hpp>
 #include <dsc/config/node.hpp>
+#include <dsc/run/run_experiment.hpp>
 
 namespace dsc::run {
 
@@ -33,5 +34,21 @@ struct ReconstructOptions {
 /// `file`, an absolute name. [setup]
 config::ConfigNode reconstruction_of(const std::string& file,
                                      const ReconstructOptions& options = {});
+
+/// The files of a reconstruction's result.
+struct ReconstructOutput {
+    std::vector<std::string> surface = {"obj"};  ///< formats, each once
+    std::vector<std::string> volume = {"dsc"};
+    bool report = false;
+};
+
+/// The experiment with this output; vertices of surfaces get normals. [setup]
+config::ConfigNode with_output(const config::ConfigNode& reconstruction,
+                               const ReconstructOutput& output);
+
+/// run_experiment() for such an experiment: the remedies of its errors name no key of an
+/// experiment, because the user has none. [setup]
+RunOutcome reconstruct(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
+                       const RunOptions& options);
 
 }  // namespace dsc::run

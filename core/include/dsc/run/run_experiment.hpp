@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,17 +19,30 @@
 
 namespace dsc::run {
 
+/// The result of a run as its files contain it, in the units of the input.
+struct ResultData {
+    const mesh::TetMesh& volume;
+    const surface::TriangleMesh& surface;  ///< with the colours of the points, trimmed if requested
+    std::span<const std::uint32_t> vertex_of;  ///< point of `volume` of each point of `surface`
+    const hooks::Attributes& attributes;       ///< per point of `volume`; NaN off the interface
+    std::span<const double> gaps;  ///< per vertex of the interface: distance to the nearest point,
+                                   ///< in spacings of that point; empty without a cloud
+};
+
 struct RunOptions {
     std::filesystem::path folder;  ///< empty: runs/NAME/HASH, with 12 digits of the hash
     unsigned threads = 1;
     std::optional<double> time_budget{};  ///< seconds; the run ends after the step in which this
                                           ///< time is exceeded
     const CancelToken* cancel = nullptr;
-    bool picture = true;  ///< draw preview.png; not useful for a temporary folder
-    bool resume = false;  ///< continue from the last checkpoint in the folder; in a new folder,
-                          ///< start at the beginning
+    bool last_good = true;  ///< keep the last state before a strategy failed in the folder
+    bool picture = true;    ///< draw preview.png; not useful for a temporary folder
+    bool resume = false;    ///< continue from the last checkpoint in the folder; in a new folder,
+                            ///< start at the beginning
     std::vector<std::string> command{};  ///< as typed, for provenance.json
     std::function<void(const StepMetrics&, std::uint64_t planned)> on_step{};
+    /// Receives the result when its files are complete. The references are valid during the call.
+    std::function<void(const ResultData&)> on_result{};
     /// Makes the text of report.html from the folder of the run, if the experiment requests a
     /// report: report::report_html. Empty: no report is written. `input` is the input that the run
     /// has loaded, null if it has none.

@@ -21,7 +21,7 @@ struct Examination {
 
 /// Repeats the steps of Host::load in the same order, and stops at the first step that fails: the
 /// file, who may write it, the entry, the build, loading, registering, and that no plugin on
-/// `search` has one of its ids. [setup]
+/// `search` has one of its ids. A Python file has neither an entry nor a build. [setup]
 std::vector<Examination> examine(const std::filesystem::path& file,
                                  std::span<const SearchEntry> search);
 

@@ -49,7 +49,13 @@ public:
     /// Up to plugin.fingerprint no code of the library has run: the host reads only the file. Then
     /// it is loaded in a child process (scan.hpp), and only a library that loads there without a
     /// fault is loaded into this process.
+    ///
+    /// A script (plugin::is_script) is checked for who may write it and then run in this process;
+    /// its faults are exceptions. Further codes: "plugin.no_python", "plugin.script".
     void load(const std::filesystem::path& file);
+
+    /// Adds strategies that this program defines itself. Throws PluginError "plugin.duplicate".
+    void add(plugin::PluginInfo info, std::vector<plugin::StrategyRecord> strategies);
 
     /// Loads the entries in order. In folders every libdsc_*.so is loaded, in the order of the
     /// names; a name that an earlier entry had is skipped, so that a user's own build is used
@@ -69,6 +75,7 @@ public:
 private:
     struct Loaded;
     bool is_loaded(const std::filesystem::path& real) const;
+    void load_script(const std::filesystem::path& real);
     void rehearse(std::span<const std::filesystem::path> files);
     void rehearse_folder(const std::set<std::filesystem::path>& files);
     void load_folder(const SearchEntry& entry, OnFault on_fault);

@@ -1,10 +1,13 @@
-#include "reconstruct_remedies.hpp"
-
+// Runs a reconstruction; its errors name remedies that its user can follow.
 #include <algorithm>
 #include <array>
 #include <string_view>
 
-namespace dsc::app {
+#include <dsc/base/error.hpp>
+
+#include "dsc/run/reconstruct.hpp"
+
+namespace dsc::run {
 namespace {
 
 constexpr std::string_view check_cloud =
@@ -30,16 +33,28 @@ constexpr std::array<Remedy, 12> remedies = {{{"run.vanished", check_cloud},
                                               {"cloud.scale", check_file},
                                               {"cloud.outside_box", check_file}}};
 
-}  // namespace
-
-Error with_own_remedy(const Error& error) {
+/// Errors of a run may suggest another value in its experiment, for which a reconstruction has no
+/// option. Throws such an error with the same cause and a remedy that its user can follow.
+void throw_with_own_remedy(const Error& error) {
     const auto found = std::find_if(remedies.begin(), remedies.end(),
                                     [&](const Remedy& r) { return r.code == error.code(); });
-    if (found == remedies.end()) return error;
+    if (found == remedies.end()) return;
     // The cause of an error without parts ends with its remedy.
     const std::string& cause = error.cause();
-    return {error.exit_code(), error.code(), error.place(),
-            error.remedy().empty() ? cause.substr(0, cause.find("; ")) : cause, found->text};
+    throw Error(error.exit_code(), error.code(), error.place(),
+                error.remedy().empty() ? cause.substr(0, cause.find("; ")) : cause, found->text);
 }
 
-}  // namespace dsc::app
+}  // namespace
+
+RunOutcome reconstruct(const LoadedExperiment& loaded, const plugin::Catalogue& catalogue,
+                       const RunOptions& options) {
+    try {
+        return run_experiment(loaded, catalogue, options);
+    } catch (const Error& error) {
+        throw_with_own_remedy(error);
+        throw;
+    }
+}
+
+}  // namespace dsc::run
