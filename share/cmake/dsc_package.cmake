@@ -25,7 +25,7 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 # Shared libraries and their versions are read from the binaries. A plugin compiles against Eigen's headers.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS libeigen3-dev)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libeigen3-dev, python3, python3-numpy")
 if(DSC_BUILD_PYTHON)  # the extension module belongs to one minor version of Python
   math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
   string(APPEND CPACK_DEBIAN_PACKAGE_DEPENDS

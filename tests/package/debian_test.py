@@ -59,7 +59,8 @@ class Debian(unittest.TestCase):
                        r"/usr/include/dsc/hooks/velocity_field\.hpp", r"/usr/lib/cmake/dsc/dscConfig\.cmake",
                        r"/usr/share/man/man1/dsc\.1(\.gz)?", r"/usr/share/bash-completion/completions/dsc",
                        r"/usr/share/doc/dsc/copyright", r"/usr/share/dsc/configs/quickstart\.yaml",
-                       r"/usr/share/dsc/data/teapot\.bpt"):
+                       r"/usr/share/dsc/data/teapot\.bpt", r"/usr/share/doc/dsc/python\.md(\.gz)?",
+                       r"/usr/lib/python3/dist-packages/dsc/__init__\.py"):
             self.assertTrue([f for f in files if re.fullmatch(wanted, f)], wanted)
         if PYTHON:
             modules = "/usr/lib/python3/dist-packages/dsc"
@@ -73,7 +74,7 @@ class Debian(unittest.TestCase):
 
     def test_the_dependencies_are_declared(self):
         depends = self.field("Depends")
-        for library in ("libc6", "libstdc++6", "libpcl-io", "libvtk9", "libyaml-cpp", "libembree3", "libeigen3-dev"):
+        for library in ("libc6", "libstdc++6", "libpcl-io", "libvtk9", "libyaml-cpp", "libembree3", "libeigen3-dev", "python3-numpy"):
             self.assertIn(library, depends)
         self.assertEqual("python3-numpy" in depends, bool(PYTHON))
         for file in ("test", "doctest", "chromium"):
@@ -110,6 +111,8 @@ class Debian(unittest.TestCase):
         plain([dsc, "sample", "sphere", "-n", "500", "-o", "cloud.ply"], work)
         plain([dsc, "reconstruct", "cloud.ply", "-o", "surface.glb", "-o", "volume.vtu", "-q"], work)
         self.assertGreater((work / "surface.glb").stat().st_size, 1000)
+        plain(["/usr/bin/python3", "-c", "import dsc; dsc.reconstruct('cloud.ply', detail='low').save('python.ply')"], work)
+        self.assertGreater((work / "python.ply").stat().st_size, 1000)
         plain([dsc, "plugin", "new", "my_flow", "--kind", "velocity"], work)
         plain(["cmake", "-S", "my_flow", "-B", "my_flow/build"], work)
         plain(["cmake", "--build", "my_flow/build"], work)
