@@ -216,6 +216,11 @@ py::array copy_of(const std::vector<std::uint32_t>& values) {
 py::array copy_of(const std::vector<cloud::Colour>& values) {
     return owned(reinterpret_cast<const std::uint8_t*>(values.data()), values.size(), 3);
 }
+py::array copy_of(const std::vector<bool>& values) {
+    py::array_t<bool> array(static_cast<py::ssize_t>(values.size()));
+    std::copy(values.begin(), values.end(), array.mutable_data());
+    return array;
+}
 template <std::size_t Width>
 py::array copy_of(const std::vector<std::array<std::uint32_t, Width>>& values) {
     return owned(reinterpret_cast<const std::uint32_t*>(values.data()), values.size(), Width);

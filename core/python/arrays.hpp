@@ -53,6 +53,7 @@ py::array copy_of(const std::vector<double>& values);
 py::array copy_of(const std::vector<std::int32_t>& values);
 py::array copy_of(const std::vector<std::uint32_t>& values);
 py::array copy_of(const std::vector<cloud::Colour>& values);
+py::array copy_of(const std::vector<bool>& values);
 template <std::size_t Width>
 py::array copy_of(const std::vector<std::array<std::uint32_t, Width>>& values);
 

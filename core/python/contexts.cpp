@@ -223,6 +223,12 @@ void declare_surface(Class& c) {
     add("movable", [](const Context& x) { return bools(x.surface.movable); });
     add("births", [=](const Context& x) { return numbers(x.surface.births); });
     add("faces", [](const Context& x) { return rows(x.surface.faces); });
+    add("face_labels", [](const Context& x) { return rows(x.surface.face_labels); });
+    add("previous_positions",
+        [=](const Context& x) { return vectors(x.surface.previous_positions); });
+    add("arrived", [](const Context& x) { return bools(x.surface.arrived); });
+    add("age", [=](const Context& x) { return numbers(x.surface.age); });
+    add("support", [](const Context& x) { return view_of(x.support.data(), x.support.size()); });
     add("face_normals", [=](const Context& x) { return vectors(x.surface.face_normals); });
     add("face_areas", [=](const Context& x) { return numbers(x.surface.face_areas); });
     add("face_tets", [=](const Context& x) { return numbers(x.surface.face_tets); });
@@ -254,6 +260,9 @@ void declare_values(Class& c) {
     add("cloud", [](const Context& x) { return cloud_of(x.cloud); });
     add("cancelled", [](const Context& x) { return x.cancelled(); });
     c.def_property_readonly("attributes", &attributes);
+    c.def_property_readonly("volume", [](const StepView& v) -> py::object {
+        return v.context().volume == nullptr ? py::none() : py::cast(v.volume());
+    });
     c.def(
         "uniform",
         [](const StepView& v, const py::object& elements, std::size_t count) {
@@ -292,6 +301,7 @@ void StepView::close() {
     context_ = nullptr;
     refinement_ = nullptr;
     if (velocity_) velocity_->velocity = nullptr;
+    volume_->volume = nullptr;
     lent_.take_back();
 }
 
@@ -299,6 +309,7 @@ void StepView::abandon() noexcept {
     context_ = nullptr;
     refinement_ = nullptr;
     if (velocity_) velocity_->velocity = nullptr;
+    volume_->volume = nullptr;
     lent_.forget();
 }
 
@@ -309,6 +320,7 @@ const hooks::InitialMeshContext& BuildView::context() const {
 
 void declare_contexts(py::module_& module) {
     declare_cloud(module);
+    declare_volume(module);
     py::class_<VelocityView, std::shared_ptr<VelocityView>>(module, "Velocity")
         .def("sample", &sample, py::arg("points"), py::arg("normals"));
     py::class_<StepView, std::shared_ptr<StepView>> step(module, "StepContext");

@@ -12,6 +12,7 @@
 #include <dsc/hooks/refinement_policy.hpp>
 
 #include "lent.hpp"
+#include "volume.hpp"
 
 namespace dsc::python {
 
@@ -30,16 +31,20 @@ struct VelocityView {
 /// The context of a step, and of a refinement.
 class StepView {
 public:
-    explicit StepView(const hooks::StepContext& context) : context_(&context) {}
+    explicit StepView(const hooks::StepContext& context)
+        : context_(&context),
+          volume_(std::make_shared<VolumeArrays>(VolumeArrays{context.volume})) {}
     explicit StepView(const hooks::RefinementContext& context)
         : context_(&context.step),
           refinement_(&context),
+          volume_(std::make_shared<VolumeArrays>(VolumeArrays{context.step.volume})),
           velocity_(std::make_shared<VelocityView>(VelocityView{context.velocity})) {}
 
     /// Throws UsageError "python.context" after the call.
     const hooks::StepContext& context() const;
     const hooks::RefinementContext& refinement() const;
     const std::shared_ptr<VelocityView>& velocity() const { return velocity_; }
+    const std::shared_ptr<VolumeArrays>& volume() const { return volume_; }
     Lent& lent() { return lent_; }
 
     /// Ends the call.
@@ -49,6 +54,7 @@ public:
 private:
     const hooks::StepContext* context_;
     const hooks::RefinementContext* refinement_ = nullptr;
+    std::shared_ptr<VolumeArrays> volume_;
     std::shared_ptr<VelocityView> velocity_;
     Lent lent_;
 };

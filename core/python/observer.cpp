@@ -12,8 +12,13 @@ namespace {
 
 class PythonObserver final : public hooks::Observer {
 public:
-    explicit PythonObserver(Instance instance) : python_(std::move(instance)) {}
+    explicit PythonObserver(Instance instance)
+        : python_(std::move(instance)),
+          needs_faces_(python_.value("needs_faces_of_points", false)),
+          needs_support_(python_.value("needs_support", false)) {}
 
+    bool needs_faces_of_points() const override { return needs_faces_; }
+    bool needs_support() const override { return needs_support_; }
     void begin(const hooks::StepContext& context) override {
         figures("begin", context, [&](const py::object& view) {
             python_.self().attr("begin")(view);
@@ -54,6 +59,7 @@ private:
     }
 
     Instance python_;
+    bool needs_faces_, needs_support_;
 };
 
 class PythonInitialMesh final : public hooks::InitialMesh {

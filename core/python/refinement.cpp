@@ -108,8 +108,12 @@ public:
           samples_(python_.value("needs_sampling", false)),
           sizes_(python_.value("owns_sizing", false)),
           passes_(python_.value("passes", 1U)),
+          needs_faces_(python_.value("needs_faces_of_points", false)),
+          needs_support_(python_.value("needs_support", false)),
           creases_(python_.creases()) {}
 
+    bool needs_faces_of_points() const override { return needs_faces_; }
+    bool needs_support() const override { return needs_support_; }
     bool needs_sampling() const override { return samples_; }
     bool owns_sizing() const override { return sizes_; }
     std::optional<repair::CreaseRule> keep_creases() const override { return creases_; }
@@ -135,6 +139,7 @@ private:
     Instance python_;
     bool samples_, sizes_;
     unsigned passes_;
+    bool needs_faces_, needs_support_;
     std::optional<repair::CreaseRule> creases_;
 };
 

@@ -24,10 +24,12 @@ public:
             publishes_ = python_.has("publish");
         });
         needs_faces_ = python_.value("needs_faces_of_points", false);
+        needs_support_ = python_.value("needs_support", false);
         creases_ = python_.creases();
     }
 
     bool needs_faces_of_points() const override { return needs_faces_; }
+    bool needs_support() const override { return needs_support_; }
     bool can_sample() const override { return samples_; }
     std::optional<repair::CreaseRule> keep_creases() const override { return creases_; }
 
@@ -84,7 +86,7 @@ private:
 
     Instance python_;
     bool advances_ = false, prepares_ = false, samples_ = false, finishes_ = false, plans_ = false,
-         publishes_ = false, needs_faces_ = false;
+         publishes_ = false, needs_faces_ = false, needs_support_ = false;
     std::optional<repair::CreaseRule> creases_;
     std::vector<Vec3> displacements_;
 };

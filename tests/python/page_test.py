@@ -46,7 +46,7 @@ class Page(common.Scratch):
         text = (common.SOURCE / "share/doc/python.md").read_text(encoding="utf-8")
         import dsc
         views = sys.modules["dsc._start"]._dsc
-        for view in (views.StepContext, views.InitialMeshContext, views.Cloud, dsc.Result):
+        for view in (views.StepContext, views.InitialMeshContext, views.Cloud, views.Volume, dsc.Result):
             for name in vars(view):
                 if not name.startswith("_"):
                     self.assertRegex(text, rf"`[^`]*\b{name}\b[^`]*`", f"{view.__name__}.{name}")

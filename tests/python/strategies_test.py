@@ -62,8 +62,10 @@ class Strategies(common.Scratch):
 class Mine:
     """Looks."""
     needs_faces_of_points = True
+    needs_support = True
 
     def evaluate(self, context):
+        assert context.volume is None
         for name in dir(context):
             if not name.startswith("_") and name not in ("uniform", "normal", "pass_number", "velocity", "cloud"):
                 value = getattr(context, name)
@@ -89,6 +91,8 @@ class Mine:
                                   ("target_lengths", (n,), "float64"), ("nearest_index", (n,), "uint32"),
                                   ("nearest_distance", (n,), "float64"), ("point_faces", (p,), "uint32"),
                                   ("point_weights", (p, 3), "float64"), ("point_distances", (p,), "float64"),
+                                  ("face_labels", (m, 2), "int32"), ("previous_positions", (n, 3), "float64"),
+                                  ("arrived", (n,), "bool"), ("age", (n,), "uint32"), ("support", (n,), "float64"),
                                   ("box", (2, 3), "float64"), ("uniform", (n, 2), "float64")):
             self.assertEqual((seen[name].shape, seen[name].dtype.name), (shape, kind), name)
         # Against NumPy's own calculation.
@@ -107,6 +111,9 @@ class Mine:
         for v in (0, n // 2, n - 1):
             around = seen["vertex_faces"][seen["face_offsets"][v]:seen["face_offsets"][v + 1]]
             self.assertEqual(sorted(around), sorted(numpy.flatnonzero((faces == v).any(axis=1))))
+        self.assertTrue((seen["face_labels"] == [0, 1]).all() and seen["arrived"].all() and (seen["age"] == 0).all())
+        numpy.testing.assert_array_equal(seen["previous_positions"], x)
+        self.assertTrue((0 <= seen["support"]).all() and (seen["support"] <= 1).all() and seen["support"].max() > 0)
         self.assertTrue((0 <= seen["uniform"]).all() and (seen["uniform"] < 1).all())
         self.assertGreater(len(numpy.unique(seen["uniform"])), n)
 
@@ -229,7 +236,30 @@ class Volume:
         return numpy.einsum("ij,ij->", corner[:, 0], numpy.cross(corner[:, 1], corner[:, 2])) / 6
 
     def step(self, context, figures):
-        return {"volume": self.volume(context), "given": figures.volume}
+        self.look_at_tets(context.volume, figures)
+        moved = numpy.linalg.norm(context.positions - context.previous_positions, axis=1)
+        area = {label: context.face_areas[context.face_labels[:, 1] == label].sum() for label in (1, 2)}
+        return {"volume": self.volume(context), "given": figures.volume, "moved": moved.max(), "area": area[1], "none": area[2]}
+
+    def look_at_tets(self, volume, figures):
+        row = numpy.full(volume.vertices.max() + 1, -1)
+        row[volume.vertices] = numpy.arange(len(volume.vertices))
+        corner = volume.positions[row[volume.tet_vertices]]
+        volumes = numpy.linalg.det(corner[:, 1:] - corner[:, :1]) / 6
+        assert len(volume.tets) == figures.tets
+        numpy.testing.assert_allclose(volume.volumes, volumes, rtol=1e-9)
+        numpy.testing.assert_allclose(volume.centroids, corner.mean(axis=1), rtol=1e-12)
+        numpy.testing.assert_allclose(volumes[volume.labels > 0].sum(), figures.volume, rtol=1e-9)
+        numpy.testing.assert_allclose(volumes.sum(), 27, rtol=1e-9)  # the box
+        assert abs(volume.quality.min() - figures.min_tet_quality) < 1e-6
+        on_box = (abs(abs(corner) - 1.5) < 1e-12).any(axis=(1, 2))
+        assert (volume.touches_box == on_box).all()
+        inside = volume.neighbours != 2 ** 32 - 1
+        place = numpy.full(volume.tets.max() + 1, -1)
+        place[volume.tets] = numpy.arange(len(volume.tets))
+        tet, face = numpy.nonzero(inside)
+        across = place[volume.neighbours[tet, face]]
+        assert (volume.neighbours[across] == volume.tets[tet][:, None]).any(axis=1).all()
 
     def end(self, context):
         return {"change": self.volume(context) - self.first}
@@ -246,6 +276,7 @@ class Volume:
                           "observers": [{"type": "volume"}]}, plugins=[mine])
         m = result.metrics
         numpy.testing.assert_allclose(m["observers.volume.volume"][1:], m["observers.volume.given"][1:], rtol=1e-12)
+        self.assertTrue((m["observers.volume.moved"][1:3] > 0.01).all() and (m["observers.volume.none"][1:] == 0).all())
         self.assertEqual(result.summary["observers"]["volume"]["change"], m["observers.volume.volume"][-1] - 8.0)
         self.assertGreater(m["interface_faces"][3], 2 * m["interface_faces"][1])
         self.assertIn(("mine.note", "This is a note about the mesh."), result.warnings)
