@@ -45,6 +45,14 @@ if(DSC_FUZZ)
   target_compile_options(dsc_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
+# dsc_cold_code(TARGET): nothing in it takes part in a step. A jumbo build, which everybody waits for, compiles it with few
+# optimisations. With -O1, g++ 12 warns of an empty std::optional that is moved.
+function(dsc_cold_code target)
+  if(CMAKE_UNITY_BUILD)
+    target_compile_options(${target} PRIVATE -O1 $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  endif()
+endfunction()
+
 # dsc_quick_test(TARGET): its sources are tests. A jumbo build compiles them to be run once: with few optimisations, which
 # halves the time in the compiler, and with the headers that most of them include parsed once for all. Like every jumbo
 # source, they are compiled file by file and as users compile in the other presets.
