@@ -114,7 +114,8 @@ class Messages(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_every_option_in_the_text_of_the_sources_is_its_own(self):
-        files = [SOURCE / "core/app" / name for name in ("reconstruct_command.cpp", "reconstruct_remedies.cpp", "outcome.cpp", "temporary_folder.cpp")]
+        files = [SOURCE / "core/app" / name for name in ("reconstruct_command.cpp", "outcome.cpp", "temporary_folder.cpp")]
+        files.append(SOURCE / "core/src/run/reconstruct_remedies.cpp")
         for folder in ("core/src/cloud", "core/src/io", "core/src/mesh", "core/src/generate", "core/src/surface", "core/src/kernel"):
             files += sorted((SOURCE / folder).glob("*.cpp"))
         for path in files:

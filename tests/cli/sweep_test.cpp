@@ -101,7 +101,8 @@ TEST_CASE("a sweep with faults: exit 3, all of them, and nothing is written") {
     cli.write("a.yaml", "sweep: 1\nbase: nowhere.yaml\nrepeat: 2\n");
     CHECK(cli.dsc({"sweep", "expand", "a.yaml", "-o", "out"}).code == 6);
     CHECK(cli.dsc({"sweep", "expand", "nowhere.yaml", "-o", "out"}).code == 6);
-    cli.write("a.yaml", "sweep: 1\nbase: cube.yaml\nrepeat: 2\n");
+    cli.write("a.yaml",
+              "sweep: 1\nbase: cube.yaml\naxes: [{grid: {initial_mesh.cells: [6, 8]}}]\n");
     cli.write("full/mine.txt", "precious");
     CHECK(cli.dsc({"sweep", "expand", "a.yaml", "-o", "full"}).code == 2);
     CHECK(cli.dsc({"sweep", "collect", "full"}).code == 2);

@@ -35,6 +35,7 @@ public:
     void advance(const dsc::hooks::StepContext&) override { before_ = now_; }
     void prepare(const dsc::hooks::StepContext& context) override {
         Velocity::prepare(context);
+        length_ = context.target_length;
         now_.resize(context.surface.vertex_count());
         for (std::size_t v = 0; v < now_.size(); ++v) {
             now_[v] = Velocity::displacement(v);
@@ -44,7 +45,7 @@ public:
     bool can_sample() const override { return true; }
     void sample(std::span<const Vec3>, std::span<const Vec3> unit_normals,
                 std::span<Vec3> out) const override {
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = 0.01 * unit_normals[i];
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = 0.01 * length_ * unit_normals[i];
     }
     void save(std::ostream& out) const override {
         out.precision(17);
@@ -66,6 +67,7 @@ protected:
 
 private:
     std::vector<Vec3> before_, now_;
+    double length_ = 0.0;
 };
 
 // A curvature that depends on how often the size of the surface has changed.
@@ -84,7 +86,7 @@ public:
     void evaluate(dsc::hooks::Range range, std::span<double> scalar,
                   std::span<Vec3> vector) const override {
         for (std::size_t i = 0; i < scalar.size(); ++i) {
-            scalar[i] = changes_;
+            scalar[i] = changes_ / context_->target_length;
             vector[i] = scalar[i] * context_->surface.normals[range.begin + i];
         }
     }
