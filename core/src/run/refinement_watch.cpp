@@ -18,11 +18,15 @@ std::uint64_t vertices_between(const surface::SurfaceView& view, std::uint32_t f
 
 }  // namespace
 
-RefinementWatch::RefinementWatch(const Experiment& experiment)
+RefinementWatch::RefinementWatch(const Experiment& experiment, const Strategies* strategies)
     : last_steps_(std::numeric_limits<std::size_t>::max()) {
+    const auto given = [strategies](std::size_t item) {
+        return strategies != nullptr && item < strategies->refinements.size() &&
+               strategies->refinements[item] != nullptr;
+    };
     for (std::size_t i = 0; i < experiment.schedule.size(); ++i) {
         if (experiment.schedule[i].steps) last_steps_ = i;
-        if (experiment.schedule[i].refine.empty()) continue;
+        if (experiment.schedule[i].refine.empty() && !given(i)) continue;
         figures_.emplace_back().item = i;
     }
 }

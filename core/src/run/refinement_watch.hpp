@@ -8,6 +8,7 @@
 #include <dsc/run/experiment.hpp>
 #include <dsc/run/figures.hpp>
 #include <dsc/run/metrics.hpp>
+#include <dsc/run/simulation.hpp>
 #include <dsc/surface/surface_view.hpp>
 
 namespace dsc::run {
@@ -16,7 +17,9 @@ namespace dsc::run {
 /// were born while it ran and lie on the interface when it ends.
 class RefinementWatch {
 public:
-    explicit RefinementWatch(const Experiment& experiment);
+    /// `strategies`: a program may give refinements that the experiment does not name; null: those
+    /// of the experiment.
+    explicit RefinementWatch(const Experiment& experiment, const Strategies* strategies = nullptr);
 
     /// Whether this item comes after the last step of the schedule. A schedule without steps has no
     /// last step.

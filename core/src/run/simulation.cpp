@@ -47,7 +47,7 @@ public:
                                                      workers_, result_.totals),
                                      {}, &workers_)
                   : kernel::Deformer::load(resumed_, {}, &workers_)),
-          watch_(experiment),
+          watch_(experiment, &strategies),
           data_(deformer_, {experiment.seed, options.cancel, cloud}, workers_) {
         // Every step asks again. Asked here too, an improvement with invalid answers ends the run
         // before its first step.
