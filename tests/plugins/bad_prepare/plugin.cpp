@@ -79,6 +79,7 @@ public:
 
     void prepare(const dsc::hooks::StepContext& context) override {
         context_ = &context;
+        length_ = context.target_length;
         if (context.surface.vertex_count() == size_) return;
         size_ = context.surface.vertex_count();
         ++changes_;
@@ -86,7 +87,7 @@ public:
     void evaluate(dsc::hooks::Range range, std::span<double> scalar,
                   std::span<Vec3> vector) const override {
         for (std::size_t i = 0; i < scalar.size(); ++i) {
-            scalar[i] = changes_ / context_->target_length;
+            scalar[i] = length_ > 0.0 ? changes_ / length_ : 0.0;
             vector[i] = scalar[i] * context_->surface.normals[range.begin + i];
         }
     }
@@ -97,6 +98,7 @@ public:
 
 private:
     const dsc::hooks::StepContext* context_ = nullptr;
+    double length_ = 0.0;
     std::size_t size_ = 0;
     int changes_ = 0;
 };
