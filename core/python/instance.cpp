@@ -35,11 +35,14 @@ std::string bytes_of(const py::object& state) {
 }
 
 py::object state_of(std::string_view bytes) {
-    if (bytes.empty()) throw IoError("state.damaged", "the state of the strategy is incomplete");
+    if (bytes.empty())
+        throw IoError("state.damaged", "saved state", "", "the state of the strategy is incomplete",
+                      "start the run again");
     const std::string_view content = bytes.substr(1);
     if (bytes.front() == 'b') return py::bytes(content.data(), content.size());
     if (bytes.front() != 'j')
-        throw IoError("state.damaged", "the state of the strategy is damaged");
+        throw IoError("state.damaged", "saved state", "", "the state of the strategy is damaged",
+                      "start the run again");
     return py::module_::import("json").attr("loads")(py::bytes(content.data(), content.size()));
 }
 
@@ -98,7 +101,8 @@ void Instance::load(std::istream& in) {
         const std::string bytes{std::istreambuf_iterator<char>(in), {}};
         StateReader state(bytes);
         if (state.text() != state_head)
-            throw IoError("state.damaged", "the state of the strategy is damaged");
+            throw IoError("state.damaged", "saved state", "",
+                          "the state of the strategy is damaged", "start the run again");
         const std::string_view text = state.text();
         if (own) self_.attr("load")(state_of(text));
         for (const auto& nested : nested_) {

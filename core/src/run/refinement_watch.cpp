@@ -98,8 +98,8 @@ void RefinementWatch::load(StateReader& in) {
     const bool fits = std::all_of(watched_.begin(), watched_.end(),
                                   [count](const Watched& w) { return w.item < count; });
     if (figures_.size() != count || !fits)
-        throw IoError("state.damaged",
-                      "the refinements in the saved state do not fit the schedule");
+        throw IoError("state.damaged", "saved state", "", "the refinements do not fit the schedule",
+                      "start the run again");
 }
 
 }  // namespace dsc::run

@@ -62,8 +62,8 @@ void VertexHistory::load(StateReader& in) {
     in.list(positions_);
     in.list(not_arrived_);
     if (births_.size() != positions_.size())
-        throw IoError("state.damaged",
-                      "the previous positions in the saved state do not fit its vertices");
+        throw IoError("state.damaged", "saved state", "",
+                      "the previous positions do not fit the vertices", "start the run again");
 }
 
 }  // namespace dsc::run
