@@ -59,11 +59,12 @@ void leak(const Subject& subject) {
         return;
     }
     if (sanitized("thread")) throw Skipped("memory is not counted under ThreadSanitizer");
-    // The allocator counts its cache as used memory, which sometimes grows by some hundred bytes: a
-    // leak shows in every round.
+    // The allocator counts its cache as used memory, which sometimes grows by some hundred bytes,
+    // and Python keeps cyclic garbage for a while: a leak shows in every round.
     constexpr std::size_t much = 256;
+    constexpr unsigned rounds = 12;
     std::size_t lost = much;
-    for (unsigned round = 0; round < 3 && lost >= much; ++round) {
+    for (unsigned round = 0; round < rounds && lost >= much; ++round) {
         const std::size_t before = mallinfo2().uordblks + mallinfo2().hblkhd;
         for (unsigned i = 0; i < repeats; ++i) use_once(subject, small);
         const std::size_t after = mallinfo2().uordblks + mallinfo2().hblkhd;
