@@ -81,6 +81,35 @@ function(dsc_module name)
   set_property(GLOBAL APPEND PROPERTY DSC_CORE_LINK ${arg_LINK})
 endfunction()
 
+# dsc_backend(MODULE NAME TYPE type SOURCES ... LINK third-party targets...)
+# A part of a module whose third-party libraries take long to load: a library of its own, libdsc_NAME.so, which the core loads
+# when it is first needed. NAME_backend.hpp in the module's folder declares the table of functions, a struct named `type`, and
+# the function NAME_backend(), which gives it; the function dsc_backend_NAME() of the sources returns its address. Tests, which
+# link the module's static library, have the sources linked to it.
+function(dsc_backend module name)
+  cmake_parse_arguments(arg "" "TYPE" "SOURCES;LINK" ${ARGN})
+  set(type ${arg_TYPE})
+  set(access ${CMAKE_CURRENT_BINARY_DIR}/${name}_backend_access.cpp)
+  configure_file(${PROJECT_SOURCE_DIR}/share/cmake/dsc_backend_access.cpp.in ${access} @ONLY)
+  set(include_folders ${PROJECT_SOURCE_DIR}/core/include ${PROJECT_BINARY_DIR}/core/include ${PROJECT_SOURCE_DIR}/core/src)
+
+  add_library(dsc_backend_${name}_objects OBJECT ${arg_SOURCES})
+  target_include_directories(dsc_backend_${name}_objects PRIVATE ${include_folders})
+  target_link_libraries(dsc_backend_${name}_objects PRIVATE Eigen3::Eigen dsc_flags fmt::fmt ${arg_LINK})
+  add_library(dsc_backend_${name} MODULE $<TARGET_OBJECTS:dsc_backend_${name}_objects>)
+  target_link_libraries(dsc_backend_${name} PRIVATE dsc_core dsc_flags fmt::fmt ${arg_LINK})
+  set_target_properties(dsc_backend_${name} PROPERTIES LINKER_LANGUAGE CXX PREFIX lib OUTPUT_NAME dsc_${name}
+    INSTALL_RPATH "$ORIGIN")
+  install(TARGETS dsc_backend_${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
+
+  target_sources(dsc_${module} PRIVATE $<TARGET_OBJECTS:dsc_backend_${name}_objects> ${access})
+  target_compile_definitions(dsc_${module} PRIVATE DSC_BACKEND_LINKED)
+  target_include_directories(dsc_${module} PRIVATE ${PROJECT_SOURCE_DIR}/core/src)
+  target_link_libraries(dsc_${module} PRIVATE dsc_flags fmt::fmt ${arg_LINK})
+  set_property(GLOBAL APPEND PROPERTY DSC_BACKENDS dsc_backend_${name})
+  set_property(GLOBAL APPEND PROPERTY DSC_BACKEND_ACCESS ${access})
+endfunction()
+
 # dsc_unit_test(MODULE SOURCES ... [USES modules...] [LINK targets...] [LABELS ...]): doctest executable test_MODULE.
 function(dsc_unit_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;USES;LINK;LABELS" ${ARGN})

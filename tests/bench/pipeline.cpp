@@ -100,8 +100,7 @@ StepCost Body::step(const Displacement& displace) {
         }
     });
     context_ = nullptr;
-    const double wall = report.move_seconds + report.repair_seconds;
-    cost.seconds.move = wall > 0.0 ? seconds * report.move_seconds / wall : 0.0;
+    cost.seconds.move = std::min(seconds, report.move_time.cpu);
     cost.seconds.improve = seconds - cost.seconds.move;
     cost.seconds.velocity += cpu_of([this] { refresh(); });
     cost.tets = deformer_.complex().tet_count();

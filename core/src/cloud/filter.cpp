@@ -16,7 +16,7 @@
 
 #include "filtering.hpp"
 #include "order.hpp"
-#include "pcl_filters.hpp"
+#include "pcl_backend.hpp"
 
 namespace dsc::cloud {
 
@@ -179,8 +179,9 @@ Filtered remove_statistical_outliers(const Cloud& cloud,
     // PCL reads beyond its buffer if a cloud has no more points than requested neighbours.
     const std::size_t neighbours = std::min(options.neighbours, cloud.points.size() - 1);
     if (neighbours == 0) return take(cloud, filter, std::vector<bool>(cloud.points.size(), true));
-    return take(cloud, filter,
-                statistical_inliers(recentred(cloud, box), neighbours, options.deviations));
+    return take(
+        cloud, filter,
+        pcl_backend().statistical_inliers(recentred(cloud, box), neighbours, options.deviations));
 }
 
 Filtered remove_radius_outliers(const Cloud& cloud, const RadiusOutliersOptions& options) {
@@ -191,8 +192,9 @@ Filtered remove_radius_outliers(const Cloud& cloud, const RadiusOutliersOptions&
                    "it must be above 0 and at most 1");
     require_option(options.neighbours >= 1 && options.neighbours <= 1000, cloud, filter,
                    fmt::format("neighbours is {}", options.neighbours), "it must lie in [1, 1000]");
-    return take(cloud, filter,
-                radius_inliers(recentred(cloud, box), options.radius, options.neighbours));
+    return take(
+        cloud, filter,
+        pcl_backend().radius_inliers(recentred(cloud, box), options.radius, options.neighbours));
 }
 
 }  // namespace dsc::cloud

@@ -39,14 +39,6 @@ double coordinate(std::string_view word, const text::Place& place);
 FileCheck check_pcd(const std::string& file, std::string_view bytes);
 FileCheck check_ply(const std::string& file, std::string_view bytes);
 
-/// Read with PCL what the checks accept. Points with NaN or infinity are left out and counted.
-/// Header and body of a PCD are read separately, because PCL's reader of complete files searches
-/// the body for further header lines.
-Cloud read_pcd(const std::string& file, std::string bytes, ReadReport& report,
-               std::vector<std::string>& names);
-Cloud read_ply(const std::string& file, std::string bytes, ReadReport& report,
-               std::vector<std::string>& names);
-
 /// Throws because the file has no points.
 [[noreturn]] void no_points(const std::string& file, std::string_view remedy);
 

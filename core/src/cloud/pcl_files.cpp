@@ -1,4 +1,6 @@
 // Reads PCD and PLY files with PCL's PCLPointCloud2, which keeps fields of type double.
+#include "pcl_files.hpp"
+
 #include <cerrno>
 #include <cstdint>
 #include <cstring>

@@ -10,6 +10,7 @@
 
 #include "attributes.hpp"
 #include "formats.hpp"
+#include "pcl_backend.hpp"
 
 namespace dsc::cloud {
 
@@ -88,9 +89,9 @@ Cloud parse_cloud(const std::filesystem::path& path, std::string bytes, ReadRepo
     std::vector<std::string> names;
     Cloud cloud;
     if (extension == ".pcd") {
-        cloud = read_pcd(file, std::move(bytes), filled, names);
+        cloud = pcl_backend().read_pcd(file, std::move(bytes), filled, names);
     } else if (extension == ".ply") {
-        cloud = read_ply(file, std::move(bytes), filled, names);
+        cloud = pcl_backend().read_ply(file, std::move(bytes), filled, names);
     } else {
         const bool obj = extension == ".obj";
         filled.format = obj ? "OBJ" : extension == ".csv" ? "CSV" : "XYZ";

@@ -1,5 +1,6 @@
 #pragma once
 // One pair of functions per format, from bytes to mesh and back. `file` is used only in messages.
+// Those of VTK are in vtk_backend.hpp.
 
 #include <string>
 #include <string_view>
@@ -18,9 +19,6 @@ surface::TriangleMesh decode_ply(std::string_view content, std::string_view file
                                  std::vector<DataArray>* further);
 surface::TriangleMesh decode_stl(std::string_view content, std::string_view file);
 mesh::TetMesh decode_dsc(std::string_view content, std::string_view file);
-/// `points`: the point arrays of doubles; may be null.
-mesh::TetMesh decode_vtu(const std::string& content, std::string_view file,
-                         std::vector<DataArray>* points);
 
 /// `normals`: one per point, or none.
 std::string encode_obj(const surface::TriangleMesh& mesh, const std::vector<Vec3>& normals);
@@ -34,7 +32,5 @@ std::string encode_dsc(const mesh::TetMesh& mesh);
 std::string encode_medit(const mesh::TetMesh& mesh);
 /// Throws GeometryError "volume.label" for a label below 0 or without a tag.
 std::string encode_msh(const mesh::TetMesh& mesh);
-/// Throws IoError "io.write" if VTK reports a failure.
-std::string encode_vtu(const mesh::TetMesh& mesh, const VolumeData& data, std::string_view file);
 
 }  // namespace dsc::io

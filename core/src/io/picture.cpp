@@ -15,7 +15,7 @@
 #include <dsc/base/workers.hpp>
 #include <dsc/surface/measure.hpp>
 
-#include "io/ray_scene.hpp"
+#include "io/embree_backend.hpp"
 #include "io/shading_normals.hpp"
 
 namespace dsc::io {
@@ -30,7 +30,7 @@ constexpr std::array<std::pair<std::string_view, View>, 7> view_names = {{{"fron
                                                                           {"iso", View::iso}}};
 constexpr int largest_size = 16384;
 constexpr float margin = 0.05F;         // of the frame, on each side
-constexpr unsigned occlusion_rays = 8;  // per pixel; 4 x 4 pixels share theirs
+constexpr unsigned occlusion_rays = 4;  // per pixel; 4 x 4 pixels share theirs
 
 /// Rows: right, up, towards the viewer, in the mesh's coordinates.
 Eigen::Matrix3d view_axes(View view, UpAxis up) {
@@ -170,27 +170,25 @@ public:
           points_(project(mesh, options)),
           normals_(shading_normals(points_, faces_)),
           parts_(ramp_parts(options.values)),
-          scene_(points_, faces_) {
+          scene_(embree_backend().make_scene(points_, faces_)) {
         Eigen::AlignedBox3f box;
         for (const auto& face : faces_) {
             for (const std::uint32_t v : face) box.extend(points_[v]);
         }
         diagonal_ = box.diagonal().norm();
-        if (options.ambient_occlusion) {
-            centres_.resize(static_cast<std::size_t>(options.width) *
-                            static_cast<std::size_t>(options.height));
-        }
+        centres_.resize(static_cast<std::size_t>(options.width) *
+                        static_cast<std::size_t>(options.height));
     }
 
-    /// First pass: occlusion at the middle of every pixel; each pixel uses other directions than
-    /// its neighbours.
+    /// First pass: what the middle of every pixel sees, and its occlusion; each pixel uses other
+    /// directions than its neighbours.
     void measure_row(int y) {
-        if (centres_.empty()) return;
         for (int x = 0; x < options_.width; ++x) {
             Surfel& centre = centres_[index(x, y)];
             centre =
                 look(frame_x(static_cast<float>(x) + 0.5F), frame_y(static_cast<float>(y) + 0.5F));
-            if (centre.hit) centre.open = openness(centre, tile_of(x, y));
+            if (centre.hit && options_.ambient_occlusion)
+                centre.open = openness(centre, tile_of(x, y));
         }
     }
 
@@ -202,13 +200,16 @@ public:
             {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};
         auto out = image.pixels.begin() + 3 * static_cast<std::ptrdiff_t>(y) * image.width;
         for (int x = 0; x < image.width; ++x) {
-            Colour sum = Colour::Zero();
-            for (const auto& offset : offsets) {
+            Colour mean = Colour::Zero();
+            if (smooth_at(x, y)) {
+                mean = colour_of(centres_[index(x, y)], x, y, 0.5F, 0.5F).min(1.0F);
+            } else {
                 // Clamped before the mean, so that an edge against the light background stays
                 // smooth.
-                sum += sample(x, y, offset[0], offset[1]).min(1.0F);
+                for (const auto& offset : offsets)
+                    mean += 0.25F * sample(x, y, offset[0], offset[1]).min(1.0F);
             }
-            for (int k = 0; k < 3; ++k) *out++ = to_srgb(0.25F * sum[k]);
+            for (int k = 0; k < 3; ++k) *out++ = to_srgb(mean[k]);
         }
     }
 
@@ -231,7 +232,7 @@ private:
     Surfel look(float x, float y) const {
         Surfel out;
         RayHit hit;
-        out.hit = scene_.first_hit(Vec3f(x, y, 1.0F), Vec3f(0, 0, -1), hit);
+        out.hit = scene_->first_hit(Vec3f(x, y, 1.0F), Vec3f(0, 0, -1), hit);
         if (!out.hit) return out;
         const auto& [a, b, c] = faces_[hit.face];
         const auto& corner = normals_[hit.face];
@@ -250,12 +251,33 @@ private:
         return out;
     }
 
+    /// Whether the pixel and the four next to it see one smooth piece of surface, or nothing: one
+    /// sample gives its colour.
+    bool smooth_at(int x, int y) const {
+        if (options_.edges) return false;
+        const Surfel& here = centres_[index(x, y)];
+        constexpr std::array<std::array<int, 2>, 4> steps = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+        return std::all_of(steps.begin(), steps.end(), [&](const auto& step) {
+            const int nx = std::clamp(x + step[0], 0, options_.width - 1);
+            const int ny = std::clamp(y + step[1], 0, options_.height - 1);
+            const Surfel& next = centres_[index(nx, ny)];
+            if (here.hit != next.hit || here.front != next.front) return false;
+            return !here.hit || (here.normal.dot(next.normal) > 0.98F &&
+                                 std::abs((next.point - here.point).dot(here.flat)) < 0.75F);
+        });
+    }
+
     Colour sample(int px, int py, float dx, float dy) const {
+        return colour_of(
+            look(frame_x(static_cast<float>(px) + dx), frame_y(static_cast<float>(py) + dy)), px,
+            py, dx, dy);
+    }
+
+    Colour colour_of(Surfel seen, int px, int py, float dx, float dy) const {
         const float x = frame_x(static_cast<float>(px) + dx),
                     y = frame_y(static_cast<float>(py) + dy);
-        Surfel seen = look(x, y);
         if (!seen.hit) return background(0.5F + y / static_cast<float>(options_.height));
-        if (!centres_.empty()) seen.open = gathered(seen, px, py);
+        if (options_.ambient_occlusion) seen.open = gathered(seen, px, py);
         const Colour outside = std::isfinite(seen.part) ? ramp(seen.part) : front_colour;
         const Colour colour = shade(seen.normal, seen.front ? outside : back_colour, seen.open);
         if (!options_.edges) return colour;
@@ -306,7 +328,7 @@ private:
             // Rays below the flat face are artefacts of the smooth normal.
             if (direction.dot(at.flat) <= 0.01F) continue;
             ++cast;
-            if (!scene_.blocked(from, direction, reach)) ++free;
+            if (!scene_->blocked(from, direction, reach)) ++free;
         }
         return cast == 0 ? 1.0F : static_cast<float>(free) / static_cast<float>(cast);
     }
@@ -337,9 +359,9 @@ private:
     std::vector<Vec3f> points_;
     std::vector<std::array<Vec3f, 3>> normals_;
     std::vector<float> parts_;  ///< position of the points on the scale; empty: one colour
-    RayScene scene_;
+    std::unique_ptr<RayScene> scene_;
     float diagonal_ = 0.0F;
-    std::vector<Surfel> centres_;  ///< one per pixel; empty without occlusion
+    std::vector<Surfel> centres_;  ///< one per pixel
 };
 
 }  // namespace

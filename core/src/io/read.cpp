@@ -8,6 +8,7 @@
 #include <dsc/text/words.hpp>
 
 #include "io/codecs.hpp"
+#include "io/vtk_backend.hpp"
 
 namespace dsc::io {
 namespace {
@@ -76,8 +77,9 @@ mesh::TetMesh read_volume(const std::filesystem::path& file, std::vector<DataArr
                      "convert it with meshio to one of " + readable_volume_extensions() +
                          ", as share/doc/formats.md shows");
     const std::string content = require_content(file);
-    mesh::TetMesh mesh =
-        format->extension == ".dsc" ? decode_dsc(content, name) : decode_vtu(content, name, points);
+    mesh::TetMesh mesh = format->extension == ".dsc"
+                             ? decode_dsc(content, name)
+                             : vtk_backend().decode_vtu(content, name, points);
     if (mesh.tets.empty()) {
         text::fail("io.no_tets", {name, 0},
                    "no tets among " + text::counted(mesh.points.size(), "point"),

@@ -57,13 +57,17 @@ void read_content(vtkXMLReader& reader, const std::string& content, std::string_
         text::fail("io.syntax", {file, 0}, "VTK refuses it: " + capture.cause(), text::copy_again);
 }
 
-std::string written(vtkXMLWriter& writer, vtkDataObject* data, std::string_view file,
-                    std::string_view remedy) {
+std::string written(vtkXMLWriter& writer, vtkDataObject* data, bool compressed,
+                    std::string_view file, std::string_view remedy) {
     const CaptureScope capture;
     writer.SetInputData(data);
     writer.SetDataModeToAppended();
     writer.EncodeAppendedDataOff();
-    writer.SetCompressorTypeToZLib();
+    if (compressed) {
+        writer.SetCompressorTypeToZLib();
+    } else {
+        writer.SetCompressorTypeToNone();
+    }
     writer.SetHeaderTypeToUInt64();
     writer.WriteToOutputStringOn();
     if (writer.Write() == 0 || writer.GetErrorCode() != 0 || !capture.quiet())

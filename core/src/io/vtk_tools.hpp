@@ -57,10 +57,10 @@ vtkSmartPointer<Array> make_array(const char* name, const std::vector<Value>& va
 void read_content(vtkXMLReader& reader, const std::string& content, std::string_view file,
                   const CaptureScope& capture);
 
-/// The compressed file with this data; its numbers are appended in binary form. Throws IoError
-/// "io.write" with the remedy.
-std::string written(vtkXMLWriter& writer, vtkDataObject* data, std::string_view file,
-                    std::string_view remedy);
+/// The file with this data; its numbers are appended in binary form, compressed with zlib if this
+/// is requested. Throws IoError "io.write" with the remedy.
+std::string written(vtkXMLWriter& writer, vtkDataObject* data, bool compressed,
+                    std::string_view file, std::string_view remedy);
 
 /// As doubles; every bit is kept.
 vtkSmartPointer<vtkPoints> make_points(const std::vector<Vec3>& points);

@@ -1,4 +1,4 @@
-// VTK polygons, triangles only, with VTK's own XML reader and writer; and the .pvd index.
+// VTK polygons, triangles only, with VTK's own XML reader and writer.
 #include <fmt/core.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -9,13 +9,9 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <dsc/base/error.hpp>
-#include <dsc/base/read_file.hpp>
-#include <dsc/io/atomic_file.hpp>
-#include <dsc/io/series.hpp>
-#include <dsc/surface/measure.hpp>
 #include <dsc/text/reading.hpp>
-#include <dsc/text/words.hpp>
 
+#include "io/vtk_codecs.hpp"
 #include "io/vtk_tools.hpp"
 #include "io/vtu_check.hpp"
 
@@ -23,25 +19,6 @@ namespace dsc::io {
 namespace {
 
 constexpr const char* colour_array = "colour";
-
-void require_surface_size(std::size_t count, std::size_t expected, const std::string& array) {
-    if (count == expected) return;
-    throw GeometryError("surface.size", "surface",
-                        fmt::format("array {} has {} for {}", text::in_quotes(array),
-                                    text::counted(count, "value"), expected),
-                        "give one for each");
-}
-
-void check_arrays(const surface::TriangleMesh& mesh, const SurfaceData& data) {
-    for (const DataArray& a : data.cells)
-        require_surface_size(a.values.size(), mesh.faces.size(), a.name);
-    for (const DataArray& a : data.points)
-        require_surface_size(a.values.size(), mesh.points.size(), a.name);
-    if (!mesh.colours.empty())
-        require_surface_size(mesh.colours.size(), mesh.points.size(), colour_array);
-    for (const VectorArray& a : data.vectors)
-        require_surface_size(a.values.size(), mesh.points.size(), a.name);
-}
 
 vtkSmartPointer<vtkDoubleArray> make_vectors(const VectorArray& vectors) {
     auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -73,21 +50,6 @@ void read_colours(vtkFieldData& from, surface::TriangleMesh& mesh) {
     for (vtkIdType i = 0; i < points; ++i)
         mesh.colours.push_back(
             {array->GetValue(3 * i), array->GetValue(3 * i + 1), array->GetValue(3 * i + 2)});
-}
-
-std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& data,
-                       std::string_view file) {
-    vtkNew<vtkPolyData> polygons;
-    polygons->SetPoints(make_points(mesh.points));
-    polygons->SetPolys(make_cells(mesh.faces));
-    for (const DataArray& a : data.cells)
-        polygons->GetCellData()->AddArray(make_array<vtkDoubleArray>(a.name.c_str(), a.values));
-    for (const DataArray& a : data.points)
-        polygons->GetPointData()->AddArray(make_array<vtkDoubleArray>(a.name.c_str(), a.values));
-    if (!mesh.colours.empty()) polygons->GetPointData()->AddArray(make_colours(mesh));
-    for (const VectorArray& a : data.vectors) polygons->GetPointData()->AddArray(make_vectors(a));
-    vtkNew<vtkXMLPolyDataWriter> writer;
-    return written(*writer, polygons, file, "leave the series out");
 }
 
 /// VTK trusts the offsets and indices of the file, so they are checked here.
@@ -152,50 +114,34 @@ surface::TriangleMesh decode_checked(const std::string& content, std::string_vie
     return mesh;
 }
 
-/// Names of the program need no escapes, but a .pvd is XML and the caller may pass any name.
-std::string xml_text(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&': out += "&amp;"; break;
-            case '<': out += "&lt;"; break;
-            case '"': out += "&quot;"; break;
-            default: out += c;
-        }
-    }
-    return out;
-}
-
 }  // namespace
 
-void write_vtp(const std::filesystem::path& file, const surface::TriangleMesh& mesh,
-               const SurfaceData& data) {
-    surface::require_sound(mesh);
-    check_arrays(mesh, data);
-    write_file(file, encode_vtp(mesh, data, file.string()));
+std::string encode_vtp(const surface::TriangleMesh& mesh, const SurfaceData& data,
+                       std::string_view file) {
+    vtkNew<vtkPolyData> polygons;
+    polygons->SetPoints(make_points(mesh.points));
+    polygons->SetPolys(make_cells(mesh.faces));
+    for (const DataArray& a : data.cells)
+        polygons->GetCellData()->AddArray(make_array<vtkDoubleArray>(a.name.c_str(), a.values));
+    for (const DataArray& a : data.points)
+        polygons->GetPointData()->AddArray(make_array<vtkDoubleArray>(a.name.c_str(), a.values));
+    if (!mesh.colours.empty()) polygons->GetPointData()->AddArray(make_colours(mesh));
+    for (const VectorArray& a : data.vectors) polygons->GetPointData()->AddArray(make_vectors(a));
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    return written(*writer, polygons, data.compressed, file, "leave the series out");
 }
 
-surface::TriangleMesh read_vtp(const std::filesystem::path& file, SurfaceData* data) {
-    const std::string content = read_file(file), name = file.string();
-    check_vtu(content, name);
+surface::TriangleMesh decode_vtp(const std::string& content, std::string_view file,
+                                 SurfaceData* data) {
+    check_vtu(content, file);
     try {
-        return decode_checked(content, name, data);
+        return decode_checked(content, file, data);
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
-        text::fail("io.count", {name, 0}, std::string("VTK cannot read it: ") + error.what(),
+        text::fail("io.count", {file, 0}, std::string("VTK cannot read it: ") + error.what(),
                    text::copy_again);
     }
-}
-
-void write_pvd(const std::filesystem::path& file, std::span<const SeriesEntry> entries) {
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
-                       "byte_order=\"LittleEndian\">\n  <Collection>\n";
-    for (const SeriesEntry& entry : entries) {
-        text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.step,
-                            xml_text(entry.file));
-    }
-    write_file(file, text + "  </Collection>\n</VTKFile>\n");
 }
 
 }  // namespace dsc::io

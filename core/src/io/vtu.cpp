@@ -23,7 +23,7 @@
 #include <dsc/text/reading.hpp>
 #include <dsc/text/words.hpp>
 
-#include "io/codecs.hpp"
+#include "io/vtk_codecs.hpp"
 #include "io/vtk_tools.hpp"
 #include "io/vtu_check.hpp"
 
@@ -157,7 +157,7 @@ std::string encode_vtu(const mesh::TetMesh& mesh, const VolumeData& data, std::s
         grid->GetPointData()->AddArray(make_array<vtkDoubleArray>(a.name.c_str(), a.values));
     }
     vtkNew<vtkXMLUnstructuredGridWriter> writer;
-    return written(*writer, grid, file, "write a .dsc instead");
+    return written(*writer, grid, data.compressed, file, "write a .dsc instead");
 }
 
 }  // namespace dsc::io

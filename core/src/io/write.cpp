@@ -12,6 +12,7 @@
 #include <dsc/text/words.hpp>
 
 #include "io/codecs.hpp"
+#include "io/vtk_backend.hpp"
 
 namespace dsc::io {
 namespace {
@@ -139,10 +140,11 @@ void write_volume(const std::filesystem::path& file, const mesh::TetMesh& mesh,
     check_arrays(mesh, data);
     check_points(mesh);
     check_tets(mesh, file.string());
-    write_file(file, format.extension == ".dsc"    ? encode_dsc(mesh)
-                     : format.extension == ".msh"  ? encode_msh(mesh)
-                     : format.extension == ".mesh" ? encode_medit(mesh)
-                                                   : encode_vtu(mesh, data, file.string()));
+    write_file(file, format.extension == ".dsc"   ? encode_dsc(mesh)
+                     : format.extension == ".msh" ? encode_msh(mesh)
+                     : format.extension == ".mesh"
+                         ? encode_medit(mesh)
+                         : vtk_backend().encode_vtu(mesh, data, file.string()));
 }
 
 }  // namespace dsc::io

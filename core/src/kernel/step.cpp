@@ -1,19 +1,9 @@
 // The parts of a step: motion and repair in turn, then topology (method.md, sections 5, 6 and 8).
 #include <algorithm>
-#include <chrono>
 
 #include "kernel/deformer_state.hpp"
 
 namespace dsc::kernel {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
-
 void Deformer::State::begin_step(std::span<const VertexId> vertices,
                                  std::span<const Vec3> displacements, const RepairPolicy& policy,
                                  StepReport& report) {
@@ -171,10 +161,10 @@ double Deformer::State::make_moves() {
 void Deformer::State::move_and_repair(const RepairPolicy& policy, StepReport& report) {
     Stall stall(options);
     for (unsigned round = 0; round < options.max_rounds; ++round) {
-        auto start = Clock::now();
+        const Stopwatch moving;
         const double left = make_moves();
         const std::size_t tried = destinations.take_tried();
-        report.move_seconds += seconds_since(start);
+        report.move_time += moving.elapsed();
         ++report.rounds;
         if (stall.reached(left, tried, destinations.done())) destinations.drop_remaining(report);
         const bool settled = destinations.done();
@@ -182,16 +172,15 @@ void Deformer::State::move_and_repair(const RepairPolicy& policy, StepReport& re
             if (settled) break;
             continue;
         }
-        start = Clock::now();
+        const Timed repairing(report.repair_time);
         repair(policy, round, settled, report);
-        report.repair_seconds += seconds_since(start);
         if (settled && destinations.done()) break;
     }
     destinations.drop_remaining(report);
 }
 
 void Deformer::State::change_topology(const RepairPolicy& policy, StepReport& report) {
-    const auto start = Clock::now();
+    const Timed timed(report.repair_time);
     note_changes(complex.changes());
     topology.run(step, step_changes, policy.topology, policy.select, report.events, workers);
     if (policy.topology.thickness > 0.0) {
@@ -199,7 +188,6 @@ void Deformer::State::change_topology(const RepairPolicy& policy, StepReport& re
                                          policy.topology.min_component, report.events);
     }
     fields.settle();
-    report.repair_seconds += seconds_since(start);
 }
 
 void Deformer::State::sum_up(StepReport& report) const {

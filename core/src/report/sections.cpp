@@ -261,7 +261,9 @@ std::vector<std::pair<std::string, double>> phases(const RunRecord& record) {
     std::vector<std::pair<std::string, double>> parts;
     double rest = record.number("wall_s");
     for (const char* phase : {"velocity", "move", "improve", "refine", "measure", "io"}) {
-        const double value = record.number(std::string("phase_s.") + phase);
+        double value = record.number(std::string("phase_wall_s.") + phase);
+        // Older runs store wall time only.
+        if (!std::isfinite(value)) value = record.number(std::string("phase_s.") + phase);
         if (!std::isfinite(value)) continue;
         parts.emplace_back(phase == std::string("io") ? "files" : phase, value);
         rest -= value;

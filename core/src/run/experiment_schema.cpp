@@ -191,6 +191,11 @@ void declare_output(config::ParamSchema<Output>& s) {
     s.boolean("normals", &Output::normals)
         .doc("Write a unit normal with each vertex of a surface, in .obj and .ply. dsc reconstruct "
              "does this.");
+    s.boolean("preview", &Output::preview)
+        .doc("Draw preview.png, a picture of the surface; true if it is not given.");
+    s.boolean("compress", &Output::compress)
+        .doc("Compress .vtu and .vtp files: they become about three times smaller, and writing "
+             "takes longer.");
 }
 
 }  // namespace

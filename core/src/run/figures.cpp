@@ -57,8 +57,8 @@ void RunTotals::add(const kernel::StepReport& report) {
     for (std::size_t i = 0; i < repair_classes.size(); ++i)
         repair_classes[i] += report.repair_classes[i];
     events += report.event_counts;
-    seconds.move += report.move_seconds;
-    seconds.improve += report.repair_seconds;
+    seconds.move += report.move_time;
+    seconds.improve += report.repair_time;
 }
 
 std::uint64_t RunTotals::refused(repair::Refusal reason) const {

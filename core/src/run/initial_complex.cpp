@@ -9,8 +9,6 @@
 #include <dsc/mesh/adopt.hpp>
 #include <dsc/run/mesh_files.hpp>
 
-#include "stopwatch.hpp"
-
 namespace dsc::run {
 namespace {
 
@@ -36,14 +34,13 @@ mesh::Complex initial_complex(const Experiment& experiment, Strategies& strategi
     context.files = &files;
     context.workers = &workers;
     const mesh::TetMesh mesh = [&] {
-        const Timed timed(totals.seconds.initial_mesh_wall);
+        const Timed timed(totals.seconds.initial_mesh);
         return strategies.initial_mesh->build(context);
     }();
     totals.initial_mesh = strategies.initial_mesh->figures();
     totals.initial_mesh_seconds = strategies.initial_mesh->seconds();
     totals.warnings = strategies.initial_mesh->warnings();
-    const CpuTimed timed(totals.seconds.adopt);
-    const Timed wall_timed(totals.seconds.adopt_wall);
+    const Timed timed(totals.seconds.adopt);
     mesh::Complex complex = mesh::adopt(
         mesh, fmt::format("initial mesh '{}'", experiment.initial_mesh.type), &totals.adopted,
         strategies.improvement->topology_limits().min_component, &workers);

@@ -12,8 +12,6 @@
 #include <dsc/geometry/order.hpp>
 #include <dsc/hooks/cloud_filter.hpp>
 
-#include "stopwatch.hpp"
-
 namespace dsc::run {
 namespace {
 
@@ -86,8 +84,7 @@ LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Cat
     context.cancel = cancel;
     context.workers = workers;
     {
-        const CpuTimed timed(report.filter_seconds);
-        const Timed wall_timed(report.filter_wall_seconds);
+        const Timed timed(report.filter_time);
         for (const auto& filter : filters) {
             cloud::Filtered filtered = filter->apply(cloud, context);
             report.filters.push_back(std::move(filtered.report));

@@ -89,6 +89,7 @@ void ResultFiles::write(const mesh::TetMesh& mesh, const hooks::Attributes& attr
         }
     }
     io::VolumeData data;
+    data.compressed = output_.compress.value_or(false);
     for (const hooks::Attribute& a : attributes) data.points.push_back({a.name, a.values});
     for (const std::string& extension : output_.volume) {
         io::write_volume(staged("volume.", extension), mesh, data);
@@ -150,13 +151,16 @@ void ResultFiles::measure_files(RunOutcome& outcome) const {
 SurfaceMeasure ResultFiles::measure_surface(const std::string& stem,
                                             const surface::TriangleMesh& expected,
                                             bool& conforms) const {
+    const std::string measured = preferred(output_.surface, {"obj", "ply", "off", "stl"});
+    surface::TriangleMesh mesh;
     for (const std::string& extension : output_.surface) {
-        if (extension == "stl" || extension == "glb") continue;  // they contain floats
-        conforms = conforms && identical(io::read_surface(staged(stem, extension)), expected);
+        const bool floats = extension == "stl" || extension == "glb";
+        if (floats && extension != measured) continue;
+        surface::TriangleMesh read = io::read_surface(staged(stem, extension));
+        conforms = conforms && (floats || identical(read, expected));
+        if (extension == measured) mesh = std::move(read);
     }
-    return measure(
-        io::read_surface(staged(stem, preferred(output_.surface, {"obj", "ply", "off", "stl"}))),
-        &workers_);
+    return measure(mesh, &workers_);
 }
 
 fs::path ResultFiles::staged(const std::string& stem, const std::string& extension) const {

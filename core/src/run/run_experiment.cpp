@@ -11,6 +11,7 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
+#include <dsc/base/stopwatch.hpp>
 #include <dsc/io/picture.hpp>
 #include <dsc/io/write.hpp>
 #include <dsc/run/provenance.hpp>
@@ -23,7 +24,6 @@
 #include "run_log.hpp"
 #include "running.hpp"
 #include "state_series.hpp"
-#include "stopwatch.hpp"
 #include "summary.hpp"
 
 namespace dsc::run {
@@ -201,12 +201,13 @@ private:
         files.write(volume, end.attributes, target, gaps, outcome);
         files.measure_files(outcome);
         require_valid(outcome);
-        if (options_.picture && !outcome.surfaces.empty()) {
+        if (options_.picture && experiment.output.preview.value_or(true) &&
+            !outcome.surfaces.empty()) {
             draw(folder, files.surface(), experiment.input && experiment.input->cloud.sample,
                  workers_);
             outcome.picture = folder.file("preview.png");
         }
-        outcome.totals.seconds.io += io_watch.seconds();
+        outcome.totals.seconds.io += io_watch.elapsed();
         folder.publish_results();
         folder.write("summary.json",
                      summary_json({loaded_, state_.hash, input ? &*input : nullptr, distances,

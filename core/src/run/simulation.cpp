@@ -13,7 +13,6 @@
 #include "saved_run.hpp"
 #include "step_data.hpp"
 #include "step_figures.hpp"
-#include "stopwatch.hpp"
 
 namespace dsc::run {
 namespace {

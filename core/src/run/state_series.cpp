@@ -114,7 +114,7 @@ std::vector<io::SeriesEntry> kept_states(const fs::path& run_folder, const std::
 
 StateSeries::StateSeries(const Experiment& experiment, const plugin::Catalogue& catalogue,
                          const fs::path& run_folder)
-    : folder_(run_folder / "series") {
+    : folder_(run_folder / "series"), compressed_(experiment.output.compress.value_or(false)) {
     if (experiment.output.series) {
         every_ = experiment.output.series->every;
     } else if (experiment.output.report.value_or(false)) {
@@ -158,6 +158,7 @@ std::vector<double> StateSeries::curvatures(const hooks::StepContext& context) {
 void StateSeries::write_surface(const hooks::StepContext& context, const mesh::Complex& complex) {
     const surface::SurfaceView& view = context.surface;
     io::SurfaceData data;
+    data.compressed = compressed_;
     data.cells.push_back(
         {"label", parallel_table(context.workers, view.face_count(), [&](std::size_t f) {
              return static_cast<double>(complex.label(view.face_tets[f]));
@@ -198,6 +199,7 @@ void StateSeries::write_volume(const hooks::StepContext& context, const mesh::Co
     std::vector<mesh::VertexId> ids;
     mesh::TetMesh mesh = complex.to_mesh(&ids);
     io::VolumeData data;
+    data.compressed = compressed_;
     const double scale = context.to_normalised.scale;
     if (context.cloud != nullptr) {
         data.points.push_back(

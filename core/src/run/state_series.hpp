@@ -37,6 +37,7 @@ private:
     std::vector<double> curvatures(const hooks::StepContext& context);
 
     std::filesystem::path folder_;
+    bool compressed_ = false;
     std::uint64_t every_ = 0;          // of output.series
     std::set<std::uint64_t> steps_{};  // for the report
     // a copy of the velocity's; null if it has none

@@ -145,18 +145,25 @@ ordered_json warnings(const RunTotals& totals) {
 /// CPU seconds before the first step.
 ordered_json start_seconds(const SummaryParts& parts) {
     ordered_json all = {
-        {"filters", parts.input == nullptr ? 0.0 : parts.input->report.filter_seconds}};
+        {"filters", parts.input == nullptr ? 0.0 : parts.input->report.filter_time.cpu}};
     for (const auto& [part, seconds] : parts.outcome.totals.initial_mesh_seconds)
         all[part] = seconds;
-    all["adopt"] = parts.outcome.totals.seconds.adopt;
+    all["adopt"] = parts.outcome.totals.seconds.adopt.cpu;
     return all;
 }
 
 /// The same as wall time.
 ordered_json start_wall_seconds(const SummaryParts& parts) {
-    return {{"filters", parts.input == nullptr ? 0.0 : parts.input->report.filter_wall_seconds},
-            {"initial_mesh", parts.outcome.totals.seconds.initial_mesh_wall},
-            {"adopt", parts.outcome.totals.seconds.adopt_wall}};
+    return {{"filters", parts.input == nullptr ? 0.0 : parts.input->report.filter_time.wall},
+            {"initial_mesh", parts.outcome.totals.seconds.initial_mesh.wall},
+            {"adopt", parts.outcome.totals.seconds.adopt.wall}};
+}
+
+/// One kind of time of each phase of the steps, and of the files at the end.
+ordered_json phases(const PhaseSeconds& seconds, double Seconds::*kind) {
+    return {{"velocity", seconds.velocity.*kind}, {"move", seconds.move.*kind},
+            {"improve", seconds.improve.*kind},   {"refine", seconds.refine.*kind},
+            {"measure", seconds.measure.*kind},   {"io", seconds.io.*kind}};
 }
 
 /// Statistics of the filtered points, in normalised units.
@@ -299,13 +306,8 @@ std::string summary_json(const SummaryParts& parts) {
         {"peak_rss_mb", parts.usage.peak_rss_mb},
         {"start_cpu_s", start_seconds(parts)},
         {"start_wall_s", start_wall_seconds(parts)},
-        {"phase_s",
-         {{"velocity", totals.seconds.velocity},
-          {"move", totals.seconds.move},
-          {"improve", totals.seconds.improve},
-          {"refine", totals.seconds.refine},
-          {"measure", totals.seconds.measure},
-          {"io", totals.seconds.io}}}};
+        {"phase_cpu_s", phases(totals.seconds, &Seconds::cpu)},
+        {"phase_wall_s", phases(totals.seconds, &Seconds::wall)}};
     return root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -79,13 +79,33 @@ TEST_CASE("vtu: the file is what other programs expect") {
     const std::string bytes = test::content_of(folder / "m.vtu");
     for (const char* part :
          {"type=\"UnstructuredGrid\"", "byte_order=\"LittleEndian\"", "header_type=\"UInt64\"",
-          "compressor=\"vtkZLibDataCompressor\"", "encoding=\"raw\"", "Name=\"label\"",
-          "Name=\"quality\"", "Name=\"age\"", "Name=\"speed\"", "type=\"Float64\" Name=\"Points\"",
-          "<CellData Scalars=\"label\">"}) {
+          "encoding=\"raw\"", "Name=\"label\"", "Name=\"quality\"", "Name=\"age\"",
+          "Name=\"speed\"", "type=\"Float64\" Name=\"Points\"", "<CellData Scalars=\"label\">"}) {
         CAPTURE(part);
         CHECK(bytes.find(part) != std::string::npos);
     }
+    CHECK(bytes.find("compressor") == std::string::npos);
     CHECK(read_volume(folder / "m.vtu").labels == m.labels);
+}
+
+TEST_CASE("vtu: compressed on request, with the same content") {
+    const test::Folder folder;
+    const TetMesh m = test::cube_of_tets();
+    VolumeData data;
+    data.points.push_back({"zero", std::vector<double>(m.points.size(), 0.0)});
+    write_volume(folder / "raw.vtu", m, data);
+    data.compressed = true;
+    write_volume(folder / "packed.vtu", m, data);
+    const std::string packed = test::content_of(folder / "packed.vtu");
+    CHECK(packed.find("compressor=\"vtkZLibDataCompressor\"") != std::string::npos);
+    std::vector<DataArray> raw_arrays, packed_arrays;
+    const TetMesh raw = read_volume(folder / "raw.vtu", &raw_arrays);
+    const TetMesh unpacked = read_volume(folder / "packed.vtu", &packed_arrays);
+    CHECK(raw.points == unpacked.points);
+    CHECK(raw.tets == unpacked.tets);
+    CHECK(raw.labels == unpacked.labels);
+    REQUIRE(packed_arrays.size() == 1);
+    CHECK(packed_arrays.front().values == raw_arrays.front().values);
 }
 
 TEST_CASE("vtu: text arrays, float points and integers of another width are read") {

@@ -251,7 +251,8 @@ TEST_CASE("a whole run: the folder holds what it should, a second run the same b
                             "wall_s",
                             "cpu_s",
                             "peak_rss_mb",
-                            "phase_s"}) {
+                            "phase_cpu_s",
+                            "phase_wall_s"}) {
         CAPTURE(key);
         CHECK(summary.contains(key));
     }

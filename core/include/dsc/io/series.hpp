@@ -23,9 +23,10 @@ struct SurfaceData {
     std::vector<DataArray> cells;
     std::vector<DataArray> points;
     std::vector<VectorArray> vectors;
+    bool compressed = false;  ///< with zlib
 };
 
-/// Writes VTK polygons: doubles, zlib; colours as an array `colour` of three bytes per point. A
+/// Writes VTK polygons: doubles; colours as an array `colour` of three bytes per point. A
 /// mesh without faces is also written, because a state may have vanished. Throws IoError
 /// "io.write"; GeometryError as surface::require_sound(), "surface.size" for an array of a wrong
 /// size. [setup]

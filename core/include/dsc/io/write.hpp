@@ -15,6 +15,7 @@ namespace dsc::io {
 struct VolumeData {
     std::vector<DataArray> cells;
     std::vector<DataArray> points;
+    bool compressed = false;  ///< with zlib
 };
 
 /// Writes .obj or .off (shortest decimal text that reads back to the same double), .ply (binary,
@@ -34,7 +35,7 @@ void write_surface(const std::filesystem::path& file, const surface::TriangleMes
                    const std::vector<DataArray>& points = {},
                    const std::vector<Vec3>& normals = {});
 
-/// Writes .dsc (shortest decimal text that reads back to the same double), .vtu (doubles, zlib,
+/// Writes .dsc (shortest decimal text that reads back to the same double), .vtu (doubles,
 /// cell arrays "label" and "quality" first), .msh (Gmsh 4.1, the same text; a label is the physical
 /// group "label_N" with the tag N + 1, because tags count from 1) or .mesh (MEDIT, the same text; a
 /// label is a reference). Every tet must be exactly positive in the numbers that are written.

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include <dsc/base/stopwatch.hpp>
 #include <dsc/geometry/vec.hpp>
 #include <dsc/repair/contract.hpp>
 
@@ -71,8 +72,7 @@ struct StepReport {
     RepairClassTable repair_classes{};
     std::vector<Event> events;
     EventCounts event_counts;
-    double move_seconds = 0.0;  ///< wall time, for phase_s only
-    double repair_seconds = 0.0;
+    Seconds move_time, repair_time;
 };
 
 /// What Deformer::refine() did.

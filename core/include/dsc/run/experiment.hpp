@@ -90,6 +90,8 @@ struct Output {
     std::optional<TrimOutput> trim;  ///< empty: the closed surface
     std::optional<bool> report;
     std::optional<bool> normals;
+    std::optional<bool> preview;   ///< empty: true
+    std::optional<bool> compress;  ///< empty: false
 };
 
 /// Everything on which a run depends, defaults included.

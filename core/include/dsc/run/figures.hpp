@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <dsc/base/stopwatch.hpp>
 #include <dsc/cloud/normalize.hpp>
 #include <dsc/hooks/figures.hpp>
 #include <dsc/kernel/step_report.hpp>
@@ -31,17 +32,10 @@ struct ClassFigures {
 /// A line of events.jsonl, with its newline.
 std::string class_line(const ClassFigures& figures);
 
-/// Wall time by phase.
+/// Time by phase.
 struct PhaseSeconds {
-    double velocity = 0.0;
-    double move = 0.0;
-    double improve = 0.0;
-    double refine = 0.0;
-    double measure = 0.0;
-    double io = 0.0;
-    double adopt = 0.0;  ///< CPU seconds
-    double initial_mesh_wall = 0.0;
-    double adopt_wall = 0.0;
+    Seconds initial_mesh, adopt;  ///< before the first step
+    Seconds velocity, move, improve, refine, measure, io;
 };
 
 /// What refinements requested from the kernel, and the outcomes.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <dsc/base/progress.hpp>
+#include <dsc/base/stopwatch.hpp>
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/cloud.hpp>
 #include <dsc/cloud/filter.hpp>
@@ -31,8 +32,7 @@ struct InputReport {
     std::size_t dropped = 0;  ///< points that are not finite; the reader left them out
     std::optional<VariationReport> variation;  ///< empty without `vary`
     std::vector<cloud::FilterReport> filters;
-    double filter_seconds = 0.0;  ///< CPU seconds
-    double filter_wall_seconds = 0.0;
+    Seconds filter_time;
     std::size_t used = 0;   ///< after the filters
     double diagonal = 0.0;  ///< of the used points' box, in the input's units
 };
