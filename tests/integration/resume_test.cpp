@@ -58,10 +58,10 @@ const std::map<std::string, std::string> experiments = {
                        "sphere}]\nschedule: [{steps: 40}]\n"},
     {"normal, from a surface",
      "initial_mesh: {type: from_surface, file: \"" DSC_SOURCE_DIR
-     "/share/data/torus.off\", cells: 16}\n"
+     "/configs/demos/torus.off\", cells: 16}\n"
      "velocity: {type: normal, speed: 0.01}\nimprovement: {type: dsc}\nschedule: [{steps: 40}]\n"},
     {"flow, several labels",
-     "initial_mesh: {type: dsc_file, file: \"" DSC_SOURCE_DIR "/share/data/three_slabs.dsc\"}\n"
+     "initial_mesh: {type: dsc_file, file: \"" DSC_SOURCE_DIR "/configs/demos/three_slabs.dsc\"}\n"
      "velocity: {type: flow, field: shear}\nimprovement: {type: dsc}\nschedule: [{steps: 40}]\n"},
 };
 

@@ -113,6 +113,8 @@ class Debian(unittest.TestCase):
         self.assertGreater((work / "surface.glb").stat().st_size, 1000)
         plain(["/usr/bin/python3", "-c", "import dsc; dsc.reconstruct('cloud.ply', detail='low').save('python.ply')"], work)
         self.assertGreater((work / "python.ply").stat().st_size, 1000)
+        for demo in sorted(Path("/usr/share/dsc/configs/demos").glob("*.yaml")):
+            plain([dsc, "run", demo, "--check"], work)
         plain([dsc, "plugin", "new", "my_flow", "--kind", "velocity"], work)
         plain(["cmake", "-S", "my_flow", "-B", "my_flow/build"], work)
         plain(["cmake", "--build", "my_flow/build"], work)
