@@ -9,6 +9,7 @@
 #include <dsc/config/spelling.hpp>
 #include <dsc/plugin/fingerprint.hpp>
 
+#include "fixtures.hpp"
 #include "process.hpp"
 #include "test_table.hpp"
 
@@ -65,6 +66,7 @@ public:
                 return (o.test == "lib.entry" || o.test == "lib.bind") && is_failure(o.status);
             });
         if (!loads) return std::move(report_);
+        prepare_fixtures();
         for (const StrategyName& strategy : strategies()) {
             for (const Test& test : test_table()) {
                 if (!test.info.of_library && test.is_for(strategy.kind)) run(test, &strategy);

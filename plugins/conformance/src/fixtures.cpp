@@ -37,13 +37,18 @@ cloud::TargetCloud target(std::vector<Vec3> points) {
     return made;
 }
 
-mesh::Complex sphere_complex() {
-    generate::Shape sphere;
-    sphere.radius = 0.9;
-    const std::vector<generate::Shape> shapes = {sphere};
-    generate::LatticeOptions options;
-    options.cells = 14;
-    return mesh::adopt(generate::make_shape_mesh(options, shapes, "the fixture"), "the fixture");
+// Built once: it takes longer than most tests.
+std::shared_ptr<const mesh::Complex> sphere_complex() {
+    static const auto complex = [] {
+        generate::Shape sphere;
+        sphere.radius = 0.9;
+        const std::vector<generate::Shape> shapes = {sphere};
+        generate::LatticeOptions options;
+        options.cells = 14;
+        return std::make_shared<const mesh::Complex>(
+            mesh::adopt(generate::make_shape_mesh(options, shapes, "the fixture"), "the fixture"));
+    }();
+    return complex;
 }
 
 Fixture of_triangles(std::string name, const surface::TriangleMesh& mesh) {
@@ -95,10 +100,12 @@ double scale_at(std::uint64_t step) { return 1.0 - 0.02 * static_cast<double>(st
 
 }  // namespace
 
+void prepare_fixtures() { sphere_complex(); }
+
 Fixture ordinary() {
     Fixture fixture;
     fixture.name = "a sphere";
-    fixture.complex = std::make_shared<const mesh::Complex>(sphere_complex());
+    fixture.complex = sphere_complex();
     surface::build_view(*fixture.complex, fixture.view);
     fixture.cloud = target(ellipsoid(cloud_points));
     return fixture;

@@ -22,6 +22,10 @@ struct Fixture {
     Box3 box = cloud::simulation_box();
 };
 
+/// Builds what all fixtures share. Called before tests run in processes of their own, each of them
+/// has it without building it again.
+void prepare_fixtures();
+
 /// A sphere in a box of tets, and 1,500 points of an ellipsoid as its target.
 Fixture ordinary();
 /// The unit sphere as 20 * 4^level triangles with an ellipsoid of points, without tets.
