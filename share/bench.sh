@@ -4,12 +4,13 @@
 #   share/bench.sh [--repetitions N]   all benchmarks, N times each (default 5); DSC_DATA adds the thesis' clouds
 #   share/bench.sh --quick             everything once and small, to standard output: shows that it works, measures nothing
 #
-# Run it on a machine that does nothing else; it takes some ten minutes after the build.
+# Run it on a machine that does nothing else; it takes some twenty minutes after the build.
+# Other programs run beside dsc where they are installed; Debian 12 calls them libcgal-dev and libpcl-dev.
 set -euo pipefail
 
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 case "${1:-}" in
-    -h | --help) sed -n '2,8s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" && exit 0 ;;
+    -h | --help) sed -n '2,9s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" && exit 0 ;;
 esac
 cmake -S "$root" --preset release -DDSC_BUILD_BENCHMARKS=ON --log-level=WARNING >&2
 cmake --build "$root/build/release" -j "${DSC_JOBS:-$(nproc)}" >&2

@@ -108,6 +108,13 @@ class Bench:
         """A graded exterior where the build has one: a uniform grid grows with N to the power of 1.5."""
         return ("--mesh", "lattice") if list(self.programs.parent.glob("lib/dsc/plugins/libdsc_lattice.so")) else ()
 
+    def peers(self):
+        """Runs of dsc_bench_peers. Every run lets all programs work in turn, so that the machine's moods meet all of them."""
+        if not (self.programs / "dsc_bench_peers").exists():
+            return []
+        say(f"other programs on the same work, {self.repetitions} repetitions")
+        return [self.json_of("dsc_bench_peers", *(("--quick",) if self.quick else ())) for _ in range(self.repetitions)]
+
     def instructions(self):
         if not shutil.which("valgrind"):
             return "Instructions are left out: valgrind is not installed.\n"
@@ -205,6 +212,43 @@ def threads_table(runs):
          else f"\n\nDIFFERENT RESULTS: {len(digests)} different complexes.\n")
 
 
+def peer_rows(tables, start, figures):
+    """A row per program; `tables` are the same table of several runs, `start` the first cells, `figures` the keys with their texts."""
+    rows = []
+    for i, first in enumerate(tables[0]["rows"]):
+        if "missing" in first:
+            rows.append([*start, f"{first['program']}: {first['missing']}", *([""] * len(figures))])
+        else:
+            rows.append([*start, first["program"], *(text([table["rows"][i][key] for table in tables]) for key, text in figures)])
+    return rows
+
+
+def same(values):
+    """A figure that does not depend on the machine; more than one value where it should not be so."""
+    return " / ".join(sorted({short(value) if isinstance(value, float) else f"{value:,}" for value in values}))
+
+
+def peers_tables(runs):
+    """Time beside the quality of the mesh or the accuracy of the surface, for dsc and other programs."""
+    if not runs:
+        return "Other programs are left out: this build has no dsc_bench_peers.\n"
+    versions = ", ".join(f"{name} {version or 'not found'}" for name, version in runs[0]["versions"].items())
+    quality = [(key, same) for key in ("vertices", "tets", "least_quality", "low_quality", "least_dihedral")]
+    before = runs[0]["remeshing"]["before"]
+    remeshing = [["the mesh before", "", "", "", *(text([before[key]]) for key, text in quality)]]
+    remeshing += peer_rows([run["remeshing"] for run in runs], [], [("cpu_s", spread), ("wall_s", spread), ("us_per_vertex", spread), *quality])
+    surfaces = []
+    for i, first in enumerate(runs[0]["reconstruction"]):
+        surfaces += peer_rows([run["reconstruction"][i] for run in runs], [f"{first['shape']}, {first['points']:,} points"],
+                              [("cpu_s", spread), ("wall_s", spread), *((key, same) for key in (
+                                  "chamfer_percent", "hausdorff99_percent", "vertices", "boundary_edges", "shells", "genus"))])
+    return "\n\n".join([
+        f"Versions: {versions}. One thread each.",
+        markdown(["one pass over a mesh", "CPU s", "wall s", "us a vertex", "vertices", "tets", "least quality", "5 % quality", "least dihedral"],
+                 remeshing),
+        markdown(["cloud", "program", "CPU s", "wall s", "Chamfer %", "Hausdorff 99 %", "vertices", "boundary edges", "shells", "genus"], surfaces)])
+
+
 def replace_measured(page, text):
     """The page with `text` between its markers."""
     if page.count(BEGIN) != 1 or page.count(END) != 1 or page.index(BEGIN) > page.index(END):
@@ -225,6 +269,7 @@ def everything(bench, build):
              "### Settled, idle and one-vertex steps", quiet_table(clouds["built-in teapot"]),
              "### Growth with the interface", scaling_table(bench.scaling()), bench.instructions(),
              "### Threads", threads_table(bench.threads()),
+             "### Beside other programs", peers_tables(bench.peers()),
              "### Single operations", bench.micro()]
     return "\n\n".join(part.strip() for part in parts)
 

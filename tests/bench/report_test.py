@@ -35,6 +35,36 @@ class Report(unittest.TestCase):
         runs.append({"name": "start/flip 2-3/mean", "real_time": 6.0, "run_type": "aggregate"})
         self.assertEqual(report.micro_rows(runs), [["flip 2-3", "6.00 [5.00, 7.00]", "-", "-", "9.00", "-"]])
 
+    def peers(self, cpu_s):
+        mesh = {"vertices": 36015, "tets": 196520, "least_quality": 0.0213, "low_quality": 0.25, "least_dihedral": 1.5}
+        surface = {"chamfer_percent": 0.0312, "hausdorff99_percent": 0.125, "vertices": 20000, "boundary_edges": 0, "shells": 1, "genus": -1}
+        return {"versions": {"dsc": "1.2.3", "CGAL": "5.5.1", "PCL": None},
+                "remeshing": {"before": mesh, "rows": [{"program": "dsc", "cpu_s": cpu_s, "wall_s": 2.0, "us_per_vertex": 50.0, **mesh}]},
+                "reconstruction": [{"shape": "torus", "points": 20000, "rows": [
+                    {"program": "dsc", "cpu_s": cpu_s, "wall_s": 2.0, **surface}, {"program": "PCL", "missing": "left out: not found"}]}]}
+
+    def test_other_programs_are_listed_with_versions_times_and_figures(self):
+        text = report.peers_tables([self.peers(1.0), self.peers(4.0), self.peers(2.0)])
+        self.assertIn("Versions: dsc 1.2.3, CGAL 5.5.1, PCL not found.", text)
+        self.assertIn("| the mesh before |  |  |  | 36,015 | 196,520 | 0.0213 | 0.250 | 1.50 |", text)
+        self.assertIn("| dsc | 2.00 [1.00, 4.00] | 2.00 [2.00, 2.00] | 50.0 [50.0, 50.0] | 36,015 | 196,520 | 0.0213 | 0.250 | 1.50 |", text)
+        self.assertIn("| torus, 20,000 points | dsc | 2.00 [1.00, 4.00] | 2.00 [2.00, 2.00] | 0.0312 | 0.125 | 20,000 | 0 | 1 | -1 |", text)
+
+    def test_a_program_that_is_not_installed_is_a_row_that_says_so(self):
+        lines = report.peers_tables([self.peers(1.0)]).splitlines()
+        row = next(line for line in lines if "PCL:" in line)
+        self.assertTrue(row.startswith("| torus, 20,000 points | PCL: left out: not found | "))
+        header = next(line for line in lines if line.startswith("| cloud "))
+        self.assertEqual(row.count("|"), header.count("|"))
+
+    def test_a_result_that_differs_between_runs_shows_all_its_values(self):
+        first, second = self.peers(1.0), self.peers(1.0)
+        second["remeshing"]["rows"][0]["tets"] = 190000
+        self.assertIn("| 190,000 / 196,520 |", report.peers_tables([first, second]))
+
+    def test_a_build_without_the_program_says_so(self):
+        self.assertIn("dsc_bench_peers", report.peers_tables([]))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -43,7 +43,7 @@ FOR_STRATEGIES = BELOW["plugin"] | {"plugin"}
 
 # A third-party header and the folders that may include it.
 WALLS = {
-    "pcl/": ("core/src/cloud/",),
+    "pcl/": ("core/src/cloud/", "tests/bench/"),
     "nanoflann": ("core/src/cloud/",),
     "OpenMesh/": ("core/src/surface/", "core/src/io/"),
     "yaml-cpp/": ("core/src/config/",),
