@@ -3,6 +3,7 @@
 // time.
 #include "peers.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
@@ -128,11 +129,22 @@ Json versions() {
     return found;
 }
 
-Json figures_of(const mesh::TetMesh& mesh) {
-    const MeshFigures figures = measure_mesh(mesh);
+Json to_json(const MeshFigures& figures) {
     return {{"vertices", figures.vertices},       {"tets", figures.tets},
             {"mean_edge", figures.mean_edge},     {"least_quality", figures.least_quality},
             {"low_quality", figures.low_quality}, {"least_dihedral", figures.least_dihedral}};
+}
+
+/// Throws for a mesh that does not fill the box, so that nothing else is compared.
+Json figures_of(const mesh::TetMesh& mesh, const MeshFigures& before) {
+    const MeshFigures figures = measure_mesh(mesh);
+    if (!(figures.least_quality > 0.0) || std::abs(figures.volume / before.volume - 1.0) > 1e-3) {
+        throw GeometryError("bench.result", "a mesh of the comparison",
+                            "has inverted tets or does not fill its box", "please report it");
+    }
+    Json json = to_json(figures);
+    json["ball_change_percent"] = 100.0 * (figures.ball_volume / before.ball_volume - 1.0);
+    return json;
 }
 
 Json figures_of(const surface::TriangleMesh& surface, const surface::TriangleMesh& truth) {
@@ -171,17 +183,17 @@ Json rows_of(const Peers& peers, const Input& input, const Figures& figures) {
 
 Json compare_remeshing(const Plugins& plugins, bool quick) {
     const mesh::TetMesh mesh = rough_ball(plugins, quick ? 10 : 34);
-    const Json before = figures_of(mesh);
+    const MeshFigures before = measure_mesh(mesh);
     std::printf("remeshing %zu tets\n", mesh.tets.size());
-    Json rows = rows_of(mesh_peers(plugins, before["mean_edge"].get<double>()), mesh,
-                        [](const Remeshed& result) { return figures_of(result.mesh); });
+    Json rows = rows_of(mesh_peers(plugins, before.mean_edge), mesh,
+                        [&](const Remeshed& result) { return figures_of(result.mesh, before); });
     for (Json& row : rows) {
         if (row.contains("cpu_s")) {
             row["us_per_vertex"] =
                 1e6 * row["cpu_s"].get<double>() / static_cast<double>(mesh.points.size());
         }
     }
-    return {{"before", before}, {"rows", rows}};
+    return {{"before", to_json(before)}, {"rows", rows}};
 }
 
 Json compare_reconstruction(const Plugins& plugins, const std::string& shape, bool quick) {

@@ -29,6 +29,11 @@ double quality(const mesh::TetMesh& mesh, const Corners& tet) {
     return geometry::tet_quality(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]);
 }
 
+double volume(const mesh::TetMesh& mesh, const Corners& tet) {
+    const auto& p = mesh.points;
+    return geometry::tet_volume(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]);
+}
+
 std::vector<std::vector<std::uint32_t>> stars(const mesh::TetMesh& mesh) {
     std::vector<std::vector<std::uint32_t>> stars(mesh.points.size());
     for (std::uint32_t t = 0; t < mesh.tets.size(); ++t) {
@@ -105,9 +110,12 @@ MeshFigures measure_mesh(const mesh::TetMesh& mesh) {
                         .mean_edge = mean_edge(mesh),
                         .least_dihedral = 180.0};
     std::vector<double> qualities;
-    for (const Corners& tet : mesh.tets) {
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const Corners& tet = mesh.tets[t];
         qualities.push_back(quality(mesh, tet));
         figures.least_dihedral = std::min(figures.least_dihedral, least_dihedral(mesh, tet));
+        figures.volume += volume(mesh, tet);
+        if (mesh.labels[t] > 0) figures.ball_volume += volume(mesh, tet);
     }
     figures.least_quality = quantile(qualities, 0.0);
     figures.low_quality = quantile(qualities, 0.05);

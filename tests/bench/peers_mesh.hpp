@@ -21,6 +21,8 @@ struct MeshFigures {
     double least_quality = 0.0;   ///< volume-length measure (method.md, section 1.1)
     double low_quality = 0.0;     ///< its 5th percentile
     double least_dihedral = 0.0;  ///< degrees
+    double volume = 0.0;
+    double ball_volume = 0.0;  ///< of the tets with a label above 0
 };
 MeshFigures measure_mesh(const mesh::TetMesh& mesh);
 

@@ -228,15 +228,21 @@ def same(values):
     return " / ".join(sorted({short(value) if isinstance(value, float) else f"{value:,}" for value in values}))
 
 
+def change(values):
+    """The same for a change in per cent, which may be nothing but rounding."""
+    return " / ".join(sorted({f"{value:+.3f}" for value in values}))
+
+
 def peers_tables(runs):
     """Time beside the quality of the mesh or the accuracy of the surface, for dsc and other programs."""
     if not runs:
         return "Other programs are left out: this build has no dsc_bench_peers.\n"
-    versions = ", ".join(f"{name} {version or 'not found'}" for name, version in runs[0]["versions"].items())
+    versions = ", ".join(f"{name} {version or 'left out'}" for name, version in runs[0]["versions"].items())
     quality = [(key, same) for key in ("vertices", "tets", "least_quality", "low_quality", "least_dihedral")]
     before = runs[0]["remeshing"]["before"]
-    remeshing = [["the mesh before", "", "", "", *(text([before[key]]) for key, text in quality)]]
-    remeshing += peer_rows([run["remeshing"] for run in runs], [], [("cpu_s", spread), ("wall_s", spread), ("us_per_vertex", spread), *quality])
+    remeshing = [["the mesh before", "", "", "", *(text([before[key]]) for key, text in quality), ""]]
+    remeshing += peer_rows([run["remeshing"] for run in runs], [],
+                           [("cpu_s", spread), ("wall_s", spread), ("us_per_vertex", spread), *quality, ("ball_change_percent", change)])
     surfaces = []
     for i, first in enumerate(runs[0]["reconstruction"]):
         surfaces += peer_rows([run["reconstruction"][i] for run in runs], [f"{first['shape']}, {first['points']:,} points"],
@@ -244,7 +250,7 @@ def peers_tables(runs):
                                   "chamfer_percent", "hausdorff99_percent", "vertices", "boundary_edges", "shells", "genus"))])
     return "\n\n".join([
         f"Versions: {versions}. One thread each.",
-        markdown(["one pass over a mesh", "CPU s", "wall s", "us a vertex", "vertices", "tets", "least quality", "5 % quality", "least dihedral"],
+        markdown(["one pass over a mesh", "CPU s", "wall s", "us a vertex", "vertices", "tets", "least quality", "5 % quality", "least dihedral", "ball %"],
                  remeshing),
         markdown(["cloud", "program", "CPU s", "wall s", "Chamfer %", "Hausdorff 99 %", "vertices", "boundary edges", "shells", "genus"], surfaces)])
 

@@ -39,15 +39,15 @@ class Report(unittest.TestCase):
         mesh = {"vertices": 36015, "tets": 196520, "least_quality": 0.0213, "low_quality": 0.25, "least_dihedral": 1.5}
         surface = {"chamfer_percent": 0.0312, "hausdorff99_percent": 0.125, "vertices": 20000, "boundary_edges": 0, "shells": 1, "genus": -1}
         return {"versions": {"dsc": "1.2.3", "CGAL": "5.5.1", "PCL": None},
-                "remeshing": {"before": mesh, "rows": [{"program": "dsc", "cpu_s": cpu_s, "wall_s": 2.0, "us_per_vertex": 50.0, **mesh}]},
+                "remeshing": {"before": mesh, "rows": [{"program": "dsc", "cpu_s": cpu_s, "wall_s": 2.0, "us_per_vertex": 50.0, **mesh, "ball_change_percent": 2e-14}]},
                 "reconstruction": [{"shape": "torus", "points": 20000, "rows": [
                     {"program": "dsc", "cpu_s": cpu_s, "wall_s": 2.0, **surface}, {"program": "PCL", "missing": "left out: not found"}]}]}
 
     def test_other_programs_are_listed_with_versions_times_and_figures(self):
         text = report.peers_tables([self.peers(1.0), self.peers(4.0), self.peers(2.0)])
-        self.assertIn("Versions: dsc 1.2.3, CGAL 5.5.1, PCL not found.", text)
-        self.assertIn("| the mesh before |  |  |  | 36,015 | 196,520 | 0.0213 | 0.250 | 1.50 |", text)
-        self.assertIn("| dsc | 2.00 [1.00, 4.00] | 2.00 [2.00, 2.00] | 50.0 [50.0, 50.0] | 36,015 | 196,520 | 0.0213 | 0.250 | 1.50 |", text)
+        self.assertIn("Versions: dsc 1.2.3, CGAL 5.5.1, PCL left out.", text)
+        self.assertIn("| the mesh before |  |  |  | 36,015 | 196,520 | 0.0213 | 0.250 | 1.50 |  |", text)
+        self.assertIn("| dsc | 2.00 [1.00, 4.00] | 2.00 [2.00, 2.00] | 50.0 [50.0, 50.0] | 36,015 | 196,520 | 0.0213 | 0.250 | 1.50 | +0.000 |", text)
         self.assertIn("| torus, 20,000 points | dsc | 2.00 [1.00, 4.00] | 2.00 [2.00, 2.00] | 0.0312 | 0.125 | 20,000 | 0 | 1 | -1 |", text)
 
     def test_a_program_that_is_not_installed_is_a_row_that_says_so(self):
