@@ -75,7 +75,7 @@ Motion move_towards(Workbench& bench, VertexId v, const Vec3& destination, doubl
     mesh::Complex& c = bench.complex;
     if (has_arrived(c, bench.limits, v, destination)) return Motion::arrived;
     StarScratch& scratch = bench.move.get().star;
-    c.star(v, scratch.star, scratch.places);
+    c.cached_star(v, scratch.star, scratch.walk);
     const Motion motion = plan_move(c, bench.limits, v, destination, free_path, scratch);
     if (motion != Motion::blocked) c.move(v, scratch.place, scratch.star, scratch.qualities);
     return motion;

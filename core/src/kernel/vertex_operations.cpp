@@ -65,7 +65,7 @@ Outcome may_smooth(const Workbench& bench, VertexId v, float accept_above) {
 
 Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, VertexId v,
                        float accept_above, StarScratch& scratch) {
-    find_neighbours(complex, v, scratch);
+    complex.cached_neighbours(v, scratch.star, scratch.neighbours, scratch.walk);
     Vec3 mean = Vec3::Zero();
     for (const VertexId w : scratch.neighbours) mean += complex.position(w);
     mean /= static_cast<double>(scratch.neighbours.size());
@@ -82,7 +82,7 @@ Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, Verte
 Outcome smooth_laplacian(Workbench& bench, VertexId v, float accept_above) {
     if (const Outcome o = may_smooth(bench, v, accept_above); o.refused()) return o;
     StarScratch& scratch = bench.smooth.get().laplacian;
-    bench.complex.star(v, scratch.star, scratch.places);
+    bench.complex.cached_star(v, scratch.star, scratch.walk);
     const Outcome o = plan_laplacian(bench.complex, bench.limits, v, accept_above, scratch);
     if (o.refused())
         return bench.remember(v, Workbench::Smoother::laplacian, accept_above, o.reason());

@@ -30,6 +30,7 @@ VertexId Complex::allocate_vertex(const Vec3& position) {
     if (free_vertices_.empty()) {
         v = static_cast<VertexId>(vertices_.size());
         vertices_.emplace_back();
+        stars_.grow(vertices_.size());
     } else {
         v = free_vertices_.back();
         free_vertices_.pop_back();
@@ -234,7 +235,10 @@ VertexId Complex::replace(Edit& edit) {
         }
         labels_[t] = edit.added[i].label;
         birth_dates_[t] = clock_;
-        for (const VertexId v : tet.v) vertices_[v].seed = t;
+        for (const VertexId v : tet.v) {
+            vertices_[v].seed = t;
+            stars_.forget(v);
+        }
     }
     const bool have_qualities = edit.qualities.size() == edit.added.size();
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
@@ -256,6 +260,7 @@ VertexId Complex::replace(Edit& edit) {
     if (edit.deleted != none) {
         set_phases(edit.deleted, 1);
         vertices_[edit.deleted].seed = none;
+        stars_.forget(edit.deleted);
         free_vertices_.push_back(edit.deleted);
     }
     for (const VertexId v : relabelled_) refresh_phases(v);
@@ -272,6 +277,7 @@ Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets,
         c.vertices_.push_back({p, none, c.next_birth_++, 0, no_slot, 1, 0});
         c.box_.extend(p);
     }
+    c.stars_.grow(c.vertices_.size());
     c.tets_ = std::move(tets);
     c.labels_.assign(labels.begin(), labels.end());
     const std::size_t n = c.tets_.size();

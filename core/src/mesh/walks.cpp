@@ -25,6 +25,44 @@ VertexId fourth(const Tet& tet, VertexId a, VertexId b, VertexId c) {
 }  // namespace
 
 void Complex::star(VertexId v, std::vector<TetId>& out, TetIndex& places) const {
+    const std::span<const TetId> known = stars_.tets(v);
+    if (known.empty()) return walk_star(v, out, places);
+    out.assign(known.begin(), known.end());
+    places.clear();
+    for (const TetId t : known) places.insert(t);
+}
+
+void Complex::cached_star(VertexId v, std::vector<TetId>& out, TetIndex& scratch) const {
+    const std::span<const TetId> known = stars_.tets(v);
+    if (known.empty()) {
+        walk_star(v, out, scratch);
+        stars_.keep_tets(v, out);
+    } else {
+        out.assign(known.begin(), known.end());
+    }
+}
+
+void Complex::cached_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out,
+                                TetIndex& scratch) const {
+    const std::span<const VertexId> known = stars_.neighbours(v);
+    if (!known.empty()) {
+        out.assign(known.begin(), known.end());
+        return;
+    }
+    scratch.clear();
+    scratch.insert(v);
+    out.clear();
+    for (const TetId t : star) {
+        for (const VertexId w : tets_[t].v) {
+            if (scratch.insert(w)) out.push_back(w);
+        }
+    }
+    std::sort(out.begin(), out.end(),
+              [this](VertexId x, VertexId y) { return birth(x) < birth(y); });
+    stars_.keep_neighbours(v, out);
+}
+
+void Complex::walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const {
     out.clear();
     places.clear();
     // Kept in a register: the compiler cannot know that writing to the table does not change it.

@@ -14,6 +14,7 @@
 
 #include <dsc/base/workers.hpp>
 #include <dsc/geometry/vec.hpp>
+#include <dsc/mesh/star_cache.hpp>
 #include <dsc/mesh/tet_index.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
 
@@ -153,8 +154,16 @@ public:
     /// All tets that contain v, the seed first; `places` maps a tet to its place in `out`.
     /// [parallel]
     void star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
+    /// The same tets without the places, from the cache where the star is known. It stores a star
+    /// that is not. `scratch` is used for the walk. [parallel] if no two threads ask for the same
+    /// vertex.
+    void cached_star(VertexId v, std::vector<TetId>& out, TetIndex& scratch) const;
     /// The same with a table that belongs to the complex. [step]
-    void star(VertexId v, std::vector<TetId>& out) const { star(v, out, places_); }
+    void star(VertexId v, std::vector<TetId>& out) const { cached_star(v, out, places_); }
+    /// The vertices joined to v, in ascending birth order; `star` are its tets. `scratch` as above.
+    /// [parallel] if no two threads ask for the same vertex.
+    void cached_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out,
+                           TetIndex& scratch) const;
     TetId seed(VertexId v) const { return vertices_[v].seed; }
     /// The ring of edge (a, b), both vertices of tet t. [parallel]
     void ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const;
@@ -236,6 +245,7 @@ private:
     unsigned count_phases(VertexId v, std::span<const TetId> star) const;
     void refresh_phases(VertexId v);
     void set_phases(VertexId v, unsigned phases);
+    void walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
 
     std::vector<Vertex> vertices_;
     std::vector<Tet> tets_;
@@ -256,6 +266,7 @@ private:
     std::vector<VertexId> relabelled_;
     mutable std::vector<TetId> star_scratch_;
     mutable TetIndex places_;
+    mutable StarCache stars_;        // of the vertices that were asked for
     std::uint32_t taken_clock_ = 0;  // clock when the change list was last taken; tets of a later
                                      // date are in the list
     std::uint32_t clock_ = 0;
