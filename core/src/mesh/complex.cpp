@@ -30,6 +30,7 @@ VertexId Complex::allocate_vertex(const Vec3& position) {
     if (free_vertices_.empty()) {
         v = static_cast<VertexId>(vertices_.size());
         vertices_.emplace_back();
+        shape_dates_.push_back(0);
         stars_.grow(vertices_.size());
     } else {
         v = free_vertices_.back();
@@ -156,7 +157,10 @@ void Complex::relabel(std::span<const TetId> tets, Label label) {
             if (places_.insert(v)) relabelled_.push_back(v);
         }
     }
-    for (const VertexId v : relabelled_) refresh_phases(v);
+    for (const VertexId v : relabelled_) {
+        shape_dates_[v] = clock_;
+        refresh_phases(v);
+    }
 }
 
 // Whether the labels round some vertices may change; relabelled_ then contains the existing
@@ -237,6 +241,7 @@ VertexId Complex::replace(Edit& edit) {
         birth_dates_[t] = clock_;
         for (const VertexId v : tet.v) {
             vertices_[v].seed = t;
+            shape_dates_[v] = clock_;
             stars_.forget(v);
         }
     }
@@ -277,6 +282,7 @@ Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets,
         c.vertices_.push_back({p, none, c.next_birth_++, 0, no_slot, 1, 0});
         c.box_.extend(p);
     }
+    c.shape_dates_.assign(c.vertices_.size(), 1);
     c.stars_.grow(c.vertices_.size());
     c.tets_ = std::move(tets);
     c.labels_.assign(labels.begin(), labels.end());

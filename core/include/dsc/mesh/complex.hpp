@@ -123,6 +123,9 @@ public:
     std::uint32_t birth_date(TetId t) const { return birth_dates_[t]; }
     /// Value of the change clock when a tet of the vertex' star last changed.
     std::uint32_t vertex_date(VertexId v) const { return vertices_[v].date; }
+    /// Value of the change clock when a tet of the vertex' star was last made, removed or
+    /// relabelled; moves leave it. It is not saved: after load() it is 0.
+    std::uint32_t shape_date(VertexId v) const { return shape_dates_[v]; }
     /// The change clock: the number of committed changes.
     std::uint32_t clock() const { return clock_; }
     /// Number of the vertex in the order of creation; it survives renumbering and resuming.
@@ -164,9 +167,17 @@ public:
     /// [parallel] if no two threads ask for the same vertex.
     void cached_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out,
                            TetIndex& scratch) const;
+    /// The place in v's star of the tet that refused a move of v last. It is only a hint where to
+    /// look first: it may be any number, and nothing may depend on it but the time. [parallel] as
+    /// cached_star().
+    std::size_t suspect(VertexId v) const { return stars_.suspect(v); }
+    void keep_suspect(VertexId v, std::size_t place) const { stars_.keep_suspect(v, place); }
     TetId seed(VertexId v) const { return vertices_[v].seed; }
     /// The ring of edge (a, b), both vertices of tet t. [parallel]
     void ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const;
+    /// The same for an edge that is not on the box, if its ring has at most `most` tets and all
+    /// have the label of t. False if not; then `out` contains a part of the ring. [parallel]
+    bool inner_ring(TetId t, VertexId a, VertexId b, std::size_t most, EdgeRing& out) const;
     /// A tet that contains both vertices; none if a and b are not joined. [step]
     TetId find_edge(VertexId a, VertexId b) const;
 
@@ -253,6 +264,7 @@ private:
     std::vector<float> qualities_;
     std::vector<std::uint32_t> dates_;
     std::vector<std::uint32_t> birth_dates_;
+    std::vector<std::uint32_t> shape_dates_;  // per vertex
     std::vector<VertexId> free_vertices_;
     std::vector<TetId> free_tets_;
     std::vector<VertexId> interface_;

@@ -1,5 +1,6 @@
 #pragma once
-// The stars and neighbours of vertices, stored until the connectivity round the vertex changes.
+// The stars and neighbours of vertices, stored until the connectivity round the vertex changes, and
+// which tet of a star refused a move last.
 
 #include <cstdint>
 #include <memory>
@@ -16,16 +17,13 @@ namespace dsc::mesh {
 /// are for one thread.
 class StarCache {
 public:
-    StarCache() = default;
-    ~StarCache() = default;
-    StarCache(StarCache&&) = default;
-    StarCache& operator=(StarCache&&) = default;
+    StarCache();
+    ~StarCache();
+    StarCache(StarCache&&) noexcept;
+    StarCache& operator=(StarCache&&) noexcept;
     /// A copy of a complex starts with an empty cache of the same size.
-    StarCache(const StarCache& other) : entries_(other.entries_.size()) {}
-    StarCache& operator=(const StarCache& other) {
-        if (this != &other) *this = StarCache(other);
-        return *this;
-    }
+    StarCache(const StarCache& other);
+    StarCache& operator=(const StarCache& other);
 
     /// Makes room for this number of vertex slots.
     void grow(std::size_t slots) {
@@ -35,12 +33,12 @@ public:
     /// The tets of the star in the order of the walk; empty if they are not known.
     std::span<const std::uint32_t> tets(std::uint32_t v) const {
         const Entry& entry = entries_[v];
-        return {entry.ids.get(), entry.tets};
+        return {entry.ids, entry.tets};
     }
     /// The neighbours in ascending birth order; empty if they are not known.
     std::span<const std::uint32_t> neighbours(std::uint32_t v) const {
         const Entry& entry = entries_[v];
-        return {entry.ids.get() + entry.tets, entry.neighbours};
+        return {entry.ids + entry.tets, entry.neighbours};
     }
 
     void keep_tets(std::uint32_t v, std::span<const std::uint32_t> tets);
@@ -49,16 +47,25 @@ public:
     /// The star has changed. Its memory is used again.
     void forget(std::uint32_t v) { entries_[v].tets = entries_[v].neighbours = 0; }
 
+    /// A place in the star that is worth asking first; any number, also after the star has changed.
+    std::size_t suspect(std::uint32_t v) const { return entries_[v].suspect; }
+    void keep_suspect(std::uint32_t v, std::size_t place) {
+        entries_[v].suspect = static_cast<std::uint16_t>(place);
+    }
+
 private:
     struct Entry {
-        std::unique_ptr<std::uint32_t[]> ids;  // the tets, then the neighbours
+        std::uint32_t* ids = nullptr;  // the tets, then the neighbours; belongs to the pool
         std::uint16_t tets = 0;
         std::uint16_t neighbours = 0;
         std::uint16_t capacity = 0;
+        std::uint16_t suspect = 0;
     };
     static_assert(sizeof(Entry) == 16);
+    class Pool;
 
     std::vector<Entry> entries_;
+    std::unique_ptr<Pool> pool_;
 };
 
 }  // namespace dsc::mesh
