@@ -108,13 +108,14 @@ Outcome smooth_optimise(Workbench& bench, VertexId v) {
     Vec3 place = c.position(v);
     double step = 0.25 * bench.limits.length;
     for (int iteration = 0; iteration < 6; ++iteration) {
-        // Uphill for the tet that is worst at the present place. Until the vertex has a new place,
-        // the stored qualities say which tets this cannot be; the margin is far above rounding.
-        const float known_least = iteration == 0 ? old + 1e-3F : 2.0F;
+        // Uphill for the tet that is worst at the present place. The qualities there are known, up
+        // to the order of the corners; the margin is far above its rounding.
         float worst = 2.0F;
         Vec3 uphill = Vec3::Zero();
-        for (const TetId t : star) {
-            if (iteration == 0 && c.quality(t) > known_least) continue;
+        for (std::size_t place_in_star = 0; place_in_star < star.size(); ++place_in_star) {
+            const TetId t = star[place_in_star];
+            const float known = iteration == 0 ? c.quality(t) : qualities[place_in_star];
+            if (known > best + 1e-3F) continue;
             auto x = c.tet(t).v;
             const unsigned i = mesh::index_of(c.tet(t), v);
             // (v, rest) in positive order: moving v to the front by i exchanges keeps the sign for

@@ -159,8 +159,13 @@ void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
         const repair::RepairRound& round;
     } const job{*this, round};
     for_blocks(workers, round.dirty.size(), look_block, [&job](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            job.proposals.looks_[i] = job.proposals.look(job.round, job.round.dirty[i]);
+        constexpr std::size_t near = 4, far = 16;  // how far ahead the memory is asked for data
+        const std::span<const mesh::TetId> dirty = job.round.dirty;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i + far < end) job.round.complex.prefetch(dirty[i + far]);
+            if (i + near < end) job.round.complex.prefetch_vertices(dirty[i + near]);
+            job.proposals.looks_[i] = job.proposals.look(job.round, dirty[i]);
+        }
     });
     for (std::size_t i = 0; i < round.dirty.size(); ++i) {
         const mesh::TetId t = round.dirty[i];

@@ -152,6 +152,18 @@ public:
         return labels_[t] != label_across(t, face);
     }
     double volume(TetId t) const;
+    /// Asks the memory for a tet that will be read soon, or for the vertices of one that is there
+    /// already. A loop over many tets in no order of memory otherwise waits for each of them.
+    void prefetch(TetId t) const {
+        __builtin_prefetch(&tets_[t]);
+        __builtin_prefetch(&labels_[t]);
+        __builtin_prefetch(&qualities_[t]);
+    }
+    void prefetch_vertices(TetId t) const {
+        for (const VertexId v : tets_[t].v) {
+            if (v != none) __builtin_prefetch(&vertices_[v]);
+        }
+    }
 
     // ---- walks ----------------------------------------------------------------------------------
     /// All tets that contain v, the seed first; `places` maps a tet to its place in `out`.
