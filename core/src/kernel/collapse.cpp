@@ -46,9 +46,12 @@ public:
           c_(bench.complex),
           interface_edge_(interface_edge),
           a_(a),
-          b_(b) {
-        c_.star(a, own_.a.star);
-        c_.star(b, own_.b.star);
+          b_(b) {}
+
+    // Must come before everything that reads the stars.
+    void walk() {
+        c_.star(a_, own_.a.star);
+        c_.star(b_, own_.b.star);
     }
 
     std::span<const TetId> star_a() const { return own_.a.star; }
@@ -221,15 +224,20 @@ Outcome finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool inte
 Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, CollapseMode mode,
                       float accept_above) {
     mesh::Complex& c = bench.complex;
-    mesh::EdgeRing& ring = bench.collapse.get().ring;
-    c.ring(t, a, b, ring);
-    if (!ring.closed) return Refusal::box;
-    const bool interface_edge = is_interface_edge(c, ring);
+    // Only an edge with both ends on the box or on the interface can lie there.
+    bool interface_edge = false;
+    if ((c.on_box(a) && c.on_box(b)) || (c.on_interface(a) && c.on_interface(b))) {
+        mesh::EdgeRing& ring = bench.collapse.get().ring;
+        c.ring(t, a, b, ring);
+        if (!ring.closed) return Refusal::box;
+        interface_edge = is_interface_edge(c, ring);
+    }
     if (interface_edge && (c.on_box(a) || c.on_box(b))) return Refusal::box;
     Collapse collapse(bench, a, b, interface_edge);
     const bool a_goes = collapse.removable(a), b_goes = collapse.removable(b);
     if (!a_goes && !b_goes)
         return c.on_box(a) || c.on_box(b) ? Refusal::box : Refusal::not_applicable;
+    collapse.walk();
     // In safe mode the interface may be edited only if it is flat round the vertex that leaves its
     // place.
     const bool shape_matters = interface_edge && mode == CollapseMode::safe;
@@ -278,6 +286,7 @@ Outcome collapse_edge_to(Workbench& bench, TetId t, VertexId kept, VertexId remo
     if (c.on_box(kept) || c.on_box(removed)) return Refusal::box;
     Collapse collapse(bench, kept, removed, true);
     if (!collapse.removable(removed)) return Refusal::not_applicable;
+    collapse.walk();
     Plan plan{kept, removed};
     if (collapse.free_to_move(kept)) plan.wanted = place;
     return finish(bench, collapse, plan, true, 0.0F, collapse.least_quality_of_stars());

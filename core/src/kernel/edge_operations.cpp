@@ -33,7 +33,11 @@ bool triangulate(const Workbench& bench, VertexId a, VertexId b, float must_exce
     const Triangulations& table = triangulations(fan.corners.size());
     std::array<float, 35> quality{};
     std::uint64_t bad = 0;
+    // Every triangulation has one of the first triangles, which contain the side (0, 1).
+    const std::size_t at_side = fan.corners.size() - 2;
+    const std::uint64_t all_at_side = (std::uint64_t{1} << at_side) - 1;
     for (std::size_t n = 0; n < table.triangle_count; ++n) {
+        if (n == at_side && bad == all_at_side) return false;
         const VertexId i = fan.corners[table.triangles[n].i];
         const VertexId j = fan.corners[table.triangles[n].j];
         const VertexId k = fan.corners[table.triangles[n].k];
@@ -75,14 +79,15 @@ void add_tets(Workbench& bench, VertexId a, VertexId b, const Fan& fan) {
 Outcome remove_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float accept_above) {
     mesh::Complex& c = bench.complex;
     mesh::EdgeRing& ring = bench.edge.get().ring;
-    c.ring(t, a, b, ring);
-    if (!ring.closed) return Refusal::box;
-    if (ring.tets.size() > max_polygon) return Refusal::not_applicable;
-    float old = 1.0F;
-    for (const TetId r : ring.tets) {
-        if (c.label(r) != c.label(t)) return Refusal::not_applicable;
-        old = std::min(old, c.quality(r));
+    // An edge with an end inside the box cannot be on the box. Most edges have another label or too
+    // many tets round them, which shows before the whole ring is known.
+    if (c.on_box(a) && c.on_box(b)) {
+        c.ring(t, a, b, ring);
+        if (!ring.closed) return Refusal::box;
     }
+    if (!c.inner_ring(t, a, b, max_polygon, ring)) return Refusal::not_applicable;
+    float old = 1.0F;
+    for (const TetId r : ring.tets) old = std::min(old, c.quality(r));
     bench.edit.clear();
     const float must_exceed = std::min(old, accept_above);
     Fan fan{ring.link, c.label(t)};

@@ -81,8 +81,11 @@ Outcome remove_faces(Workbench& bench, TetId t, unsigned face, float accept_abov
     bench.edit.clear();
     bench.edit.removed = {t, other};
     Sandwich sandwich(bench, above, below);
+    // A tet of negative quality is refused below in any case.
     const auto e1 = sandwich.visit(u, v, w, t, other);
+    if (e1.now < 0.0F) return Refusal::quality;
     const auto e2 = sandwich.visit(v, w, u, t, other);
+    if (e2.now < 0.0F) return Refusal::quality;
     const auto e3 = sandwich.visit(w, u, v, t, other);
     const float old = bench.old_quality();
     const float must_exceed = std::min(old, accept_above);

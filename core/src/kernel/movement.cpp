@@ -33,14 +33,25 @@ double first_inversion(const mesh::Complex& c, std::span<const TetId> star, Vert
     return first;
 }
 
-// Whether v may move to `place`; on success `qualities` contains the tets' qualities there.
+// Whether v may move to `place`; on success `qualities` contains the tets' qualities there. The tet
+// that refused this vertex last time is asked first.
 bool acceptable(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& place,
                 float floor, std::vector<float>& qualities) {
+    const auto too_low = [&](TetId t, float q) { return !(q >= std::min(floor, c.quality(t))); };
+    if (const std::size_t suspect = c.suspect(v); suspect < star.size()) {
+        const TetId t = star[suspect];
+        if (too_low(t, static_cast<float>(mesh::quality_of(mesh::corners_at(c, t, v, place)))))
+            return false;
+    }
     qualities.clear();
-    for (const TetId t : star) {
+    for (std::size_t i = 0; i < star.size(); ++i) {
+        const TetId t = star[i];
         const auto corners = mesh::corners_at(c, t, v, place);
         const auto q = static_cast<float>(mesh::quality_of(corners));
-        if (!(q >= std::min(floor, c.quality(t))) || !mesh::exactly_positive(corners)) return false;
+        if (too_low(t, q) || !mesh::exactly_positive(corners, q)) {
+            c.keep_suspect(v, i);
+            return false;
+        }
         qualities.push_back(q);
     }
     return true;
@@ -75,7 +86,7 @@ Motion move_towards(Workbench& bench, VertexId v, const Vec3& destination, doubl
     mesh::Complex& c = bench.complex;
     if (has_arrived(c, bench.limits, v, destination)) return Motion::arrived;
     StarScratch& scratch = bench.move.get().star;
-    c.star(v, scratch.star, scratch.places);
+    c.cached_star(v, scratch.star, scratch.walk);
     const Motion motion = plan_move(c, bench.limits, v, destination, free_path, scratch);
     if (motion != Motion::blocked) c.move(v, scratch.place, scratch.star, scratch.qualities);
     return motion;

@@ -33,7 +33,10 @@ std::span<const TetId> RepairQueues::next_round() {
     last_clock_ = complex_.clock();
     complex_.take_changes(dirty_);
     std::size_t offered = 0;
-    for (const TetId t : dirty_) {
+    constexpr std::size_t ahead = 16;
+    for (std::size_t i = 0; i < dirty_.size(); ++i) {
+        if (i + ahead < dirty_.size()) complex_.prefetch(dirty_[i + ahead]);
+        const TetId t = dirty_[i];
         if (complex_.tet_alive(t) && !lost()) dirty_[offered++] = t;
     }
     dirty_.resize(offered);

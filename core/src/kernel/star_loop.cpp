@@ -29,21 +29,6 @@ std::uint16_t z_order(const Vec3& p, const Vec3& low, const Vec3& scale) {
 
 }  // namespace
 
-void find_neighbours(const mesh::Complex& complex, mesh::VertexId v, StarScratch& scratch) {
-    scratch.seen.clear();
-    scratch.seen.insert(v);
-    scratch.neighbours.clear();
-    for (const mesh::TetId t : scratch.star) {
-        for (const mesh::VertexId w : complex.tet(t).v) {
-            if (scratch.seen.insert(w)) scratch.neighbours.push_back(w);
-        }
-    }
-    std::sort(scratch.neighbours.begin(), scratch.neighbours.end(),
-              [&complex](mesh::VertexId x, mesh::VertexId y) {
-                  return complex.birth(x) < complex.birth(y);
-              });
-}
-
 void StarLoop::split(std::span<const mesh::VertexId> vertices) {
     const std::size_t n = vertices.size();
     block_count_ = std::min(most_blocks, n / least_block);

@@ -23,15 +23,11 @@ namespace dsc::kernel {
 /// Arrays for the visit of one star; one per thread.
 struct StarScratch {
     std::vector<mesh::TetId> star;
-    mesh::TetIndex places;  // of the star's tets
+    mesh::TetIndex walk;  // for cached_star() and cached_neighbours()
     std::vector<mesh::VertexId> neighbours;
-    mesh::TetIndex seen;           // of vertices, for find_neighbours()
     Vec3 place = Vec3::Zero();     // the planned place of the vertex,
     std::vector<float> qualities;  // and the qualities of the star there, in its order
 };
-
-/// Writes the other vertices of the star, in birth order, to scratch.neighbours. [parallel]
-void find_neighbours(const mesh::Complex& complex, mesh::VertexId v, StarScratch& scratch);
 
 class StarLoop {
 public:
@@ -99,7 +95,7 @@ private:
         StarScratch& scratch = blocks_.front().scratch;
         const bool ready = action.ready(i);
         if (ready) {
-            complex_.star(v, scratch.star, scratch.places);
+            complex_.cached_star(v, scratch.star, scratch.walk);
             if (action.attempt(i, scratch))
                 complex_.move(v, scratch.place, scratch.star, scratch.qualities);
         }
@@ -119,7 +115,7 @@ private:
             const mesh::VertexId v = vertices[i];
             Entry entry{i, 0, action.ready(i)};
             if (entry.attempted) {
-                complex_.star(v, scratch.star, scratch.places);
+                complex_.cached_star(v, scratch.star, scratch.walk);
                 if (meets_another(scratch.star, static_cast<std::uint8_t>(b))) {
                     block.waiting.push_back(i);
                     continue;

@@ -106,6 +106,8 @@ bool TopologyStage::neck_face(TetId t, unsigned face, mesh::EdgeRing& ring) cons
 void TopologyStage::collect_seeds_of(TetId t, std::uint64_t step, SeedBlock& block) const {
     const mesh::Complex& c = bench_.complex;
     const auto& v = c.tet(t).v;
+    // Most tets are not at the interface.
+    if (std::count_if(v.begin(), v.end(), [&c](VertexId x) { return c.movable(x); }) < 2) return;
     const double length = bench_.length_at(v);
     const double limit2 = longest_edge * longest_edge * length * length;
     std::array<bool, 4> ready{};
@@ -147,9 +149,13 @@ void TopologyStage::collect_seeds(std::uint64_t step, std::span<const TetId> cha
     for (SeedBlock& block : seed_blocks_) block.seeds.clear();
     const auto body = [&job](std::size_t begin, std::size_t end) {
         SeedBlock& block = job.stage.seed_blocks_[begin / seed_block];
-        for (const TetId t : job.changed.subspan(begin, end - begin)) {
-            if (job.stage.bench_.complex.tet_alive(t))
-                job.stage.collect_seeds_of(t, job.step, block);
+        constexpr std::size_t near = 4, far = 16;  // how far ahead the memory is asked for data
+        const mesh::Complex& c = job.stage.bench_.complex;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i + far < end) c.prefetch(job.changed[i + far]);
+            if (i + near < end) c.prefetch_vertices(job.changed[i + near]);
+            if (c.tet_alive(job.changed[i]))
+                job.stage.collect_seeds_of(job.changed[i], job.step, block);
         }
     };
     for_blocks(workers, changed.size(), seed_block, body);

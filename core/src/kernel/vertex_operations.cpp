@@ -12,7 +12,9 @@ namespace dsc::kernel {
 
 struct SmoothScratch {
     StarScratch laplacian;
-    std::vector<TetId> star;  // of the optimising form
+    // Of the optimising form; the qualities are those at the best and at the tried place.
+    std::vector<TetId> star;
+    std::vector<float> qualities, tried;
 };
 
 struct VertexSplitScratch {
@@ -22,11 +24,14 @@ struct VertexSplitScratch {
 
 namespace {
 
+// `qualities`: of the tets at this place.
 bool star_positive(const mesh::Complex& c, std::span<const TetId> star, VertexId v,
-                   const Vec3& place) {
-    return std::all_of(star.begin(), star.end(), [&](TetId t) {
-        return mesh::exactly_positive(mesh::corners_at(c, t, v, place));
-    });
+                   const Vec3& place, std::span<const float> qualities) {
+    for (std::size_t i = 0; i < star.size(); ++i) {
+        if (!mesh::exactly_positive(mesh::corners_at(c, star[i], v, place), qualities[i]))
+            return false;
+    }
+    return true;
 }
 
 float star_old(const mesh::Complex& c, std::span<const TetId> star) {
@@ -65,16 +70,17 @@ Outcome may_smooth(const Workbench& bench, VertexId v, float accept_above) {
 
 Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, VertexId v,
                        float accept_above, StarScratch& scratch) {
-    find_neighbours(complex, v, scratch);
+    complex.cached_neighbours(v, scratch.star, scratch.neighbours, scratch.walk);
     Vec3 mean = Vec3::Zero();
     for (const VertexId w : scratch.neighbours) mean += complex.position(w);
     mean /= static_cast<double>(scratch.neighbours.size());
     // A vertex that is already there is not moved: the move would only mark its star as changed.
     if ((mean - complex.position(v)).norm() < 0.02 * limits.length) return Refusal::no_gain;
     const float bound = std::min(star_old(complex, scratch.star), accept_above);
-    if (mesh::star_quality_above(bound, complex, scratch.star, v, mean, &scratch.qualities) < 0.0F)
+    if (mesh::suspected_star_quality_above(bound, complex, scratch.star, v, mean,
+                                           &scratch.qualities) < 0.0F)
         return Refusal::quality;
-    if (!star_positive(complex, scratch.star, v, mean)) return Refusal::quality;
+    if (!star_positive(complex, scratch.star, v, mean, scratch.qualities)) return Refusal::quality;
     scratch.place = mean;
     return success;
 }
@@ -82,7 +88,7 @@ Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, Verte
 Outcome smooth_laplacian(Workbench& bench, VertexId v, float accept_above) {
     if (const Outcome o = may_smooth(bench, v, accept_above); o.refused()) return o;
     StarScratch& scratch = bench.smooth.get().laplacian;
-    bench.complex.star(v, scratch.star, scratch.places);
+    bench.complex.cached_star(v, scratch.star, scratch.walk);
     const Outcome o = plan_laplacian(bench.complex, bench.limits, v, accept_above, scratch);
     if (o.refused())
         return bench.remember(v, Workbench::Smoother::laplacian, accept_above, o.reason());
@@ -95,17 +101,21 @@ Outcome smooth_optimise(Workbench& bench, VertexId v) {
     mesh::Complex& c = bench.complex;
     if (const Outcome o = smoothable(c, v); o.refused()) return o;
     if (const auto known = bench.known_refusal(v, smoother, 0.0F)) return *known;
-    std::vector<TetId>& star = bench.smooth.get().star;
+    auto& [laplacian, star, qualities, tried] = bench.smooth.get();
     c.star(v, star);
     const float old = star_old(c, star);
     float best = old;
     Vec3 place = c.position(v);
     double step = 0.25 * bench.limits.length;
     for (int iteration = 0; iteration < 6; ++iteration) {
-        // Uphill for the tet that is worst at the present place.
+        // Uphill for the tet that is worst at the present place. The qualities there are known, up
+        // to the order of the corners; the margin is far above its rounding.
         float worst = 2.0F;
         Vec3 uphill = Vec3::Zero();
-        for (const TetId t : star) {
+        for (std::size_t place_in_star = 0; place_in_star < star.size(); ++place_in_star) {
+            const TetId t = star[place_in_star];
+            const float known = iteration == 0 ? c.quality(t) : qualities[place_in_star];
+            if (known > best + 1e-3F) continue;
             auto x = c.tet(t).v;
             const unsigned i = mesh::index_of(c.tet(t), v);
             // (v, rest) in positive order: moving v to the front by i exchanges keeps the sign for
@@ -123,8 +133,9 @@ Outcome smooth_optimise(Workbench& bench, VertexId v) {
         bool better = false;
         for (int halving = 0; halving < 6 && !better; ++halving, step *= 0.5) {
             const Vec3 there = place + (step / slope) * uphill;
-            const float least = mesh::star_quality_above(best, c, star, v, there);
+            const float least = mesh::suspected_star_quality_above(best, c, star, v, there, &tried);
             if (least < 0.0F) continue;
+            std::swap(qualities, tried);
             best = least;
             place = there;
             better = true;
@@ -132,9 +143,9 @@ Outcome smooth_optimise(Workbench& bench, VertexId v) {
         if (!better) break;
     }
     if (!(best > old * 1.01F)) return bench.remember(v, smoother, 0.0F, Refusal::no_gain);
-    if (!star_positive(c, star, v, place))
+    if (!star_positive(c, star, v, place, qualities))
         return bench.remember(v, smoother, 0.0F, Refusal::quality);
-    c.move(v, place, star);
+    c.move(v, place, star, qualities);
     return success;
 }
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include <dsc/geometry/predicates.hpp>
 #include <dsc/geometry/quality.hpp>
+#include <dsc/mesh/star_quality.hpp>
 
 namespace dsc::kernel {
 
@@ -44,10 +44,11 @@ Outcome Workbench::check_shape(float must_exceed, float old) {
         if (!(q > must_exceed) || !(q >= floor)) return Refusal::quality;
         edit.qualities.push_back(q);
     }
-    // The exact test comes last: the filter decides nearly all cases, and candidates that fail are
-    // usually far from flat.
-    for (const mesh::NewTet& t : edit.added) {
-        if (geometry::orient3d(at(t.v[0]), at(t.v[1]), at(t.v[2]), at(t.v[3])) != 1)
+    // The exact test comes last: candidates that fail are usually far from flat.
+    for (std::size_t i = 0; i < edit.added.size(); ++i) {
+        const auto& v = edit.added[i].v;
+        if (!mesh::exactly_positive({&at(v[0]), &at(v[1]), &at(v[2]), &at(v[3])},
+                                    edit.qualities[i]))
             return Refusal::quality;
     }
     return success;

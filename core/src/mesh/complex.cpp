@@ -30,6 +30,8 @@ VertexId Complex::allocate_vertex(const Vec3& position) {
     if (free_vertices_.empty()) {
         v = static_cast<VertexId>(vertices_.size());
         vertices_.emplace_back();
+        shape_dates_.push_back(0);
+        stars_.grow(vertices_.size());
     } else {
         v = free_vertices_.back();
         free_vertices_.pop_back();
@@ -155,7 +157,10 @@ void Complex::relabel(std::span<const TetId> tets, Label label) {
             if (places_.insert(v)) relabelled_.push_back(v);
         }
     }
-    for (const VertexId v : relabelled_) refresh_phases(v);
+    for (const VertexId v : relabelled_) {
+        shape_dates_[v] = clock_;
+        refresh_phases(v);
+    }
 }
 
 // Whether the labels round some vertices may change; relabelled_ then contains the existing
@@ -234,7 +239,11 @@ VertexId Complex::replace(Edit& edit) {
         }
         labels_[t] = edit.added[i].label;
         birth_dates_[t] = clock_;
-        for (const VertexId v : tet.v) vertices_[v].seed = t;
+        for (const VertexId v : tet.v) {
+            vertices_[v].seed = t;
+            shape_dates_[v] = clock_;
+            stars_.forget(v);
+        }
     }
     const bool have_qualities = edit.qualities.size() == edit.added.size();
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
@@ -256,6 +265,7 @@ VertexId Complex::replace(Edit& edit) {
     if (edit.deleted != none) {
         set_phases(edit.deleted, 1);
         vertices_[edit.deleted].seed = none;
+        stars_.forget(edit.deleted);
         free_vertices_.push_back(edit.deleted);
     }
     for (const VertexId v : relabelled_) refresh_phases(v);
@@ -272,6 +282,8 @@ Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets,
         c.vertices_.push_back({p, none, c.next_birth_++, 0, no_slot, 1, 0});
         c.box_.extend(p);
     }
+    c.shape_dates_.assign(c.vertices_.size(), 1);
+    c.stars_.grow(c.vertices_.size());
     c.tets_ = std::move(tets);
     c.labels_.assign(labels.begin(), labels.end());
     const std::size_t n = c.tets_.size();

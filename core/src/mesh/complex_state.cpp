@@ -26,6 +26,8 @@ void Complex::save(StateWriter& out) const {
 Complex Complex::load(StateReader& in) {
     Complex c;
     in.list(c.vertices_);
+    c.shape_dates_.assign(c.vertices_.size(), 0);
+    c.stars_.grow(c.vertices_.size());
     in.list(c.tets_);
     in.list(c.labels_);
     in.list(c.qualities_);

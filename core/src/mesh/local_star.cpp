@@ -11,11 +11,17 @@ constexpr std::uint32_t removed_node = none - 1;
 
 }  // namespace
 
+void LocalStar::walk(VertexId v, std::vector<TetId>& out) {
+    complex_.cached_star(v, out, places_);
+    places_.clear();
+    for (const TetId t : out) places_.insert(t);
+}
+
 void LocalStar::build(VertexId v) { build(v, std::span<const TetId>(), 0); }
 
 void LocalStar::build(VertexId v, std::span<const TetId> region, Label trial) {
     vertex_ = v;
-    complex_.star(v, tets_, places_);
+    walk(v, tets_);
     labels_.clear();
     corners_.clear();
     for (std::size_t i = 0; i < tets_.size(); ++i) {
@@ -59,7 +65,7 @@ void LocalStar::build(VertexId v, const Edit& edit) {
     }
     const std::size_t virtual_nodes = tets_.size();
     if (v != created_vertex) {
-        complex_.star(v, star_, places_);
+        walk(v, star_);
         node_of_.assign(star_.size(), none);
         for (const TetId t : edit.removed) {
             if (const std::uint32_t place = places_.find(t); place != TetIndex::absent)

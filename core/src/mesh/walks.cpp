@@ -22,9 +22,82 @@ VertexId fourth(const Tet& tet, VertexId a, VertexId b, VertexId c) {
     return tet.v[0] ^ tet.v[1] ^ tet.v[2] ^ tet.v[3] ^ a ^ b ^ c;
 }
 
+// Walks round the edge from tet `first`, which contains a, b, p and q, and appends what it meets to
+// the ring as long as keep(tet) says so.
+enum class RingEnd { closed, open, stopped };
+template <class Keep>
+RingEnd walk_ring(const std::vector<Tet>& tets, TetId first, VertexId a, VertexId b, VertexId p,
+                  VertexId q, EdgeRing& out, const Keep& keep) {
+    TetId current = first;
+    while (true) {
+        if (!keep(current)) return RingEnd::stopped;
+        out.tets.push_back(current);
+        out.link.push_back(p);
+        const Tet& tet = tets[current];
+        const std::uint32_t code = tet.n[index_of(tet, p)];
+        if (code == none) {
+            out.link.push_back(q);
+            return RingEnd::open;
+        }
+        current = neighbour_tet(code);
+        if (current == first) return RingEnd::closed;
+        const VertexId r = fourth(tets[current], a, b, q);
+        p = q;
+        q = r;
+    }
+}
+
+// The other two vertices p and q of a tet with the edge ab, so that orient3d(a, b, p, q) == 1.
+std::array<VertexId, 2> opposite_edge(const Tet& tet, VertexId a, VertexId b) {
+    const unsigned i = index_of(tet, a), j = index_of(tet, b);
+    unsigned k = 0;
+    while (k == i || k == j) ++k;
+    unsigned l = 6 - i - j - k;
+    if (!even_permutation(i, j, k, l)) std::swap(k, l);
+    return {tet.v[k], tet.v[l]};
+}
+
 }  // namespace
 
 void Complex::star(VertexId v, std::vector<TetId>& out, TetIndex& places) const {
+    const std::span<const TetId> known = stars_.tets(v);
+    if (known.empty()) return walk_star(v, out, places);
+    out.assign(known.begin(), known.end());
+    places.clear();
+    for (const TetId t : known) places.insert(t);
+}
+
+void Complex::cached_star(VertexId v, std::vector<TetId>& out, TetIndex& scratch) const {
+    const std::span<const TetId> known = stars_.tets(v);
+    if (known.empty()) {
+        walk_star(v, out, scratch);
+        stars_.keep_tets(v, out);
+    } else {
+        out.assign(known.begin(), known.end());
+    }
+}
+
+void Complex::cached_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out,
+                                TetIndex& scratch) const {
+    const std::span<const VertexId> known = stars_.neighbours(v);
+    if (!known.empty()) {
+        out.assign(known.begin(), known.end());
+        return;
+    }
+    scratch.clear();
+    scratch.insert(v);
+    out.clear();
+    for (const TetId t : star) {
+        for (const VertexId w : tets_[t].v) {
+            if (scratch.insert(w)) out.push_back(w);
+        }
+    }
+    std::sort(out.begin(), out.end(),
+              [this](VertexId x, VertexId y) { return birth(x) < birth(y); });
+    stars_.keep_neighbours(v, out);
+}
+
+void Complex::walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const {
     out.clear();
     places.clear();
     // Kept in a register: the compiler cannot know that writing to the table does not change it.
@@ -46,50 +119,34 @@ void Complex::star(VertexId v, std::vector<TetId>& out, TetIndex& places) const 
 }
 
 void Complex::ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const {
+    const auto all = [](TetId) { return true; };
     out.tets.clear();
     out.link.clear();
-    const unsigned i = index_of(tets_[t], a), j = index_of(tets_[t], b);
-    unsigned k = 0;
-    while (k == i || k == j) ++k;
-    unsigned l = 6 - i - j - k;
-    if (!even_permutation(i, j, k, l)) std::swap(k, l);
-    VertexId p = tets_[t].v[k], q = tets_[t].v[l];
-
-    // Back to the first tet of an open ring, or once around a closed one.
+    auto [p, q] = opposite_edge(tets_[t], a, b);
+    out.closed = walk_ring(tets_, t, a, b, p, q, out, all) == RingEnd::closed;
+    if (out.closed) return;
+    // Back to the first tet of the open ring, and then along it.
     TetId first = t;
-    out.closed = false;
     while (true) {
         const std::uint32_t code = tets_[first].n[index_of(tets_[first], q)];
         if (code == none) break;
-        const TetId previous = neighbour_tet(code);
-        if (previous == t) {
-            out.closed = true;
-            first = t;
-            p = tets_[t].v[k];
-            q = tets_[t].v[l];
-            break;
-        }
-        const VertexId s = fourth(tets_[previous], a, b, p);
+        first = neighbour_tet(code);
+        const VertexId s = fourth(tets_[first], a, b, p);
         q = p;
         p = s;
-        first = previous;
     }
-    TetId current = first;
-    while (true) {
-        out.tets.push_back(current);
-        out.link.push_back(p);
-        const std::uint32_t code = tets_[current].n[index_of(tets_[current], p)];
-        if (code == none) {
-            out.link.push_back(q);
-            return;
-        }
-        const TetId next = neighbour_tet(code);
-        if (next == first) return;
-        const VertexId r = fourth(tets_[next], a, b, q);
-        p = q;
-        q = r;
-        current = next;
-    }
+    out.tets.clear();
+    out.link.clear();
+    walk_ring(tets_, first, a, b, p, q, out, all);
+}
+
+bool Complex::inner_ring(TetId t, VertexId a, VertexId b, std::size_t most, EdgeRing& out) const {
+    out.tets.clear();
+    out.link.clear();
+    const auto [p, q] = opposite_edge(tets_[t], a, b);
+    const auto fits = [&](TetId r) { return out.tets.size() < most && labels_[r] == labels_[t]; };
+    out.closed = walk_ring(tets_, t, a, b, p, q, out, fits) == RingEnd::closed;
+    return out.closed;
 }
 
 TetId Complex::find_edge(VertexId a, VertexId b) const {

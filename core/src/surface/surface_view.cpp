@@ -17,7 +17,7 @@ constexpr std::size_t walk_block = 1024;  // vertices
 // label.
 void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::TetId>& star,
                   mesh::TetIndex& places, std::vector<RawFace>& out) {
-    c.star(v, star, places);
+    c.cached_star(v, star, places);
     for (const mesh::TetId t : star) {
         const mesh::Tet& tet = c.tet(t);
         for (unsigned f = 0; f < 4; ++f) {
@@ -41,15 +41,37 @@ void faces_led_by(const mesh::Complex& c, mesh::VertexId v, std::vector<mesh::Te
 
 }  // namespace
 
-std::span<const ViewMemory::Face> ViewMemory::faces_led_by(const mesh::Complex& complex,
-                                                           mesh::VertexId v, bool& known) const {
-    known = false;
-    if (v >= index_.size() || index_[v] >= births_.size()) return {};
-    const std::uint32_t i = index_[v];
+bool ViewMemory::known(const mesh::Complex& complex, mesh::VertexId v) const {
     // Another vertex may use the slot now.
-    if (births_[i] != complex.birth(v) || complex.vertex_date(v) > clock_) return {};
-    known = true;
+    return v < index_.size() && index_[v] < births_.size() &&
+           births_[index_[v]] == complex.birth(v) && complex.shape_date(v) <= clock_;
+}
+
+std::span<const ViewMemory::Face> ViewMemory::faces_led_by(const mesh::Complex& complex,
+                                                           mesh::VertexId v, bool& is_known) const {
+    is_known = known(complex, v);
+    if (!is_known) return {};
+    const std::uint32_t i = index_[v];
     return std::span(faces_).subspan(starts_[i], starts_[i + 1] - starts_[i]);
+}
+
+bool ViewMemory::only_moved(const mesh::Complex& complex, const SurfaceView& view) const {
+    const auto interface = complex.interface_vertices();
+    if (births_.empty() || interface.size() != births_.size() || view.births != births_ ||
+        view.faces.size() != faces_.size() || view.vertex_faces.size() != 3 * faces_.size())
+        return false;
+    if (!std::all_of(interface.begin(), interface.end(),
+                     [&](mesh::VertexId v) { return known(complex, v); }))
+        return false;
+    // The caller may have given the view of another memory.
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (view.vertex_ids[view.faces[f][k]] != faces_[f].vertices[k]) return false;
+        }
+        if (view.face_tets[f] != faces_[f].tet || view.face_labels[f] != faces_[f].labels)
+            return false;
+    }
+    return true;
 }
 
 void ViewMemory::keep(const mesh::Complex& complex, const SurfaceView& view,
@@ -72,7 +94,10 @@ void ViewMemory::keep(const mesh::Complex& complex, const SurfaceView& view,
     }
 }
 
-void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMemory* memory) {
+namespace {
+
+// Vertices, faces and what belongs to them, but not what depends on positions.
+void connect(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMemory* memory) {
     ViewMemory::Arrays own;
     auto& [blocks, index, counts] = memory != nullptr ? memory->arrays() : own;
     const auto interface = c.interface_vertices();
@@ -81,19 +106,14 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
               [&c](mesh::VertexId a, mesh::VertexId b) { return c.birth(a) < c.birth(b); });
     const std::size_t n = view.vertex_ids.size();
     view.births.resize(n);
-    view.positions.resize(n);
     view.movable.resize(n);
     if (index.size() < c.vertex_slots()) index.resize(c.vertex_slots());
     for (std::size_t i = 0; i < n; ++i) {
         const mesh::VertexId v = view.vertex_ids[i];
         index[v] = static_cast<std::uint32_t>(i);
         view.births[i] = c.birth(v);
-        view.positions[i] = c.position(v);
         view.movable[i] = c.movable(v) ? 1 : 0;
     }
-    view.previous_positions = view.positions;
-    view.arrived.assign(n, 1);
-    view.age.assign(n, 0);
     blocks.resize(std::max(blocks.size(), (n + walk_block - 1) / walk_block));
     struct Job {
         const mesh::Complex& c;
@@ -137,10 +157,33 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
         }
     }
     if (memory != nullptr) memory->keep(c, view, counts);
-    const std::size_t m = view.faces.size();
+    view.face_offsets.assign(n + 1, 0);
+    for (const auto& face : view.faces) {
+        for (const auto v : face) ++view.face_offsets[v + 1];
+    }
+    for (std::size_t i = 0; i < n; ++i) view.face_offsets[i + 1] += view.face_offsets[i];
+    view.vertex_faces.resize(3 * view.faces.size());
+    // Filling in the order of the faces keeps the faces of each vertex in ascending order; the
+    // shift below restores the offsets.
+    for (std::size_t f = 0; f < view.faces.size(); ++f) {
+        for (const auto v : view.faces[f])
+            view.vertex_faces[view.face_offsets[v]++] = static_cast<std::uint32_t>(f);
+    }
+    for (std::size_t i = n; i > 0; --i) view.face_offsets[i] = view.face_offsets[i - 1];
+    view.face_offsets[0] = 0;
+}
+
+// Positions, areas and normals of a connected view.
+void measure(const mesh::Complex& c, SurfaceView& view) {
+    const std::size_t n = view.vertex_ids.size(), m = view.faces.size();
+    view.positions.resize(n);
+    for (std::size_t i = 0; i < n; ++i) view.positions[i] = c.position(view.vertex_ids[i]);
+    view.previous_positions = view.positions;
+    view.arrived.assign(n, 1);
+    view.age.assign(n, 0);
     view.face_normals.resize(m);
     view.face_areas.resize(m);
-    view.face_offsets.assign(n + 1, 0);
+    view.normals.assign(n, Vec3::Zero());
     for (std::size_t f = 0; f < m; ++f) {
         const Vec3 &p = view.positions[view.faces[f][0]], &q = view.positions[view.faces[f][1]],
                    &r = view.positions[view.faces[f][2]];
@@ -148,26 +191,24 @@ void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, Vie
         const double length = cross.norm();
         view.face_areas[f] = 0.5 * length;
         view.face_normals[f] = length > 0.0 ? Vec3(cross / length) : Vec3(Vec3::Zero());
-        for (const auto v : view.faces[f]) ++view.face_offsets[v + 1];
+        for (const auto v : view.faces[f]) view.normals[v] += view.face_normals[f];
     }
     view.mean_edge = mean_edge(view.positions, view.faces);
-    for (std::size_t i = 0; i < n; ++i) view.face_offsets[i + 1] += view.face_offsets[i];
-    view.vertex_faces.resize(3 * m);
-    view.normals.assign(n, Vec3::Zero());
-    // Filling in the order of the faces keeps the faces of each vertex in ascending order; the
-    // shift below restores the offsets.
-    for (std::size_t f = 0; f < m; ++f) {
-        for (const auto v : view.faces[f]) {
-            view.vertex_faces[view.face_offsets[v]++] = static_cast<std::uint32_t>(f);
-            view.normals[v] += view.face_normals[f];
-        }
-    }
-    for (std::size_t i = n; i > 0; --i) view.face_offsets[i] = view.face_offsets[i - 1];
-    view.face_offsets[0] = 0;
     for (Vec3& normal : view.normals) {
         const double length = normal.norm();
         normal = length > 1e-8 ? Vec3(normal / length) : Vec3(Vec3::Zero());
     }
+}
+
+}  // namespace
+
+void build_view(const mesh::Complex& c, SurfaceView& view, Workers* workers, ViewMemory* memory) {
+    if (memory != nullptr && memory->only_moved(c, view)) {
+        memory->keep(c);
+    } else {
+        connect(c, view, workers, memory);
+    }
+    measure(c, view);
 }
 
 }  // namespace dsc::surface

@@ -49,7 +49,8 @@ bool Proposals::first_visit(mesh::VertexId v) {
 
 // The volume below which a tet is collapsed.
 double Proposals::small_volume_of(const repair::RepairRound& round, mesh::TetId t) const {
-    return limits_.min_tet_volume * geometry::regular_tet_volume(round.length_of(t));
+    const double length = round.lengths.empty() ? round.target_length : round.length_of(t);
+    return limits_.min_tet_volume * geometry::regular_tet_volume(length);
 }
 
 // If a refinement owns the sizing, tets with an interface edge are not changed.
@@ -78,8 +79,15 @@ std::uint8_t Proposals::look(const repair::RepairRound& round, mesh::TetId t) co
     const auto q = static_cast<double>(c.quality(t));
     if (q < limits_.min_tet_quality) found |= low_quality;
     if (q < limits_.smooth_below) found |= to_smooth;
-    if (c.volume(t) < small_volume_of(round, t) && may_thin_out(round, t)) found |= small_volume;
-    for (unsigned f = 0; f < 4 && round.size_edits; ++f) {
+    if (geometry::tet_volume(c.position(v[0]), c.position(v[1]), c.position(v[2]),
+                             c.position(v[3])) < small_volume_of(round, t) &&
+        may_thin_out(round, t))
+        found |= small_volume;
+    // Only a tet with three vertices on the interface can have a face there.
+    const bool has_face =
+        round.size_edits &&
+        std::count_if(v.begin(), v.end(), [&](mesh::VertexId x) { return c.on_interface(x); }) >= 3;
+    for (unsigned f = 0; f < 4 && has_face; ++f) {
         if (c.label(t) <= c.label_across(t, f)) continue;
         for (unsigned k = 0; k < 3; ++k) {
             const mesh::VertexId a = v[mesh::face_vertices[f][k]],
@@ -151,8 +159,13 @@ void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
         const repair::RepairRound& round;
     } const job{*this, round};
     for_blocks(workers, round.dirty.size(), look_block, [&job](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            job.proposals.looks_[i] = job.proposals.look(job.round, job.round.dirty[i]);
+        constexpr std::size_t near = 4, far = 16;  // how far ahead the memory is asked for data
+        const std::span<const mesh::TetId> dirty = job.round.dirty;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i + far < end) job.round.complex.prefetch(dirty[i + far]);
+            if (i + near < end) job.round.complex.prefetch_vertices(dirty[i + near]);
+            job.proposals.looks_[i] = job.proposals.look(job.round, dirty[i]);
+        }
     });
     for (std::size_t i = 0; i < round.dirty.size(); ++i) {
         const mesh::TetId t = round.dirty[i];

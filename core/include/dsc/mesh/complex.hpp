@@ -14,6 +14,7 @@
 
 #include <dsc/base/workers.hpp>
 #include <dsc/geometry/vec.hpp>
+#include <dsc/mesh/star_cache.hpp>
 #include <dsc/mesh/tet_index.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
 
@@ -122,6 +123,9 @@ public:
     std::uint32_t birth_date(TetId t) const { return birth_dates_[t]; }
     /// Value of the change clock when a tet of the vertex' star last changed.
     std::uint32_t vertex_date(VertexId v) const { return vertices_[v].date; }
+    /// Value of the change clock when a tet of the vertex' star was last made, removed or
+    /// relabelled; moves leave it. It is not saved: after load() it is 0.
+    std::uint32_t shape_date(VertexId v) const { return shape_dates_[v]; }
     /// The change clock: the number of committed changes.
     std::uint32_t clock() const { return clock_; }
     /// Number of the vertex in the order of creation; it survives renumbering and resuming.
@@ -148,16 +152,44 @@ public:
         return labels_[t] != label_across(t, face);
     }
     double volume(TetId t) const;
+    /// Asks the memory for a tet that will be read soon, or for the vertices of one that is there
+    /// already. A loop over many tets in no order of memory otherwise waits for each of them.
+    void prefetch(TetId t) const {
+        __builtin_prefetch(&tets_[t]);
+        __builtin_prefetch(&labels_[t]);
+        __builtin_prefetch(&qualities_[t]);
+    }
+    void prefetch_vertices(TetId t) const {
+        for (const VertexId v : tets_[t].v) {
+            if (v != none) __builtin_prefetch(&vertices_[v]);
+        }
+    }
 
     // ---- walks ----------------------------------------------------------------------------------
     /// All tets that contain v, the seed first; `places` maps a tet to its place in `out`.
     /// [parallel]
     void star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
+    /// The same tets without the places, from the cache where the star is known. It stores a star
+    /// that is not. `scratch` is used for the walk. [parallel] if no two threads ask for the same
+    /// vertex.
+    void cached_star(VertexId v, std::vector<TetId>& out, TetIndex& scratch) const;
     /// The same with a table that belongs to the complex. [step]
-    void star(VertexId v, std::vector<TetId>& out) const { star(v, out, places_); }
+    void star(VertexId v, std::vector<TetId>& out) const { cached_star(v, out, places_); }
+    /// The vertices joined to v, in ascending birth order; `star` are its tets. `scratch` as above.
+    /// [parallel] if no two threads ask for the same vertex.
+    void cached_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out,
+                           TetIndex& scratch) const;
+    /// The place in v's star of the tet that refused a move of v last. It is only a hint where to
+    /// look first: it may be any number, and nothing may depend on it but the time. [parallel] as
+    /// cached_star().
+    std::size_t suspect(VertexId v) const { return stars_.suspect(v); }
+    void keep_suspect(VertexId v, std::size_t place) const { stars_.keep_suspect(v, place); }
     TetId seed(VertexId v) const { return vertices_[v].seed; }
     /// The ring of edge (a, b), both vertices of tet t. [parallel]
     void ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const;
+    /// The same for an edge that is not on the box, if its ring has at most `most` tets and all
+    /// have the label of t. False if not; then `out` contains a part of the ring. [parallel]
+    bool inner_ring(TetId t, VertexId a, VertexId b, std::size_t most, EdgeRing& out) const;
     /// A tet that contains both vertices; none if a and b are not joined. [step]
     TetId find_edge(VertexId a, VertexId b) const;
 
@@ -236,6 +268,7 @@ private:
     unsigned count_phases(VertexId v, std::span<const TetId> star) const;
     void refresh_phases(VertexId v);
     void set_phases(VertexId v, unsigned phases);
+    void walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
 
     std::vector<Vertex> vertices_;
     std::vector<Tet> tets_;
@@ -243,6 +276,7 @@ private:
     std::vector<float> qualities_;
     std::vector<std::uint32_t> dates_;
     std::vector<std::uint32_t> birth_dates_;
+    std::vector<std::uint32_t> shape_dates_;  // per vertex
     std::vector<VertexId> free_vertices_;
     std::vector<TetId> free_tets_;
     std::vector<VertexId> interface_;
@@ -256,6 +290,7 @@ private:
     std::vector<VertexId> relabelled_;
     mutable std::vector<TetId> star_scratch_;
     mutable TetIndex places_;
+    mutable StarCache stars_;        // of the vertices that were asked for
     std::uint32_t taken_clock_ = 0;  // clock when the change list was last taken; tets of a later
                                      // date are in the list
     std::uint32_t clock_ = 0;

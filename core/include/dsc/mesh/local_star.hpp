@@ -52,6 +52,7 @@ private:
         corners_.push_back(corners);
         adjacent_.push_back({none, none, none, none});
     }
+    void walk(VertexId v, std::vector<TetId>& out);
     unsigned flood(bool complement, Label label);
 
     const Complex& complex_;

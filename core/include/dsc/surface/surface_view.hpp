@@ -97,13 +97,18 @@ public:
         std::array<mesh::Label, 2> labels;  ///< as SurfaceView::face_labels
     };
 
-    /// The faces that the vertex leads, in the order of a view, if its star has not changed;
-    /// `known` says whether.
+    /// The faces that the vertex leads, in the order of a view, if no tet of its star was made,
+    /// removed or relabelled; `known` says whether.
     std::span<const Face> faces_led_by(const mesh::Complex& complex, mesh::VertexId v,
                                        bool& known) const;
+    /// Whether the view is the last one, and only positions have changed since then.
+    bool only_moved(const mesh::Complex& complex, const SurfaceView& view) const;
     /// Stores the faces of a view of this complex; vertex i leads `counts[i]` of them.
     void keep(const mesh::Complex& complex, const SurfaceView& view,
               std::span<const std::uint32_t> counts);
+
+    /// Only positions have changed: the faces stay, up to now.
+    void keep(const mesh::Complex& complex) { clock_ = complex.clock(); }
 
     /// Arrays of build_view().
     struct Arrays {
@@ -120,6 +125,8 @@ public:
     Arrays& arrays() { return arrays_; }
 
 private:
+    bool known(const mesh::Complex& complex, mesh::VertexId v) const;
+
     Arrays arrays_;
     std::uint32_t clock_ = 0;            // of the complex when the view was made
     std::vector<std::uint32_t> births_;  // of the view's vertices
@@ -133,7 +140,8 @@ private:
 /// that have made no step; the run replaces them. The cost grows with the interface, not with the
 /// volume.
 /// `workers`, null for one thread, share the walks. With `memory`, only vertices whose star has
-/// changed since the last view are visited; the view is the same. [step]
+/// other tets or labels than in the last view are visited, and if there is none, `view` keeps its
+/// connectivity; the view is the same. [step]
 void build_view(const mesh::Complex& complex, SurfaceView& view, Workers* workers = nullptr,
                 ViewMemory* memory = nullptr);
 

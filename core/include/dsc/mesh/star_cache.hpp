@@ -1,0 +1,71 @@
+#pragma once
+// The stars and neighbours of vertices, stored until the connectivity round the vertex changes, and
+// which tet of a star refused a move last.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace dsc::mesh {
+
+/// One entry per vertex slot; a vertex that nobody asked for takes 16 bytes. Most stars that the
+/// kernel asks for have not changed since the last time, because moves and new labels leave the
+/// connectivity as it is.
+///
+/// Different vertices may be written by different threads at the same time; grow() and forget()
+/// are for one thread.
+class StarCache {
+public:
+    StarCache();
+    ~StarCache();
+    StarCache(StarCache&&) noexcept;
+    StarCache& operator=(StarCache&&) noexcept;
+    /// A copy of a complex starts with an empty cache of the same size.
+    StarCache(const StarCache& other);
+    StarCache& operator=(const StarCache& other);
+
+    /// Makes room for this number of vertex slots.
+    void grow(std::size_t slots) {
+        if (entries_.size() < slots) entries_.resize(slots);
+    }
+
+    /// The tets of the star in the order of the walk; empty if they are not known.
+    std::span<const std::uint32_t> tets(std::uint32_t v) const {
+        const Entry& entry = entries_[v];
+        return {entry.ids, entry.tets};
+    }
+    /// The neighbours in ascending birth order; empty if they are not known.
+    std::span<const std::uint32_t> neighbours(std::uint32_t v) const {
+        const Entry& entry = entries_[v];
+        return {entry.ids + entry.tets, entry.neighbours};
+    }
+
+    void keep_tets(std::uint32_t v, std::span<const std::uint32_t> tets);
+    /// Does nothing if the tets of the star are not known.
+    void keep_neighbours(std::uint32_t v, std::span<const std::uint32_t> neighbours);
+    /// The star has changed. Its memory is used again.
+    void forget(std::uint32_t v) { entries_[v].tets = entries_[v].neighbours = 0; }
+
+    /// A place in the star that is worth asking first; any number, also after the star has changed.
+    std::size_t suspect(std::uint32_t v) const { return entries_[v].suspect; }
+    void keep_suspect(std::uint32_t v, std::size_t place) {
+        entries_[v].suspect = static_cast<std::uint16_t>(place);
+    }
+
+private:
+    struct Entry {
+        std::uint32_t* ids = nullptr;  // the tets, then the neighbours; belongs to the pool
+        std::uint16_t tets = 0;
+        std::uint16_t neighbours = 0;
+        std::uint16_t capacity = 0;
+        std::uint16_t suspect = 0;
+    };
+    static_assert(sizeof(Entry) == 16);
+    class Pool;
+
+    std::vector<Entry> entries_;
+    std::unique_ptr<Pool> pool_;
+};
+
+}  // namespace dsc::mesh

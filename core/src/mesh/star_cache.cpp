@@ -1,0 +1,99 @@
+// Stores the stars and neighbours of vertices in blocks of a few sizes, which are used again.
+#include "dsc/mesh/star_cache.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <mutex>
+#include <utility>
+
+namespace dsc::mesh {
+namespace {
+
+constexpr std::size_t most_tets = 16384;    // larger stars are walked each time
+constexpr std::size_t chunk_size = 16384;   // ids
+constexpr std::size_t small_step = 16;      // between the sizes of small blocks, in ids
+constexpr std::size_t largest_small = 128;  // larger blocks have powers of two
+constexpr std::size_t small_sizes = largest_small / small_step;
+
+std::size_t block_size(std::size_t wanted) {
+    return wanted <= largest_small ? (wanted + small_step - 1) / small_step * small_step
+                                   : std::bit_ceil(wanted);
+}
+
+std::size_t size_class(std::size_t size) {
+    return size <= largest_small ? size / small_step - 1
+                                 : small_sizes + static_cast<std::size_t>(std::bit_width(size)) -
+                                       static_cast<std::size_t>(std::bit_width(largest_small)) - 1;
+}
+
+}  // namespace
+
+// A free block begins with the address of the next one of its size.
+class StarCache::Pool {
+public:
+    std::uint32_t* exchange(std::uint32_t* old, std::size_t old_size, std::size_t size) {
+        const std::lock_guard lock(mutex_);
+        if (old != nullptr) {
+            std::uint32_t*& free = free_[size_class(old_size)];
+            std::memcpy(old, &free, sizeof free);
+            free = old;
+        }
+        std::uint32_t*& free = free_[size_class(size)];
+        if (std::uint32_t* const block = free; block != nullptr) {
+            std::memcpy(&free, block, sizeof free);
+            return block;
+        }
+        if (left_ < size) {
+            left_ = std::max(chunk_size, size);
+            chunks_.push_back(std::make_unique_for_overwrite<std::uint32_t[]>(left_));
+            next_ = chunks_.back().get();
+        }
+        left_ -= size;
+        return std::exchange(next_, next_ + size);
+    }
+
+private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<std::uint32_t[]>> chunks_;
+    std::uint32_t* next_ = nullptr;  // in the last chunk
+    std::size_t left_ = 0;           // ids from there on
+    std::array<std::uint32_t*, small_sizes + 16> free_{};
+};
+
+StarCache::StarCache() : pool_(std::make_unique<Pool>()) {}
+StarCache::~StarCache() = default;
+StarCache::StarCache(StarCache&&) noexcept = default;
+StarCache& StarCache::operator=(StarCache&&) noexcept = default;
+StarCache::StarCache(const StarCache& other)
+    : entries_(other.entries_.size()), pool_(std::make_unique<Pool>()) {}
+StarCache& StarCache::operator=(const StarCache& other) {
+    if (this != &other) *this = StarCache(other);
+    return *this;
+}
+
+void StarCache::keep_tets(std::uint32_t v, std::span<const std::uint32_t> tets) {
+    if (tets.size() > most_tets) return;
+    Entry& entry = entries_[v];
+    // The link is a triangulated sphere of n triangles with n / 2 + 2 vertices; on the box it is a
+    // part of one and has a few vertices more.
+    const std::size_t wanted = tets.size() + tets.size() / 2 + 4;
+    if (entry.capacity < wanted) {
+        const std::size_t size = block_size(wanted);
+        entry.ids = pool_->exchange(entry.ids, entry.capacity, size);
+        entry.capacity = static_cast<std::uint16_t>(size);
+    }
+    std::copy(tets.begin(), tets.end(), entry.ids);
+    entry.tets = static_cast<std::uint16_t>(tets.size());
+    entry.neighbours = 0;
+}
+
+void StarCache::keep_neighbours(std::uint32_t v, std::span<const std::uint32_t> neighbours) {
+    Entry& entry = entries_[v];
+    if (entry.tets == 0 || entry.tets + neighbours.size() > entry.capacity) return;
+    std::copy(neighbours.begin(), neighbours.end(), entry.ids + entry.tets);
+    entry.neighbours = static_cast<std::uint16_t>(neighbours.size());
+}
+
+}  // namespace dsc::mesh

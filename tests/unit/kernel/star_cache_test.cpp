@@ -1,0 +1,148 @@
+// What the complex stores round a vertex is what a walk finds, after any sequence of operations.
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include <dsc/base/random.hpp>
+#include <dsc/geometry/quality.hpp>
+#include <dsc/mesh/adopt.hpp>
+
+#include "kernel/movement.hpp"
+#include "kernel/operations.hpp"
+#include "shapes.hpp"
+
+using namespace dsc;
+using namespace dsc::kernel;
+using repair::Operation;
+
+namespace {
+
+repair::Request random_request(const mesh::Complex& c, RandomStream& random) {
+    repair::Request request;
+    request.operation = static_cast<Operation>(random.index(repair::operation_count));
+    request.tet = c.seed(c.interface_vertices()[random.index(c.interface_vertices().size())]);
+    request.birth_date = c.birth_date(request.tet);
+    request.mode = repair::CollapseMode::bounded;
+    request.accept_above = 0.0F;
+    const auto& v = c.tet(request.tet).v;
+    const auto& e = mesh::edge_vertices[random.index(6)];
+    if (request.operation <= Operation::smooth_optimise) request.vertices[0] = v[e[0]];
+    if (request.operation == Operation::vertex_split)
+        request.vertices = {v[e[0]], v[e[1]], mesh::none};
+    return request;
+}
+
+// The tets of each vertex with their labels, by a scan over all tets.
+using Stars = std::vector<std::vector<std::array<std::uint32_t, 3>>>;
+Stars scan(const mesh::Complex& c) {
+    Stars stars(c.vertex_slots());
+    for (TetId t = 0; t < c.tet_slots(); ++t) {
+        if (!c.tet_alive(t)) continue;
+        for (const VertexId v : c.tet(t).v)
+            stars[v].push_back({t, c.birth_date(t), static_cast<std::uint32_t>(c.label(t))});
+    }
+    return stars;
+}
+
+// The cached stars and neighbours have the tets of the scan, in the order of a walk without cache.
+void check_cache(const mesh::Complex& c, const Stars& stars) {
+    const mesh::Complex walked = c;  // a copy has no stored stars
+    mesh::TetIndex scratch;
+    std::vector<TetId> star, expected, sorted;
+    std::vector<VertexId> neighbours, others;
+    for (VertexId v = 0; v < c.vertex_slots(); ++v) {
+        if (!c.vertex_alive(v)) continue;
+        for (int again = 0; again < 2; ++again) {
+            c.cached_star(v, star, scratch);
+            c.cached_neighbours(v, star, neighbours, scratch);
+        }
+        walked.star(v, expected, scratch);
+        REQUIRE(star == expected);
+        REQUIRE(star.front() == c.seed(v));
+        sorted = star;
+        std::sort(sorted.begin(), sorted.end());
+        REQUIRE(sorted.size() == stars[v].size());
+        others.clear();
+        for (std::size_t i = 0; i < sorted.size(); ++i) {
+            REQUIRE(sorted[i] == stars[v][i][0]);
+            for (const VertexId w : c.tet(sorted[i]).v) {
+                if (w != v && std::find(others.begin(), others.end(), w) == others.end())
+                    others.push_back(w);
+            }
+        }
+        std::sort(others.begin(), others.end(),
+                  [&c](VertexId a, VertexId b) { return c.birth(a) < c.birth(b); });
+        REQUIRE(neighbours == others);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("stored stars, neighbours and shape dates follow every operation") {
+    std::size_t committed = 0, moved = 0, changed = 0, kept = 0;
+    for (const test::LabelledMesh& labelled : test::labelled_meshes()) {
+        CAPTURE(labelled.name);
+        mesh::Complex c = labelled.complex;
+        RandomStream random(RandomKey{11, 0, 0, 0});
+        Workbench bench(c);
+        const double length = mesh::mean_interface_edge(c);
+        bench.limits = {length, 1e-3, 0.5 * length, geometry::regular_tet_volume(length), 0.5};
+        Stars before = scan(c);
+        std::uint32_t clock = c.clock();
+        for (int n = 0; n < 3000; ++n) {
+            if (n % 3 == 0) {
+                const VertexId v =
+                    c.interface_vertices()[random.index(c.interface_vertices().size())];
+                const Vec3 way(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+                if (c.movable(v) &&
+                    move_towards(bench, v, c.position(v) + length * way, 0.9) != Motion::blocked)
+                    ++moved;
+            } else {
+                committed += execute(bench, random_request(c, random)).refused() ? 0 : 1;
+            }
+            if (n % 40 != 39) continue;
+            const Stars now = scan(c);
+            check_cache(c, now);
+            for (VertexId v = 0; v < c.vertex_slots(); ++v) {
+                if (!c.vertex_alive(v)) continue;
+                const bool same = v < before.size() && before[v] == now[v];
+                if (!same) REQUIRE(c.shape_date(v) > clock);
+                (c.shape_date(v) > clock ? changed : kept) += 1;
+            }
+            before = now;
+            clock = c.clock();
+        }
+    }
+    CHECK(committed > 500);
+    CHECK(moved > 500);
+    CHECK(changed > 500);
+    CHECK(kept > 10 * changed);
+}
+
+TEST_CASE("a ring inside a phase is the whole ring, or it is refused for a reason") {
+    for (const test::LabelledMesh& labelled : test::labelled_meshes()) {
+        const mesh::Complex& c = labelled.complex;
+        mesh::EdgeRing whole, inner;
+        std::size_t found = 0, refused = 0;
+        for (TetId t = 0; t < c.tet_slots(); ++t) {
+            if (!c.tet_alive(t)) continue;
+            for (const auto& e : mesh::edge_vertices) {
+                const VertexId a = c.tet(t).v[e[0]], b = c.tet(t).v[e[1]];
+                if (c.on_box(a) && c.on_box(b)) continue;
+                c.ring(t, a, b, whole);
+                const bool one_label =
+                    std::all_of(whole.tets.begin(), whole.tets.end(),
+                                [&](TetId r) { return c.label(r) == c.label(t); });
+                const bool fits = one_label && whole.tets.size() <= 5;
+                REQUIRE(c.inner_ring(t, a, b, 5, inner) == fits);
+                (fits ? found : refused) += 1;
+                if (!fits) continue;
+                REQUIRE(inner.closed);
+                REQUIRE(inner.tets == whole.tets);
+                REQUIRE(inner.link == whole.link);
+            }
+        }
+        CHECK(found > 0);
+        CHECK(refused > 0);
+    }
+}
