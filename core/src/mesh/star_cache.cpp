@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_tets = 16384;    // larger stars are walked each time
 constexpr std::size_t chunk_size = 16384;   // ids
-constexpr std::size_t small_step = 16;      // between the sizes of small blocks, in ids
+constexpr std::size_t small_step = 8;       // between the sizes of small blocks, in ids
 constexpr std::size_t largest_small = 128;  // larger blocks have powers of two
 constexpr std::size_t small_sizes = largest_small / small_step;
 
@@ -73,26 +73,30 @@ StarCache& StarCache::operator=(const StarCache& other) {
     return *this;
 }
 
+// Gives the entry room for so many ids; what it contains is lost.
+void StarCache::reserve(Entry& entry, std::size_t wanted) {
+    if (entry.capacity >= wanted) return;
+    const std::size_t size = block_size(wanted);
+    entry.ids = pool_->exchange(entry.ids, entry.capacity, size);
+    entry.capacity = static_cast<std::uint16_t>(size);
+}
+
 void StarCache::keep_tets(std::uint32_t v, std::span<const std::uint32_t> tets) {
     if (tets.size() > most_tets) return;
     Entry& entry = entries_[v];
-    // The link is a triangulated sphere of n triangles with n / 2 + 2 vertices; on the box it is a
-    // part of one and has a few vertices more.
-    const std::size_t wanted = tets.size() + tets.size() / 2 + 4;
-    if (entry.capacity < wanted) {
-        const std::size_t size = block_size(wanted);
-        entry.ids = pool_->exchange(entry.ids, entry.capacity, size);
-        entry.capacity = static_cast<std::uint16_t>(size);
-    }
+    reserve(entry, tets.size());
     std::copy(tets.begin(), tets.end(), entry.ids);
     entry.tets = static_cast<std::uint16_t>(tets.size());
     entry.neighbours = 0;
 }
 
-void StarCache::keep_neighbours(std::uint32_t v, std::span<const std::uint32_t> neighbours) {
+void StarCache::keep_neighbours(std::uint32_t v, std::span<const std::uint32_t> tets,
+                                std::span<const std::uint32_t> neighbours) {
     Entry& entry = entries_[v];
-    if (entry.tets == 0 || entry.tets + neighbours.size() > entry.capacity) return;
-    std::copy(neighbours.begin(), neighbours.end(), entry.ids + entry.tets);
+    if (entry.tets != tets.size() || neighbours.size() > most_tets) return;
+    reserve(entry, tets.size() + neighbours.size());
+    std::copy(tets.begin(), tets.end(), entry.ids);
+    std::copy(neighbours.begin(), neighbours.end(), entry.ids + tets.size());
     entry.neighbours = static_cast<std::uint16_t>(neighbours.size());
 }
 

@@ -94,7 +94,7 @@ void Complex::cached_neighbours(VertexId v, std::span<const TetId> star, std::ve
     }
     std::sort(out.begin(), out.end(),
               [this](VertexId x, VertexId y) { return birth(x) < birth(y); });
-    stars_.keep_neighbours(v, out);
+    stars_.keep_neighbours(v, star, out);
 }
 
 void Complex::walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const {
@@ -112,7 +112,9 @@ void Complex::walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) c
         const unsigned entry = neighbour_face(out[i]);
         for (unsigned f = 0; f < 4; ++f) {
             if (f == entry || tet.v[f] == v || tet.n[f] == none) continue;
-            if (places.insert(neighbour_tet(tet.n[f]))) out.push_back(tet.n[f]);
+            if (!places.insert(neighbour_tet(tet.n[f]))) continue;
+            __builtin_prefetch(tets + neighbour_tet(tet.n[f]));  // its turn comes soon
+            out.push_back(tet.n[f]);
         }
     }
     for (TetId& t : out) t = neighbour_tet(t);

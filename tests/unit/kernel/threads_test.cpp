@@ -61,7 +61,7 @@ struct Shake {
         }
         RandomStream random(RandomKey{7, 1, 0, complex.birth(vertices[i])});
         // Depends on the neighbours, so that the order in which they move shows in the bits.
-        find_neighbours(complex, vertices[i], scratch);
+        complex.cached_neighbours(vertices[i], scratch.star, scratch.neighbours, scratch.walk);
         const Vec3 p = complex.position(vertices[i]);
         const Vec3 w =
             complex.position(scratch.neighbours[random.index(scratch.neighbours.size())]);

@@ -111,6 +111,45 @@ TEST_CASE("memory of unchanged stars is used, and one changed star is walked aga
     CHECK(after < view.vertex_count());
 }
 
+TEST_CASE(
+    "if only positions change, a view keeps its connectivity and gets new positions and normals") {
+    Deformer d(mesh::adopt(test::ball_grid(10, 0.8), "ball"));
+    RandomStream random(RandomKey{5, 0, 0, 0});
+    surface::ViewMemory memory;
+    surface::SurfaceView view, whole, other;
+    CHECK_FALSE(memory.only_moved(d.complex(), view));
+    surface::build_view(d.complex(), view, nullptr, &memory);
+    RepairPolicy moves_only;
+    moves_only.topology.thickness = 0.0;
+    for (int step = 0; step < 3; ++step) {
+        std::vector<Vec3> displacements(view.vertex_count());
+        for (Vec3& way : displacements)
+            way = 0.1 * view.mean_edge *
+                  Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+        const std::vector<Vec3> before = view.positions;
+        d.step(view.vertex_ids, displacements, moves_only);
+        REQUIRE(memory.only_moved(d.complex(), view));
+        surface::build_view(d.complex(), view, nullptr, &memory);
+        surface::build_view(d.complex(), whole);
+        check_same(view, whole);
+        CHECK(view.positions != before);
+        CHECK(view.previous_positions == whole.previous_positions);
+    }
+    // The arrays of another view are not taken for those of the last one.
+    CHECK_FALSE(memory.only_moved(d.complex(), other));
+    other = view;
+    std::swap(other.faces[0], other.faces[1]);
+    CHECK_FALSE(memory.only_moved(d.complex(), other));
+    surface::build_view(d.complex(), other, nullptr, &memory);
+    check_same(other, whole);
+    RefineRequests requests;
+    requests.owns_sizing = true;
+    const auto& [a, b, c] = view.faces[0];
+    requests.split_edges.push_back({view.vertex_ids[a], view.vertex_ids[b]});
+    REQUIRE(d.refine(requests).committed == 1);
+    CHECK_FALSE(memory.only_moved(d.complex(), view));
+}
+
 TEST_CASE("the labels of a face are those of its two tets, the smaller one first") {
     for (const test::LabelledMesh& mesh : test::labelled_meshes()) {
         CAPTURE(mesh.name);

@@ -17,12 +17,13 @@ using FaceKey = std::array<std::uint32_t, 3>;
 
 /// A face as one of its tets sees it.
 struct FaceUse {
-    std::uint32_t second, third;  ///< of the key
-    std::uint32_t code;           ///< 4 * tet + face
-    bool odd;  ///< the key is an odd permutation of the vertices in face_vertices
+    std::uint32_t second;      ///< of the key
+    std::uint32_t third : 31;  ///< of the key
+    std::uint32_t odd : 1;     ///< the key is an odd permutation of the vertices in face_vertices
+    std::uint32_t code;        ///< 4 * tet + face
 };
 
-/// All faces of a tet mesh, grouped by their first vertex; 64 bytes per tet.
+/// All faces of a tet mesh, grouped by their first vertex; 48 bytes per tet.
 struct FaceTable {
     std::vector<std::size_t> start;  ///< uses of the faces with first vertex v: uses[start[v] ..
                                      ///< start[v + 1])
@@ -60,8 +61,8 @@ FaceTable deal_faces(std::size_t points, std::size_t tets, const Corners& corner
             exchange(0, 1);
             exchange(1, 2);
             exchange(0, 1);
-            table.uses[start[key[0] + 1]++] = {key[1], key[2],
-                                               static_cast<std::uint32_t>(4 * t + f), odd};
+            table.uses[start[key[0] + 1]++] = {key[1], key[2] & 0x7fffffffU, odd ? 1U : 0U,
+                                               static_cast<std::uint32_t>(4 * t + f)};
         }
     }
     return table;

@@ -41,9 +41,13 @@ public:
         return {entry.ids + entry.tets, entry.neighbours};
     }
 
+    /// Stores the tets; no neighbours are known then.
     void keep_tets(std::uint32_t v, std::span<const std::uint32_t> tets);
-    /// Does nothing if the tets of the star are not known.
-    void keep_neighbours(std::uint32_t v, std::span<const std::uint32_t> neighbours);
+    /// Stores the neighbours behind the tets, which must lie outside the cache; does nothing if the
+    /// tets are not known. Most vertices of the interface never need their neighbours, so they get
+    /// room only now.
+    void keep_neighbours(std::uint32_t v, std::span<const std::uint32_t> tets,
+                         std::span<const std::uint32_t> neighbours);
     /// The star has changed. Its memory is used again.
     void forget(std::uint32_t v) { entries_[v].tets = entries_[v].neighbours = 0; }
 
@@ -63,6 +67,7 @@ private:
     };
     static_assert(sizeof(Entry) == 16);
     class Pool;
+    void reserve(Entry& entry, std::size_t wanted);
 
     std::vector<Entry> entries_;
     std::unique_ptr<Pool> pool_;
