@@ -1,6 +1,4 @@
 // A complete run, from a loaded experiment to its folder.
-#include "dsc/run/run_experiment.hpp"
-
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -19,6 +17,7 @@
 #include <dsc/surface/surface_view.hpp>
 
 #include "checkpoints.hpp"
+#include "dsc/run/run_experiment.hpp"
 #include "result_files.hpp"
 #include "resume.hpp"
 #include "run_log.hpp"
@@ -67,6 +66,16 @@ void draw(const RunFolder& folder, const surface::TriangleMesh& surface, bool sa
     io::write_png(folder.file("preview.png"), io::render(surface, options));
 }
 
+/// The end of the time budget, which begins now.
+std::optional<CancelToken::Clock::time_point> deadline_of(const RunOptions& options) {
+    if (!options.time_budget) return std::nullopt;
+    // A longer time than a clock can count to is no limit.
+    constexpr double longest = 1e9;
+    const std::chrono::duration<double> budget(std::min(*options.time_budget, longest));
+    return CancelToken::Clock::now() +
+           std::chrono::duration_cast<CancelToken::Clock::duration>(budget);
+}
+
 /// The work between "running" and "done" in status.json.
 class ExperimentRun {
 public:
@@ -75,7 +84,8 @@ public:
         : loaded_(loaded),
           catalogue_(catalogue),
           options_(options),
-          workers_(std::max(1U, options.threads)) {}
+          workers_(std::max(1U, options.threads)),
+          stop_(options.cancel, deadline_of(options)) {}
 
     RunOutcome run() {
         state_.state = "running";
@@ -139,7 +149,7 @@ private:
         std::optional<LoadedInput>& input = input_;
         if (experiment.input) {
             input = load_input(*experiment.input, experiment.seed, catalogue_, *loaded_.files,
-                               &workers_, options_.cancel);
+                               &workers_, &stop_);
             report_input(input->report);
         }
         const cloud::TargetCloud* target = input ? &input->target : nullptr;
@@ -157,12 +167,7 @@ private:
                 {state_.hash, steps, run_seconds(), run_log.state(), std::move(state)});
         };
         simulation_options.workers = &workers_;
-        simulation_options.cancel = options_.cancel;
-        if (options_.time_budget) {
-            simulation_options.out_of_time = [this] {
-                return watch_.seconds() > *options_.time_budget;
-            };
-        }
+        simulation_options.cancel = &stop_;
         simulation_options.on_step = [&](const StepMetrics& row, std::uint64_t planned) {
             run_log.add(row);
             if (options_.on_step) options_.on_step(row, planned);
@@ -308,6 +313,7 @@ private:
     const RunOptions& options_;
     Workers workers_;
     Stopwatch watch_;
+    CancelToken stop_;  // on request, or when the time is over
     RunState state_;
     std::optional<Checkpoint> resumed_;
     std::optional<LoadedInput> input_;  // made by work(), kept for the report

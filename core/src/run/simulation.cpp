@@ -1,16 +1,17 @@
 // Runs the schedule of an experiment: steps, refinements, figures, checkpoints.
-#include "dsc/run/simulation.hpp"
-
 #include <dsc/base/error.hpp>
 #include <dsc/base/state.hpp>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/run/repair_policy.hpp>
 
+#include "dsc/run/simulation.hpp"
 #include "initial_complex.hpp"
 #include "offered_rescue.hpp"
 #include "refinement.hpp"
 #include "refinement_watch.hpp"
+#include "revocable_calls.hpp"
 #include "saved_run.hpp"
+#include "step_contexts.hpp"
 #include "step_data.hpp"
 #include "step_figures.hpp"
 
@@ -47,7 +48,9 @@ public:
                                      {}, &workers_)
                   : kernel::Deformer::load(resumed_, {}, &workers_)),
           watch_(experiment, &strategies),
-          data_(deformer_, {experiment.seed, options.cancel, cloud}, workers_) {
+          data_(deformer_, {experiment.seed, cloud}, workers_),
+          calls_(options.cancel),
+          contexts_(data_, strategies, cloud, planned_, calls_.token()) {
         // Every step asks again. Asked here too, an improvement with invalid answers ends the run
         // before its first step.
         strategies_.improvement->topology_limits();
@@ -78,48 +81,13 @@ private:
             options_.on_strategy_failure(deformer_.complex().to_mesh(), deformer_.step_count());
     }
 
-    /// The last step of the run as far as it is known; 0: unknown.
-    std::uint64_t last_step() const {
-        const std::uint64_t told = strategies_.velocity->planned_steps();
-        return told > 0 ? told : planned_;
-    }
-
-    /// `step`: the number in metrics.csv and events.jsonl; the first one is 1.
-    hooks::StepContext make_context(std::uint64_t step, const Needs& needs = {}) {
-        return data_.context(step, last_step(), needs);
-    }
-
-    /// What the strategy needs of the cloud; without a cloud it is not asked.
-    template <class Hook>
-    Needs needs_of(const Hook& strategy) const {
-        if (cloud_ == nullptr) return {};
-        return {strategy.needs_faces_of_points(), strategy.needs_support()};
-    }
-
-    hooks::StepContext make_velocity_context(std::uint64_t step) {
-        const Needs needs = needs_of(*strategies_.velocity);
+    hooks::StepContext make_velocity_context() {
         const Timed timed(result_.totals.seconds.velocity);
-        return make_context(step, needs);
+        return contexts_.for_velocity(deformer_.step_count() + 1);
     }
 
     hooks::StepContext make_observer_context(const hooks::Observer& observer) {
-        Needs needs = needs_of(observer);
-        needs.volume = true;
-        return make_context(deformer_.step_count(), needs);
-    }
-
-    /// The context of a pass. If the refinement samples the velocity, it contains what the velocity
-    /// needs too.
-    hooks::StepContext make_refinement_context(const hooks::RefinementPolicy& refinement,
-                                               bool sampling) {
-        Needs needs = needs_of(refinement);
-        if (sampling) {
-            const Needs of_velocity = needs_of(*strategies_.velocity);
-            needs.faces_of_points = needs.faces_of_points || of_velocity.faces_of_points;
-            needs.support = needs.support || of_velocity.support;
-        }
-        needs.volume = true;
-        return make_context(deformer_.step_count(), needs);
+        return contexts_.for_observer(observer, deformer_.step_count());
     }
 
     void refresh_view() {
@@ -158,23 +126,31 @@ private:
     void series() {
         const Series& item = experiment_.schedule[place_.item];
         hooks::RefinementPolicy* refinement = strategies_.refinements[place_.item].get();
-        if (stop_asked()) return stop();
+        if (calls_.stop_asked()) return stop();
         const bool owned = refinement != nullptr && refinement->owns_sizing();
         size_edits_ = !owned;
         quality_floor_ = owned ? std::optional(kernel::refinement_floor) : std::nullopt;
         if (!item.steps) {
-            watch_.comes_too_late(place_.item) ? skip() : refine(*refinement);
+            if (watch_.comes_too_late(place_.item)) {
+                skip();
+            } else if (!refine(*refinement)) {
+                return stop();
+            }
             return next_item();
         }
         if (place_.steps == 0) result_.totals.status = Status::max_steps;
-        while (place_.steps < *item.steps) {
-            if (stop_asked()) return stop();
+        while (place_.steps < *item.steps || place_.refining != 0) {
+            if (calls_.stop_asked()) return stop();
             creases_ = creases(refinement);
-            const bool slow = advance();
-            place_.quiet = slow ? place_.quiet + 1 : 0;
-            ++place_.steps;
-            if (over_) break;
-            if (item.every && place_.steps % *item.every == 0) refine(*refinement);
+            if (place_.refining == 0) {
+                const std::optional<bool> slow = advance();
+                if (!slow) return stop();
+                place_.quiet = *slow ? place_.quiet + 1 : 0;
+                ++place_.steps;
+                if (over_) break;
+            }
+            const bool due = item.every && place_.steps % *item.every == 0;
+            if (due && !refine(*refinement)) return stop();
             if (item.until && strategies_.velocity->finished()) {
                 result_.totals.status = Status::converged;
                 break;
@@ -220,7 +196,7 @@ private:
         data_.history().save(out);
         watch_.save(out);
         save(out, result_.totals);
-        save(out, strategies_);
+        save(out, strategies_, calls_.states_before());
         options_.on_checkpoint(out.take(), deformer_.step_count());
     }
 
@@ -234,11 +210,14 @@ private:
         over_ = data_.view().vertex_count() == 0;
     }
 
-    /// Makes one step; true if its largest speed was below the stop criterion.
-    bool advance() {
-        const hooks::StepContext context = make_velocity_context(deformer_.step_count() + 1);
+    /// Makes one step; true if its largest speed was below the stop criterion. Empty if the step
+    /// was discarded, because a strategy was told to stop.
+    std::optional<bool> advance() {
+        hooks::StepContext context = make_velocity_context();
         StepMetrics row;
-        const double asked = velocities(context, row);
+        const std::optional<double> asked = velocities(context, row);
+        if (!asked) return std::nullopt;
+        context.cancel = nullptr;  // from here on the step is made to its end
         const surface::SurfaceView& view = data_.view();
         const double mean_edge = view.mean_edge;
         data_.history().begin_step(view);
@@ -266,46 +245,58 @@ private:
         publish(row);
 
         const bool moving = row.mean_speed > stall_speed * mean_edge;
-        place_.stuck = moving && came_about < stall_ratio * asked ? place_.stuck + 1 : 0;
+        place_.stuck = moving && came_about < stall_ratio * *asked ? place_.stuck + 1 : 0;
         if (view.vertex_count() == 0) over_ = true;
         return experiment_.stop && row.max_speed < experiment_.stop->speed * mean_edge;
     }
 
     /// Evaluates all displacements; returns the sum of the wanted lengths over the movable
-    /// vertices.
-    double velocities(const hooks::StepContext& context, StepMetrics& row) {
+    /// vertices. Empty if the answers are discarded.
+    std::optional<double> velocities(const hooks::StepContext& context, StepMetrics& row) {
         const Timed timed(result_.totals.seconds.velocity);
         const std::size_t count = data_.view().vertex_count();
         displacements_.assign(count, Vec3::Zero());
-        strategies_.velocity->advance(context);
-        strategies_.velocity->prepare(context);
-        workers_.for_blocks(count, evaluated_block, [&](std::size_t first, std::size_t last) {
-            strategies_.velocity->evaluate({first, last},
-                                           std::span(displacements_).subspan(first, last - first));
-        });
+        hooks::VelocityField& velocity = *strategies_.velocity;
         hooks::Attributes attributes;
-        strategies_.velocity->publish(attributes);
+        const bool answered = calls_.complete({&velocity}, [&] {
+            velocity.advance(context);
+            velocity.prepare(context);
+            workers_.for_blocks(count, evaluated_block, [&](std::size_t first, std::size_t last) {
+                velocity.evaluate({first, last},
+                                  std::span(displacements_).subspan(first, last - first));
+            });
+            velocity.publish(attributes);
+        });
+        if (!answered) return std::nullopt;
         set_attributes(deformer_, data_.view(), attributes);
         return measure_speeds(data_.view(), displacements_, row);
     }
 
     /// Runs the passes of a refinement, each on a fresh view, until it requests no change of the
-    /// mesh.
-    void refine(hooks::RefinementPolicy& refinement) {
+    /// mesh. False if a pass was discarded, because a strategy was told to stop; a later call
+    /// begins with this pass.
+    bool refine(hooks::RefinementPolicy& refinement) {
         const Timed timed(result_.totals.seconds.refine);
         const bool sampling = refinement.needs_sampling();
         const unsigned passes = refinement.passes();
-        ++result_.totals.refinements;
-        watch_.begin(deformer_.complex().next_birth());
-        bool asked = true;
-        for (unsigned pass = 0; pass < passes && asked; ++pass) {
-            const hooks::StepContext context = make_refinement_context(refinement, sampling);
+        if (place_.refining == 0) {
+            place_.refining = 1;
+            ++result_.totals.refinements;
+            watch_.begin(deformer_.complex().next_birth());
+        }
+        hooks::VelocityField& velocity = *strategies_.velocity;
+        for (bool asked = true; place_.pass < passes && asked; ++place_.pass) {
+            hooks::StepContext context =
+                contexts_.for_refinement(refinement, sampling, deformer_.step_count());
             hooks::StepContext of_velocity = context;
             of_velocity.volume = nullptr;
-            if (sampling) strategies_.velocity->prepare(of_velocity);
             hooks::RefinementRequests requests;
-            refinement.refine({context, sampling ? strategies_.velocity.get() : nullptr, pass},
-                              requests);
+            const bool answered = calls_.complete({&velocity, &refinement}, [&] {
+                if (sampling) velocity.prepare(of_velocity);
+                refinement.refine({context, sampling ? &velocity : nullptr, place_.pass}, requests);
+            });
+            if (!answered) return false;
+            context.cancel = nullptr;
             set_fields(deformer_, data_.view(), requests);
             relabel(context, requests);
             kernel::RefineRequests wanted =
@@ -321,6 +312,8 @@ private:
             asked ? refresh_view() : data_.refresh_fields();
         }
         watch_.end(place_.item, deformer_.step_count(), data_.view());
+        place_.refining = place_.pass = 0;
+        return true;
     }
 
     /// Skips the refinement of the current item: no step would repair and move what it makes.
@@ -379,7 +372,7 @@ private:
         if (options_.on_step) options_.on_step(row, planned_);
         if (!options_.on_state) return;
         const Timed timed(result_.totals.seconds.io);
-        options_.on_state(make_context(row.step), deformer_.complex());
+        options_.on_state(contexts_.make(row.step), deformer_.complex());
     }
 
     void tell(const kernel::Event& event) const {
@@ -394,11 +387,6 @@ private:
             if (counts.tried == 0) continue;
             options_.on_repairs({deformer_.step_count(), names[i], counts.tried, counts.committed});
         }
-    }
-
-    bool stop_asked() const {
-        return (options_.cancel != nullptr && options_.cancel->cancelled()) ||
-               (options_.out_of_time && options_.out_of_time());
     }
 
     void stop() {
@@ -419,6 +407,8 @@ private:
     kernel::Deformer deformer_;
     RefinementWatch watch_;
     StepData data_;
+    RevocableCalls calls_;
+    StepContexts contexts_;
     std::vector<Vec3> displacements_;
     bool size_edits_ = true;  // these three: of the current series, for the policy
     std::optional<double> quality_floor_;
