@@ -1,4 +1,6 @@
 // A complete run, from a loaded experiment to its folder.
+#include "dsc/run/run_experiment.hpp"
+
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -17,7 +19,6 @@
 #include <dsc/surface/surface_view.hpp>
 
 #include "checkpoints.hpp"
-#include "dsc/run/run_experiment.hpp"
 #include "result_files.hpp"
 #include "resume.hpp"
 #include "run_log.hpp"
@@ -91,13 +92,15 @@ public:
         state_.state = "running";
         state_.started = utc_now();
         state_.hash = config_hash(loaded_, catalogue_);
+        for (const UsedStrategy& used : used_strategies(loaded_, catalogue_))
+            state_.strategies[used.key()] = used.sha256;
         Strategies strategies = make_strategies(loaded_.experiment, catalogue_);
         const fs::path path =
             options_.folder.empty() ? folder_of(loaded_, state_.hash) : options_.folder;
         const Checkpoints checkpoints(path / "checkpoint", kept_checkpoints());
         const RunFolder folder = RunFolder::claimed(path);
         if (options_.resume)
-            resumed_ = checkpoint_to_resume(path, checkpoints, loaded_, state_.hash);
+            resumed_ = checkpoint_to_resume(path, checkpoints, loaded_, catalogue_, state_.hash);
         folder.clear(resumed_ ? RunFolder::Keep::progress : RunFolder::Keep::nothing);
         if (options_.resume) {
             log(LogLevel::info,
@@ -329,7 +332,13 @@ RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogu
 bool is_finished(const fs::path& folder, const LoadedExperiment& loaded,
                  const plugin::Catalogue& catalogue) {
     const std::optional<RunFolder::Status> status = RunFolder::status(folder);
-    return status && status->state == "done" && status->hash == config_hash(loaded, catalogue);
+    if (!status || status->state != "done" || status->hash != config_hash(loaded, catalogue))
+        return false;
+    // A finished run stays finished when the program, with the strategies in it, is updated.
+    std::vector<UsedStrategy> changed =
+        changed_strategies(used_strategies(loaded, catalogue), *status);
+    std::erase_if(changed, [](const UsedStrategy& strategy) { return strategy.installed; });
+    return changed.empty();
 }
 
 fs::path default_folder(const LoadedExperiment& loaded, const config::StrategyLookup& lookup) {

@@ -26,13 +26,15 @@ bool is_library_name(const std::string& name) {
 }
 
 plugin::PluginInfo info_of(const plugin::PluginEntry& entry, const fs::path& file) {
+    std::error_code error;
     return {text_of(entry.name),
             text_of(entry.version),
             text_of(entry.license),
             text_of(entry.summary),
             text_of(entry.authors),
             text_of(entry.fingerprint),
-            file};
+            file,
+            fs::equivalent(file.parent_path(), installed_folder(), error)};
 }
 
 fs::path library_folder() { return installed_folder().parent_path().parent_path(); }
