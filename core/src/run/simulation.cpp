@@ -1,10 +1,11 @@
 // Runs the schedule of an experiment: steps, refinements, figures, checkpoints.
+#include "dsc/run/simulation.hpp"
+
 #include <dsc/base/error.hpp>
 #include <dsc/base/state.hpp>
 #include <dsc/kernel/deformer.hpp>
 #include <dsc/run/repair_policy.hpp>
 
-#include "dsc/run/simulation.hpp"
 #include "initial_complex.hpp"
 #include "offered_rescue.hpp"
 #include "refinement.hpp"
@@ -40,6 +41,7 @@ public:
           serial_(1),
           workers_(options.workers != nullptr ? *options.workers : serial_),
           planned_(planned_steps(experiment)),
+          observer_names_(observer_names(experiment)),
           resumed_(options.resume),
           deformer_(
               options.resume.empty()
@@ -113,7 +115,7 @@ private:
         totals.refinement_items = watch_.figures();
         for (std::size_t i = 0; i < strategies_.observers.size(); ++i) {
             hooks::Observer& observer = *strategies_.observers[i];
-            totals.observers.emplace_back(experiment_.observers[i].type,
+            totals.observers.emplace_back(observer_names_[i],
                                           observer.end(make_observer_context(observer)));
         }
         std::vector<mesh::VertexId> ids;
@@ -358,7 +360,7 @@ private:
         const hooks::StepFigures figures{row.step, row.interface_vertices, row.tets, row.volume,
                                          row.min_tet_quality};
         for (std::size_t i = 0; i < strategies_.observers.size(); ++i) {
-            const std::string prefix = "observers." + experiment_.observers[i].type + ".";
+            const std::string prefix = "observers." + observer_names_[i] + ".";
             hooks::Observer& observer = *strategies_.observers[i];
             const hooks::StepContext context = make_observer_context(observer);
             for (const auto& [figure, value] : observer.step(context, figures)) {
@@ -401,6 +403,7 @@ private:
     Workers serial_;
     Workers& workers_;
     std::uint64_t planned_;
+    std::vector<std::string> observer_names_;
     SimulationResult result_;
     SchedulePlace place_;
     StateReader resumed_;
