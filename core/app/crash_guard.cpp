@@ -183,7 +183,11 @@ void start_rescuer() {
 
 void guard_crashes(std::vector<plugin::PluginInfo> plugins) {
     const bool sanitized = plugin::core_fingerprint().find("san=none") == std::string_view::npos;
-    if (sanitized || guard != nullptr) return;
+    if (sanitized) return;
+    if (guard != nullptr) {
+        guard->plugins = std::move(plugins);
+        return;
+    }
     guard = new Guard;
     guard->plugins = std::move(plugins);
     guard->process = ::getpid();

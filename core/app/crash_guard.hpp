@@ -12,7 +12,7 @@ namespace dsc::app {
 /// good state; the exit code is 4, or 1 if neither a strategy nor a plugin caused it. With the
 /// environment variable DSC_CORE_DUMP=1 the process then ends by the signal, so that the system
 /// writes a core file. Does nothing in a build with a sanitizer, which reports crashes itself.
-/// To be called by the main thread, once, after all plugins are loaded. [setup]
+/// To be called by the main thread, before plugins are loaded and again with them. [setup]
 void guard_crashes(std::vector<plugin::PluginInfo> plugins);
 
 }  // namespace dsc::app

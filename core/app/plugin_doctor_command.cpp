@@ -7,6 +7,7 @@
 #include <dsc/host/doctor.hpp>
 
 #include "commands.hpp"
+#include "load_guard.hpp"
 #include "plugins.hpp"
 #include "standard_streams.hpp"
 
@@ -53,7 +54,10 @@ std::string json(const std::string& file, const std::vector<host::Examination>& 
 }
 
 int execute(const DoctorArguments& arguments) {
-    const auto examinations = host::examine(arguments.file, Plugins({}).search_path());
+    const auto examinations = [&arguments] {
+        const LoadGuard guard;
+        return host::examine(arguments.file, Plugins({}).search_path());
+    }();
     data_out() << (arguments.json ? json(arguments.file, examinations) : text(examinations));
     if (host::healthy(examinations)) return 0;
     return static_cast<int>(ExitCode::plugin);

@@ -1,5 +1,7 @@
 #include "plugins.hpp"
 
+#include "load_guard.hpp"
+
 namespace dsc::app {
 
 void add_plugins(CLI::App& command, std::vector<std::string>& plugins) {
@@ -21,11 +23,13 @@ std::vector<host::SearchEntry> Plugins::search_path(
 }
 
 const host::Host& Plugins::load(const std::vector<std::string>& experiment) {
+    const LoadGuard guard;
     host_.load_all(search_path(experiment));
     return host_;
 }
 
 const host::Host& Plugins::load_what_works(const std::vector<std::string>& experiment) {
+    const LoadGuard guard;
     host_.load_all(search_path(experiment), host::OnFault::collect);
     return host_;
 }

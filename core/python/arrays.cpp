@@ -42,9 +42,12 @@ py::array array_from(const py::handle& values, const std::string& name, std::str
                "give " + wanted);
     }
     if (kinds.find(array.dtype().kind()) == std::string_view::npos) {
-        refuse("array.type", name,
-               fmt::format("has the data type {}", std::string(py::str(array.dtype()))),
-               "give " + wanted);
+        refuse(
+            "array.type", name,
+            fmt::format("has the data type {}", std::string(py::str(array.dtype()))),
+            "give " + wanted +
+                (array.dtype().kind() == 'b' ? "; numpy.flatnonzero(mask) makes indices of a mask"
+                                             : ""));
     }
     return array;
 }

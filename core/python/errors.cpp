@@ -42,10 +42,26 @@ void raise(const Error& error) {
     PyErr_SetObject(type.ptr(), value.ptr());
 }
 
+/// Whether a file of code belongs to the user: not to Python, and not to an installed package.
+bool is_users(const std::string& file) {
+    if (file.rfind("<frozen ", 0) == 0 || file == "<__array_function__ internals>") return false;
+    for (const char* folder : {"/site-packages/", "/dist-packages/"}) {
+        if (file.find(folder) != std::string::npos) return false;
+    }
+    const auto library =
+        py::module_::import("sysconfig").attr("get_path")("stdlib").cast<std::string>();
+    return file.rfind(library + "/", 0) != 0;
+}
+
+/// The innermost line of the user's code; empty if there is none.
 std::string place_of(const py::error_already_set& error) {
     if (!error.trace()) return {};
-    py::object trace = error.trace();
-    while (!trace.attr("tb_next").is_none()) trace = trace.attr("tb_next");
+    py::object trace;
+    for (py::object next = error.trace(); !next.is_none(); next = next.attr("tb_next")) {
+        if (is_users(next.attr("tb_frame").attr("f_code").attr("co_filename").cast<std::string>()))
+            trace = next;
+    }
+    if (!trace) return {};
     const py::object code = trace.attr("tb_frame").attr("f_code");
     return py::str("{}:{}, in {}")
         .format(code.attr("co_filename"), trace.attr("tb_lineno"), code.attr("co_name"))

@@ -15,7 +15,7 @@ namespace py = pybind11;
 void translate_errors();
 
 /// An exception of Python as text: "ZeroDivisionError: division by zero (FILE:LINE, in FUNCTION)",
-/// with the innermost place of the traceback. The GIL must be held.
+/// with the innermost place of the traceback that is not in a library. The GIL must be held.
 std::string text_of(const py::error_already_set& error);
 
 /// Rethrows an exception that a strategy's Python code raised, as std::runtime_error with that

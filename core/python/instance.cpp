@@ -31,7 +31,25 @@ py::dict dict_from(const py::handle& value, const std::string& method) {
 /// What state() returned, as bytes with a letter for their form.
 std::string bytes_of(const py::object& state) {
     if (py::isinstance<py::bytes>(state)) return "b" + state.cast<std::string>();
-    return "j" + py::module_::import("json").attr("dumps")(state).cast<std::string>();
+    try {
+        return "j" + py::module_::import("json").attr("dumps")(state).cast<std::string>();
+    } catch (py::error_already_set& error) {
+        throw std::runtime_error("state() returned what JSON cannot store: " + text_of(error));
+    }
+}
+
+/// A value of a dict of figures. Python's and NumPy's numbers have __float__; so has an array of
+/// one number, which would be a number by mistake.
+double figure_from(const py::handle& value, const std::string& method, const std::string& name) {
+    const auto type = py::str(py::type::of(value).attr("__name__")).cast<std::string>();
+    const bool number = PyNumber_Check(value.ptr()) != 0 && !py::isinstance<py::array>(value);
+    try {
+        if (number) return value.cast<double>();
+    } catch (const py::cast_error&) {
+        PyErr_Clear();
+    }
+    throw std::runtime_error(fmt::format("{}() returned {} for the figure '{}' instead of a number",
+                                         method, type, name));
 }
 
 py::object state_of(std::string_view bytes) {
@@ -80,7 +98,8 @@ void Instance::save(std::ostream& out) const {
         if (!own && nested_.empty()) return;
         StateWriter state;
         state.text(state_head);
-        state.text(own ? bytes_of(self_.attr("state")()) : std::string());
+        state.text(own ? as_method("state", [&] { return bytes_of(self_.attr("state")()); })
+                       : std::string());
         for (const auto& nested : nested_) {
             std::ostringstream text(std::ios::binary);
             {
@@ -115,8 +134,10 @@ void Instance::load(std::istream& in) {
 
 hooks::Figures figures_from(const py::handle& dict, const std::string& method) {
     hooks::Figures figures;
-    for (const auto& [key, value] : dict_from(dict, method))
-        figures.emplace_back(py::str(key).cast<std::string>(), value.cast<double>());
+    for (const auto& [key, value] : dict_from(dict, method)) {
+        const auto name = py::str(key).cast<std::string>();
+        figures.emplace_back(name, figure_from(value, method, name));
+    }
     return figures;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // An instance of a strategy written in Python, as the adapters of the hooks use it.
 
+#include <exception>
 #include <iosfwd>
 #include <memory>
 #include <optional>
@@ -10,8 +11,10 @@
 
 #include <pybind11/pybind11.h>
 
+#include <dsc/base/error.hpp>
 #include <dsc/hooks/attributes.hpp>
 #include <dsc/hooks/figures.hpp>
+#include <dsc/plugin/method_error.hpp>
 #include <dsc/repair/contract.hpp>
 
 #include "errors.hpp"
@@ -31,6 +34,24 @@ decltype(auto) with_python(Body&& body) {
         return body();
     } catch (py::error_already_set& error) {
         rethrow_from_python(error);
+    }
+}
+
+/// Calls a method of the strategy; messages about its faults name it. The GIL must be held.
+template <class Body>
+decltype(auto) as_method(const char* name, Body&& body) {
+    try {
+        return body();
+    } catch (py::error_already_set& error) {
+        try {
+            rethrow_from_python(error);
+        } catch (const CancelledError&) {
+            throw;
+        } catch (...) {
+            std::throw_with_nested(plugin::MethodError(name));
+        }
+    } catch (...) {
+        std::throw_with_nested(plugin::MethodError(name));
     }
 }
 

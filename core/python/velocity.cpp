@@ -47,8 +47,10 @@ public:
         displacements_ = with_python([&] {
             return with_view<StepView>(context, [&](const py::object& view) {
                 if (prepares_) python_.self().attr("prepare")(view);
-                return answer_from(python_.self().attr("evaluate")(view), "evaluate()",
-                                   context.surface.vertex_count());
+                return as_method("evaluate", [&] {
+                    return answer_from(python_.self().attr("evaluate")(view), "evaluate()",
+                                       context.surface.vertex_count());
+                });
             });
         });
     }
@@ -99,13 +101,7 @@ public:
         with_python([&] {
             with_view<StepView>(context, [&](const py::object& view) {
                 if (python_.has("prepare")) python_.self().attr("prepare")(view);
-                const py::object answer = python_.self().attr("evaluate")(view);
-                if (!py::isinstance<py::tuple>(answer) || py::len(answer) != 2)
-                    throw std::runtime_error(
-                        "evaluate() must return two arrays, the scalars and the vectors");
-                const std::size_t count = context.surface.vertex_count();
-                scalars_ = numbers_answer_from(answer[py::int_(0)], "evaluate()[0]", count);
-                vectors_ = answer_from(answer[py::int_(1)], "evaluate()[1]", count);
+                as_method("evaluate", [&] { ask(view, context.surface.vertex_count()); });
                 return 0;
             });
         });
@@ -123,6 +119,15 @@ public:
     void load(std::istream& in) override { python_.load(in); }
 
 private:
+    void ask(const py::object& view, std::size_t count) {
+        const py::object answer = python_.self().attr("evaluate")(view);
+        if (!py::isinstance<py::tuple>(answer) || py::len(answer) != 2)
+            throw std::runtime_error(
+                "evaluate() must return two arrays, the scalars and the vectors");
+        scalars_ = numbers_answer_from(answer[py::int_(0)], "evaluate()[0]", count);
+        vectors_ = answer_from(answer[py::int_(1)], "evaluate()[1]", count);
+    }
+
     Instance python_;
     std::vector<double> scalars_;
     std::vector<Vec3> vectors_;

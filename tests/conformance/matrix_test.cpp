@@ -180,6 +180,14 @@ TEST_CASE("good plugins pass") {
     CHECK(report.plugin == "good 1.2.3");
 }
 
+TEST_CASE("the birth ids ascend in every test") {
+    CheckOptions options = strict();
+    options.strategies = {{Kind::velocity, "by_birth"}};
+    const Report report = dsc::conformance::check(library("bad_determinism"), options);
+    INFO(dsc::conformance::text(report));
+    CHECK(report.passed());
+}
+
 TEST_CASE("a read beyond an input is reported as that, with the input and the call") {
     if (!has_sanitizer("none")) return;
     for (const auto& [id, input] :

@@ -1,5 +1,6 @@
 """What the tests of the Python package share."""
 
+import json
 import os
 import pathlib
 import shutil
@@ -43,3 +44,38 @@ class Scratch(unittest.TestCase):
         done = subprocess.run([PROGRAM, *words], capture_output=True, text=True, env=environment, check=False)
         self.assertEqual(done.returncode, expect, done.stdout + done.stderr)
         return done.stdout if expect == 0 else done.stderr
+
+
+HEAD = "import numpy\nimport dsc\n\n\n"
+
+
+def velocity(body, head='@dsc.velocity("mine")\nclass Mine:\n    """Mine."""\n'):
+    return HEAD + head + "".join(f"    {line}\n" for line in body.splitlines())
+
+
+class Mine(Scratch):
+    """Tests of strategies in the file mine.py."""
+
+    def write(self, text, name="mine.py"):
+        path = self.folder / name
+        path.write_text(text, encoding="utf-8")
+        return str(path)
+
+    def run_mine(self, body, **options):
+        import dsc
+        changes = {"velocity": {"type": "mine"}, **options.pop("changes", {})}
+        return dsc.run(EXPERIMENT, changes, plugins=[self.write(velocity(body))], **options)
+
+    def fault(self, body, *words, kind=None, code=None, **options):
+        import dsc
+        with self.assertRaises(kind or dsc.StrategyError) as caught:
+            self.run_mine(body, **options)
+        for word in words:
+            self.assertIn(word, str(caught.exception))
+        if code:
+            self.assertEqual(caught.exception.code, code)
+        return caught.exception
+
+    def experiment(self):
+        text = json.dumps({**EXPERIMENT, "velocity": {"type": "mine"}, "plugins": [{"python": "mine.py"}]})
+        return self.write(text, "experiment.yaml")

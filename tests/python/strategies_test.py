@@ -16,32 +16,10 @@ import dsc
 
 PAGE = (common.SOURCE / "share/doc/python.md").read_text(encoding="utf-8")
 MINE = PAGE[PAGE.index("<!-- file: my_strategies.py -->\n```python\n"):].split("```python\n", 1)[1].split("```\n", 1)[0]
-HEAD = "import numpy\nimport dsc\n\n\n"
+HEAD = common.HEAD
 
 
-def velocity(body, head='@dsc.velocity("mine")\nclass Mine:\n    """Mine."""\n'):
-    return HEAD + head + "".join(f"    {line}\n" for line in body.splitlines())
-
-
-class Strategies(common.Scratch):
-    def write(self, text, name="mine.py"):
-        path = self.folder / name
-        path.write_text(text, encoding="utf-8")
-        return str(path)
-
-    def run_mine(self, body, **options):
-        changes = {"velocity": {"type": "mine"}, **options.pop("changes", {})}
-        return dsc.run(common.EXPERIMENT, changes, plugins=[self.write(velocity(body))], **options)
-
-    def fault(self, body, *words, kind=dsc.StrategyError, code=None, **options):
-        with self.assertRaises(kind) as caught:
-            self.run_mine(body, **options)
-        for word in words:
-            self.assertIn(word, str(caught.exception))
-        if code:
-            self.assertEqual(caught.exception.code, code)
-        return caught.exception
-
+class Strategies(common.Mine):
     # ---- answers
 
     def test_the_same_bytes_as_the_strategy_in_c_plus_plus(self):
@@ -297,10 +275,6 @@ class Volume:
         said = self.dsc("run", self.experiment(), expect=4)
         self.assertIn("SystemExit: 3", said)
 
-    def experiment(self):
-        text = json.dumps({**common.EXPERIMENT, "velocity": {"type": "mine"}, "plugins": [{"python": "mine.py"}]})
-        return self.write(text, "experiment.yaml")
-
     def test_wrong_answers(self):
         for answer, words, code in (("None", "NoneType", None), ("context.positions[:-1]", "rows", None),
                                     ("context.positions.T", "shape", None), ("'text'", "data type", None),
@@ -323,12 +297,12 @@ class Volume:
     def test_faulty_files(self):
         for text, words in (("x = (", "SyntaxError"), ("raise RuntimeError('no')", "RuntimeError: no"), ("import absent", "absent"),
                             ("x = 1", "registers no strategy"), ("import sys\nsys.exit(0)", "SystemExit"),
-                            (velocity("pass"), "has no method evaluate"),
+                            (common.velocity("pass"), "has no method evaluate"),
                             (HEAD + "@dsc.velocity('mine')\nclass M:\n    def evaluate(self, c):\n        pass", "has no docstring"),
-                            (velocity("a = dsc.real(5, maximum=1, doc='A.')\ndef evaluate(self, c):\n    pass"), "default"),
-                            (velocity("a = dsc.real(5, doc='')\ndef evaluate(self, c):\n    pass"), "doc"),
-                            (velocity("def evaluate(self, c):\n    pass\ndef state(self):\n    pass"), "state and load"),
-                            (velocity("def evaluate(self, c):\n    pass", '@dsc.velocity("Mine")\nclass M:\n    """M."""\n'), "form")):
+                            (common.velocity("a = dsc.real(5, maximum=1, doc='A.')\ndef evaluate(self, c):\n    pass"), "default"),
+                            (common.velocity("a = dsc.real(5, doc='')\ndef evaluate(self, c):\n    pass"), "doc"),
+                            (common.velocity("def evaluate(self, c):\n    pass\ndef state(self):\n    pass"), "state and load"),
+                            (common.velocity("def evaluate(self, c):\n    pass", '@dsc.velocity("Mine")\nclass M:\n    """M."""\n'), "form")):
             with self.assertRaises(dsc.PluginError, msg=text) as caught:
                 dsc.run(common.EXPERIMENT, plugins=[self.write(text)])
             self.assertIn(words, str(caught.exception))
@@ -336,7 +310,7 @@ class Volume:
         self.assertFalse(os.path.exists("__pycache__"))
 
     def test_a_file_that_others_may_write_is_refused(self):
-        path = self.write(velocity("def evaluate(self, c):\n    return 0 * c.positions"))
+        path = self.write(common.velocity("def evaluate(self, c):\n    return 0 * c.positions"))
         os.chmod(path, 0o666)
         with self.assertRaises(dsc.PluginError) as caught:
             dsc.run(common.EXPERIMENT, plugins=[path])
@@ -344,7 +318,7 @@ class Volume:
         os.chmod(path, stat.S_IRUSR | stat.S_IWUSR)
 
     def test_two_files_with_one_id(self):
-        text = velocity("def evaluate(self, c):\n    return 0 * c.positions")
+        text = common.velocity("def evaluate(self, c):\n    return 0 * c.positions")
         with self.assertRaises(dsc.PluginError) as caught:
             dsc.run(common.EXPERIMENT, plugins=[self.write(text), self.write(text, "other.py")])
         self.assertEqual(caught.exception.code, "plugin.duplicate")
@@ -393,7 +367,7 @@ class Volume:
                             "def evaluate(self, c):\n    return self.n * 0.01 * c.normals", "state.roundtrip"),
                            ("def evaluate(self, c):\n    return c.positions[1:]", "param.default"),
                            ("def evaluate(self, c):\n    print('hello')\n    return c.normals", "out.quiet")):
-            self.write(velocity(body))
+            self.write(common.velocity(body))
             said = self.dsc_output("plugin", "check", "mine.py", "--level", "strict" if test == "out.quiet" else "standard")
             lines = [line for line in said.splitlines() if "FAIL" in line]
             self.assertTrue(any(test in line for line in lines), said)

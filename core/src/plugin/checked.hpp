@@ -2,6 +2,7 @@
 // Wrappers for strategies of each kind: they guard every call, set the strategy's own instance
 // number in the contexts, and check the answers. Catalogue::create returns only wrapped strategies.
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -49,7 +50,9 @@ public:
         : inner_(std::move(inner)), attribution_(std::move(attribution)) {}
 
     void save(std::ostream& out) const override {
-        guarded(call("save"), [&] { inner_->save(out); });
+        const std::uint64_t step = last_step_.load(std::memory_order_relaxed);
+        guarded(call("save", step == no_step ? std::nullopt : std::optional(step)),
+                [&] { inner_->save(out); });
     }
     void load(std::istream& in) override {
         guarded(call("load"), [&] { inner_->load(in); });
@@ -75,11 +78,15 @@ protected:
     hooks::StepContext own(const hooks::StepContext& context) const {
         hooks::StepContext copy = context;
         copy.instance = attribution_.instance;
+        last_step_.store(context.step, std::memory_order_relaxed);
         return copy;
     }
 
 private:
+    static constexpr std::uint64_t no_step = ~std::uint64_t{0};
+
     std::unique_ptr<Hook> inner_;
+    mutable std::atomic<std::uint64_t> last_step_{no_step};  // of the contexts so far
     Attribution attribution_;
 };
 

@@ -6,12 +6,15 @@
 #include <charconv>
 #include <exception>
 
+#include <dsc/plugin/method_error.hpp>
+
 namespace dsc::plugin {
 namespace {
 
 // Passes the parts of the text to `add`, one after the other.
 template <class Add>
 void describe(const Identity& who, const Add& add) {
+    if (who.id.empty()) return add(std::string_view(who.file));  // a script that is being loaded
     for (const std::string_view part :
          {kind_name(who.kind), std::string_view(" '"), std::string_view(who.id),
           std::string_view("' (plugin "), std::string_view(who.plugin), std::string_view(" "),
@@ -75,6 +78,18 @@ void fail(const Call& call, std::string code, std::string_view cause, std::strin
     throw StrategyFailure(std::move(code), "", call_text(call).append(" ").append(cause), remedy);
 }
 
+/// The fault of a method: the same, with the name of the method in place of the hook's.
+[[noreturn]] static void rethrow_of_method(const Call& call, const MethodError& error) {
+    const std::string method = error.method();
+    const Call renamed{call.who, method, call.step};
+    try {
+        std::rethrow_if_nested(error);
+    } catch (...) {
+        rethrow_attributed(renamed);
+    }
+    fail(renamed, "strategy.threw", "failed", "report this to the plugin's authors");
+}
+
 void rethrow_attributed(const Call& call) {
     constexpr std::string_view remedy =
         "check its parameters or report this to the plugin's authors";
@@ -86,6 +101,8 @@ void rethrow_attributed(const Call& call) {
         throw;
     } catch (const StrategyFailure&) {
         throw;
+    } catch (const MethodError& error) {
+        rethrow_of_method(call, error);
     } catch (const Error& error) {
         const bool users_file =
             error.exit_code() == ExitCode::io || error.exit_code() == ExitCode::geometry;

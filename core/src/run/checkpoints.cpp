@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view magic = "dsc-checkpoint-2";
+constexpr std::string_view magic = "dsc-checkpoint-3";
 constexpr std::size_t seal_size = 64;  // number of hex digits of a SHA-256
 
 std::string name_of(std::uint64_t steps) { return fmt::format("step_{:010}.dscstate", steps); }

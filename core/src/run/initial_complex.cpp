@@ -29,7 +29,8 @@ mesh::Complex initial_complex(const Experiment& experiment, Strategies& strategi
     hooks::InitialMeshContext context;
     context.cloud = cloud;
     context.seed = experiment.seed;
-    context.cancel = cancel;
+    const CancelToken told(cancel);
+    context.cancel = &told;
     const MeshFiles files;
     context.files = &files;
     context.workers = &workers;
@@ -37,6 +38,7 @@ mesh::Complex initial_complex(const Experiment& experiment, Strategies& strategi
         const Timed timed(totals.seconds.initial_mesh);
         return strategies.initial_mesh->build(context);
     }();
+    if (told.told()) throw CancelledError("the run was stopped while it made its initial mesh");
     totals.initial_mesh = strategies.initial_mesh->figures();
     totals.initial_mesh_seconds = strategies.initial_mesh->seconds();
     totals.warnings = strategies.initial_mesh->warnings();

@@ -81,12 +81,15 @@ LoadedInput load_input(const Input& input, std::uint64_t seed, const plugin::Cat
     const std::vector<Vec3> given = filters.empty() ? std::vector<Vec3>() : cloud.points;
     hooks::FilterContext context;
     context.seed = seed;
-    context.cancel = cancel;
+    const CancelToken told(cancel);
+    context.cancel = &told;
     context.workers = workers;
     {
         const Timed timed(report.filter_time);
         for (const auto& filter : filters) {
             cloud::Filtered filtered = filter->apply(cloud, context);
+            if (told.told())
+                throw CancelledError("the run was stopped while it filtered its input");
             report.filters.push_back(std::move(filtered.report));
             cloud = std::move(filtered.cloud);
         }

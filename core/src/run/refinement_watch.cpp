@@ -85,16 +85,20 @@ std::optional<RefinementRow> RefinementWatch::row(std::uint64_t steps,
 void RefinementWatch::save(StateWriter& out) const {
     out.list(figures_);
     out.list(watched_);
-    for (const std::uint64_t sum : {since_step_.requested, since_step_.committed, since_step_.made})
+    for (const std::uint64_t sum : {since_step_.requested, since_step_.committed, since_step_.made,
+                                    running_.requested, running_.committed})
         out.value(sum);
+    out.value(first_birth_);
 }
 
 void RefinementWatch::load(StateReader& in) {
     const std::size_t count = figures_.size();
     in.list(figures_);
     in.list(watched_);
-    for (std::uint64_t* sum : {&since_step_.requested, &since_step_.committed, &since_step_.made})
+    for (std::uint64_t* sum : {&since_step_.requested, &since_step_.committed, &since_step_.made,
+                               &running_.requested, &running_.committed})
         in.value(*sum);
+    in.value(first_birth_);
     const bool fits = std::all_of(watched_.begin(), watched_.end(),
                                   [count](const Watched& w) { return w.item < count; });
     if (figures_.size() != count || !fits)

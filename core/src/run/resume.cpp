@@ -74,7 +74,8 @@ private:
     std::vector<std::string> found_;
 };
 
-std::string difference_to(const fs::path& folder, const LoadedExperiment& loaded) {
+std::string difference_to(const fs::path& folder, const LoadedExperiment& loaded,
+                          const plugin::Catalogue& catalogue) {
     const fs::path file = folder / "config.resolved.yaml";
     try {
         // The values are final: `${` is ordinary text. The same writer made both texts, so equal
@@ -84,10 +85,26 @@ std::string difference_to(const fs::path& folder, const LoadedExperiment& loaded
         const std::string told = experiment_differences(
             config::parse_yaml(read_file(file), file.string(), options),
             config::parse_yaml(resolved_text(loaded), "the experiment", options));
-        return told.empty() ? "the content of a file or a plugin that it names has changed" : told;
+        if (!told.empty()) return told;
+        const std::string files = changed_files(folder, loaded, catalogue);
+        return fmt::format("the content of {} has changed",
+                           files.empty() ? "a file or a plugin that it names" : files);
     } catch (const Error&) {
         return fmt::format("its {} cannot be read", file.filename().string());
     }
+}
+
+/// A part of the run made by one version of a plugin and a part made by another would be the
+/// result of neither.
+void require_same_strategies(const fs::path& folder, const RunFolder::Status& status,
+                             const std::vector<UsedStrategy>& used) {
+    const std::vector<UsedStrategy> changed = changed_strategies(used, status);
+    if (changed.empty()) return;
+    throw UsageError("run.resume", folder.string(),
+                     fmt::format("contains the run of another version of a plugin: the content of "
+                                 "{} has changed; nothing in it was changed",
+                                 text_of(changed)),
+                     remedy_of_resume);
 }
 
 /// The tables must contain at least what they contained at the checkpoint.
@@ -115,15 +132,17 @@ std::string experiment_differences(const ConfigNode& there, const ConfigNode& he
 std::optional<Checkpoint> checkpoint_to_resume(const fs::path& folder,
                                                const Checkpoints& checkpoints,
                                                const LoadedExperiment& loaded,
+                                               const plugin::Catalogue& catalogue,
                                                const std::string& hash) {
     const std::optional<RunFolder::Status> status = RunFolder::status(folder);
     if (status && !status->hash.empty() && status->hash != hash) {
         throw UsageError(
             "run.resume", folder.string(),
             fmt::format("contains the run of another experiment: {}; nothing in it was changed",
-                        difference_to(folder, loaded)),
+                        difference_to(folder, loaded, catalogue)),
             remedy_of_resume);
     }
+    if (status) require_same_strategies(folder, *status, used_strategies(loaded, catalogue));
     std::string reason;
     std::optional<Checkpoint> found = checkpoints.last(
         hash, [&folder](const Checkpoint& c) { require_tables(folder, c); }, &reason);

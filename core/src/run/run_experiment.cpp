@@ -67,6 +67,16 @@ void draw(const RunFolder& folder, const surface::TriangleMesh& surface, bool sa
     io::write_png(folder.file("preview.png"), io::render(surface, options));
 }
 
+/// The end of the time budget, which begins now.
+std::optional<CancelToken::Clock::time_point> deadline_of(const RunOptions& options) {
+    if (!options.time_budget) return std::nullopt;
+    // A longer time than a clock can count to is no limit.
+    constexpr double longest = 1e9;
+    const std::chrono::duration<double> budget(std::min(*options.time_budget, longest));
+    return CancelToken::Clock::now() +
+           std::chrono::duration_cast<CancelToken::Clock::duration>(budget);
+}
+
 /// The work between "running" and "done" in status.json.
 class ExperimentRun {
 public:
@@ -75,19 +85,22 @@ public:
         : loaded_(loaded),
           catalogue_(catalogue),
           options_(options),
-          workers_(std::max(1U, options.threads)) {}
+          workers_(std::max(1U, options.threads)),
+          stop_(options.cancel, deadline_of(options)) {}
 
     RunOutcome run() {
         state_.state = "running";
         state_.started = utc_now();
         state_.hash = config_hash(loaded_, catalogue_);
+        for (const UsedStrategy& used : used_strategies(loaded_, catalogue_))
+            state_.strategies[used.key()] = used.sha256;
         Strategies strategies = make_strategies(loaded_.experiment, catalogue_);
         const fs::path path =
             options_.folder.empty() ? folder_of(loaded_, state_.hash) : options_.folder;
         const Checkpoints checkpoints(path / "checkpoint", kept_checkpoints());
         const RunFolder folder = RunFolder::claimed(path);
         if (options_.resume)
-            resumed_ = checkpoint_to_resume(path, checkpoints, loaded_, state_.hash);
+            resumed_ = checkpoint_to_resume(path, checkpoints, loaded_, catalogue_, state_.hash);
         folder.clear(resumed_ ? RunFolder::Keep::progress : RunFolder::Keep::nothing);
         if (options_.resume) {
             log(LogLevel::info,
@@ -139,7 +152,7 @@ private:
         std::optional<LoadedInput>& input = input_;
         if (experiment.input) {
             input = load_input(*experiment.input, experiment.seed, catalogue_, *loaded_.files,
-                               &workers_, options_.cancel);
+                               &workers_, &stop_);
             report_input(input->report);
         }
         const cloud::TargetCloud* target = input ? &input->target : nullptr;
@@ -157,12 +170,7 @@ private:
                 {state_.hash, steps, run_seconds(), run_log.state(), std::move(state)});
         };
         simulation_options.workers = &workers_;
-        simulation_options.cancel = options_.cancel;
-        if (options_.time_budget) {
-            simulation_options.out_of_time = [this] {
-                return watch_.seconds() > *options_.time_budget;
-            };
-        }
+        simulation_options.cancel = &stop_;
         simulation_options.on_step = [&](const StepMetrics& row, std::uint64_t planned) {
             run_log.add(row);
             if (options_.on_step) options_.on_step(row, planned);
@@ -308,6 +316,7 @@ private:
     const RunOptions& options_;
     Workers workers_;
     Stopwatch watch_;
+    CancelToken stop_;  // on request, or when the time is over
     RunState state_;
     std::optional<Checkpoint> resumed_;
     std::optional<LoadedInput> input_;  // made by work(), kept for the report
@@ -323,7 +332,13 @@ RunOutcome run_experiment(const LoadedExperiment& loaded, const plugin::Catalogu
 bool is_finished(const fs::path& folder, const LoadedExperiment& loaded,
                  const plugin::Catalogue& catalogue) {
     const std::optional<RunFolder::Status> status = RunFolder::status(folder);
-    return status && status->state == "done" && status->hash == config_hash(loaded, catalogue);
+    if (!status || status->state != "done" || status->hash != config_hash(loaded, catalogue))
+        return false;
+    // A finished run stays finished when the program, with the strategies in it, is updated.
+    std::vector<UsedStrategy> changed =
+        changed_strategies(used_strategies(loaded, catalogue), *status);
+    std::erase_if(changed, [](const UsedStrategy& strategy) { return strategy.installed; });
+    return changed.empty();
 }
 
 fs::path default_folder(const LoadedExperiment& loaded, const config::StrategyLookup& lookup) {

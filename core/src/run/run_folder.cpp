@@ -47,7 +47,15 @@ std::optional<RunFolder::Status> RunFolder::status(const fs::path& folder) {
                                                            : std::string();
     };
     if (!status.is_object() || text("format") != "dsc-run-1") return std::nullopt;
-    return Status{text("state"), text("config_sha256")};
+    Status found{text("state"), text("config_sha256")};
+    const auto strategies = status.find("strategies");
+    if (strategies != status.end() && strategies->is_object()) {
+        for (const auto& item : strategies->items()) {
+            if (item.value().is_string())
+                found.strategies[item.key()] = item.value().get<std::string>();
+        }
+    }
+    return found;
 }
 
 bool RunFolder::is_ours(const fs::path& folder) { return status(folder).has_value(); }

@@ -1,6 +1,7 @@
 // Saves and loads the sums and the progress of a run.
 #include "saved_run.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 namespace dsc::run {
@@ -85,11 +86,26 @@ void load(StateReader& in, RunTotals& totals) {
     }
 }
 
-void save(StateWriter& out, const Strategies& strategies) {
+StrategyState state_of(const hooks::Strategy& strategy) {
+    StrategyState state{&strategy};
+    try {
+        std::ostringstream bytes(std::ios::binary);
+        strategy.save(bytes);
+        state.bytes = bytes.str();
+    } catch (...) {
+        state.fault = std::current_exception();
+    }
+    return state;
+}
+
+void save(StateWriter& out, const Strategies& strategies, std::span<const StrategyState> earlier) {
     each_strategy(strategies, [&](const hooks::Strategy& strategy) {
-        std::ostringstream state(std::ios::binary);
-        strategy.save(state);
-        out.text(state.str());
+        const auto found = std::find_if(
+            earlier.begin(), earlier.end(),
+            [&strategy](const StrategyState& state) { return state.strategy == &strategy; });
+        const StrategyState state = found != earlier.end() ? *found : state_of(strategy);
+        if (state.fault) std::rethrow_exception(state.fault);
+        out.text(state.bytes);
     });
 }
 

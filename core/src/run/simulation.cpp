@@ -10,7 +10,9 @@
 #include "offered_rescue.hpp"
 #include "refinement.hpp"
 #include "refinement_watch.hpp"
+#include "revocable_calls.hpp"
 #include "saved_run.hpp"
+#include "step_contexts.hpp"
 #include "step_data.hpp"
 #include "step_figures.hpp"
 
@@ -39,6 +41,7 @@ public:
           serial_(1),
           workers_(options.workers != nullptr ? *options.workers : serial_),
           planned_(planned_steps(experiment)),
+          observer_names_(observer_names(experiment)),
           resumed_(options.resume),
           deformer_(
               options.resume.empty()
@@ -47,7 +50,9 @@ public:
                                      {}, &workers_)
                   : kernel::Deformer::load(resumed_, {}, &workers_)),
           watch_(experiment, &strategies),
-          data_(deformer_, {experiment.seed, options.cancel, cloud}, workers_) {
+          data_(deformer_, {experiment.seed, cloud}, workers_),
+          calls_(options.cancel),
+          contexts_(data_, strategies, cloud, planned_, calls_.token()) {
         // Every step asks again. Asked here too, an improvement with invalid answers ends the run
         // before its first step.
         strategies_.improvement->topology_limits();
@@ -78,48 +83,13 @@ private:
             options_.on_strategy_failure(deformer_.complex().to_mesh(), deformer_.step_count());
     }
 
-    /// The last step of the run as far as it is known; 0: unknown.
-    std::uint64_t last_step() const {
-        const std::uint64_t told = strategies_.velocity->planned_steps();
-        return told > 0 ? told : planned_;
-    }
-
-    /// `step`: the number in metrics.csv and events.jsonl; the first one is 1.
-    hooks::StepContext make_context(std::uint64_t step, const Needs& needs = {}) {
-        return data_.context(step, last_step(), needs);
-    }
-
-    /// What the strategy needs of the cloud; without a cloud it is not asked.
-    template <class Hook>
-    Needs needs_of(const Hook& strategy) const {
-        if (cloud_ == nullptr) return {};
-        return {strategy.needs_faces_of_points(), strategy.needs_support()};
-    }
-
-    hooks::StepContext make_velocity_context(std::uint64_t step) {
-        const Needs needs = needs_of(*strategies_.velocity);
+    hooks::StepContext make_velocity_context() {
         const Timed timed(result_.totals.seconds.velocity);
-        return make_context(step, needs);
+        return contexts_.for_velocity(deformer_.step_count() + 1);
     }
 
     hooks::StepContext make_observer_context(const hooks::Observer& observer) {
-        Needs needs = needs_of(observer);
-        needs.volume = true;
-        return make_context(deformer_.step_count(), needs);
-    }
-
-    /// The context of a pass. If the refinement samples the velocity, it contains what the velocity
-    /// needs too.
-    hooks::StepContext make_refinement_context(const hooks::RefinementPolicy& refinement,
-                                               bool sampling) {
-        Needs needs = needs_of(refinement);
-        if (sampling) {
-            const Needs of_velocity = needs_of(*strategies_.velocity);
-            needs.faces_of_points = needs.faces_of_points || of_velocity.faces_of_points;
-            needs.support = needs.support || of_velocity.support;
-        }
-        needs.volume = true;
-        return make_context(deformer_.step_count(), needs);
+        return contexts_.for_observer(observer, deformer_.step_count());
     }
 
     void refresh_view() {
@@ -145,7 +115,7 @@ private:
         totals.refinement_items = watch_.figures();
         for (std::size_t i = 0; i < strategies_.observers.size(); ++i) {
             hooks::Observer& observer = *strategies_.observers[i];
-            totals.observers.emplace_back(experiment_.observers[i].type,
+            totals.observers.emplace_back(observer_names_[i],
                                           observer.end(make_observer_context(observer)));
         }
         std::vector<mesh::VertexId> ids;
@@ -158,23 +128,31 @@ private:
     void series() {
         const Series& item = experiment_.schedule[place_.item];
         hooks::RefinementPolicy* refinement = strategies_.refinements[place_.item].get();
-        if (stop_asked()) return stop();
+        if (calls_.stop_asked()) return stop();
         const bool owned = refinement != nullptr && refinement->owns_sizing();
         size_edits_ = !owned;
         quality_floor_ = owned ? std::optional(kernel::refinement_floor) : std::nullopt;
         if (!item.steps) {
-            watch_.comes_too_late(place_.item) ? skip() : refine(*refinement);
+            if (watch_.comes_too_late(place_.item)) {
+                skip();
+            } else if (!refine(*refinement)) {
+                return stop();
+            }
             return next_item();
         }
         if (place_.steps == 0) result_.totals.status = Status::max_steps;
-        while (place_.steps < *item.steps) {
-            if (stop_asked()) return stop();
+        while (place_.steps < *item.steps || place_.refining != 0) {
+            if (calls_.stop_asked()) return stop();
             creases_ = creases(refinement);
-            const bool slow = advance();
-            place_.quiet = slow ? place_.quiet + 1 : 0;
-            ++place_.steps;
-            if (over_) break;
-            if (item.every && place_.steps % *item.every == 0) refine(*refinement);
+            if (place_.refining == 0) {
+                const std::optional<bool> slow = advance();
+                if (!slow) return stop();
+                place_.quiet = *slow ? place_.quiet + 1 : 0;
+                ++place_.steps;
+                if (over_) break;
+            }
+            const bool due = item.every && place_.steps % *item.every == 0;
+            if (due && !refine(*refinement)) return stop();
             if (item.until && strategies_.velocity->finished()) {
                 result_.totals.status = Status::converged;
                 break;
@@ -220,7 +198,7 @@ private:
         data_.history().save(out);
         watch_.save(out);
         save(out, result_.totals);
-        save(out, strategies_);
+        save(out, strategies_, calls_.states_before());
         options_.on_checkpoint(out.take(), deformer_.step_count());
     }
 
@@ -234,11 +212,14 @@ private:
         over_ = data_.view().vertex_count() == 0;
     }
 
-    /// Makes one step; true if its largest speed was below the stop criterion.
-    bool advance() {
-        const hooks::StepContext context = make_velocity_context(deformer_.step_count() + 1);
+    /// Makes one step; true if its largest speed was below the stop criterion. Empty if the step
+    /// was discarded, because a strategy was told to stop.
+    std::optional<bool> advance() {
+        hooks::StepContext context = make_velocity_context();
         StepMetrics row;
-        const double asked = velocities(context, row);
+        const std::optional<double> asked = velocities(context, row);
+        if (!asked) return std::nullopt;
+        context.cancel = nullptr;  // from here on the step is made to its end
         const surface::SurfaceView& view = data_.view();
         const double mean_edge = view.mean_edge;
         data_.history().begin_step(view);
@@ -266,46 +247,58 @@ private:
         publish(row);
 
         const bool moving = row.mean_speed > stall_speed * mean_edge;
-        place_.stuck = moving && came_about < stall_ratio * asked ? place_.stuck + 1 : 0;
+        place_.stuck = moving && came_about < stall_ratio * *asked ? place_.stuck + 1 : 0;
         if (view.vertex_count() == 0) over_ = true;
         return experiment_.stop && row.max_speed < experiment_.stop->speed * mean_edge;
     }
 
     /// Evaluates all displacements; returns the sum of the wanted lengths over the movable
-    /// vertices.
-    double velocities(const hooks::StepContext& context, StepMetrics& row) {
+    /// vertices. Empty if the answers are discarded.
+    std::optional<double> velocities(const hooks::StepContext& context, StepMetrics& row) {
         const Timed timed(result_.totals.seconds.velocity);
         const std::size_t count = data_.view().vertex_count();
         displacements_.assign(count, Vec3::Zero());
-        strategies_.velocity->advance(context);
-        strategies_.velocity->prepare(context);
-        workers_.for_blocks(count, evaluated_block, [&](std::size_t first, std::size_t last) {
-            strategies_.velocity->evaluate({first, last},
-                                           std::span(displacements_).subspan(first, last - first));
-        });
+        hooks::VelocityField& velocity = *strategies_.velocity;
         hooks::Attributes attributes;
-        strategies_.velocity->publish(attributes);
+        const bool answered = calls_.complete({&velocity}, [&] {
+            velocity.advance(context);
+            velocity.prepare(context);
+            workers_.for_blocks(count, evaluated_block, [&](std::size_t first, std::size_t last) {
+                velocity.evaluate({first, last},
+                                  std::span(displacements_).subspan(first, last - first));
+            });
+            velocity.publish(attributes);
+        });
+        if (!answered) return std::nullopt;
         set_attributes(deformer_, data_.view(), attributes);
         return measure_speeds(data_.view(), displacements_, row);
     }
 
     /// Runs the passes of a refinement, each on a fresh view, until it requests no change of the
-    /// mesh.
-    void refine(hooks::RefinementPolicy& refinement) {
+    /// mesh. False if a pass was discarded, because a strategy was told to stop; a later call
+    /// begins with this pass.
+    bool refine(hooks::RefinementPolicy& refinement) {
         const Timed timed(result_.totals.seconds.refine);
         const bool sampling = refinement.needs_sampling();
         const unsigned passes = refinement.passes();
-        ++result_.totals.refinements;
-        watch_.begin(deformer_.complex().next_birth());
-        bool asked = true;
-        for (unsigned pass = 0; pass < passes && asked; ++pass) {
-            const hooks::StepContext context = make_refinement_context(refinement, sampling);
+        if (place_.refining == 0) {
+            place_.refining = 1;
+            ++result_.totals.refinements;
+            watch_.begin(deformer_.complex().next_birth());
+        }
+        hooks::VelocityField& velocity = *strategies_.velocity;
+        for (bool asked = true; place_.pass < passes && asked; ++place_.pass) {
+            hooks::StepContext context =
+                contexts_.for_refinement(refinement, sampling, deformer_.step_count());
             hooks::StepContext of_velocity = context;
             of_velocity.volume = nullptr;
-            if (sampling) strategies_.velocity->prepare(of_velocity);
             hooks::RefinementRequests requests;
-            refinement.refine({context, sampling ? strategies_.velocity.get() : nullptr, pass},
-                              requests);
+            const bool answered = calls_.complete({&velocity, &refinement}, [&] {
+                if (sampling) velocity.prepare(of_velocity);
+                refinement.refine({context, sampling ? &velocity : nullptr, place_.pass}, requests);
+            });
+            if (!answered) return false;
+            context.cancel = nullptr;
             set_fields(deformer_, data_.view(), requests);
             relabel(context, requests);
             kernel::RefineRequests wanted =
@@ -321,6 +314,8 @@ private:
             asked ? refresh_view() : data_.refresh_fields();
         }
         watch_.end(place_.item, deformer_.step_count(), data_.view());
+        place_.refining = place_.pass = 0;
+        return true;
     }
 
     /// Skips the refinement of the current item: no step would repair and move what it makes.
@@ -365,7 +360,7 @@ private:
         const hooks::StepFigures figures{row.step, row.interface_vertices, row.tets, row.volume,
                                          row.min_tet_quality};
         for (std::size_t i = 0; i < strategies_.observers.size(); ++i) {
-            const std::string prefix = "observers." + experiment_.observers[i].type + ".";
+            const std::string prefix = "observers." + observer_names_[i] + ".";
             hooks::Observer& observer = *strategies_.observers[i];
             const hooks::StepContext context = make_observer_context(observer);
             for (const auto& [figure, value] : observer.step(context, figures)) {
@@ -379,7 +374,7 @@ private:
         if (options_.on_step) options_.on_step(row, planned_);
         if (!options_.on_state) return;
         const Timed timed(result_.totals.seconds.io);
-        options_.on_state(make_context(row.step), deformer_.complex());
+        options_.on_state(contexts_.make(row.step), deformer_.complex());
     }
 
     void tell(const kernel::Event& event) const {
@@ -396,11 +391,6 @@ private:
         }
     }
 
-    bool stop_asked() const {
-        return (options_.cancel != nullptr && options_.cancel->cancelled()) ||
-               (options_.out_of_time && options_.out_of_time());
-    }
-
     void stop() {
         stopped_ = true;
         over_ = true;
@@ -413,12 +403,15 @@ private:
     Workers serial_;
     Workers& workers_;
     std::uint64_t planned_;
+    std::vector<std::string> observer_names_;
     SimulationResult result_;
     SchedulePlace place_;
     StateReader resumed_;
     kernel::Deformer deformer_;
     RefinementWatch watch_;
     StepData data_;
+    RevocableCalls calls_;
+    StepContexts contexts_;
     std::vector<Vec3> displacements_;
     bool size_edits_ = true;  // these three: of the current series, for the policy
     std::optional<double> quality_floor_;

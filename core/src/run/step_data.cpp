@@ -38,7 +38,6 @@ hooks::StepContext StepData::context(std::uint64_t step, std::uint64_t planned_s
         .to_normalised = base_.cloud != nullptr ? base_.cloud->transform() : cloud::Transform{},
         .seed = base_.seed,
         .instance = 0,
-        .cancel = base_.cancel,
         .workers = &workers_,
         .planned_steps = planned_steps,
         .target_lengths = lengths_,

@@ -25,7 +25,6 @@ struct Needs {
 /// The parts of a context that stay the same during a run.
 struct ContextBase {
     std::uint64_t seed = 0;
-    const CancelToken* cancel = nullptr;
     const cloud::TargetCloud* cloud = nullptr;
 };
 
@@ -43,7 +42,8 @@ public:
     std::span<const cloud::Neighbour> nearest() const { return nearest_.all(); }
     VertexHistory& history() { return history_; }
 
-    /// The context of a call. Data that is only made on request is made once per view. [step]
+    /// The context of a call, without a token: it never says that the run shall stop. Data that is
+    /// only made on request is made once per view. [step]
     hooks::StepContext context(std::uint64_t step, std::uint64_t planned_steps,
                                const Needs& needs = {});
 

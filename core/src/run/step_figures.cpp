@@ -17,6 +17,17 @@ double mean(const std::vector<double>& values) {
 
 }  // namespace
 
+std::vector<std::string> observer_names(const Experiment& experiment) {
+    std::vector<std::string> names;
+    for (const config::StrategyConfig& observer : experiment.observers) {
+        std::string name = observer.type;
+        for (int n = 2; std::find(names.begin(), names.end(), name) != names.end(); ++n)
+            name = observer.type + "_" + std::to_string(n);
+        names.push_back(std::move(name));
+    }
+    return names;
+}
+
 double enclosed_volume(const surface::SurfaceView& view) {
     double sum = 0.0;
     for (std::size_t f = 0; f < view.face_count(); ++f) {

@@ -2,14 +2,21 @@
 // Figures of the state of a run, for a row of metrics.csv.
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include <dsc/base/workers.hpp>
 #include <dsc/cloud/target.hpp>
 #include <dsc/mesh/complex.hpp>
+#include <dsc/run/experiment.hpp>
 #include <dsc/run/metrics.hpp>
 #include <dsc/surface/surface_view.hpp>
 
 namespace dsc::run {
+
+/// The names of the observers in figures: their types. The second one of a type is TYPE_2, and so
+/// on.
+std::vector<std::string> observer_names(const Experiment& experiment);
 
 /// Fills the figures that depend only on the state: sizes, mean edge, distances, volume, quality.
 /// `cloud` may be null; `nearest` contains the nearest cloud point of each view vertex.

@@ -316,6 +316,7 @@ std::string status_json(const RunState& state) {
         {"format", "dsc-run-1"},
         {"state", state.state},
         {"config_sha256", state.hash},
+        {"strategies", state.strategies},
         {"started", state.started},
         {"finished", state.finished.empty() ? ordered_json() : ordered_json(state.finished)}};
     if (state.totals) {

@@ -1,6 +1,7 @@
 #pragma once
 // The texts of summary.json and status.json.
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -30,6 +31,7 @@ std::string summary_json(const SummaryParts& parts);
 struct RunState {
     std::string state;  ///< running, done, stopped, failed
     std::string hash;
+    std::map<std::string, std::string> strategies;  ///< SHA-256 of the plugin of each, by "KIND ID"
     std::string started;
     std::string finished;             ///< empty while running
     std::optional<RunTotals> totals;  ///< for a run that ended normally

@@ -45,6 +45,44 @@ constexpr std::array figure_names = {"steps",
 constexpr std::array cost_names = {"wall_s", "cpu_s", "peak_rss_mb"};
 const std::string truth_prefix = "truth.";
 
+/// The versions of the strategies of the finished points: results of different versions must not be
+/// compared unnoticed.
+class Versions {
+public:
+    /// `status` is that of the point.
+    void add(const std::string& point, const json& status) {
+        const auto found = status.find("strategies");
+        if (found == status.end() || !found->is_object()) return;
+        for (const auto& item : found->items()) {
+            if (!item.value().is_string()) continue;
+            const Version here{item.value().get<std::string>(), point};
+            const auto [first, fresh] = first_.try_emplace(item.key(), here);
+            if (!fresh && first->second.sha256 != here.sha256)
+                changed_.try_emplace(item.key(), here);
+        }
+    }
+
+    void warn() const {
+        for (const auto& [strategy, other] : changed_) {
+            const Version& first = first_.at(strategy);
+            log(LogLevel::warning, "the points were run with different versions of " + strategy +
+                                       ": its plugin or Python file was not the same for " +
+                                       point_folder(first.point) + " and " +
+                                       point_folder(other.point) +
+                                       "; to compare them, expand the sweep into a new folder and "
+                                       "run it with one version");
+        }
+    }
+
+private:
+    struct Version {
+        std::string sha256;
+        std::string point;
+    };
+    std::map<std::string, Version> first_;    ///< by strategy, "KIND ID"
+    std::map<std::string, Version> changed_;  ///< the first point that differs
+};
+
 json read_point_json(const fs::path& file) {
     std::ifstream stream(file);
     return stream ? json::parse(stream, nullptr, false) : json();
@@ -68,7 +106,7 @@ void add_figures(const json& value, const std::string& name,
 
 /// status.json of a killed run also says "running": such a run is unfinished, whether or not it is
 /// still active.
-void read_run(const fs::path& folder, PointResult& row) {
+void read_run(const fs::path& folder, PointResult& row, Versions& versions) {
     const json status = read_point_json(folder / "status.json");
     if (!status.is_object()) {
         row.status = "missing";
@@ -83,6 +121,7 @@ void read_run(const fs::path& folder, PointResult& row) {
         row.status = "unfinished";  // files are missing in the folder
         return;
     }
+    versions.add(row.name, status);
     row.ended = text_at(summary, "status");
     add_figures(summary, "", row.figures);
 }
@@ -141,17 +180,19 @@ SweepResults collect_sweep(const fs::path& folder, Workers* workers) {
     }
     SweepResults results;
     Truths truths(workers);
+    Versions versions;
     for (SweepJob& job : read_table(folder)) {
         PointResult& point = results.points.emplace_back();
         point.name = std::move(job.name);
         point.overrides = std::move(job.overrides);
         const fs::path place = folder / point_folder(point.name);
-        read_run(place / "run", point);
+        read_run(place / "run", point, versions);
         count(point, results.states);
         if (point.figures.empty()) continue;
         for (const auto& [name, value] : truths.figures(place))
             point.figures[truth_prefix + name] = text::exact(value);
     }
+    versions.warn();
     results.overrides = override_names(results.points);
     results.figures = figure_columns(results.points);
     return results;

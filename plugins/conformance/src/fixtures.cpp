@@ -221,7 +221,6 @@ Fixture reordered(const Fixture& fixture, const std::vector<std::uint32_t>& orde
         const std::uint32_t old = order[i];
         place[old] = i;
         to.vertex_ids[i] = from.vertex_ids[old];
-        to.births[i] = from.births[old];
         to.positions[i] = from.positions[old];
         to.normals[i] = from.normals[old];
         to.movable[i] = from.movable[old];

@@ -53,7 +53,8 @@ Fixture moved(const Fixture& fixture, const Motion& motion);
 /// The fixture with all its lengths multiplied by `factor`, the box too.
 Fixture scaled(const Fixture& fixture, double factor);
 
-/// Vertex i of the result is vertex order[i] of the fixture; birth ids go with the vertices.
+/// Vertex i of the result is vertex order[i] of the fixture. The birth ids stay in their places,
+/// because those of a view ascend: a vertex gets another birth id.
 Fixture reordered(const Fixture& fixture, const std::vector<std::uint32_t>& order);
 
 }  // namespace dsc::conformance

@@ -50,6 +50,15 @@ constexpr std::array unit_words = {
     "sweeps",
 };
 
+std::string known_units() {
+    std::string all;
+    for (const std::string_view word : unit_words) {
+        const bool exponent = word.size() == 1 && word != "1";
+        if (!exponent) (all += all.empty() ? "" : ", ") += word;
+    }
+    return all;
+}
+
 bool is_unit(const std::string& unit) {
     std::string word;
     const auto known = [&word] {
@@ -77,7 +86,9 @@ void lint_field(const Field& field, std::vector<std::string>& problems) {
     if (field.doc.empty() || field.doc.back() != '.')
         problems.push_back(subject + "has a doc that is not a sentence");
     if (!field.unit.empty() && !is_unit(field.unit))
-        problems.push_back(subject + "has the unknown unit '" + field.unit + "'");
+        problems.push_back(subject + "has the unknown unit '" + field.unit +
+                           "'; known are the words " + known_units() +
+                           ", and their quotients and powers, such as length/time or 1/length^2");
     const bool number = field.type == FieldType::real || field.type == FieldType::real_list ||
                         field.type == FieldType::vec3;
     if (number && field.unit.empty())

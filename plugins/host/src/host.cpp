@@ -7,6 +7,7 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
+#include <dsc/plugin/guarded.hpp>
 #include <dsc/plugin/script_loader.hpp>
 
 #include "admission.hpp"
@@ -26,13 +27,15 @@ bool is_library_name(const std::string& name) {
 }
 
 plugin::PluginInfo info_of(const plugin::PluginEntry& entry, const fs::path& file) {
+    std::error_code error;
     return {text_of(entry.name),
             text_of(entry.version),
             text_of(entry.license),
             text_of(entry.summary),
             text_of(entry.authors),
             text_of(entry.fingerprint),
-            file};
+            file,
+            fs::equivalent(file.parent_path(), installed_folder(), error)};
 }
 
 fs::path library_folder() { return installed_folder().parent_path().parent_path(); }
@@ -109,9 +112,14 @@ void Host::load(const fs::path& file) {
     log_soft_differences(loaded_.back()->info);
 }
 
-// A fault of a script is an exception, so it needs no child process.
+// A fault of a script is an exception, so it needs no child process; a crash, an exit or a script
+// that never ends is reported with its name.
 void Host::load_script(const fs::path& real) {
     require_safe_file(real);
+    plugin::Identity who;
+    who.file = real.string();
+    const plugin::Call call{who, "the import", std::nullopt};
+    const plugin::Inside inside(call);
     Script script = run_script(real, script_library(), script_modules());
     add(std::move(script.info), std::move(script.strategies));
 }

@@ -1,7 +1,9 @@
 // Witnesses of det.* and seed.used: answers that depend on what they must not depend on.
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "witness.hpp"
@@ -74,6 +76,18 @@ private:
     double factor_ = 1;
 };
 
+// Has no fault: it finds a vertex by its birth id, because those of a view ascend.
+class ByBirth final : public Velocity {
+    using Velocity::Velocity;
+    dsc::Vec3 displacement(std::size_t vertex) const override {
+        const auto& births = context().surface.births;
+        const auto found = std::lower_bound(births.begin(), births.end(), births[vertex]);
+        if (found == births.end() || *found != births[vertex])
+            throw std::runtime_error("the birth ids do not ascend");
+        return Velocity::displacement(static_cast<std::size_t>(found - births.begin()));
+    }
+};
+
 class SecretlyRandom final : public Velocity {
     using Velocity::Velocity;
     dsc::Vec3 displacement(std::size_t vertex) const override {
@@ -90,5 +104,6 @@ DSC_PLUGIN("bad_determinism", "1.0.0", "MIT", "Witnesses of det.* and seed.used"
     registrar.add<Shared>("det_instances", "has a static variable");
     registrar.add<IndexDependent>("det_order", "knows the place of a vertex in the list");
     registrar.add<LocaleDependent>("det_env", "writes and reads numbers by the locale");
+    registrar.add<ByBirth>("by_birth", "finds vertices by their birth ids");
     registrar.add<SecretlyRandom>("seed_used", "is random and does not say so");
 }

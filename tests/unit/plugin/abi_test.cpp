@@ -61,7 +61,7 @@ TEST_CASE("the layout of what crosses the door is that of its ABI number") {
                                  "repair::TopologyLimits 24\n"
                                  "RandomStream 44\n"
                                  "Workers 8\n"
-                                 "CancelToken 1\n"
+                                 "CancelToken 32\n"
                                  "hooks::Attribute 56\n"
                                  "hooks::CollapseRequest 32\n"
                                  "hooks::FlipRequest 16\n"

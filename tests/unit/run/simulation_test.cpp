@@ -180,6 +180,16 @@ TEST_CASE("cancelled: before the first step nothing has moved") {
     CHECK(result.totals.steps == 0);
 }
 
+TEST_CASE("two observers of one type have names of their own") {
+    const Simulated twice = simulate({"observers=[{type: counter}, {type: counter}]"});
+    REQUIRE(twice.rows.back().observers.size() == 2);
+    CHECK(twice.rows.back().observers[0].first == "observers.counter.count");
+    CHECK(twice.rows.back().observers[1].first == "observers.counter_2.count");
+    REQUIRE(twice.result.totals.observers.size() == 2);
+    CHECK(twice.result.totals.observers[0].first == "counter");
+    CHECK(twice.result.totals.observers[1].first == "counter_2");
+}
+
 TEST_CASE("the result does not depend on the number of threads") {
     Workers three(3);
     const std::vector<std::string> overrides = {

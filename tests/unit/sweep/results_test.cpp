@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <dsc/base/log.hpp>
 #include <dsc/sweep/results.hpp>
 
 #include "bench.hpp"
@@ -74,6 +75,33 @@ struct Repeated {
 };
 
 }  // namespace
+
+TEST_CASE("collect names a strategy whose plugin differs between the points") {
+    const Bench bench;
+    const std::string text = "axes: [{grid: {initial_mesh.cells: [1, 2, 3]}}]\n";
+    bench.expand(text);
+    const std::vector<std::string> all = names(bench.load(text));
+    const auto finish = [&](std::size_t point, const std::string& version) {
+        const std::string run = "out/points/" + all[point] + "/run/";
+        bench.folder.write(run + "status.json",
+                           R"({"format": "dsc-run-1", "state": "done", "strategies": )"
+                           R"({"initial_mesh box": "same", "velocity mine": ")" +
+                               version + "\"}}");
+        bench.folder.write(run + "summary.json", R"({"status": "max_steps"})");
+    };
+    std::string said;
+    set_log_sink([&said](LogLevel, std::string_view line) { said += std::string(line) + "\n"; });
+    for (const std::size_t point : {0, 1, 2}) finish(point, "one");
+    sweep::collect_sweep(bench.folder.path() / "out");
+    CHECK(said.empty());
+    finish(2, "another");
+    sweep::collect_sweep(bench.folder.path() / "out");
+    set_log_sink({});
+    CAPTURE(said);
+    CHECK(contains(said, "different versions of velocity mine"));
+    CHECK(contains(said, "points/" + all[0] + " and points/" + all[2]));
+    CHECK(lines(said) == 1);
+}
 
 TEST_CASE("collect: a row a point, whatever its state") {
     const Bench bench;

@@ -18,7 +18,8 @@ struct FilterContext {
     std::uint64_t seed = 0;
     /// Stream id of this filter's place in the experiment; see InitialMeshContext. [1; -]
     std::uint64_t instance = 0;
-    /// Says whether the run shall stop. May be null. [-; -]
+    /// Says whether the run shall stop: on request, or because its time budget is over. After it
+    /// has said so, the answer is discarded. May be null. [-; -]
     const CancelToken* cancel = nullptr;
     /// Threads for own loops, with dsc::for_blocks(). Null: one thread. [-; -]
     Workers* workers = nullptr;

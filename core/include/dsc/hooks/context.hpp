@@ -55,7 +55,8 @@ struct StepContext {
     std::uint64_t seed = 0;
     /// Stream id of this strategy's place in the experiment; random() uses it. [1; -]
     std::uint64_t instance = 0;
-    /// Says whether the run shall stop; see cancelled(). May be null. [-; -]
+    /// Says whether the run shall stop; see cancelled(). May be null, and is null in the calls of
+    /// improvements and observers. [-; -]
     const CancelToken* cancel = nullptr;
     /// Threads for own loops outside evaluate(), with dsc::for_blocks(). Null: one thread. [-; -]
     Workers* workers = nullptr;
@@ -93,7 +94,10 @@ struct StepContext {
     RandomStream random(std::uint64_t element) const {
         return RandomStream(RandomKey{seed, instance, step, element});
     }
-    /// Whether the run shall stop. A long loop asks now and then, and returns early. [1; -]
+    /// Whether the run shall stop: on request, or because its time budget is over. A long loop asks
+    /// now and then, and returns early with any answer: after `true` all answers of the step, or of
+    /// the pass of a refinement, are discarded, and the run stops as it was before. Always false in
+    /// the calls of improvements and observers, because their step is made to its end. [1; -]
     /// [parallel]
     bool cancelled() const { return cancel != nullptr && cancel->cancelled(); }
 };

@@ -32,7 +32,8 @@ struct InitialMeshContext {
     /// Stream id of this strategy's place in the experiment: RandomStream(RandomKey{seed, instance,
     /// 0, element}) is the random stream of an element. [1; -]
     std::uint64_t instance = 0;
-    /// Says whether the run shall stop. May be null. [-; -]
+    /// Says whether the run shall stop: on request, or because its time budget is over. After it
+    /// has said so, the answer is discarded. May be null. [-; -]
     const CancelToken* cancel = nullptr;
     /// Reads files that a parameter names. Null if the host reads no files. [-; -]
     const MeshFiles* files = nullptr;

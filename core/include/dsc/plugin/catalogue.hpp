@@ -23,6 +23,7 @@ struct PluginInfo {
     std::string authors;
     std::string fingerprint;
     std::filesystem::path file;  ///< without symbolic links
+    bool installed = false;      ///< from the folder beside the core library
 };
 
 /// A strategy and the plugin that contains it; both live as long as the catalogue.

@@ -32,8 +32,8 @@ struct ResultData {
 struct RunOptions {
     std::filesystem::path folder;  ///< empty: runs/NAME/HASH, with 12 digits of the hash
     unsigned threads = 1;
-    std::optional<double> time_budget{};  ///< seconds; the run ends after the step in which this
-                                          ///< time is exceeded
+    std::optional<double> time_budget{};  ///< seconds, after which the run stops as if it was
+                                          ///< cancelled
     const CancelToken* cancel = nullptr;
     bool last_good = true;  ///< keep the last state before a strategy failed in the folder
     bool picture = true;    ///< draw preview.png; not useful for a temporary folder

@@ -3,6 +3,7 @@
 // as finished.
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,6 +49,9 @@ public:
     struct Status {
         std::string state;  ///< running, done, stopped, failed
         std::string hash;   ///< of its resolved experiment
+        /// SHA-256 of the plugin of each strategy, by "KIND ID"; empty for a run of an older
+        /// version.
+        std::map<std::string, std::string> strategies{};
     };
     static std::optional<Status> status(const std::filesystem::path& folder);
 

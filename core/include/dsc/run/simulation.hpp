@@ -38,10 +38,12 @@ Strategies make_strategies(const Experiment& experiment, const plugin::Catalogue
 
 /// The inputs of a run besides the experiment.
 struct SimulationOptions {
-    Workers* workers = nullptr;           ///< null: one thread
-    const CancelToken* cancel = nullptr;  ///< checked between steps
-    std::function<bool()> out_of_time;    ///< checked between steps; true ends the run like a
-                                          ///< cancellation
+    Workers* workers = nullptr;  ///< null: one thread
+    /// Checked between steps, and passed to the strategies whose answers can be discarded: initial
+    /// mesh, velocity and refinement. If one of them is told to stop, its answers are discarded:
+    /// the run ends as it was before the step, or before the pass of the refinement. An initial
+    /// mesh is then a CancelledError.
+    const CancelToken* cancel = nullptr;
     std::function<void(const StepMetrics&, std::uint64_t planned)> on_step;  ///< also for row 0
     std::function<void(const kernel::Event&)> on_event;
     std::function<void(const ClassFigures&)> on_repairs;  ///< after the step's events, once per
