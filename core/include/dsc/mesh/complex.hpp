@@ -208,7 +208,7 @@ public:
     void move(VertexId v, const Vec3& position, std::span<const TetId> star,
               std::span<const float> qualities) {
         place(v, position, star, qualities);
-        note_change(star);
+        note_change(v, star);
     }
     /// The parts of move(), for many vertices without common tets. First place the vertices, which
     /// may run in parallel [parallel]. Then date their stars, also in parallel: each with a value
@@ -217,7 +217,8 @@ public:
     /// the other [step].
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
-    void date_star(std::span<const TetId> star, std::uint32_t clock, std::vector<TetId>& changed);
+    void date_star(VertexId v, std::span<const TetId> star, std::uint32_t clock,
+                   std::vector<TetId>& changed);
     void note_changes(std::uint32_t clock, std::span<const TetId> changed);
     /// Gives tets another label. [step]
     void relabel(std::span<const TetId> tets, Label label);
@@ -262,7 +263,7 @@ private:
 
     VertexId allocate_vertex(const Vec3& position);
     TetId allocate_tet();
-    void note_change(std::span<const TetId> star);
+    void note_change(VertexId v, std::span<const TetId> star);
     void touch(TetId t);
     bool find_relabelled(const Edit& edit);
     unsigned count_phases(VertexId v, std::span<const TetId> star) const;
