@@ -83,7 +83,8 @@ void StarLoop::date_wave(std::size_t count, Workers* workers) {
             std::size_t at = 0;
             for (const Entry& entry : block.entries) {
                 if (entry.star_size == 0) continue;
-                complex_.date_star(std::span(block.stars).subspan(at, entry.star_size), ++date,
+                complex_.date_star(entry.vertex,
+                                   std::span(block.stars).subspan(at, entry.star_size), ++date,
                                    block.changed);
                 at += entry.star_size;
             }
@@ -103,13 +104,10 @@ void StarLoop::join(std::span<const mesh::VertexId> vertices) {
     std::sort(waiting_.begin(), waiting_.end());
 }
 
-bool StarLoop::meets_another(std::span<const mesh::TetId> star, std::uint8_t block) const {
-    for (const mesh::TetId t : star) {
-        for (const mesh::VertexId w : complex_.tet(t).v) {
-            if (block_of_[w] != block && block_of_[w] != no_block) return true;
-        }
-    }
-    return false;
+bool StarLoop::meets_another(std::span<const mesh::VertexId> neighbours, std::uint8_t block) const {
+    return std::any_of(neighbours.begin(), neighbours.end(), [&](mesh::VertexId w) {
+        return block_of_[w] != block && block_of_[w] != no_block;
+    });
 }
 
 }  // namespace dsc::kernel

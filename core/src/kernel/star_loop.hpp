@@ -73,6 +73,7 @@ private:
 
     struct Entry {
         std::uint32_t i;
+        mesh::VertexId vertex;
         std::uint32_t star_size;  // 0: not moved
         bool attempted;
     };
@@ -88,7 +89,7 @@ private:
 
     void split(std::span<const mesh::VertexId> vertices);
     void join(std::span<const mesh::VertexId> vertices);
-    bool meets_another(std::span<const mesh::TetId> star, std::uint8_t block) const;
+    bool meets_another(std::span<const mesh::VertexId> neighbours, std::uint8_t block) const;
 
     template <class Action>
     void run_one(mesh::VertexId v, std::uint32_t i, Action& action) {
@@ -113,10 +114,11 @@ private:
         for (std::size_t at = begins_[b]; at < begins_[b + 1]; ++at) {
             const std::uint32_t i = order_[at];
             const mesh::VertexId v = vertices[i];
-            Entry entry{i, 0, action.ready(i)};
+            Entry entry{i, v, 0, action.ready(i)};
             if (entry.attempted) {
                 complex_.cached_star(v, scratch.star, scratch.walk);
-                if (meets_another(scratch.star, static_cast<std::uint8_t>(b))) {
+                complex_.cached_neighbours(v, scratch.star, scratch.neighbours, scratch.walk);
+                if (meets_another(scratch.neighbours, static_cast<std::uint8_t>(b))) {
                     block.waiting.push_back(i);
                     continue;
                 }

@@ -69,25 +69,46 @@ void Complex::place(VertexId v, const Vec3& position, std::span<const TetId> sta
     for (std::size_t i = 0; i < star.size(); ++i) qualities_[star[i]] = qualities[i];
 }
 
-void Complex::note_change(std::span<const TetId> star, Lane& lane) {
+// The vertices of a star are v and its neighbours. If the neighbours are known, each is dated once
+// and not in every tet.
+void Complex::note_change(VertexId v, std::span<const TetId> star, Lane& lane) {
     ++lane.clock_;
-    for (const TetId t : star) touch(t, lane);
+    const std::span<const VertexId> neighbours = stars_.neighbours(v);
+    if (neighbours.empty()) {
+        for (const TetId t : star) touch(t, lane);
+        return;
+    }
+    for (const TetId t : star) {
+        if (dates_[t] <= taken_clock_) lane.changes_.push_back(t);
+        dates_[t] = lane.clock_;
+    }
+    vertices_[v].date = lane.clock_;
+    for (const VertexId w : neighbours) vertices_[w].date = lane.clock_;
 }
 
-void Complex::date_star(std::span<const TetId> star, std::uint32_t clock,
+void Complex::date_star(VertexId v, std::span<const TetId> star, std::uint32_t clock,
                         std::vector<TetId>& changed) {
+    // Stars may share a vertex: the latest date is kept, in whatever order they come.
+    const auto date_vertex = [this, clock](VertexId w) {
+        const std::atomic_ref<std::uint32_t> date(vertices_[w].date);
+        std::uint32_t before = date.load(std::memory_order_relaxed);
+        while (before < clock &&
+               !date.compare_exchange_weak(before, clock, std::memory_order_relaxed)) {
+        }
+    };
     for (const TetId t : star) {
         if (dates_[t] <= taken_clock_) changed.push_back(t);
         dates_[t] = clock;
-        for (const VertexId v : tets_[t].v) {
-            // Stars may share the vertex: the latest date is kept, in whatever order they come.
-            const std::atomic_ref<std::uint32_t> date(vertices_[v].date);
-            std::uint32_t before = date.load(std::memory_order_relaxed);
-            while (before < clock &&
-                   !date.compare_exchange_weak(before, clock, std::memory_order_relaxed)) {
-            }
-        }
     }
+    const std::span<const VertexId> neighbours = stars_.neighbours(v);
+    if (neighbours.empty()) {
+        for (const TetId t : star) {
+            for (const VertexId w : tets_[t].v) date_vertex(w);
+        }
+        return;
+    }
+    date_vertex(v);
+    for (const VertexId w : neighbours) date_vertex(w);
 }
 
 void Complex::note_changes(std::uint32_t clock, std::span<const TetId> changed) {

@@ -194,6 +194,10 @@ void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
     free_long_.clear();
     look_at_all(round, workers);
     for (std::size_t i = 0; i < round.dirty.size(); ++i) {
+        constexpr std::size_t near = 4, far = 16;
+        if (i + far < looks_.size() && looks_[i + far] != 0) c.prefetch(round.dirty[i + far]);
+        if (i + near < looks_.size() && looks_[i + near] != 0)
+            c.prefetch_vertices(round.dirty[i + near]);
         const mesh::TetId t = round.dirty[i];
         const std::uint8_t found = looks_[i];
         if ((found & low_quality) != 0)

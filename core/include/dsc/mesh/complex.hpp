@@ -226,7 +226,7 @@ public:
     void move(VertexId v, const Vec3& position, std::span<const TetId> star,
               std::span<const float> qualities, Lane& lane) {
         place(v, position, star, qualities);
-        note_change(star, lane);
+        note_change(v, star, lane);
     }
     /// Gives tets another label.
     void relabel(std::span<const TetId> tets, Label label) { relabel(tets, label, serial_); }
@@ -239,7 +239,8 @@ public:
     /// the other [step].
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
-    void date_star(std::span<const TetId> star, std::uint32_t clock, std::vector<TetId>& changed);
+    void date_star(VertexId v, std::span<const TetId> star, std::uint32_t clock,
+                   std::vector<TetId>& changed);
     void note_changes(std::uint32_t clock, std::span<const TetId> changed);
 
     /// Ids of the tets that the last replace() without a lane wrote, in the order of Edit::added.
@@ -295,7 +296,7 @@ private:
     TetId new_tet_slot();
     VertexId allocate_vertex(const Vec3& position, Lane& lane);
     TetId allocate_tet(Lane& lane);
-    void note_change(std::span<const TetId> star, Lane& lane);
+    void note_change(VertexId v, std::span<const TetId> star, Lane& lane);
     void touch(TetId t, Lane& lane);
     bool find_relabelled(const Edit& edit, EditTables& tables);
     unsigned count_phases(VertexId v, std::span<const TetId> star) const;
