@@ -73,7 +73,7 @@ StarCache& StarCache::operator=(const StarCache& other) {
     return *this;
 }
 
-// Gives the entry room for so many ids; what it contains is lost.
+// Gives the entry room for this number of ids; what it contains is lost.
 void StarCache::reserve(Entry& entry, std::size_t wanted) {
     if (entry.capacity >= wanted) return;
     const std::size_t size = block_size(wanted);
