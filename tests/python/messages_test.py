@@ -59,7 +59,7 @@ class Masked:
 
     def test_a_file_that_ends_the_process_is_named(self):
         for text, words, code in (("import ctypes\nctypes.string_at(0)", "the import crashed with signal 11", 4),
-                                  ("import os\nos._exit(0)", "the import ended the process", 4)):
+                                  ("import os\nos._exit(0)", "the import: ended the process", 4)):
             path = os.path.realpath(self.write(text))
             self.assertIn(f"{path}: {words}", self.dsc("run", self.experiment(), expect=code))
 

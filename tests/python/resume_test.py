@@ -139,7 +139,7 @@ class Kill(common.Scratch):
     def test_a_changed_file_is_named_wherever_it_was_found(self):
         pathlib.Path("heavy.py").write_text(STRATEGIES, encoding="utf-8")
         pathlib.Path("a.yaml").write_text(EXPERIMENT.replace("plugins: [{python: heavy.py}]\n", ""), encoding="utf-8")
-        run = ("run", "a.yaml", "-q", "--plugin", "heavy.py", "schedule=[{steps: 3}]", "output.checkpoint={every: 1, keep: 2}")
+        run = ("run", "a.yaml", "schedule=[{steps: 3}]", "output.checkpoint={every: 1, keep: 2}", "-q", "--plugin", "heavy.py")
         self.dsc(*run, "-o", "done")
         self.assertEqual(self.dsc(*run, "-o", "done", "--resume"), "done\n")
         before = pathlib.Path("done/status.json").read_bytes()
