@@ -62,7 +62,7 @@ TEST_CASE("whatever is thrown is attributed, but not cancellation and configurat
 
     std::ostringstream state;
     CHECK(caught([&] { velocity->save(state); }).text ==
-          who("velocity") + "save threw: disk full" + check);
+          who("velocity") + "save at step 5 threw: disk full" + check);
     const std::vector<Vec3> points(1);
     CHECK_FALSE(velocity->can_sample());
     CHECK(caught([&] {
