@@ -60,10 +60,12 @@ Vec3 quality_gradient(const Vec3& v, const Vec3& b, const Vec3& c, const Vec3& d
     return std::sqrt(2.0) * (det_gradient / (m * root) - 1.5 * det / (m * m * root) * m_gradient);
 }
 
-// Whether v may be smoothed and a gain is possible, or the reason why not.
-Outcome may_smooth(const Workbench& bench, VertexId v, float accept_above) {
+// Whether v may be smoothed and a gain is possible, or the reason why not. A request that the block
+// cannot execute is deferred before the memory is asked: a resumed run has an empty memory.
+Outcome may_smooth(Workbench& bench, VertexId v, Smoother smoother, float accept_above) {
     if (const Outcome o = smoothable(bench.complex, v); o.refused()) return o;
-    if (const auto known = bench.known_refusal(v, Smoother::laplacian, accept_above)) return *known;
+    if (!bench.covers(v)) return bench.defer();
+    if (const auto known = bench.known_refusal(v, smoother, accept_above)) return *known;
     return success;
 }
 
@@ -89,8 +91,8 @@ Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, Verte
 }  // namespace
 
 Outcome smooth_laplacian(Workbench& bench, VertexId v, float accept_above) {
-    if (const Outcome o = may_smooth(bench, v, accept_above); o.refused()) return o;
-    if (!bench.covers(v)) return bench.defer();
+    if (const Outcome o = may_smooth(bench, v, Smoother::laplacian, accept_above); o.refused())
+        return o;
     StarScratch& scratch = bench.smooth.get().laplacian;
     bench.star(v, scratch.star);
     const Outcome o = plan_laplacian(bench.complex, bench.limits, v, accept_above, scratch);
@@ -102,9 +104,7 @@ Outcome smooth_laplacian(Workbench& bench, VertexId v, float accept_above) {
 Outcome smooth_optimise(Workbench& bench, VertexId v) {
     constexpr auto smoother = Smoother::optimise;
     mesh::Complex& c = bench.complex;
-    if (const Outcome o = smoothable(c, v); o.refused()) return o;
-    if (const auto known = bench.known_refusal(v, smoother, 0.0F)) return *known;
-    if (!bench.covers(v)) return bench.defer();
+    if (const Outcome o = may_smooth(bench, v, smoother, 0.0F); o.refused()) return o;
     auto& [laplacian, star, qualities, tried] = bench.smooth.get();
     bench.star(v, star);
     const float old = star_old(c, star);
