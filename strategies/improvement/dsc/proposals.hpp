@@ -44,7 +44,8 @@ private:
     struct Smoothed {
         std::vector<mesh::VertexId> vertices;
         std::vector<mesh::TetId> tets;
-        mesh::TetIndex seen;
+        // Few blocks have as many, so without this it could still grow in a settled step.
+        mesh::TetIndex seen{2048};
         void clear() {
             vertices.clear();
             tets.clear();
