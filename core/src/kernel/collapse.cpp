@@ -50,8 +50,8 @@ public:
 
     // Must come before everything that reads the stars.
     void walk() {
-        bench_.star(a_, own_.a.star);
-        bench_.star(b_, own_.b.star);
+        c_.star(a_, own_.a.star);
+        c_.star(b_, own_.b.star);
     }
 
     std::span<const TetId> star_a() const { return own_.a.star; }
@@ -206,13 +206,16 @@ Outcome finish(Workbench& bench, Collapse& collapse, const Plan& plan, bool inte
         if (change.exceeds(bench.bounds_at(plan.kept, plan.removed))) return Refusal::bound;
     }
     if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
-    if (!bench.link()) return Refusal::irregular;
+    if (!bench.complex.link(bench.edit)) return Refusal::irregular;
     if (interface_edge) {
         if (const Outcome o = collapse.check_topology(); o.refused()) return o;
         if (const Outcome o = check_creases(bench, plan.kept, plan.removed); o.refused()) return o;
     }
     bench.commit(change);
-    bench.tell_merge(plan.kept, plan.removed, plan.weight, interface_edge);
+    if (bench.listener != nullptr) {
+        bench.listener->on_collapse(plan.kept, plan.removed, plan.weight);
+        if (interface_edge) bench.listener->on_interface_collapse(plan.kept);
+    }
     return success;
 }
 

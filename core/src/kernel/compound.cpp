@@ -77,7 +77,7 @@ Outcome finish(Workbench& bench, const repair::Request& request, VertexId a, Ver
         shortest_new_edge(bench) < static_cast<double>(request.least_edge))
         return Refusal::bound;
     if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
-    if (!bench.link()) return Refusal::irregular;
+    if (!c.link(bench.edit)) return Refusal::irregular;
     bool several = false;
     for (const TetId t : bench.edit.removed)
         several = several || c.label(t) != c.label(bench.edit.removed.front());
@@ -93,7 +93,7 @@ Outcome finish(Workbench& bench, const repair::Request& request, VertexId a, Ver
         if (const Outcome o = check_creases(bench); o.refused()) return o;
     }
     const VertexId created = bench.commit(change);
-    bench.tell_split(created, a, b, s);
+    if (bench.listener != nullptr) bench.listener->on_split(created, a, b, s);
     return success;
 }
 
@@ -159,7 +159,7 @@ Outcome merge_vertex(Workbench& bench, TetId t, unsigned apex, const repair::Req
     const double w1 = (p2 - p).cross(p0 - p).dot(normal) / area2;
     const double w2 = 1.0 - w0 - w1;
     CompoundScratch& own = bench.compound.get();
-    bench.star(v, own.star);
+    c.star(v, own.star);
     bench.edit.clear();
     bench.edit.creates = true;
     bench.edit.deleted = v;

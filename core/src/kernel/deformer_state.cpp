@@ -16,7 +16,6 @@ Deformer::State::State(mesh::Complex start, const DeformerOptions& wanted, Worke
       star_loop(complex),
       destinations(complex, queues, star_loop),
       fields(complex, destinations),
-      repair_blocks(bench, fields, destinations),
       // Wake-ups must be counted in the order of one thread.
       workers(wanted.drop_wake_up == 0 ? given : nullptr) {
     bench.listener = &fields;
@@ -26,7 +25,7 @@ Deformer::State::State(mesh::Complex start, const DeformerOptions& wanted, Worke
 
 void Deformer::State::apply_limits(double flatness,
                                    const std::optional<repair::CreaseRule>& creases) {
-    if (bench.limits.length != length) bench.refusals().clear();
+    if (bench.limits.length != length) bench.forget_refusals();
     bench.limits = {length, options.quality_floor, options.max_edit_distance * length,
                     options.max_edit_volume * geometry::regular_tet_volume(length), flatness};
     bench.limits.set_floor(options.quality_floor);

@@ -7,7 +7,6 @@
 #include "kernel/destinations.hpp"
 #include "kernel/operations.hpp"
 #include "kernel/queues.hpp"
-#include "kernel/repair_blocks.hpp"
 #include "kernel/topology.hpp"
 #include "kernel/vertex_fields.hpp"
 
@@ -28,14 +27,14 @@ struct Deformer::State {
     StarLoop star_loop;
     Destinations destinations;
     VertexFields fields;
-    RepairBlocks repair_blocks;
     Workers* workers;  // null: one thread
 
     std::vector<TetId> step_changes;
     std::vector<bool> noted;  // per tet: whether it is in step_changes
     std::vector<repair::Request> requests, last_requests;
     std::vector<repair::Outcome> outcomes;
-    std::vector<TetId> face_star;  // for split_longest_edge()
+    std::vector<VertexId> smoothed;  // vertices of a batch of requests
+    std::vector<TetId> face_star;    // for split_longest_edge()
 
     State(mesh::Complex start, const DeformerOptions& wanted, Workers* given);
 
@@ -48,11 +47,14 @@ struct Deformer::State {
 
     // ---- the parts of a step (step.cpp)
     class Stall;
+    struct Smoothing;
     void begin_step(std::span<const VertexId> vertices, std::span<const Vec3> displacements,
                     const RepairPolicy& policy, StepReport& report);
     void move_and_repair(const RepairPolicy& policy, StepReport& report);
     double make_moves();
     void repair(const RepairPolicy& policy, unsigned round, bool settled, StepReport& report);
+    std::size_t smooth_from(std::size_t first, StepReport& report);
+    bool plain_smoothing(const repair::Request& request) const;
     void record(std::uint32_t i, Outcome outcome, std::uint32_t date, StepReport& report);
     void note_changes(std::span<const TetId> changed);
     void change_topology(const RepairPolicy& policy, StepReport& report);

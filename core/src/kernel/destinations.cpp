@@ -45,24 +45,20 @@ void Destinations::send(VertexId v, const Vec3& destination) {
     active_.push_back(v);
 }
 
-void Destinations::on_split(const Split& split) {
-    if (!split.movable || (!moves(split.a) && !moves(split.b))) return;
-    // A vertex at rest counts with its position.
-    const Vec3 from = moves(split.a) ? entry_of(split.a)->place : split.at_a;
-    const Vec3 to = moves(split.b) ? entry_of(split.b)->place : split.at_b;
-    send(split.vertex, (1.0 - split.s) * from + split.s * to);
+void Destinations::on_split(VertexId vertex, VertexId a, VertexId b, double s) {
+    if (!complex_.movable(vertex) || (!moves(a) && !moves(b))) return;
+    send(vertex, (1.0 - s) * destination_of(a) + s * destination_of(b));
 }
 
-void Destinations::on_merge(const Merge& merge) {
-    if (merge.interface) near_collapses_.push_back(merge.kept);
+void Destinations::on_collapse(VertexId kept, VertexId removed, double s) {
     // The removed id no longer exists, but its entry does: births differ only after the slot is
     // used again.
-    const bool goes = entry_of(merge.removed) != nullptr;
-    const bool stays = moves(merge.kept);
-    if ((!goes && !stays) || !merge.movable || merge.s == 0.0) return;
-    const Vec3 from = stays ? entry_of(merge.kept)->place : merge.at_kept;
-    const Vec3 to = goes ? entry_of(merge.removed)->place : merge.at_kept;
-    send(merge.kept, (1.0 - merge.s) * from + merge.s * to);
+    const bool goes = entry_of(removed) != nullptr;
+    const bool stays = moves(kept);
+    if ((!goes && !stays) || !complex_.movable(kept) || s == 0.0) return;
+    const Vec3 from = stays ? entry_of(kept)->place : complex_.position(kept);
+    const Vec3 to = goes ? entry_of(removed)->place : complex_.position(kept);
+    send(kept, (1.0 - s) * from + s * to);
 }
 
 // What a pass does with active_[i].

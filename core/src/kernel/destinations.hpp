@@ -49,8 +49,9 @@ public:
     /// Kept vertices of the collapses of interface edges in this step.
     std::span<const VertexId> near_collapses() const { return near_collapses_; }
 
-    void on_split(const Split& split) override;
-    void on_merge(const Merge& merge) override;
+    void on_split(VertexId vertex, VertexId a, VertexId b, double s) override;
+    void on_collapse(VertexId kept, VertexId removed, double s) override;
+    void on_interface_collapse(VertexId kept) override { near_collapses_.push_back(kept); }
 
 private:
     struct Entry {
@@ -64,6 +65,7 @@ private:
 
     Entry* entry_of(VertexId v);
     bool moves(VertexId v);
+    Vec3 destination_of(VertexId v) { return moves(v) ? entry_of(v)->place : complex_.position(v); }
     void drop_dead_and_double();
 
     mesh::Complex& complex_;

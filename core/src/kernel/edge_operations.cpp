@@ -95,7 +95,7 @@ Outcome remove_edge(Workbench& bench, TetId t, VertexId a, VertexId b, float acc
     bench.edit.removed = ring.tets;
     add_tets(bench, a, b, fan);
     if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
-    if (!bench.link()) return Refusal::irregular;
+    if (!c.link(bench.edit)) return Refusal::irregular;
     bench.commit();
     return success;
 }
@@ -149,7 +149,7 @@ Outcome flip_interface_edge(Workbench& bench, TetId t, VertexId a, VertexId b, f
     add_tets(bench, a, b, first);
     add_tets(bench, a, b, second);
     if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
-    if (!bench.link()) return Refusal::irregular;
+    if (!c.link(bench.edit)) return Refusal::irregular;
     // If exactly two labels meet here and each has at least two tets at the edge, a flip keeps
     // every vertex regular. Positive tets that fill the cavity contain the segment pq inside, so pq
     // was not an edge before. In the cycles of interface neighbours, a and b lose each other, and p
@@ -182,9 +182,9 @@ Outcome split_edge(Workbench& bench, TetId t, VertexId a, VertexId b, double s) 
         bench.edit.added.push_back({{mesh::created_vertex, b, p, q}, label});
     }
     if (const Outcome o = bench.check_shape(0.0F, bench.old_quality()); o.refused()) return o;
-    if (!bench.link()) return Refusal::irregular;
+    if (!c.link(bench.edit)) return Refusal::irregular;
     const VertexId v = bench.commit();
-    bench.tell_split(v, a, b, s);
+    if (bench.listener != nullptr) bench.listener->on_split(v, a, b, s);
     return success;
 }
 

@@ -126,24 +126,6 @@ TetId tet_of(const mesh::Complex& c, const Request& request) {
     return c.find_edge(a, b);
 }
 
-// Whether the bench covers what the operation reads. Smoothing asks for the star of its vertex
-// itself, after it has asked for a known refusal.
-bool covered(Workbench& bench, const Request& request, TetId t) {
-    const VertexId a = request.vertices[0], b = request.vertices[1];
-    const bool edge = a != mesh::none && b != mesh::none;
-    switch (request.operation) {
-        case Operation::smooth_laplacian:
-        case Operation::smooth_optimise: return true;
-        case Operation::edge_removal:
-        case Operation::interface_flip:
-        case Operation::edge_split:
-            // The ring of the edge is a part of both stars.
-            if (edge) return bench.covers(a) || bench.covers(b);
-            [[fallthrough]];
-        default: return bench.covers(bench.complex.tet(t).v);
-    }
-}
-
 }  // namespace
 
 Outcome execute(Workbench& bench, const Request& request) {
@@ -160,7 +142,6 @@ Outcome execute(Workbench& bench, const Request& request) {
     for (const VertexId v : request.vertices) {
         if (v != mesh::none && !mesh::has_vertex(c.tet(t), v)) return Refusal::stale;
     }
-    if (!covered(bench, request, t)) return bench.defer();
     const VertexId a = request.vertices[0], b = request.vertices[1];
     const bool edge = a != mesh::none && b != mesh::none;
     switch (request.operation) {

@@ -91,7 +91,7 @@ Outcome remove_faces(Workbench& bench, TetId t, unsigned face, float accept_abov
     const float must_exceed = std::min(old, accept_above);
     if (!(std::min({e1.now, e2.now, e3.now}) > must_exceed)) return Refusal::quality;
     if (const Outcome o = bench.check_shape(must_exceed, old); o.refused()) return o;
-    if (!bench.link()) return Refusal::irregular;
+    if (!c.link(bench.edit)) return Refusal::irregular;
     bench.commit();
     return success;
 }
@@ -121,18 +121,20 @@ Outcome split_face(Workbench& bench, TetId t, unsigned face, const Vec3& point) 
         change.volume = bench.phase_change();
         if (change.exceeds(bench.bounds_at(c.tet(t).v))) return Refusal::bound;
     }
-    if (!bench.link()) return Refusal::irregular;
+    if (!c.link(bench.edit)) return Refusal::irregular;
     const std::array<VertexId, 3> corners = {c.tet(t).v[mesh::face_vertices[face][0]],
                                              c.tet(t).v[mesh::face_vertices[face][1]],
                                              c.tet(t).v[mesh::face_vertices[face][2]]};
     const VertexId v = bench.commit(change);
-    // Its destination is interpolated between the first two corners, at the point's projection on
-    // their edge.
-    const Vec3 edge = c.position(corners[1]) - c.position(corners[0]);
-    const double s = std::clamp(
-        (point - c.position(corners[0])).dot(edge) / std::max(edge.squaredNorm(), 1e-300), 0.0,
-        1.0);
-    bench.tell_split(v, corners[0], corners[1], s);
+    if (bench.listener != nullptr) {
+        // Its destination is interpolated between the first two corners, at the point's projection
+        // on their edge.
+        const Vec3 edge = c.position(corners[1]) - c.position(corners[0]);
+        const double s = std::clamp(
+            (point - c.position(corners[0])).dot(edge) / std::max(edge.squaredNorm(), 1e-300), 0.0,
+            1.0);
+        bench.listener->on_split(v, corners[0], corners[1], s);
+    }
     return success;
 }
 

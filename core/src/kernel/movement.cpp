@@ -88,7 +88,7 @@ Motion move_towards(Workbench& bench, VertexId v, const Vec3& destination, doubl
     StarScratch& scratch = bench.move.get().star;
     c.cached_star(v, scratch.star, scratch.walk);
     const Motion motion = plan_move(c, bench.limits, v, destination, free_path, scratch);
-    if (motion != Motion::blocked) bench.move_to(v, scratch.place, scratch.star, scratch.qualities);
+    if (motion != Motion::blocked) c.move(v, scratch.place, scratch.star, scratch.qualities);
     return motion;
 }
 

@@ -4,6 +4,7 @@
 // result's least quality must be above min(old least, accept_above). The sections named below are
 // those of method.md.
 
+#include "kernel/star_loop.hpp"
 #include "kernel/workbench.hpp"
 
 namespace dsc::kernel {
@@ -30,6 +31,13 @@ Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, repair:
 /// (section 4.7).
 Outcome collapse_edge_to(Workbench& bench, TetId t, VertexId kept, VertexId removed,
                          const Vec3& place);
+/// Whether v may be smoothed and a gain is possible, or the reason why not (section 4.2).
+/// [parallel]
+Outcome may_smooth(const Workbench& bench, VertexId v, float accept_above);
+/// The place that smooth_laplacian() would give v: reads scratch.star, writes scratch.place and
+/// scratch.qualities. [parallel]
+Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, VertexId v,
+                       float accept_above, StarScratch& scratch);
 /// Moves an interior vertex to the mean of its neighbours (section 4.2).
 Outcome smooth_laplacian(Workbench& bench, VertexId v, float accept_above);
 /// Moves an interior vertex along the gradient of the least quality of its star (section 4.2).

@@ -184,7 +184,6 @@ RegionFault grow(Workbench& bench, Region& region) {
             chain.empty() || (!group.empty() && group.size() <= chain.size()) ? group : chain;
         if (addition.empty()) return RegionFault::irregular;
         for (const TetId t : addition) {
-            if (!bench.owns(t)) return RegionFault::outside;
             if (!contains(region.tets, t)) region.tets.push_back(t);
         }
     }

@@ -9,16 +9,7 @@
 namespace dsc::kernel {
 
 /// Why a region was refused.
-enum class RegionFault : std::uint8_t {
-    none,
-    irregular,
-    too_large,
-    not_a_ball,
-    kind,
-    box,
-    labels,
-    outside,  ///< it leaves the block of the bench
-};
+enum class RegionFault : std::uint8_t { none, irregular, too_large, not_a_ball, kind, box, labels };
 
 /// A set of tets of one label that could take another label.
 struct Region {

@@ -42,7 +42,6 @@ Outcome relabel_tet(Workbench& bench, TetId t) {
         case RegionFault::none: break;
         case RegionFault::box: return Refusal::box;
         case RegionFault::too_large: return Refusal::bound;
-        case RegionFault::outside: return bench.defer();
         default: return Refusal::irregular;
     }
     if (measure(bench, region) != RegionFault::none) return Refusal::irregular;

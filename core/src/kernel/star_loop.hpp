@@ -32,7 +32,7 @@ struct StarScratch {
 class StarLoop {
 public:
     /// Shorter lists are not split.
-    static constexpr std::size_t least_split = 512;
+    static constexpr std::size_t least_split = 16384;
 
     explicit StarLoop(mesh::Complex& complex) : complex_(complex) {}
 
@@ -67,8 +67,8 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_blocks = 16;
-    static constexpr std::size_t least_block = 128;  // vertices
+    static constexpr std::size_t most_blocks = 64;
+    static constexpr std::size_t least_block = 2048;  // vertices
     static constexpr std::uint8_t no_block = 0xff;
 
     struct Entry {

@@ -51,13 +51,60 @@ void Deformer::State::record(std::uint32_t i, Outcome outcome, std::uint32_t dat
         .repair_classes[std::min<std::size_t>(request.repair_class, repair::repair_class_limit - 1)]
         .add(outcome);
     if (!outcome.refused()) return;
-    if (outcome != Refusal::stale && request.tet != mesh::none)
-        queues.fail(request.tet, request.birth_date, date);
+    if (outcome != Refusal::stale && request.tet != mesh::none) queues.fail(request.tet, date);
+}
+
+// Consecutive requests that smooth different vertices may run in parallel.
+struct Deformer::State::Smoothing {
+    State& state;
+    std::uint32_t first;  // request of vertex 0
+    StepReport& report;
+
+    const repair::Request& request(std::size_t i) const { return state.requests[first + i]; }
+    bool decide(std::size_t i, Outcome outcome) const {
+        state.outcomes[first + i] = outcome;
+        return !outcome.refused();
+    }
+    bool ready(std::size_t i) const {
+        return decide(i, may_smooth(state.bench, request(i).vertices[0], request(i).accept_above));
+    }
+    bool attempt(std::size_t i, StarScratch& scratch) const {
+        return decide(i, plan_laplacian(state.complex, state.bench.limits, request(i).vertices[0],
+                                        request(i).accept_above, scratch));
+    }
+    void settle(std::uint32_t i, bool attempted, std::uint32_t date) const {
+        const Outcome outcome = state.outcomes[first + i];
+        if (attempted && outcome.refused()) {
+            state.bench.remember(request(i).vertices[0], Workbench::Smoother::laplacian,
+                                 request(i).accept_above, outcome.reason(), date);
+        }
+        state.record(first + i, outcome, date, report);
+    }
+};
+
+// Whether the request is certainly a Laplacian smoothing at its turn, whatever other smoothings do
+// before it.
+bool Deformer::State::plain_smoothing(const repair::Request& request) const {
+    const VertexId v = request.vertices[0];
+    const TetId t = request.tet;
+    return request.operation == repair::Operation::smooth_laplacian && v != mesh::none &&
+           request.vertices[1] == mesh::none && request.only_below > 1.0F && t != mesh::none &&
+           t < complex.tet_slots() && complex.tet_alive(t) &&
+           complex.birth_date(t) == request.birth_date && mesh::has_vertex(complex.tet(t), v);
+}
+
+std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) {
+    smoothed.clear();
+    for (std::size_t i = first; i < requests.size() && plain_smoothing(requests[i]); ++i)
+        smoothed.push_back(requests[i].vertices[0]);
+    Smoothing action{*this, static_cast<std::uint32_t>(first), report};
+    star_loop.run(smoothed, workers, action);
+    return smoothed.size();
 }
 
 void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool settled,
                              StepReport& report) {
-    const auto dirty = queues.next_round(workers);
+    const auto dirty = queues.next_round();
     note_changes(dirty);
     requests.clear();
     policy.propose(
@@ -67,9 +114,14 @@ void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool se
                                                      : std::span<const double>()},
         requests);
     outcomes.resize(requests.size());
-    repair_blocks.run(requests, workers, [&](std::uint32_t i, Outcome outcome, std::uint32_t date) {
-        record(i, outcome, date, report);
-    });
+    for (std::size_t i = 0; i < requests.size();) {
+        const std::size_t done = smooth_from(i, report);
+        i += done;
+        if (done > 0) continue;
+        const Outcome outcome = execute(bench, requests[i]);
+        record(static_cast<std::uint32_t>(i), outcome, complex.clock(), report);
+        ++i;
+    }
     std::swap(last_requests, requests);
 }
 

@@ -22,7 +22,7 @@ double between(double a, double b, double s) {
 }  // namespace
 
 void VertexFields::grow() {
-    if (empty() || births_.size() >= complex_.vertex_slots()) return;
+    if (births_.size() >= complex_.vertex_slots()) return;
     births_.resize(complex_.vertex_slots(), mesh::none);
     for (Column& column : columns_) column.values.resize(births_.size(), no_value);
 }
@@ -77,35 +77,27 @@ std::vector<std::string> VertexFields::names() const {
     return names;
 }
 
-void VertexFields::follow(const Split& split) {
-    if (empty()) return;
-    grow();
-    claim(split.vertex);
-    for (Column& column : columns_)
-        column.values[split.vertex] =
-            between(value(column, split.a), value(column, split.b), split.s);
+void VertexFields::on_split(VertexId vertex, VertexId a, VertexId b, double s) {
+    if (!empty()) {
+        grow();
+        claim(vertex);
+        for (Column& column : columns_)
+            column.values[vertex] = between(value(column, a), value(column, b), s);
+    }
+    next_.on_split(vertex, a, b, s);
 }
 
-void VertexFields::follow(const Merge& merge) {
+void VertexFields::on_collapse(VertexId kept, VertexId removed, double s) {
     // The removed id no longer exists, but its slot is not used again yet. An end that is not on
     // the interface is ignored.
-    if (empty() || !complex_.on_interface(merge.kept)) return;
-    grow();
-    claim(merge.kept);
-    for (Column& column : columns_) {
-        double& kept = column.values[merge.kept];
-        if (std::isnan(kept)) kept = value(column, merge.removed);
+    if (!empty() && complex_.on_interface(kept)) {
+        grow();
+        claim(kept);
+        for (Column& column : columns_) {
+            if (std::isnan(column.values[kept])) column.values[kept] = value(column, removed);
+        }
     }
-}
-
-void VertexFields::on_split(const Split& split) {
-    follow(split);
-    next_.on_split(split);
-}
-
-void VertexFields::on_merge(const Merge& merge) {
-    follow(merge);
-    next_.on_merge(merge);
+    next_.on_collapse(kept, removed, s);
 }
 
 // One ring: gives values to those of `missing` that have a neighbour with a value; the others stay

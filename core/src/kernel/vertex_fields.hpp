@@ -34,19 +34,9 @@ public:
     /// Names in the order in which they were set first.
     std::vector<std::string> names() const;
 
-    void on_split(const Split& split) override;
-    void on_merge(const Merge& merge) override;
-
-    /// The same without a report to `next`. Threads may follow different vertices at the same time
-    /// after grow(). [parallel]
-    void follow(const Split& split);
-    void follow(const Merge& merge);
-    /// Makes room for all vertex slots. [step]
-    void grow();
-    /// The vertex has received another birth. [step]
-    void renew(VertexId v) {
-        if (!empty()) births_[v] = complex_.birth(v);
-    }
+    void on_split(VertexId vertex, VertexId a, VertexId b, double s) override;
+    void on_collapse(VertexId kept, VertexId removed, double s) override;
+    void on_interface_collapse(VertexId kept) override { next_.on_interface_collapse(kept); }
 
     void save(StateWriter& out) const;
     void load(StateReader& in);
@@ -58,6 +48,7 @@ private:
         std::vector<double> values;
     };
 
+    void grow();
     bool claim(VertexId v);
     double value(const Column& column, VertexId v) const;
     bool lacks(VertexId v) const;

@@ -7,7 +7,6 @@
 
 #include "kernel/creases.hpp"
 #include "kernel/operations.hpp"
-#include "kernel/star_loop.hpp"
 
 namespace dsc::kernel {
 
@@ -60,17 +59,15 @@ Vec3 quality_gradient(const Vec3& v, const Vec3& b, const Vec3& c, const Vec3& d
     return std::sqrt(2.0) * (det_gradient / (m * root) - 1.5 * det / (m * m * root) * m_gradient);
 }
 
-// Whether v may be smoothed and a gain is possible, or the reason why not. A request that the block
-// cannot execute is deferred before the memory is asked: a resumed run has an empty memory.
-Outcome may_smooth(Workbench& bench, VertexId v, Smoother smoother, float accept_above) {
+}  // namespace
+
+Outcome may_smooth(const Workbench& bench, VertexId v, float accept_above) {
     if (const Outcome o = smoothable(bench.complex, v); o.refused()) return o;
-    if (!bench.covers(v)) return bench.defer();
-    if (const auto known = bench.known_refusal(v, smoother, accept_above)) return *known;
+    if (const auto known = bench.known_refusal(v, Workbench::Smoother::laplacian, accept_above))
+        return *known;
     return success;
 }
 
-// The place that smooth_laplacian() gives v: reads scratch.star, writes scratch.place and
-// scratch.qualities.
 Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, VertexId v,
                        float accept_above, StarScratch& scratch) {
     complex.cached_neighbours(v, scratch.star, scratch.neighbours, scratch.walk);
@@ -88,25 +85,24 @@ Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, Verte
     return success;
 }
 
-}  // namespace
-
 Outcome smooth_laplacian(Workbench& bench, VertexId v, float accept_above) {
-    if (const Outcome o = may_smooth(bench, v, Smoother::laplacian, accept_above); o.refused())
-        return o;
+    if (const Outcome o = may_smooth(bench, v, accept_above); o.refused()) return o;
     StarScratch& scratch = bench.smooth.get().laplacian;
-    bench.star(v, scratch.star);
+    bench.complex.cached_star(v, scratch.star, scratch.walk);
     const Outcome o = plan_laplacian(bench.complex, bench.limits, v, accept_above, scratch);
-    if (o.refused()) return bench.remember(v, Smoother::laplacian, accept_above, o.reason());
-    bench.move_to(v, scratch.place, scratch.star, scratch.qualities);
+    if (o.refused())
+        return bench.remember(v, Workbench::Smoother::laplacian, accept_above, o.reason());
+    bench.complex.move(v, scratch.place, scratch.star, scratch.qualities);
     return success;
 }
 
 Outcome smooth_optimise(Workbench& bench, VertexId v) {
-    constexpr auto smoother = Smoother::optimise;
+    constexpr auto smoother = Workbench::Smoother::optimise;
     mesh::Complex& c = bench.complex;
-    if (const Outcome o = may_smooth(bench, v, smoother, 0.0F); o.refused()) return o;
+    if (const Outcome o = smoothable(c, v); o.refused()) return o;
+    if (const auto known = bench.known_refusal(v, smoother, 0.0F)) return *known;
     auto& [laplacian, star, qualities, tried] = bench.smooth.get();
-    bench.star(v, star);
+    c.star(v, star);
     const float old = star_old(c, star);
     float best = old;
     Vec3 place = c.position(v);
@@ -149,7 +145,7 @@ Outcome smooth_optimise(Workbench& bench, VertexId v) {
     if (!(best > old * 1.01F)) return bench.remember(v, smoother, 0.0F, Refusal::no_gain);
     if (!star_positive(c, star, v, place, qualities))
         return bench.remember(v, smoother, 0.0F, Refusal::quality);
-    bench.move_to(v, place, star, qualities);
+    c.move(v, place, star, qualities);
     return success;
 }
 
@@ -157,7 +153,7 @@ Outcome split_vertex(Workbench& bench, VertexId v, VertexId w) {
     mesh::Complex& c = bench.complex;
     if (c.on_box(v)) return Refusal::box;
     auto& [star, group, concerned] = bench.vertex_split.get();
-    bench.star(v, star);
+    c.star(v, star);
     const Vec3 direction = c.position(w) - c.position(v);
     mesh::Label label = 0;
     bool found = false;
@@ -185,7 +181,7 @@ Outcome split_vertex(Workbench& bench, VertexId v, VertexId w) {
         return Refusal::quality;
     }
     if (const Outcome o = bench.check_shape(0.0F, bench.old_quality()); o.refused()) return o;
-    if (!bench.link()) return Refusal::irregular;
+    if (!c.link(bench.edit)) return Refusal::irregular;
     InterfaceChange change;
     // If the star's interface corner is in the group, the new vertex would take over the corner and
     // the geometry would change.
@@ -198,7 +194,7 @@ Outcome split_vertex(Workbench& bench, VertexId v, VertexId w) {
         if (!(change.volume > 0.0)) change.distance = 0.0;
     }
     const VertexId created = bench.commit(change);
-    bench.tell_split(created, v, v, 0.0);
+    if (bench.listener != nullptr) bench.listener->on_split(created, v, v, 0.0);
     return success;
 }
 

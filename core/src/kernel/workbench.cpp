@@ -95,56 +95,17 @@ double Workbench::phase_change() const {
     return 0.5 * total;
 }
 
-bool Workbench::owns(TetId t) const {
-    if (blocks_ == nullptr) return true;
-    const auto& v = complex.tet(t).v;
-    return std::all_of(v.begin(), v.end(),
-                       [this](VertexId x) { return blocks_->block_of(x) == block_; });
-}
-
-bool Workbench::link() {
-    // The operations ask for what they need before, so that this refuses nothing as a rule. It
-    // guarantees that a block changes only tets of its own.
-    if (!std::all_of(edit.removed.begin(), edit.removed.end(),
-                     [this](TetId t) { return owns(t); })) {
-        deferred_ = true;
-        return false;
-    }
-    return complex.link(edit, lane_);
-}
-
 VertexId Workbench::commit(const InterfaceChange& change) {
     sums.distance += change.distance;
     sums.volume += change.volume;
-    return complex.replace(edit, lane_);
+    return complex.replace(edit);
 }
 
 void Workbench::commit(const Relabelling& relabelling, const InterfaceChange& change) {
     sums.distance += change.distance;
     sums.volume += change.volume;
     sums.relabelled += relabelling.volume;
-    complex.relabel(relabelling.tets, relabelling.label, lane_);
-}
-
-void Workbench::move_to(VertexId v, const Vec3& place, std::span<const TetId> star,
-                        std::span<const float> qualities) {
-    if (qualities.empty()) {
-        complex.move(v, place, star, lane_);
-    } else {
-        complex.move(v, place, star, qualities, lane_);
-    }
-}
-
-void Workbench::tell_split(VertexId vertex, VertexId a, VertexId b, double s) {
-    if (listener == nullptr) return;
-    listener->on_split(
-        {vertex, a, b, s, complex.movable(vertex), complex.position(a), complex.position(b)});
-}
-
-void Workbench::tell_merge(VertexId kept, VertexId removed, double s, bool interface) {
-    if (listener == nullptr) return;
-    listener->on_merge(
-        {kept, removed, s, interface, complex.movable(kept), complex.position(kept)});
+    complex.relabel(relabelling.tets, relabelling.label);
 }
 
 void Workbench::interface_fan(VertexId v, std::span<const TetId> star,
@@ -163,18 +124,25 @@ void Workbench::interface_fan(VertexId v, std::span<const TetId> star,
     }
 }
 
+std::uint32_t Workbench::new_vertex_epoch() {
+    if (vertex_marks_.size() < complex.vertex_slots())
+        vertex_marks_.resize(complex.vertex_slots(), 0);
+    return ++vertex_epoch_;
+}
+
 void Workbench::shared_interface_vertices(std::span<const TetId> star_a,
                                           std::span<const TetId> star_b,
                                           std::vector<VertexId>& out) {
     out.clear();
-    walk_.clear();
-    listed_.clear();
+    const std::uint32_t first_star = new_vertex_epoch(), listed = new_vertex_epoch();
     for (const TetId t : star_a) {
-        for (const VertexId w : complex.tet(t).v) walk_.insert(w);
+        for (const VertexId w : complex.tet(t).v) vertex_marks_[w] = first_star;
     }
     for (const TetId t : star_b) {
         for (const VertexId w : complex.tet(t).v) {
-            if (walk_.contains(w) && complex.on_interface(w) && listed_.insert(w)) out.push_back(w);
+            if (vertex_marks_[w] != first_star || !complex.on_interface(w)) continue;
+            vertex_marks_[w] = listed;
+            out.push_back(w);
         }
     }
     std::sort(out.begin(), out.end());
@@ -190,6 +158,27 @@ void Workbench::cavity_interface_vertices(std::vector<VertexId>& out) const {
     std::sort(out.begin(), out.end());
     out.erase(std::unique(out.begin(), out.end()), out.end());
     out.push_back(mesh::created_vertex);
+}
+
+std::optional<Refusal> Workbench::known_refusal(VertexId v, Smoother smoother,
+                                                float accept_above) const {
+    if (v >= memory_.size()) return std::nullopt;
+    const auto i = static_cast<std::size_t>(smoother);
+    const Memory& m = memory_[v];
+    if (complex.vertex_date(v) > m.date[i] || !m.last[i].refused()) return std::nullopt;
+    if (smoother == Smoother::laplacian && m.accept_above != accept_above) return std::nullopt;
+    return m.last[i].reason();
+}
+
+Refusal Workbench::remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal,
+                            std::uint32_t date) {
+    if (memory_.size() < complex.vertex_slots()) memory_.resize(complex.vertex_slots());
+    const auto i = static_cast<std::size_t>(smoother);
+    Memory& m = memory_[v];
+    m.date[i] = date;
+    m.last[i] = refusal;
+    if (smoother == Smoother::laplacian) m.accept_above = accept_above;
+    return refusal;
 }
 
 bool Workbench::flat(VertexId v, std::span<const TetId> star) {

@@ -4,19 +4,15 @@
 // costs nothing.
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <dsc/mesh/complex.hpp>
 #include <dsc/mesh/local_star.hpp>
 #include <dsc/repair/contract.hpp>
 
-#include "kernel/refusal_memory.hpp"
 #include "kernel/scratch.hpp"
-#include "kernel/space_blocks.hpp"
 
 namespace dsc::kernel {
 
@@ -70,23 +66,6 @@ struct Relabelling {
     double volume = 0.0;  ///< of the tets
 };
 
-/// A vertex that an edit has made at (1 - s) a + s b, and what was so at that time.
-struct Split {
-    VertexId vertex, a, b;
-    double s;
-    bool movable;  ///< the vertex
-    Vec3 at_a, at_b;
-};
-
-/// A vertex that an edit has merged into another one, which now lies at (1 - s) kept + s removed.
-struct Merge {
-    VertexId kept, removed;
-    double s;
-    bool interface;  ///< the interface changed: a component may have become small
-    bool movable;    ///< the kept vertex
-    Vec3 at_kept;
-};
-
 /// Receives the vertices that edits create and remove, so that destinations can follow.
 class EditListener {
 public:
@@ -94,8 +73,13 @@ public:
     EditListener(const EditListener&) = delete;
     EditListener& operator=(const EditListener&) = delete;
     virtual ~EditListener() = default;
-    virtual void on_split(const Split& split) = 0;
-    virtual void on_merge(const Merge& merge) = 0;
+    /// `vertex` was made at (1 - s) a + s b.
+    virtual void on_split(VertexId vertex, VertexId a, VertexId b, double s) = 0;
+    /// `removed` was merged into `kept`, which now lies at (1 - s) kept + s removed.
+    virtual void on_collapse(VertexId kept, VertexId removed, double s) = 0;
+    /// A collapse changed the interface within these vertices' stars: a component may have become
+    /// small.
+    virtual void on_interface_collapse(VertexId kept) = 0;
 };
 
 /// Sums over everything that was committed.
@@ -103,28 +87,14 @@ struct EditSums {
     double distance = 0.0;    ///< of the changes of the interface
     double volume = 0.0;      ///< of the changes of the interface
     double relabelled = 0.0;  ///< volume of the relabelled tets
-    EditSums& operator+=(const EditSums& other) {
-        distance += other.distance;
-        volume += other.volume;
-        relabelled += other.relabelled;
-        return *this;
-    }
 };
 
 class Workbench {
 public:
-    explicit Workbench(mesh::Complex& target)
-        : complex(target),
-          star_(target),
-          lane_(target.serial_lane()),
-          memory_(std::make_shared<RefusalMemory>()) {}
-    /// For a block of space, beside other ones; shares the remembered refusals with `main`.
-    Workbench(const Workbench& main, mesh::Lane& lane, SpaceBlocks& blocks)
-        : complex(main.complex),
-          star_(main.complex),
-          lane_(lane),
-          blocks_(&blocks),
-          memory_(main.memory_) {}
+    /// The kinds of smoothing for which refusals are remembered.
+    enum class Smoother : std::uint8_t { laplacian, optimise };
+
+    explicit Workbench(mesh::Complex& target) : complex(target), star_(target) {}
 
     mesh::Complex& complex;
     Limits limits;
@@ -145,35 +115,6 @@ public:
     Scratch<RelabelScratch> relabel;
     Scratch<RegionScratch> region;
     Scratch<CreaseScratch> creases;
-
-    // ---- work in a block of space
-    /// Limits the bench to a block; it must have been made for one.
-    void enter(unsigned block) { block_ = block; }
-    /// Whether the operation may use the whole stars of these vertices: in a block they must be
-    /// vertices of the block, with all their neighbours.
-    bool covers(std::span<const VertexId> vertices) {
-        return blocks_ == nullptr || std::all_of(vertices.begin(), vertices.end(), [this](auto v) {
-                   return blocks_->inner(v, block_, around_, walk_);
-               });
-    }
-    bool covers(VertexId v) { return covers(std::span(&v, 1)); }
-    /// Whether the operation may change the tet: in a block, its vertices must belong to the block.
-    bool owns(TetId t) const;
-    /// The outcome of a request that must wait until the work in blocks has ended, because it needs
-    /// more than the block.
-    Outcome defer() {
-        deferred_ = true;
-        return Refusal::stale;
-    }
-    /// Whether a part of the request was deferred since the last call.
-    bool take_deferred() {
-        const bool shortage = lane_.take_shortage();
-        return std::exchange(deferred_, false) || shortage;
-    }
-    std::uint32_t clock() const { return lane_.clock(); }
-
-    /// The tets of v.
-    void star(VertexId v, std::vector<TetId>& out) { complex.cached_star(v, out, walk_); }
 
     /// Position after the edit's changes.
     const Vec3& at(VertexId v) const {
@@ -206,25 +147,12 @@ public:
     /// Volume that changes phase: half the sum over labels of |added - removed|.
     double phase_change() const;
 
-    /// Complex::link() for the edit; also false if the edit is deferred.
-    bool link();
-
-    // Operations change the complex only by these functions, of which the first two also count the
-    // change in the sums. (The repair of irregular vertices after a relabelling is
-    // mesh::unpinch().)
+    // Operations replace and relabel tets only by these two functions, which also count the change
+    // in the sums. (The repair of irregular vertices after a relabelling is mesh::unpinch().)
     /// Commits the linked edit. Returns the vertex that it creates, or none.
     VertexId commit(const InterfaceChange& change = {});
     /// Gives the tets their new label.
     void commit(const Relabelling& relabelling, const InterfaceChange& change = {});
-    /// Moves a vertex to a place where its tets have these qualities, in the order of the star. The
-    /// qualities are computed if there are none.
-    void move_to(VertexId v, const Vec3& place, std::span<const TetId> star,
-                 std::span<const float> qualities = {});
-    /// Tells the listener, after the commit, that `vertex` was made at (1 - s) a + s b.
-    void tell_split(VertexId vertex, VertexId a, VertexId b, double s);
-    /// Tells the listener, after the commit, that `removed` was merged into `kept`, which now lies
-    /// at (1 - s) kept + s removed.
-    void tell_merge(VertexId kept, VertexId removed, double s, bool interface);
 
     /// Interface vertices that both stars contain, by id.
     void shared_interface_vertices(std::span<const TetId> star_a, std::span<const TetId> star_b,
@@ -233,17 +161,17 @@ public:
     /// creates.
     void cavity_interface_vertices(std::vector<VertexId>& out) const;
 
-    /// The reason for which the smoothing would be refused again, or nothing if an attempt is
-    /// useful.
-    std::optional<Refusal> known_refusal(VertexId v, Smoother smoother, float accept_above) const {
-        return memory_->find(complex, v, smoother, accept_above);
-    }
+    /// A refused smoothing would be refused again as long as nothing in the vertex' star has
+    /// changed: the reason of that refusal, or nothing if an attempt is useful. `smoother`
+    /// distinguishes the kinds of smoothing of one vertex.
+    std::optional<Refusal> known_refusal(VertexId v, Smoother smoother, float accept_above) const;
     Refusal remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal) {
-        memory_->grow(complex.vertex_slots());
-        memory_->note(v, smoother, accept_above, refusal, clock());
-        return refusal;
+        return remember(v, smoother, accept_above, refusal, complex.clock());
     }
-    RefusalMemory& refusals() { return *memory_; }
+    Refusal remember(VertexId v, Smoother smoother, float accept_above, Refusal refusal,
+                     std::uint32_t date);
+    /// Forgets all refusals, because the limits have changed.
+    void forget_refusals() { memory_.clear(); }
 
     /// Whether the interface faces round v are flat to each other (signed normals). `star`: the
     /// tets of v.
@@ -257,16 +185,21 @@ public:
 
 private:
     mesh::LocalStar star_;
-    mesh::Lane& lane_;
-    SpaceBlocks* blocks_ = nullptr;  // null: the bench may change everything
-    unsigned block_ = 0;
-    bool deferred_ = false;
-    std::shared_ptr<RefusalMemory> memory_;
+    std::uint32_t new_vertex_epoch();
 
     std::vector<std::array<VertexId, 3>> fan_;
     std::vector<Vec3> normals_;
-    std::vector<TetId> around_;
-    mesh::TetIndex walk_, listed_;
+
+    // Refusals at a vertex, by kind of smoothing: the change clock and the reason. If another
+    // vertex takes the slot, its star is younger than the remembered clock.
+    struct Memory {
+        std::array<std::uint32_t, 2> date = {0, 0};
+        float accept_above = 0.0F;  // of the Laplacian; the other kind has no bound
+        std::array<Outcome, 2> last = {};
+    };
+    std::vector<Memory> memory_;  // per vertex
+    std::vector<std::uint32_t> vertex_marks_;
+    std::uint32_t vertex_epoch_ = 0;
 };
 
 }  // namespace dsc::kernel

@@ -8,6 +8,12 @@
 #include <dsc/geometry/quality.hpp>
 
 namespace dsc::mesh {
+namespace {
+
+constexpr float no_quality = 2.0F;  // of a slot without a tet
+
+}  // namespace
+
 double Complex::volume(TetId t) const {
     const auto& v = tets_[t].v;
     return geometry::tet_volume(position(v[0]), position(v[1]), position(v[2]), position(v[3]));
@@ -19,16 +25,62 @@ float Complex::least_quality() const {
     return least;
 }
 
-void Complex::touch(TetId t, Lane& lane) {
-    if (dates_[t] <= taken_clock_) lane.changes_.push_back(t);
-    dates_[t] = lane.clock_;
-    for (const VertexId v : tets_[t].v) vertices_[v].date = lane.clock_;
+VertexId Complex::allocate_vertex(const Vec3& position) {
+    VertexId v = none;
+    if (free_vertices_.empty()) {
+        v = static_cast<VertexId>(vertices_.size());
+        vertices_.emplace_back();
+        shape_dates_.push_back(0);
+        stars_.grow(vertices_.size());
+    } else {
+        v = free_vertices_.back();
+        free_vertices_.pop_back();
+    }
+    vertices_[v] = {position, none, next_birth_++, clock_, no_slot, 1, 0};
+    return v;
+}
+
+TetId Complex::allocate_tet() {
+    if (!free_tets_.empty()) {
+        const TetId t = free_tets_.back();
+        free_tets_.pop_back();
+        return t;
+    }
+    const auto t = static_cast<TetId>(tets_.size());
+    tets_.emplace_back();
+    labels_.push_back(0);
+    qualities_.push_back(0);
+    dates_.push_back(0);
+    birth_dates_.push_back(0);
+    return t;
+}
+
+void Complex::touch(TetId t) {
+    if (dates_[t] <= taken_clock_) changes_.push_back(t);
+    dates_[t] = clock_;
+    for (const VertexId v : tets_[t].v) vertices_[v].date = clock_;
 }
 
 void Complex::take_changes(std::vector<TetId>& out) {
     out.clear();
-    std::swap(out, serial_.changes_);
-    taken_clock_ = serial_.clock_;
+    std::swap(out, changes_);
+    taken_clock_ = clock_;
+}
+
+void Complex::set_phases(VertexId v, unsigned phases) {
+    Vertex& vertex = vertices_[v];
+    vertex.phases = phases & 3U;
+    const bool listed = vertex.interface_slot != no_slot;
+    if (phases > 1 && !listed) {
+        vertex.interface_slot = static_cast<std::uint32_t>(interface_.size()) & no_slot;
+        interface_.push_back(v);
+    } else if (phases <= 1 && listed) {
+        const VertexId last = interface_.back();
+        interface_[vertex.interface_slot] = last;
+        vertices_[last].interface_slot = vertex.interface_slot;
+        interface_.pop_back();
+        vertex.interface_slot = no_slot;
+    }
 }
 
 unsigned Complex::count_phases(VertexId v, std::span<const TetId> star) const {
@@ -45,21 +97,20 @@ unsigned Complex::count_phases(VertexId v, std::span<const TetId> star) const {
     return count;
 }
 
-void Complex::refresh_phases(VertexId v, Lane& lane) {
-    std::vector<TetId>& star = lane.tables_.star;
-    cached_star(v, star, lane.tables_.places);
-    set_phases(v, count_phases(v, star), lane);
+void Complex::refresh_phases(VertexId v) {
+    star(v, star_scratch_);
+    set_phases(v, count_phases(v, star_scratch_));
 }
 
-void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star, Lane& lane) {
-    ++lane.clock_;
+void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star) {
+    ++clock_;
     vertices_[v].position = position;
     for (const TetId t : star) {
         const auto& x = tets_[t].v;
         qualities_[t] =
             static_cast<float>(geometry::tet_quality(this->position(x[0]), this->position(x[1]),
                                                      this->position(x[2]), this->position(x[3])));
-        touch(t, lane);
+        touch(t);
     }
 }
 
@@ -71,19 +122,19 @@ void Complex::place(VertexId v, const Vec3& position, std::span<const TetId> sta
 
 // The vertices of a star are v and its neighbours. If the neighbours are known, each is dated once
 // and not in every tet.
-void Complex::note_change(VertexId v, std::span<const TetId> star, Lane& lane) {
-    ++lane.clock_;
+void Complex::note_change(VertexId v, std::span<const TetId> star) {
+    ++clock_;
     const std::span<const VertexId> neighbours = stars_.neighbours(v);
     if (neighbours.empty()) {
-        for (const TetId t : star) touch(t, lane);
+        for (const TetId t : star) touch(t);
         return;
     }
     for (const TetId t : star) {
-        if (dates_[t] <= taken_clock_) lane.changes_.push_back(t);
-        dates_[t] = lane.clock_;
+        if (dates_[t] <= taken_clock_) changes_.push_back(t);
+        dates_[t] = clock_;
     }
-    vertices_[v].date = lane.clock_;
-    for (const VertexId w : neighbours) vertices_[w].date = lane.clock_;
+    vertices_[v].date = clock_;
+    for (const VertexId w : neighbours) vertices_[w].date = clock_;
 }
 
 void Complex::date_star(VertexId v, std::span<const TetId> star, std::uint32_t clock,
@@ -112,33 +163,32 @@ void Complex::date_star(VertexId v, std::span<const TetId> star, std::uint32_t c
 }
 
 void Complex::note_changes(std::uint32_t clock, std::span<const TetId> changed) {
-    serial_.clock_ = clock;
-    serial_.changes_.insert(serial_.changes_.end(), changed.begin(), changed.end());
+    clock_ = clock;
+    changes_.insert(changes_.end(), changed.begin(), changed.end());
 }
 
-void Complex::relabel(std::span<const TetId> tets, Label label, Lane& lane) {
-    ++lane.clock_;
-    EditTables& tables = lane.tables_;
-    tables.places.clear();
-    tables.relabelled.clear();
+void Complex::relabel(std::span<const TetId> tets, Label label) {
+    ++clock_;
+    places_.clear();
+    relabelled_.clear();
     for (const TetId t : tets) {
         labels_[t] = label;
-        touch(t, lane);
+        touch(t);
         for (const VertexId v : tets_[t].v) {
-            if (tables.places.insert(v)) tables.relabelled.push_back(v);
+            if (places_.insert(v)) relabelled_.push_back(v);
         }
     }
-    for (const VertexId v : tables.relabelled) {
-        shape_dates_[v] = lane.clock_;
-        refresh_phases(v, lane);
+    for (const VertexId v : relabelled_) {
+        shape_dates_[v] = clock_;
+        refresh_phases(v);
     }
 }
 
-// Whether the labels round some vertices may change; tables.relabelled then contains the existing
+// Whether the labels round some vertices may change; relabelled_ then contains the existing
 // vertices among them. If a vertex has the same labels in the cavity before and after, as in nearly
 // every edit, the labels of its star do not change either.
-bool Complex::find_relabelled(const Edit& edit, EditTables& tables) {
-    tables.relabelled.clear();
+bool Complex::find_relabelled(const Edit& edit) {
+    relabelled_.clear();
     const Label first = edit.added.empty() ? 0 : edit.added.front().label;
     const auto same = [first](Label label) { return label == first; };
     if (std::all_of(edit.removed.begin(), edit.removed.end(),
@@ -147,8 +197,8 @@ bool Complex::find_relabelled(const Edit& edit, EditTables& tables) {
                     [&](const NewTet& t) { return same(t.label); })) {
         return false;
     }
-    tables.places.clear();
-    tables.cavity_labels.clear();
+    places_.clear();
+    cavity_labels_.clear();
     // A set of labels as bits, exact for labels up to 63; with larger labels, every vertex of the
     // cavity is tested.
     const auto bit = [](Label label) {
@@ -156,8 +206,8 @@ bool Complex::find_relabelled(const Edit& edit, EditTables& tables) {
     };
     const auto note = [&](VertexId v, Label label, std::size_t when) {
         if (v == created_vertex) return;
-        if (tables.places.insert(v)) tables.cavity_labels.push_back({v, {0, 0}});
-        tables.cavity_labels[tables.places.find(v)].labels[when] |= bit(label);
+        if (places_.insert(v)) cavity_labels_.push_back({v, {0, 0}});
+        cavity_labels_[places_.find(v)].labels[when] |= bit(label);
     };
     const auto small = [](Label label) { return label >= 0 && label < 64; };
     bool exact = true;
@@ -169,30 +219,28 @@ bool Complex::find_relabelled(const Edit& edit, EditTables& tables) {
         exact = exact && small(tet.label);
         for (const VertexId v : tet.v) note(v, tet.label, 1);
     }
-    for (const EditTables::CavityLabels& entry : tables.cavity_labels) {
+    for (const CavityLabels& entry : cavity_labels_) {
         if (entry.vertex != edit.deleted && (!exact || entry.labels[0] != entry.labels[1]))
-            tables.relabelled.push_back(entry.vertex);
+            relabelled_.push_back(entry.vertex);
     }
     return true;
 }
 
-VertexId Complex::replace(Edit& edit, Lane& lane) {
-    ++lane.clock_;
-    EditTables& tables = lane.tables_;
-    const bool several_labels = find_relabelled(edit, tables);
+VertexId Complex::replace(Edit& edit) {
+    ++clock_;
+    const bool several_labels = find_relabelled(edit);
 
     VertexId created = none;
-    if (edit.creates) created = allocate_vertex(edit.created_at, lane);
+    if (edit.creates) created = allocate_vertex(edit.created_at);
     if (edit.moved != none) vertices_[edit.moved].position = edit.moved_to;
 
     // The slots of the cavity are filled first, so that new tets stay near old ones in memory.
-    std::vector<TetId>& added = tables.added;
-    added.resize(edit.added.size());
+    last_added_.resize(edit.added.size());
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
-        added[i] = i < edit.removed.size() ? edit.removed[i] : allocate_tet(lane);
+        last_added_[i] = i < edit.removed.size() ? edit.removed[i] : allocate_tet();
     }
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
-        const TetId t = added[i];
+        const TetId t = last_added_[i];
         Tet& tet = tets_[t];
         tet.v = edit.added[i].v;
         for (VertexId& v : tet.v) {
@@ -204,45 +252,45 @@ VertexId Complex::replace(Edit& edit, Lane& lane) {
                 tet.n[f] = none;
             } else if ((code & Edit::virtual_code) != 0) {
                 const std::uint32_t local = code & ~Edit::virtual_code;
-                tet.n[f] = 4 * added[local >> 2U] + (local & 3U);
+                tet.n[f] = 4 * last_added_[local >> 2U] + (local & 3U);
             } else {
                 tet.n[f] = code;
                 tets_[neighbour_tet(code)].n[neighbour_face(code)] = 4 * t + f;
             }
         }
         labels_[t] = edit.added[i].label;
-        birth_dates_[t] = lane.clock_;
+        birth_dates_[t] = clock_;
         for (const VertexId v : tet.v) {
             vertices_[v].seed = t;
-            shape_dates_[v] = lane.clock_;
+            shape_dates_[v] = clock_;
             stars_.forget(v);
         }
     }
     const bool have_qualities = edit.qualities.size() == edit.added.size();
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
-        const TetId t = added[i];
+        const TetId t = last_added_[i];
         const auto& x = tets_[t].v;
         qualities_[t] = have_qualities
                             ? edit.qualities[i]
                             : static_cast<float>(geometry::tet_quality(
                                   position(x[0]), position(x[1]), position(x[2]), position(x[3])));
-        touch(t, lane);
+        touch(t);
     }
     for (std::size_t i = edit.added.size(); i < edit.removed.size(); ++i) {
         const TetId t = edit.removed[i];
         tets_[t].v[0] = none;
         qualities_[t] = no_quality;
-        birth_dates_[t] = lane.clock_;
-        lane.free_tets_.push_back(t);
+        birth_dates_[t] = clock_;
+        free_tets_.push_back(t);
     }
     if (edit.deleted != none) {
-        set_phases(edit.deleted, 1, lane);
+        set_phases(edit.deleted, 1);
         vertices_[edit.deleted].seed = none;
         stars_.forget(edit.deleted);
-        (lane.open_ ? lane.deleted_ : lane.free_vertices_).push_back(edit.deleted);
+        free_vertices_.push_back(edit.deleted);
     }
-    for (const VertexId v : tables.relabelled) refresh_phases(v, lane);
-    if (several_labels && created != none) refresh_phases(created, lane);
+    for (const VertexId v : relabelled_) refresh_phases(v);
+    if (several_labels && created != none) refresh_phases(created);
     return created;
 }
 
@@ -252,7 +300,7 @@ Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets,
     Complex c;
     c.vertices_.reserve(points.size());
     for (const Vec3& p : points) {
-        c.vertices_.push_back({p, none, c.serial_.next_birth_++, 0, no_slot, 1, 0});
+        c.vertices_.push_back({p, none, c.next_birth_++, 0, no_slot, 1, 0});
         c.box_.extend(p);
     }
     c.shape_dates_.assign(c.vertices_.size(), 1);
@@ -261,10 +309,10 @@ Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets,
     c.labels_.assign(labels.begin(), labels.end());
     const std::size_t n = c.tets_.size();
     c.qualities_.resize(n);
-    c.serial_.changes_.reserve(n);
+    c.changes_.reserve(n);
     c.dates_.assign(n, 0);
     c.birth_dates_.assign(n, 1);
-    c.serial_.clock_ = 1;
+    c.clock_ = 1;
     for_blocks(workers, n, assembled_tets, [&c](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
             const auto& v = c.tets_[t].v;
@@ -279,7 +327,7 @@ Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets,
             if (c.tets_[t].n[f] != none) continue;
             for (const auto i : face_vertices[f]) c.vertices_[v[i]].on_box = 1;
         }
-        c.touch(t, c.serial_);
+        c.touch(t);
     }
     // Vertices with one label in their star need no change; only vertices of interface faces are
     // tested.
@@ -303,7 +351,7 @@ Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets,
             phases[i] = static_cast<std::uint8_t>(c.count_phases(ends[i], around));
         }
     });
-    for (std::size_t i = 0; i < ends.size(); ++i) c.set_phases(ends[i], phases[i], c.serial_);
+    for (std::size_t i = 0; i < ends.size(); ++i) c.set_phases(ends[i], phases[i]);
     return c;
 }
 

@@ -12,13 +12,13 @@ void Complex::save(StateWriter& out) const {
     out.list(qualities_);
     out.list(dates_);
     out.list(birth_dates_);
-    out.list(serial_.free_vertices_);
-    out.list(serial_.free_tets_);
+    out.list(free_vertices_);
+    out.list(free_tets_);
     out.list(interface_);
-    out.list(serial_.changes_);
+    out.list(changes_);
     out.value(taken_clock_);
-    out.value(serial_.clock_);
-    out.value(serial_.next_birth_);
+    out.value(clock_);
+    out.value(next_birth_);
     out.value(box_.low);
     out.value(box_.high);
 }
@@ -33,13 +33,13 @@ Complex Complex::load(StateReader& in) {
     in.list(c.qualities_);
     in.list(c.dates_);
     in.list(c.birth_dates_);
-    in.list(c.serial_.free_vertices_);
-    in.list(c.serial_.free_tets_);
+    in.list(c.free_vertices_);
+    in.list(c.free_tets_);
     in.list(c.interface_);
-    in.list(c.serial_.changes_);
+    in.list(c.changes_);
     in.value(c.taken_clock_);
-    in.value(c.serial_.clock_);
-    in.value(c.serial_.next_birth_);
+    in.value(c.clock_);
+    in.value(c.next_birth_);
     in.value(c.box_.low);
     in.value(c.box_.high);
     const std::size_t tets = c.tets_.size();

@@ -36,37 +36,30 @@ std::size_t hash(const std::array<VertexId, 3>& key) {
 
 }  // namespace
 
-bool Complex::link(Edit& edit, Lane& lane) const {
-    if (lane.open_ && (edit.added.size() > edit.removed.size() + lane.free_tets_.size() ||
-                       (edit.creates && lane.free_vertices_.empty()))) {
-        lane.short_of_slots_ = true;
-        return false;
-    }
-    std::vector<EditTables::FaceSlot>& faces = lane.tables_.faces;
-    std::uint32_t& stamp = lane.tables_.face_stamp;
-    TetIndex& places = lane.tables_.places;
+bool Complex::link(Edit& edit) const {
     const std::size_t wanted = std::bit_ceil(8 * (edit.removed.size() + edit.added.size()) + 16);
-    if (faces.size() < wanted) {
-        faces.assign(wanted, EditTables::FaceSlot{{none, none, none}, none, 0, false});
-        stamp = 0;
+    if (face_table_.size() < wanted) {
+        face_table_.assign(wanted, FaceSlot{{none, none, none}, none, 0, false});
+        face_stamp_ = 0;
     }
-    ++stamp;
-    const std::size_t mask = faces.size() - 1;
-    const auto find = [&](const std::array<VertexId, 3>& key) -> EditTables::FaceSlot& {
+    ++face_stamp_;
+    const std::size_t mask = face_table_.size() - 1;
+    const auto find = [&](const std::array<VertexId, 3>& key) -> FaceSlot& {
         std::size_t at = hash(key) & mask;
-        while (faces[at].stamp == stamp && faces[at].key != key) at = (at + 1) & mask;
-        return faces[at];
+        while (face_table_[at].stamp == face_stamp_ && face_table_[at].key != key)
+            at = (at + 1) & mask;
+        return face_table_[at];
     };
-    places.clear();
-    for (const TetId t : edit.removed) places.insert(t);
+    places_.clear();
+    for (const TetId t : edit.removed) places_.insert(t);
     std::size_t open = 0;
     for (const TetId t : edit.removed) {
         for (unsigned f = 0; f < 4; ++f) {
             const std::uint32_t code = tets_[t].n[f];
-            if (code != none && places.contains(neighbour_tet(code))) continue;
-            EditTables::FaceSlot& slot = find(face_key(tets_[t].v, f));
-            if (slot.stamp == stamp) return false;
-            slot = {face_key(tets_[t].v, f), code, stamp, false};
+            if (code != none && places_.contains(neighbour_tet(code))) continue;
+            FaceSlot& slot = find(face_key(tets_[t].v, f));
+            if (slot.stamp == face_stamp_) return false;
+            slot = {face_key(tets_[t].v, f), code, face_stamp_, false};
             ++open;
         }
     }
@@ -75,9 +68,9 @@ bool Complex::link(Edit& edit, Lane& lane) const {
         for (unsigned f = 0; f < 4; ++f) {
             const auto key = face_key(edit.added[i].v, f);
             const std::uint32_t self = Edit::virtual_code | static_cast<std::uint32_t>(4 * i + f);
-            EditTables::FaceSlot& slot = find(key);
-            if (slot.stamp != stamp) {
-                slot = {key, self, stamp, false};
+            FaceSlot& slot = find(key);
+            if (slot.stamp != face_stamp_) {
+                slot = {key, self, face_stamp_, false};
                 ++open;
                 continue;
             }

@@ -152,9 +152,8 @@ bool Complex::inner_ring(TetId t, VertexId a, VertexId b, std::size_t most, Edge
 }
 
 TetId Complex::find_edge(VertexId a, VertexId b) const {
-    std::vector<TetId>& around = serial_.tables_.star;
-    star(a, around);
-    for (const TetId t : around) {
+    star(a, star_scratch_);
+    for (const TetId t : star_scratch_) {
         if (has_vertex(tets_[t], b)) return t;
     }
     return none;

@@ -143,48 +143,6 @@ void Proposals::note_free_edges(const repair::RepairRound& round, mesh::TetId t)
     }
 }
 
-// Looks at a part of the dirty tets.
-void Proposals::look_at(const repair::RepairRound& round, std::size_t begin, std::size_t end,
-                        Smoothed& smoothed) {
-    const mesh::Complex& c = round.complex;
-    smoothed.clear();
-    constexpr std::size_t near = 4, far = 16;  // how far ahead the memory is asked for data
-    for (std::size_t i = begin; i < end; ++i) {
-        if (i + far < end) c.prefetch(round.dirty[i + far]);
-        if (i + near < end) c.prefetch_vertices(round.dirty[i + near]);
-        const mesh::TetId t = round.dirty[i];
-        looks_[i] = look(round, t);
-        if ((looks_[i] & to_smooth) == 0) continue;
-        for (const mesh::VertexId v : c.tet(t).v) {
-            if (smoothed.seen.insert(v) && !c.on_interface(v) && !c.on_box(v)) smoothed.add(v, t);
-        }
-    }
-}
-
-// Looks at all dirty tets, and collects the vertices to smooth in the order of the tets.
-void Proposals::look_at_all(const repair::RepairRound& round, Workers* workers) {
-    const std::size_t count = round.dirty.size();
-    const std::size_t part = std::max(least_part, (count + most_parts - 1) / most_parts);
-    looks_.resize(count);
-    parts_.resize(std::max(parts_.size(), (count + part - 1) / part));
-    struct Job {
-        Proposals& proposals;
-        const repair::RepairRound& round;
-        std::size_t part;
-    } const job{*this, round, part};
-    for_blocks(workers, count, part, [&job](std::size_t begin, std::size_t end) {
-        job.proposals.look_at(job.round, begin, end, job.proposals.parts_[begin / job.part]);
-    });
-    ++visit_;
-    free_.clear();
-    for (std::size_t p = 0; p * part < count; ++p) {
-        const Smoothed& found = parts_[p];
-        for (std::size_t i = 0; i < found.vertices.size(); ++i) {
-            if (first_visit(found.vertices[i])) free_.add(found.vertices[i], found.tets[i]);
-        }
-    }
-}
-
 void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
     const mesh::Complex& c = round.complex;
     low_.clear();
@@ -192,7 +150,23 @@ void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
     short_.clear();
     long_.clear();
     free_long_.clear();
-    look_at_all(round, workers);
+    free_.clear();
+    free_tets_.clear();
+    ++visit_;
+    looks_.resize(round.dirty.size());
+    struct Job {
+        Proposals& proposals;
+        const repair::RepairRound& round;
+    } const job{*this, round};
+    for_blocks(workers, round.dirty.size(), look_block, [&job](std::size_t begin, std::size_t end) {
+        constexpr std::size_t near = 4, far = 16;  // how far ahead the memory is asked for data
+        const std::span<const mesh::TetId> dirty = job.round.dirty;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i + far < end) job.round.complex.prefetch(dirty[i + far]);
+            if (i + near < end) job.round.complex.prefetch_vertices(dirty[i + near]);
+            job.proposals.looks_[i] = job.proposals.look(job.round, dirty[i]);
+        }
+    });
     for (std::size_t i = 0; i < round.dirty.size(); ++i) {
         constexpr std::size_t near = 4, far = 16;
         if (i + far < looks_.size() && looks_[i + far] != 0) c.prefetch(round.dirty[i + far]);
@@ -203,6 +177,13 @@ void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
         if ((found & low_quality) != 0)
             low_.push_back({quantised(static_cast<double>(c.quality(t))), t,
                             static_cast<std::uint32_t>(low_.size())});
+        if ((found & to_smooth) != 0) {
+            for (const mesh::VertexId v : c.tet(t).v) {
+                if (c.on_interface(v) || c.on_box(v) || !first_visit(v)) continue;
+                free_.push_back(v);
+                free_tets_.push_back(t);
+            }
+        }
         if ((found & small_volume) != 0)
             small_.push_back({quantised(c.volume(t) / small_volume_of(round, t)), t,
                               static_cast<std::uint32_t>(small_.size())});
@@ -247,9 +228,9 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers,
         out.push_back(request);
     }
     // 1. Free vertices move to the mean of their neighbours.
-    for (std::size_t i = 0; i < free_.vertices.size(); ++i) {
-        Request request = on_tet(c, free_.tets[i], Operation::smooth_laplacian, 2.0, 2.0);
-        request.vertices[0] = free_.vertices[i];
+    for (std::size_t i = 0; i < free_.size(); ++i) {
+        Request request = on_tet(c, free_tets_[i], Operation::smooth_laplacian, 2.0, 2.0);
+        request.vertices[0] = free_[i];
         out.push_back(request);
     }
     // 2. Bad tets, worst first: edges, interface diagonals, faces, then their free vertices one by

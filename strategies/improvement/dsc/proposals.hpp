@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <dsc/base/workers.hpp>
-#include <dsc/mesh/tet_index.hpp>
 #include <dsc/repair/contract.hpp>
 
 #include "shapes.hpp"
@@ -40,22 +39,6 @@ private:
         mesh::TetId tet;
         std::uint32_t order;  // of discovery
     };
-    // Free vertices to smooth, each once, and the tets that need it.
-    struct Smoothed {
-        std::vector<mesh::VertexId> vertices;
-        std::vector<mesh::TetId> tets;
-        // Few blocks have as many, so without this it could still grow in a settled step.
-        mesh::TetIndex seen{2048};
-        void clear() {
-            vertices.clear();
-            tets.clear();
-            seen.clear();
-        }
-        void add(mesh::VertexId v, mesh::TetId t) {
-            vertices.push_back(v);
-            tets.push_back(t);
-        }
-    };
     struct EdgeEntry {
         std::uint32_t low, high;  // births
         mesh::VertexId a, b;
@@ -66,12 +49,8 @@ private:
     // The findings of look().
     static constexpr std::uint8_t small_volume = 1, interface_edges = 2, free_edges = 4,
                                   low_quality = 8, to_smooth = 16;
-    static constexpr std::size_t least_part = 1024;  // tets
-    static constexpr std::size_t most_parts = 64;
+    static constexpr std::size_t look_block = 8192;  // tets
 
-    void look_at_all(const repair::RepairRound& round, Workers* workers);
-    void look_at(const repair::RepairRound& round, std::size_t begin, std::size_t end,
-                 Smoothed& smoothed);
     void sort_out(const repair::RepairRound& round, Workers* workers);
     double small_volume_of(const repair::RepairRound& round, mesh::TetId t) const;
     static bool may_thin_out(const repair::RepairRound& round, mesh::TetId t);
@@ -86,8 +65,8 @@ private:
     std::vector<std::uint8_t> looks_;  // one per dirty tet
     std::vector<Entry> low_, small_;
     std::vector<EdgeEntry> short_, long_, free_long_;
-    std::vector<Smoothed> parts_;  // of parts of the dirty tets
-    Smoothed free_;
+    std::vector<mesh::VertexId> free_;
+    std::vector<mesh::TetId> free_tets_;
     mesh::EdgeRing ring_;
     std::vector<std::uint32_t> visited_;
     std::uint32_t visit_ = 0;

@@ -5,8 +5,7 @@
 // A tet (v0,v1,v2,v3) is positive: orient3d(v0,v1,v2,v3) == 1, always and exactly. Face i is
 // opposite vertex i. Labels define the interface: a face belongs to it if its two tets have
 // different labels, a face on the box if its tet's label is not 0. Three primitives change a
-// complex: replace(), move() and relabel(). Each keeps it valid. Threads that change different
-// parts at the same time use a lane each (lane.hpp).
+// complex: replace(), move() and relabel(). Each keeps it valid.
 
 #include <array>
 #include <cstdint>
@@ -15,7 +14,6 @@
 
 #include <dsc/base/workers.hpp>
 #include <dsc/geometry/vec.hpp>
-#include <dsc/mesh/lane.hpp>
 #include <dsc/mesh/star_cache.hpp>
 #include <dsc/mesh/tet_index.hpp>
 #include <dsc/mesh/tet_mesh.hpp>
@@ -106,8 +104,8 @@ public:
     /// Slots include dead entries: loop over the slots and test whether each is alive.
     std::size_t vertex_slots() const { return vertices_.size(); }
     std::size_t tet_slots() const { return tets_.size(); }
-    std::size_t vertex_count() const { return vertices_.size() - serial_.free_vertices_.size(); }
-    std::size_t tet_count() const { return tets_.size() - serial_.free_tets_.size(); }
+    std::size_t vertex_count() const { return vertices_.size() - free_vertices_.size(); }
+    std::size_t tet_count() const { return tets_.size() - free_tets_.size(); }
     bool vertex_alive(VertexId v) const { return vertices_[v].seed != none; }
     bool tet_alive(TetId t) const { return tets_[t].v[0] != none; }
 
@@ -129,12 +127,12 @@ public:
     /// relabelled; moves leave it. It is not saved: after load() it is 0.
     std::uint32_t shape_date(VertexId v) const { return shape_dates_[v]; }
     /// The change clock: the number of committed changes.
-    std::uint32_t clock() const { return serial_.clock_; }
+    std::uint32_t clock() const { return clock_; }
     /// Number of the vertex in the order of creation; it survives renumbering and resuming.
     std::uint32_t birth(VertexId v) const { return vertices_[v].birth; }
     /// Birth of the vertex that will be created next: greater than all births so far. A birth is
     /// never used again.
-    std::uint32_t next_birth() const { return serial_.next_birth_; }
+    std::uint32_t next_birth() const { return next_birth_; }
 
     Box3 box() const { return box_; }
     bool on_box(VertexId v) const { return vertices_[v].on_box != 0; }
@@ -143,8 +141,7 @@ public:
     bool on_interface(VertexId v) const { return vertices_[v].phases > 1; }
     /// On the interface, not on the box, exactly two labels.
     bool movable(VertexId v) const { return vertices_[v].phases == 2 && vertices_[v].on_box == 0; }
-    /// All interface vertices, in unspecified order (sort by birth). While lanes are open, the list
-    /// stays as it was.
+    /// All interface vertices, in unspecified order (sort by birth).
     std::span<const VertexId> interface_vertices() const { return interface_; }
     /// Label on the other side of face i: that of the neighbour, or 0 outside the box.
     Label label_across(TetId t, unsigned face) const {
@@ -177,9 +174,7 @@ public:
     /// vertex.
     void cached_star(VertexId v, std::vector<TetId>& out, TetIndex& scratch) const;
     /// The same with a table that belongs to the complex. [step]
-    void star(VertexId v, std::vector<TetId>& out) const {
-        cached_star(v, out, serial_.tables_.places);
-    }
+    void star(VertexId v, std::vector<TetId>& out) const { cached_star(v, out, places_); }
     /// The vertices joined to v, in ascending birth order; `star` are its tets. `scratch` as above.
     /// [parallel] if no two threads ask for the same vertex.
     void cached_neighbours(VertexId v, std::span<const TetId> star, std::vector<VertexId>& out,
@@ -189,8 +184,6 @@ public:
     /// cached_star().
     std::size_t suspect(VertexId v) const { return stars_.suspect(v); }
     void keep_suspect(VertexId v, std::size_t place) const { stars_.keep_suspect(v, place); }
-    /// The neighbours if they are in the cache, otherwise nothing. Valid until the next change.
-    std::span<const VertexId> known_neighbours(VertexId v) const { return stars_.neighbours(v); }
     TetId seed(VertexId v) const { return vertices_[v].seed; }
     /// The ring of edge (a, b), both vertices of tet t. [parallel]
     void ring(TetId t, VertexId a, VertexId b, EdgeRing& out) const;
@@ -201,37 +194,22 @@ public:
     TetId find_edge(VertexId a, VertexId b) const;
 
     // ---- the three primitives -------------------------------------------------------------------
-    // Without a lane they use that of the complex, and are [step]. With an open lane they are
-    // [parallel] under the conditions of lane.hpp.
-
     /// Computes the neighbours of the added tets. False if the added tets do not fill the boundary
-    /// of the cavity exactly (a face used twice, a hole, a change of the box), or if the lane has
-    /// no slots for them. Changes only the edit.
-    bool link(Edit& edit) const { return link(edit, serial_); }
-    bool link(Edit& edit, Lane& lane) const;
+    /// of the cavity exactly (a face used twice, a hole, a change of the box). Changes only the
+    /// edit. [step]
+    bool link(Edit& edit) const;
     /// Commits a linked edit; its tets must be positive. Returns the id of the created vertex, or
-    /// none.
-    VertexId replace(Edit& edit) { return replace(edit, serial_); }
-    VertexId replace(Edit& edit, Lane& lane);
-    /// Moves a vertex; `star` are its tets, which must all be positive at the new position.
-    void move(VertexId v, const Vec3& position, std::span<const TetId> star) {
-        move(v, position, star, serial_);
-    }
-    void move(VertexId v, const Vec3& position, std::span<const TetId> star, Lane& lane);
+    /// none. [step]
+    VertexId replace(Edit& edit);
+    /// Moves a vertex; `star` are its tets, which must all be positive at the new position. [step]
+    void move(VertexId v, const Vec3& position, std::span<const TetId> star);
     /// The same with known qualities of the tets at the new position, in the order of the star.
+    /// [step]
     void move(VertexId v, const Vec3& position, std::span<const TetId> star,
               std::span<const float> qualities) {
-        move(v, position, star, qualities, serial_);
-    }
-    void move(VertexId v, const Vec3& position, std::span<const TetId> star,
-              std::span<const float> qualities, Lane& lane) {
         place(v, position, star, qualities);
-        note_change(v, star, lane);
+        note_change(v, star);
     }
-    /// Gives tets another label.
-    void relabel(std::span<const TetId> tets, Label label) { relabel(tets, label, serial_); }
-    void relabel(std::span<const TetId> tets, Label label, Lane& lane);
-
     /// The parts of move(), for many vertices without common tets. First place the vertices, which
     /// may run in parallel [parallel]. Then date their stars, also in parallel: each with a value
     /// of the clock that is later than now; tets that are not yet in the change list go to
@@ -242,24 +220,16 @@ public:
     void date_star(VertexId v, std::span<const TetId> star, std::uint32_t clock,
                    std::vector<TetId>& changed);
     void note_changes(std::uint32_t clock, std::span<const TetId> changed);
+    /// Gives tets another label. [step]
+    void relabel(std::span<const TetId> tets, Label label);
 
-    /// Ids of the tets that the last replace() without a lane wrote, in the order of Edit::added.
-    std::span<const TetId> last_added() const { return serial_.tables_.added; }
-
-    // ---- lanes ----------------------------------------------------------------------------------
-    /// The lane of the complex, for serial work.
-    Lane& serial_lane() { return serial_; }
-    /// Opens a lane, which receives free slots for `room`. Nothing may change the complex between
-    /// the first open() and the last close() but the lanes. [step]
-    void open(Lane& lane, const LaneRoom& room);
-    /// Takes the results of a lane. The births of the created vertices become consecutive, in the
-    /// order in which the lanes are closed. [step]
-    void close(Lane& lane);
+    /// Ids of the tets that the last replace() wrote, in the order of Edit::added.
+    std::span<const TetId> last_added() const { return last_added_; }
 
     // ---- change tracking ------------------------------------------------------------------------
     /// Tets made, moved or relabelled since the last call of take_changes(), each once; may include
     /// dead ids.
-    std::span<const TetId> changes() const { return serial_.changes_; }
+    std::span<const TetId> changes() const { return changes_; }
     /// Moves the change list to `out` and starts a new one.
     void take_changes(std::vector<TetId>& out);
 
@@ -290,19 +260,15 @@ private:
     };
     static_assert(sizeof(Vertex) == 40);
     static constexpr std::uint32_t no_slot = (1U << 29U) - 1;
-    static constexpr float no_quality = 2.0F;  // of a slot without a tet
 
-    VertexId new_vertex_slot();
-    TetId new_tet_slot();
-    VertexId allocate_vertex(const Vec3& position, Lane& lane);
-    TetId allocate_tet(Lane& lane);
-    void note_change(VertexId v, std::span<const TetId> star, Lane& lane);
-    void touch(TetId t, Lane& lane);
-    bool find_relabelled(const Edit& edit, EditTables& tables);
+    VertexId allocate_vertex(const Vec3& position);
+    TetId allocate_tet();
+    void note_change(VertexId v, std::span<const TetId> star);
+    void touch(TetId t);
+    bool find_relabelled(const Edit& edit);
     unsigned count_phases(VertexId v, std::span<const TetId> star) const;
-    void refresh_phases(VertexId v, Lane& lane);
-    void set_phases(VertexId v, unsigned phases, Lane& lane);
-    void list_by_phases(VertexId v);
+    void refresh_phases(VertexId v);
+    void set_phases(VertexId v, unsigned phases);
     void walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
 
     std::vector<Vertex> vertices_;
@@ -312,12 +278,34 @@ private:
     std::vector<std::uint32_t> dates_;
     std::vector<std::uint32_t> birth_dates_;
     std::vector<std::uint32_t> shape_dates_;  // per vertex
+    std::vector<VertexId> free_vertices_;
+    std::vector<TetId> free_tets_;
     std::vector<VertexId> interface_;
+    std::vector<TetId> changes_;
+    std::vector<TetId> last_added_;
+    struct CavityLabels {
+        VertexId vertex;
+        std::array<std::uint64_t, 2> labels;  // before and after
+    };
+    std::vector<CavityLabels> cavity_labels_;
+    std::vector<VertexId> relabelled_;
+    mutable std::vector<TetId> star_scratch_;
+    mutable TetIndex places_;
     mutable StarCache stars_;        // of the vertices that were asked for
-    mutable Lane serial_;            // its tables are scratch of const functions too
     std::uint32_t taken_clock_ = 0;  // clock when the change list was last taken; tets of a later
                                      // date are in the list
+    std::uint32_t clock_ = 0;
+    std::uint32_t next_birth_ = 0;
     Box3 box_;
+
+    struct FaceSlot {
+        std::array<VertexId, 3> key;
+        std::uint32_t code;
+        std::uint32_t stamp;
+        bool used;
+    };
+    mutable std::vector<FaceSlot> face_table_;
+    mutable std::uint32_t face_stamp_ = 0;
 };
 
 /// Mean length of the interface's edges; 0 without an interface. It does not depend on the slots.

@@ -13,8 +13,8 @@ namespace dsc::mesh {
 /// kernel asks for have not changed since the last time, because moves and new labels leave the
 /// connectivity as it is.
 ///
-/// Different vertices may be written by different threads at the same time; grow() is for one
-/// thread.
+/// Different vertices may be written by different threads at the same time; grow() and forget()
+/// are for one thread.
 class StarCache {
 public:
     StarCache();

@@ -14,8 +14,7 @@ class TetIndex {
 public:
     static constexpr std::uint32_t absent = 0xffffffffU;
 
-    /// With room for this number of entries, a power of two.
-    explicit TetIndex(std::size_t room = 128) : keys_(2 * room, 0), places_(2 * room, 0) {}
+    TetIndex() : keys_(256, 0), places_(256, 0) {}
 
     void clear() {
         size_ = 0;
