@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <string>
 #include <utility>
@@ -21,6 +20,7 @@
 #include <dsc/surface/distance.hpp>
 
 #include "peers_mesh.hpp"
+#include "program.hpp"
 
 namespace {
 
@@ -215,21 +215,12 @@ int work(const Arguments& arguments) {
                 {"reconstruction", Json::array()}};
     for (const char* shape : {"torus", "teapot"})
         out["reconstruction"].push_back(compare_reconstruction(plugins, shape, arguments.quick));
-    if (!arguments.json.empty()) {
-        std::ofstream file(arguments.json);
-        file << out.dump(2) << '\n';
-        if (!file.flush()) throw IoError("bench.json", arguments.json + ": cannot be written");
-    }
+    write_report(arguments.json, out);
     return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return work(parse(argc, argv));
-    } catch (const dsc::Error& error) {
-        std::fprintf(stderr, "dsc_bench_peers: %s\n", error.what());
-        return static_cast<int>(error.exit_code());
-    }
+    return dsc::bench::run_program("dsc_bench_peers", [&] { return work(parse(argc, argv)); });
 }

@@ -13,6 +13,7 @@
 
 #include "idle.hpp"
 #include "pipeline.hpp"
+#include "program.hpp"
 #include "resources.hpp"
 
 namespace {
@@ -174,21 +175,12 @@ int work(const Arguments& arguments) {
     }
     if (arguments.idle) out["exterior"] = exteriors(plugins);
     print(out, "");
-    if (!arguments.json.empty()) {
-        std::ofstream file(arguments.json);
-        file << out.dump(2) << '\n';
-        if (!file.flush()) throw IoError("bench.json", arguments.json + ": cannot be written");
-    }
+    write_report(arguments.json, out);
     return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return work(parse(argc, argv));
-    } catch (const dsc::Error& error) {
-        std::fprintf(stderr, "dsc_protocol: %s\n", error.what());
-        return static_cast<int>(error.exit_code());
-    }
+    return dsc::bench::run_program("dsc_protocol", [&] { return work(parse(argc, argv)); });
 }

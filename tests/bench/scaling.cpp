@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <sstream>
 #include <string>
 
@@ -20,6 +19,7 @@
 #include <dsc/run/sha256.hpp>
 
 #include "pipeline.hpp"
+#include "program.hpp"
 #include "resources.hpp"
 
 namespace {
@@ -274,21 +274,12 @@ int work(const Arguments& arguments) {
         out["exponent"] = exponent(n, seconds);
         std::printf("exponent of CPU time over N: %.3f\n", exponent(n, seconds));
     }
-    if (!arguments.json.empty()) {
-        std::ofstream file(arguments.json);
-        file << out.dump(2) << '\n';
-        if (!file.flush()) throw IoError("bench.json", arguments.json + ": cannot be written");
-    }
+    write_report(arguments.json, out);
     return failed ? 1 : 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return work(parse(argc, argv));
-    } catch (const dsc::Error& error) {
-        std::fprintf(stderr, "dsc_scaling: %s\n", error.what());
-        return static_cast<int>(error.exit_code());
-    }
+    return dsc::bench::run_program("dsc_scaling", [&] { return work(parse(argc, argv)); });
 }
