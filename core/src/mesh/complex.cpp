@@ -139,7 +139,7 @@ void Complex::note_change(VertexId v, std::span<const TetId> star) {
 
 void Complex::date_star(VertexId v, std::span<const TetId> star, std::uint32_t clock,
                         std::vector<TetId>& changed) {
-    // Stars may share a vertex: the latest date is kept, in whatever order they come.
+    // Two stars may share a vertex. It keeps the latest date, for any order of the stars.
     const auto date_vertex = [this, clock](VertexId w) {
         const std::atomic_ref<std::uint32_t> date(vertices_[w].date);
         std::uint32_t before = date.load(std::memory_order_relaxed);

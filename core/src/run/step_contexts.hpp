@@ -1,6 +1,6 @@
 #pragma once
-// The contexts of the calls of a run: each strategy gets what it needs, and those whose answers can
-// be discarded get the token that says whether the run shall stop.
+// The contexts that a run gives to its strategies. Each strategy gets the data that it needs. A
+// strategy whose answer can be discarded also gets the token that says whether the run shall stop.
 
 #include <cstdint>
 
@@ -10,7 +10,8 @@
 
 namespace dsc::run {
 
-/// Refers to the parts of a run, which must outlive it. `planned`: steps of the schedule.
+/// Refers to parts of a run; they must exist as long as this object. `planned`: number of steps in
+/// the schedule.
 class StepContexts {
 public:
     StepContexts(StepData& data, const Strategies& strategies, const cloud::TargetCloud* cloud,

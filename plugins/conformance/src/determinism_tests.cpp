@@ -97,8 +97,8 @@ void require_permuted(const Trace& plain, const Trace& permuted,
         if (std::abs(expected - found) <= 1e-9 * largest) continue;
         throw Failed(fmt::format(
             "vertex {} gets {:f} instead of {:f} when the vertices were born in a different order: "
-            "it uses the index of a vertex, or the birth id for something other than random "
-            "numbers and state",
+            "it uses the index of a vertex, or it computes with the birth id; a birth id is only "
+            "for random numbers and for state",
             order[i / width], found, expected));
     }
 }
