@@ -48,7 +48,7 @@ WALLS = {
     "OpenMesh/": ("core/src/surface/", "core/src/io/"),
     "yaml-cpp/": ("core/src/config/",),
     "vtk": ("core/src/io/",),
-    "dlfcn.h": ("plugins/host/", "core/src/base/backend.cpp"),
+    "dlfcn.h": ("plugins/host/",),
     "embree": ("core/src/io/",),
     "CLI/": ("core/app/",),
     "CGAL/": ("tests/",),

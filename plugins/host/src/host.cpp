@@ -38,8 +38,6 @@ plugin::PluginInfo info_of(const plugin::PluginEntry& entry, const fs::path& fil
             fs::equivalent(file.parent_path(), installed_folder(), error)};
 }
 
-fs::path library_folder() { return installed_folder().parent_path().parent_path(); }
-
 fs::path script_library() { return library_folder() / "libdsc_python.so"; }
 
 // Beside the core library, or one level above it where the libraries of an architecture have a

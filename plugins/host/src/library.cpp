@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <dsc/base/error.hpp>
+#include <dsc/host/search_path.hpp>
 #include <dsc/plugin/script_loader.hpp>
 #include <dsc/text/words.hpp>
 
@@ -39,11 +40,6 @@ protected:
     }
 };
 
-std::string dl_reason() {
-    const char* reason = dlerror();
-    return reason == nullptr ? "no reason given" : reason;
-}
-
 // The libraries of Python's own modules look for its functions among the global symbols.
 void start_scripts(const std::filesystem::path& file, const std::filesystem::path& library,
                    const std::filesystem::path& modules) {
@@ -70,6 +66,13 @@ void require_strategies(const Staging& staging, const std::filesystem::path& fil
 }
 
 }  // namespace
+
+std::filesystem::path library_folder() { return installed_folder().parent_path().parent_path(); }
+
+std::string dl_reason() {
+    const char* reason = dlerror();
+    return reason == nullptr ? "no reason given" : reason;
+}
 
 const plugin::PluginEntry& open_library(const std::filesystem::path& file) {
     void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);

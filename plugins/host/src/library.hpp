@@ -3,6 +3,7 @@
 // registers; here its code runs.
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <dsc/plugin/catalogue.hpp>
@@ -10,6 +11,12 @@
 #include <dsc/plugin/registrar.hpp>
 
 namespace dsc::host {
+
+/// The folder of the core library.
+std::filesystem::path library_folder();
+
+/// Why the last call of dlopen() or dlsym() failed.
+std::string dl_reason();
 
 /// Opens it with RTLD_NOW and RTLD_LOCAL and never closes it: virtual tables, exceptions and
 /// statics of a plugin stay valid. Throws PluginError "plugin.load", "plugin.no_entry".
