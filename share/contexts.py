@@ -30,13 +30,14 @@ CONTEXTS = [
 ]
 
 HEAD = """# What a strategy can read
-All data that a run passes to a strategy, with shapes, units and lifetimes. `share/contexts.py` writes this page from the comments of
-the headers. [Write a strategy](write-a-strategy.md) shows how to use it, and the [glossary](glossary.md) explains the terms.
+This page lists all data that a run passes to a strategy, with shapes, units and lifetimes. `share/contexts.py` writes it from the
+comments of the headers. [Write a strategy](write-a-strategy.md) shows how to use the data, and the [glossary](glossary.md) explains
+the terms.
 
-- **Shapes.** V is the number of vertices of the surface view, F that of its faces, P that of the points of the cloud; 1 is one
-  number or answer, and - is an object. `std::vector<Vec3>` of V entries is V x 3 doubles.
-- **Units.** n is normalised units: the cloud is centred and scaled into the box, and `to_normalised` leads there. "index" counts in
-  the view, "id" in the complex. - is a number without a unit.
+- **Shapes.** V is the number of vertices of the surface view, F is the number of its faces, and P is the number of points of the
+  cloud. 1 means one number or answer, and - means an object. A `std::vector<Vec3>` with V entries contains V x 3 doubles.
+- **Units.** n means normalised units: the cloud is centred and scaled into the box, and `to_normalised` converts to these units. An
+  "index" is a number in the view, and an "id" is a number in the complex. - means a number without a unit.
 - **Steps** count from 1. Step 0 is the state before the first step: observers get it in `begin`, and a refinement that is the first
   item of the schedule gets it too.
 - **Birth ids** are never used again. A vertex keeps its birth id through steps, refinements, checkpoints and resumed runs, while

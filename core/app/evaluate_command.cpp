@@ -122,7 +122,7 @@ ordered_json cloud_formulas() {
 
 int execute(const EvaluateArguments& arguments) {
     if (arguments.truth.empty() && arguments.cloud.empty()) {
-        throw UsageError("usage.evaluate", arguments.result, "nothing is given to compare it with",
+        throw UsageError("usage.evaluate", arguments.result, "there is nothing to compare it with",
                          "add --truth MESH or --cloud CLOUD");
     }
     Workers workers(std::max(1U, std::thread::hardware_concurrency()));

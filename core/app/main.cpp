@@ -77,8 +77,8 @@ int run(int argc, char** argv) {
         "dsc");
     app.set_version_flag("--version", dsc::run::version_text);
     app.require_subcommand(1);
-    app.footer("Exit codes: 0 ok, 1 internal, 2 usage, 3 config, 4 plugin or strategy, 5 geometry, "
-               "6 input/output, 75 stopped.");
+    app.footer("Exit codes: 0 ok, 1 defect of dsc, 2 wrong call, 3 wrong experiment, 4 plugin or "
+               "strategy, 5 geometry, 6 file, 75 stopped.");
     dsc::app::Context context;
     context.command_line.assign(argv, argv + argc);
     dsc::app::add_run(app, context);

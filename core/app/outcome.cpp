@@ -4,6 +4,7 @@
 
 #include <dsc/base/error.hpp>
 #include <dsc/base/log.hpp>
+#include <dsc/text/words.hpp>
 
 namespace dsc::app {
 namespace {
@@ -24,8 +25,8 @@ void report_coverage(const run::RunOutcome& outcome) {
     const run::Coverage& c = *outcome.coverage;
     log(LogLevel::info,
         fmt::format("{:.2f} % of the points are farther from the surface than noise and spacing "
-                    "explain, the farthest {:.1f} spacings; {:.1f} % of the surface has no points "
-                    "nearby; an edge is {:.1f} spacings long",
+                    "explain; the farthest point is {:.1f} spacings away; {:.1f} % of the surface "
+                    "has no points nearby; an edge is {:.1f} spacings long",
                     100.0 * c.far_share(), c.width > 0.0 ? c.largest_distance / c.width : 0.0,
                     100.0 * c.unsupported_share, c.resolution()));
 }
@@ -55,11 +56,12 @@ void report(const run::RunOutcome& outcome) {
     const surface::SurfaceReport& s = outcome.surface.report;
     const std::size_t pieces = outcome.trimmed ? s.shells : s.components;
     log(LogLevel::info,
-        fmt::format("{} after {} steps: surface of {} vertices and {} faces, {} {}{}, genus {}; "
+        fmt::format("{} after {}: surface of {} vertices and {} faces, {} {}{}, genus {}; "
                     "volume of {} tets, least quality {:.3g}",
-                    run::name(outcome.totals.status), outcome.totals.steps, s.vertices, s.faces,
-                    pieces, outcome.trimmed ? "piece" : "component", pieces == 1 ? "" : "s",
-                    s.genus, outcome.volume.tets, outcome.volume.min_quality));
+                    run::name(outcome.totals.status), text::counted(outcome.totals.steps, "step"),
+                    s.vertices, s.faces, pieces, outcome.trimmed ? "piece" : "component",
+                    pieces == 1 ? "" : "s", s.genus, outcome.volume.tets,
+                    outcome.volume.min_quality));
     report_coverage(outcome);
     if (outcome.surfaces.empty()) {
         log(LogLevel::warning, "the surface vanished: no tet with a label above 0 is left");

@@ -125,8 +125,8 @@ void add_plugin_check(CLI::App& plugin, Context& context) {
     command->add_option("--only", arguments->only, "Run only this test; may be repeated");
     add_plugins(*command, arguments->plugins);
     command->add_option("--notes", arguments->notes,
-                        "File with parameters without a default and waived tests; default: "
-                        "libdsc_NAME.check.yaml beside the plugin");
+                        "File with values of parameters that have no default, and with tests that "
+                        "need not hold; default: libdsc_NAME.check.yaml beside the plugin");
     command->add_option("--format", arguments->format, "Format of the report: text, json or junit")
         ->check(CLI::IsMember({"text", "json", "junit"}))
         ->capture_default_str();
@@ -139,7 +139,7 @@ void add_plugin_check(CLI::App& plugin, Context& context) {
         ->capture_default_str();
     command
         ->add_option("--timeout", arguments->limit,
-                     "Time limit per test in seconds; ten times as much under a sanitizer")
+                     "Time limit per test in seconds; with a sanitizer it is ten times as long")
         ->check(CLI::Range(0.1, 1e5))
         ->capture_default_str();
     command->add_flag("--in-process", arguments->in_process,

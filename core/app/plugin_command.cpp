@@ -73,9 +73,9 @@ int describe(const PluginArguments& arguments) {
     std::vector<Described> found;
     std::vector<std::string> ids;
     for (const Described& d : all) {
+        if (!arguments.kind.empty() && d.kind != arguments.kind) continue;
         ids.push_back(d.id);
-        if (d.id == arguments.id && (arguments.kind.empty() || d.kind == arguments.kind))
-            found.push_back(d);
+        if (d.id == arguments.id) found.push_back(d);
     }
     if (found.empty()) {
         throw UsageError(

@@ -266,7 +266,7 @@ void add_reconstruct(CLI::App& app, Context& context) {
     command
         ->add_option("--smooth", arguments->smooth,
                      "Noise of the points: auto (it is measured) or its standard deviation in "
-                     "spacings; larger is smoother")
+                     "spacings; a larger value makes the surface smoother")
         ->type_name("auto|NUMBER")
         ->capture_default_str();
     command->add_flag("--trim", arguments->trim,

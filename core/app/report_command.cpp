@@ -76,8 +76,8 @@ void add_report(CLI::App& app, Context& context) {
     command->add_option("DIR", arguments->folders, "Folders of finished runs")->required();
     command
         ->add_option("-o,--output", arguments->output,
-                     "Page to write; default: DIR/report.html, for several runs comparison.html in "
-                     "the current folder")
+                     "Page to write; default: DIR/report.html for one run, comparison.html in the "
+                     "current folder for several runs")
         ->expected(1);
     add_plugins(*command, arguments->plugins);
     set_action(*command, context, [arguments] { return execute(*arguments); });

@@ -7,6 +7,7 @@
 #include <dsc/base/log.hpp>
 #include <dsc/report/report.hpp>
 #include <dsc/run/run_experiment.hpp>
+#include <dsc/text/words.hpp>
 
 #include "commands.hpp"
 #include "crash_guard.hpp"
@@ -41,8 +42,9 @@ int check(const run::LoadedExperiment& loaded, const host::Host& host,
                                              ? run::default_folder(loaded, host)
                                              : std::filesystem::path(arguments.folder);
     if (arguments.print_config) return 0;
-    data_out() << arguments.config << ": valid, " << run::planned_steps(loaded.experiment)
-               << " steps, would write " << folder.string() << "\n";
+    data_out() << arguments.config << ": valid, "
+               << text::counted(run::planned_steps(loaded.experiment), "step")
+               << "; the run folder is " << folder.string() << "\n";
     return 0;
 }
 

@@ -59,7 +59,7 @@ void add_sample(CLI::App& app, Context& context) {
         ->check(CLI::Range(0.0, 1.0));
     command
         ->add_option("--outliers", arguments->outliers,
-                     "Fraction of the points that lie anywhere in the box")
+                     "Fraction of the points that get random places in the box")
         ->check(CLI::Range(0.0, 1.0));
     command->add_option("--seed", arguments->seed, "Seed of the random numbers")
         ->capture_default_str();

@@ -135,7 +135,7 @@ nlohmann::ordered_json comparison_json(const sweep::SettingsComparison& comparis
 
 void print_comparison(const sweep::SettingsComparison& comparison) {
     data_out() << "first   " << comparison.first << "\nsecond  " << comparison.second << "\n"
-               << comparison.pairs << " pairs with the same seed and cloud\n\n";
+               << text::counted(comparison.pairs, "pair") << " with the same seed and cloud\n\n";
     constexpr auto row = "{:<28} {:>11} {:>11} {:>11} {:>25} {:>8} {:>10} {:>8}\n";
     data_out() << fmt::format(row, "figure", "first", "second", "difference", "95 % interval",
                               "Wilcoxon", "+ / - / 0", "signs");

@@ -98,10 +98,15 @@ std::string plain_text(const std::string& message) {
     static const Turns turns = {
         {std::regex("\n"), " "},
         {std::regex("^(\\S+) is required$"), "the argument $1 is missing"},
+        {std::regex("^(\\S+): 1 required .* missing$"), "$1 needs a value"},
+        {std::regex("^(\\S+): At Most 1 required but received \\d+$"), "$1 may be given only once"},
+        {std::regex("^(\\S+): Value (.*) not in range 0 to 1797693\\d+$"),
+         "$1: '$2' is not a number above 0"},
         {std::regex("^(\\S+): Value (.*) not in range (.*) to (.*)$"),
          "$1: '$2' is not a number from $3 to $4"},
-        {std::regex("^The following arguments? w\\w+ not expected: (.*)$"), "unexpected: $1"},
-        {std::regex("^Could not convert: (\\S+) = (.*)$"), "$1: '$2' has the wrong type"},
+        {std::regex("^The following arguments? w\\w+ not expected: (.*)$"),
+         "the command does not accept '$1'"},
+        {std::regex("^Could not convert: (\\S+) = (.*)$"), "$1: '$2' is not a valid number"},
         {std::regex("^(\\S+) excludes (\\S+)$"), "$1 and $2 cannot be used together"},
     };
     static const Turns zeros = {{std::regex("(\\.[0-9]*[1-9]|\\.)0+(?![0-9])"), "$1"},

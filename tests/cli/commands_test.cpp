@@ -80,13 +80,22 @@ TEST_CASE("--version, --help on stdout; wrong calls are one line and exit 2") {
           "error: --noise: '2' is not a number from 0 to 1; see dsc sample --help\n");
     CHECK(said({"reconstruct"}) ==
           "error: the argument CLOUD is missing; see dsc reconstruct --help\n");
-    CHECK(said({"schema", "x"}) == "error: unexpected: x; see dsc schema --help\n");
+    CHECK(said({"schema", "x"}) ==
+          "error: the command does not accept 'x'; see dsc schema --help\n");
+    CHECK(said({"run", "a.yaml", "-o"}) == "error: --output needs a value; see dsc run --help\n");
+    CHECK(said({"run", "a.yaml", "-o", "a", "-o", "b"}) ==
+          "error: --output may be given only once; see dsc run --help\n");
+    CHECK(said({"reconstruct", "c.ply", "--edge-length", "-3"}) ==
+          "error: --edge-length: '-3' is not a number above 0; see dsc reconstruct --help\n");
     CHECK(said({"reconstruct", "c.ply", "--vertices", "500", "--edge-length", "1"}) ==
           "error: --edge-length and --vertices cannot be used together; see dsc reconstruct "
           "--help\n");
     CHECK(cli.dsc({"plugin", "describe", "point_clod"}).err ==
           "error: dsc plugin describe: 'point_clod' is not the name of a strategy; did you mean "
           "'point_cloud'? dsc "
+          "plugin list shows all strategies\n");
+    CHECK(cli.dsc({"plugin", "describe", "rotate", "--kind", "filter"}).err ==
+          "error: dsc plugin describe: 'rotate' is not the name of a strategy of kind filter; dsc "
           "plugin list shows all strategies\n");
 }
 

@@ -66,7 +66,7 @@ TEST_CASE("a cloud goes through every format and comes back, colours and all") {
           "error: cloud.csv:1: no column has the name 'height'; choose of 'id', 'east', 'north', "
           "'up', 'red', 'green', 'blue' or a number from 1\n");
     CHECK(cli.dsc({"reconstruct", "cloud.csv", "--columns", "east,north"}).err ==
-          "error: cloud.csv: 2 columns chosen; choose 3 (x, y, z) or 6 (x, y, z, red, green, "
+          "error: cloud.csv: 2 columns are chosen; choose 3 (x, y, z) or 6 (x, y, z, red, green, "
           "blue)\n");
 }
 

@@ -145,7 +145,7 @@ std::vector<std::size_t> count_views(const std::vector<Disc>& discs, std::size_t
     std::vector<Vec3> centres(discs.size());
     for (std::size_t view = 0; view < views; ++view) {
         if (cancel != nullptr && cancel->cancelled())
-            throw CancelledError("the filter hidden was not finished");
+            throw CancelledError("the run was stopped while it filtered its input");
         const Eigen::Matrix3d to_viewer =
             Eigen::Quaterniond::FromTwoVectors(direction(view, views), Vec3::UnitZ())
                 .toRotationMatrix();

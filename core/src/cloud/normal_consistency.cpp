@@ -80,7 +80,7 @@ double make_consistent(WindingField& field, std::span<const double> widths,
     double residual = 0.0;
     for (std::size_t t = 0; t < schedule.iterations; ++t) {
         if (cancel != nullptr && cancel->cancelled())
-            throw CancelledError("the cloud was not oriented");
+            throw CancelledError("the run was stopped while it oriented the cloud");
         set_smoothing(field, widths, smoothing_at(schedule, t));
         residual = descend(field, vectors, buffers, workers);
         turn_to_gradient(field, vectors, sides, buffers, workers);

@@ -324,7 +324,7 @@ OrientedPoints orient_by_normals(std::span<const Vec3> points, std::span<const V
                                 "let the filter orient estimate the normals");
     }
     if (cancel != nullptr && cancel->cancelled())
-        throw CancelledError("the cloud was not oriented");
+        throw CancelledError("the run was stopped while it oriented the cloud");
     const ScaledSamples samples = scaled_samples(points, workers);
     Orienter orienter(samples, workers, cancel);
     for (std::size_t i = 0; i < points.size(); ++i)

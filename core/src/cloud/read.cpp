@@ -48,7 +48,8 @@ void require_columns(const std::string& file, bool table, const ReadOptions& opt
         throw IoError("io.columns", file, "", "columns can be chosen only for text clouds",
                       "remove the choice of columns, or convert the cloud to .csv");
     if (count != 3 && count != 6)
-        throw IoError("io.columns", file, "", text::counted(count, "column") + " chosen",
+        throw IoError("io.columns", file, "",
+                      text::counted(count, "column") + (count == 1 ? " is chosen" : " are chosen"),
                       "choose 3 (x, y, z) or 6 (x, y, z, red, green, blue)");
 }
 

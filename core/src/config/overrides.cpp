@@ -76,11 +76,11 @@ private:
         const char* end = part.data() + part.size();
         const auto parsed = std::from_chars(part.data(), end, index);
         if (parsed.ec != std::errc() || parsed.ptr != end || index >= list.size()) {
-            refuse(
-                fmt::format("'{}' is a list of {}; it has no item '{}'", path, list.size(), part),
-                list.size() == 0
-                    ? "write " + path + "=[...]"
-                    : "items are numbered from 0 to " + std::to_string(list.size() - 1));
+            refuse(fmt::format("'{}' is a list of {}; it has no item '{}'", path,
+                               text::counted(list.size(), "item"), part),
+                   list.size() == 0
+                       ? "write " + path + "=[...]"
+                       : "items are numbered from 0 to " + std::to_string(list.size() - 1));
         }
         return index;
     }

@@ -33,7 +33,7 @@ public:
         const std::size_t roots = octree_.side(top);
         for (std::size_t n = begin; n < end; ++n) {
             if (cancel_ != nullptr && cancel_->cancelled())
-                throw CancelledError("the initial mesh was not finished");
+                throw CancelledError("the run was stopped while it made its initial mesh");
             visit(top, {static_cast<int>(n % roots), static_cast<int>(n / roots % roots),
                         static_cast<int>(n / roots / roots)});
         }

@@ -282,7 +282,7 @@ private:
 
     void check_cancelled() const {
         if (cancel_ != nullptr && cancel_->cancelled())
-            throw CancelledError("the initial mesh was not finished");
+            throw CancelledError("the run was stopped while it made its initial mesh");
     }
 
     Stuffed& s_;

@@ -138,7 +138,7 @@ void smooth_interface(Stuffed& stuffed, std::span<const Snapped> snapped,
     std::vector<Vec3> sums(points);
     for (unsigned sweep = 0; sweep < options.smoothing_sweeps; ++sweep) {
         if (cancel != nullptr && cancel->cancelled())
-            throw CancelledError("the initial mesh was not finished");
+            throw CancelledError("the run was stopped while it made its initial mesh");
         std::fill(sums.begin(), sums.end(), Vec3::Zero());
         // Each neighbour is in two faces.
         const auto& p = stuffed.mesh.points;

@@ -213,7 +213,7 @@ std::vector<Snapped> snap_vertices(const LatticeView& lattice, std::span<const M
     std::vector<Snapped> snapped;
     for (std::size_t i = 0; i < order.size(); ++i) {
         if (i % 1024 == 0 && cancel != nullptr && cancel->cancelled())
-            throw CancelledError("the initial mesh was not finished");
+            throw CancelledError("the run was stopped while it made its initial mesh");
         const std::uint32_t v = order[i].vertex;
         // Replacing one cut point by one lattice vertex would gain nothing.
         if (open[v] < 2) continue;

@@ -61,7 +61,7 @@ surface::TriangleMesh read_surface(const std::filesystem::path& file,
                                                                : decode_stl(content, name);
     if (mesh.faces.empty()) {
         text::fail("io.no_faces", {name, 0},
-                   "no faces among " + text::counted(mesh.points.size(), "point"),
+                   "contains " + text::counted(mesh.points.size(), "point") + " and no faces",
                    "a surface is needed here; a cloud must be reconstructed first");
     }
     return mesh;

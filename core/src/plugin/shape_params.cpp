@@ -33,7 +33,7 @@ void declare_shape(config::ParamSchema<Shape>& schema) {
                  {"cylinder", ShapeKind::cylinder}})
         .doc("Kind of shape; a cylinder has flat ends.");
     schema.choice("action", &Shape::action, {{"add", ShapeAction::add}, {"cut", ShapeAction::cut}})
-        .doc("'add' gives the tets inside the shape's label, 'cut' gives them label 0.");
+        .doc("'add' gives the label of the shape to the tets inside it, 'cut' gives them label 0.");
     schema
         .choice("rule", &Shape::rule,
                 {{"barycentre", ShapeRule::barycentre}, {"vertices", ShapeRule::vertices}})

@@ -39,10 +39,10 @@ std::string missing_text(const std::vector<PointGroup>& groups, double scale,
                     groups.size() == 1 ? "has" : "have");
     for (std::size_t i = 0; i < std::min(named_groups, groups.size()); ++i) {
         const PointGroup& group = groups[i];
-        text +=
-            fmt::format("{} {} points around {}, {:.3g} across and up to {:.3g} from the surface",
-                        i == 0 ? "" : ";", group.points, place(to_normalised.inverse(group.centre)),
-                        group.diameter / scale, group.farthest / scale);
+        text += fmt::format(
+            "{} {} points around {}, with a diameter of {:.3g} and up to {:.3g} from the surface",
+            i == 0 ? "" : ";", group.points, place(to_normalised.inverse(group.centre)),
+            group.diameter / scale, group.farthest / scale);
     }
     if (groups.size() > named_groups)
         text += fmt::format("; and {} smaller ones", groups.size() - named_groups);

@@ -33,7 +33,8 @@ void declare_sample(config::ParamSchema<SampleInput>& s) {
     s.real("outliers", &SampleInput::outliers)
         .range(0, 1, "dimensionless")
         .open_high()
-        .doc("Fraction of the points that lie anywhere in the shape's box, enlarged 1.2 times.");
+        .doc("Fraction of the points that get random places in the shape's box, enlarged 1.2 "
+             "times.");
 }
 
 void declare_vary(config::ParamSchema<cloud::Variation>& s) {

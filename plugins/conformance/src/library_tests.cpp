@@ -122,7 +122,7 @@ void twice(const Subject& subject) {
 void add_library_tests(std::vector<Test>& table) {
     add(table,
         {"lib.entry", Level::smoke, true,
-         "The file passes the gate; its name, version, licence and ids are well-formed."},
+         "The host accepts the file; its name, version, licence and ids are well-formed."},
         entry);
     add(table,
         {"lib.bind", Level::smoke, true, "It loads by itself: no symbol or library is missing."},

@@ -64,8 +64,7 @@ void add_output_tests(std::vector<Test>& table) {
         complete, per_vertex);
     add(table, {"out.bounds", Level::standard, false, "Nothing outside an output is written."},
         output_bounds, per_vertex);
-    add(table, {"out.const", Level::standard, false, "The input does not change, bit by bit."},
-        inputs);
+    add(table, {"out.const", Level::standard, false, "No bit of the input changes."}, inputs);
     add(table,
         {"out.attributes", Level::standard, false,
          "Published attributes have one value per vertex, and valid names that differ."},

@@ -93,7 +93,7 @@ private:
         out.labels.reserve(out.tets.capacity());
         for (unsigned k = 0; k < cells; ++k) {
             if (context.cancel != nullptr && context.cancel->cancelled()) {
-                throw dsc::CancelledError("the initial mesh was not finished");
+                throw dsc::CancelledError("the run was stopped while it made its initial mesh");
             }
             for (unsigned j = 0; j < cells; ++j) {
                 for (unsigned i = 0; i < cells; ++i) {

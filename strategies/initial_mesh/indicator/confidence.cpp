@@ -90,7 +90,7 @@ hooks::Warnings warnings_of(const Labels& labels, const cloud::Orientation& orie
                      "place", "places") +
                  " (" + text::fixed(100.0 * labels.changed_share(), 1) +
                  " vertices per 100 points) the solid or a gap is thinner than about one spacing "
-                 "of the points. Without the filter: " +
+                 "of the points. Without the topology filter: " +
                  in_words(labels.filter.before) + "; with it: " + in_words(labels.counts) +
                  ". Use a denser cloud to decide these places."});
     } else if (orientation.residual > most_residual) {

@@ -225,8 +225,9 @@ TEST_CASE("colours: of named columns, of chosen ones, of six columns") {
 TEST_CASE("every wrong choice has a text of its own") {
     const Table table;
     const std::string text = "id,Z,X,Y\n7,3,1,2\n";
-    CHECK(table.error(text, {"X", "Y"}) == "io.columns 6: a.csv: 2 columns chosen; choose 3 (x, y, "
-                                           "z) or 6 (x, y, z, red, green, blue)");
+    CHECK(table.error(text, {"X", "Y"}) ==
+          "io.columns 6: a.csv: 2 columns are chosen; choose 3 (x, y, "
+          "z) or 6 (x, y, z, red, green, blue)");
     CHECK(table.error(text, {"X", "Y", "height"}) ==
           "io.columns 6: a.csv:1: no column has the name 'height'; choose of 'id', 'Z', 'X', 'Y' "
           "or a number from 1");

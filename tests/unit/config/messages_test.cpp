@@ -335,7 +335,7 @@ TEST_CASE("faults of overrides name the override") {
           "command line: 'a..b=3': error: malformed override: 'a..b' is not a dotted path\n"
           "      note: write path.to.key=value\n"
           "command line: 'schedule.1.steps=3': error: malformed override: 'schedule' is a list of "
-          "1; it has no item '1'\n"
+          "1 item; it has no item '1'\n"
           "      note: items are numbered from 0 to 0\n"
           "command line: 'velocity.type.a=3': error: malformed override: 'velocity.type' is a "
           "string; it has no key 'a'\n"

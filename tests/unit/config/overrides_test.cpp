@@ -87,7 +87,7 @@ TEST_CASE("a value from a file keeps its place and that of its key") {
             [&] { config::with_value(root, path, ConfigNode(1), sweep.entries()[1].position); });
     };
     CHECK(fault("schedule.4.steps")
-              .find("a.yaml:2:1: error: 'schedule' is a list of 1; it has no item '4'") == 0);
+              .find("a.yaml:2:1: error: 'schedule' is a list of 1 item; it has no item '4'") == 0);
     CHECK(fault("velocity.alpha.x").find("a.yaml:2:1: error: 'velocity.alpha' is a real number") ==
           0);
     CHECK(fault("velocity..alpha")

@@ -78,7 +78,8 @@ TEST_CASE("bad obj") {
     const std::string v3 = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     check_all({
         {"a.obj", v3, "io.no_faces",
-         "FILE: no faces among 3 points; a surface is needed here; a cloud must be reconstructed "
+         "FILE: contains 3 points and no faces; a surface is needed here; a cloud must be "
+         "reconstructed "
          "first"},
         {"a.obj", "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n", "io.syntax",
          "FILE:2: vertex with 2 of 3 coordinates; correct the line or export the file again"},
@@ -177,7 +178,8 @@ TEST_CASE("bad off") {
          "FILE:7: data after the last of 1 face; the counts of the header are wrong: export the "
          "file again"},
         {"a.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "io.no_faces",
-         "FILE: no faces among 3 points; a surface is needed here; a cloud must be reconstructed "
+         "FILE: contains 3 points and no faces; a surface is needed here; a cloud must be "
+         "reconstructed "
          "first"},
     });
 }
@@ -270,7 +272,8 @@ TEST_CASE("bad ply: text bodies") {
          "FILE:14: data after the last element; the counts of the header are wrong: export the "
          "file again"},
         {"a.ply", replaced(ply_head, "face 1", "face 0") + "0 0 0\n1 0 0\n0 1 0\n", "io.no_faces",
-         "FILE: no faces among 3 points; a surface is needed here; a cloud must be reconstructed "
+         "FILE: contains 3 points and no faces; a surface is needed here; a cloud must be "
+         "reconstructed "
          "first"},
     });
 }
@@ -351,7 +354,8 @@ TEST_CASE("bad stl") {
          "FILE:2: 'facets' where 'facet' or 'endsolid' should be; correct the line or export the "
          "file again"},
         {"a.stl", "solid s\nendsolid s\n", "io.no_faces",
-         "FILE: no faces among 0 points; a surface is needed here; a cloud must be reconstructed "
+         "FILE: contains 0 points and no faces; a surface is needed here; a cloud must be "
+         "reconstructed "
          "first"},
     });
 }

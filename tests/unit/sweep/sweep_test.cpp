@@ -270,8 +270,8 @@ TEST_CASE("faults of points: all at once, each once, at the value in the sweep f
         "  - grid: {initial_mesh.cells: [6, 600, many], velocity.facter: [1, 2]}\n"
         "  - grid: {schedule.4.steps: [3]}\n");
     CAPTURE(message);
-    CHECK(contains(message,
-                   "DIR/sweep.yaml:5:12: error: 'schedule' is a list of 1; it has no item '4'"));
+    CHECK(contains(
+        message, "DIR/sweep.yaml:5:12: error: 'schedule' is a list of 1 item; it has no item '4'"));
     CHECK(contains(message, "in the point {initial_mesh.cells: 6, velocity.facter: 1, "
                             "schedule.4.steps: 3} and 5 others"));
     CHECK(contains(message, "DIR/sweep.yaml:4:48: error: unknown key 'facter'"));

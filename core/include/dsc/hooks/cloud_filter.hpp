@@ -21,7 +21,7 @@ struct FilterContext {
     /// Says whether the run shall stop: on request, or because its time budget is over. After it
     /// has said so, the answer is discarded. May be null. [-; -]
     const CancelToken* cancel = nullptr;
-    /// Threads for own loops, with dsc::for_blocks(). Null: one thread. [-; -]
+    /// Threads for loops of the filter, with dsc::for_blocks(). Null: one thread. [-; -]
     Workers* workers = nullptr;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 // What the host passes to a strategy. Everything is in normalised units; the box is [-1.5, 1.5]^3
-// unless an initial mesh sets another one. The inverse of `to_normalised` leads back to the units
-// of the input.
+// unless an initial mesh sets another one. The inverse of `to_normalised` converts back to the
+// units of the input.
 
 #include <cstdint>
 #include <iosfwd>
@@ -41,15 +41,15 @@ struct StepContext {
     const surface::SurfaceView& surface;
     /// The points. Null when the experiment has no input cloud. [-; -]
     const cloud::TargetCloud* cloud = nullptr;
-    /// Nearest point of the cloud for each vertex. Empty without a cloud, and in tests;
-    /// nearest_point() searches then. [V; index and n]
+    /// Nearest point of the cloud for each vertex. Empty without a cloud, and in tests; there
+    /// nearest_point() searches the cloud. [V; index and n]
     std::span<const cloud::Neighbour> nearest = {};
     /// L, the wanted length of an interface edge. [1; n]
     double target_length = 0.0;
     /// The box that the tets fill. [-; n]
     Box3 box;
-    /// From the units of the input to normalised units; the identity without input. Its inverse
-    /// leads back. [-; -]
+    /// Converts from the units of the input to normalised units; without input it is the identity.
+    /// Its inverse converts back. [-; -]
     cloud::Transform to_normalised{};
     /// Seed of the experiment; use random(). [1; -]
     std::uint64_t seed = 0;
@@ -58,9 +58,10 @@ struct StepContext {
     /// Says whether the run shall stop; see cancelled(). May be null, and is null in the calls of
     /// improvements and observers. [-; -]
     const CancelToken* cancel = nullptr;
-    /// Threads for own loops outside evaluate(), with dsc::for_blocks(). Null: one thread. [-; -]
+    /// Threads for loops of the strategy outside evaluate(), with dsc::for_blocks(). Null: one
+    /// thread. [-; -]
     Workers* workers = nullptr;
-    /// Last step of the run, from the velocity or the schedule; 0: unknown. [1; -]
+    /// Last step of the run, from the velocity or the schedule; 0 if it is unknown. [1; -]
     std::uint64_t planned_steps = 0;
     /// Target length of each vertex. Empty where it is L everywhere. [V; n]
     std::span<const double> target_lengths = {};
@@ -94,11 +95,11 @@ struct StepContext {
     RandomStream random(std::uint64_t element) const {
         return RandomStream(RandomKey{seed, instance, step, element});
     }
-    /// Whether the run shall stop: on request, or because its time budget is over. A long loop asks
-    /// now and then, and returns early with any answer: after `true` all answers of the step, or of
-    /// the pass of a refinement, are discarded, and the run stops as it was before. Always false in
-    /// the calls of improvements and observers, because their step is made to its end. [1; -]
-    /// [parallel]
+    /// Whether the run shall stop: on request, or because its time budget is over. A long loop
+    /// should call this function repeatedly. When it returns true, the loop may return early with
+    /// any answer: all answers of the step, or of the pass of a refinement, are discarded, and the
+    /// run stops in the state before them. It is always false in the calls of improvements and
+    /// observers, because their step is always completed. [1; -] [parallel]
     bool cancelled() const { return cancel != nullptr && cancel->cancelled(); }
 };
 

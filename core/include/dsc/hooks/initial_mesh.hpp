@@ -37,7 +37,7 @@ struct InitialMeshContext {
     const CancelToken* cancel = nullptr;
     /// Reads files that a parameter names. Null if the host reads no files. [-; -]
     const MeshFiles* files = nullptr;
-    /// Threads for own loops, with dsc::for_blocks(). Null: one thread. [-; -]
+    /// Threads for loops of the strategy, with dsc::for_blocks(). Null: one thread. [-; -]
     Workers* workers = nullptr;
 };
 

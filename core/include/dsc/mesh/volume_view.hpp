@@ -61,7 +61,7 @@ public:
     /// Ids of all tets, ascending, for a loop: `for (const mesh::TetId t : volume.tets())`. The
     /// order is the same for any number of threads and in a resumed run. [-; id] [parallel]
     LiveIds<true> tets() const { return LiveIds<true>(complex_); }
-    /// Ids of all vertices, ascending; as tets(). [-; id] [parallel]
+    /// Ids of all vertices, ascending, for a loop like that of tets(). [-; id] [parallel]
     LiveIds<false> vertices() const { return LiveIds<false>(complex_); }
     /// Number of tets, inside and outside. [1; -] [parallel]
     std::size_t tet_count() const { return complex_->tet_count(); }
@@ -117,7 +117,8 @@ public:
     /// [parallel]
     bool on_interface(VertexId vertex) const { return complex_->on_interface(vertex); }
     /// Writes the tets round a vertex to `out`, in an order that depends only on the complex.
-    /// `places` is memory of the walk, one object per thread. [number of these tets; id] [parallel]
+    /// `places` is memory that the walk uses; each thread needs its own object. [number of these
+    /// tets; id] [parallel]
     void tets_round(VertexId vertex, std::vector<TetId>& out, TetIndex& places) const {
         complex_->star(vertex, out, places);
     }

@@ -52,7 +52,7 @@ void declare_shapes(config::ParamSchema<Params>& schema) {
     schema
         .list("shapes", static_cast<std::vector<generate::Shape> Params::*>(&Params::shapes),
               declare_shape)
-        .doc("Further shapes, applied in order: each gives the tets inside it its label or cuts "
+        .doc("Further shapes, applied in order: each gives its label to the tets inside it or cuts "
              "them away.");
     schema.boolean("project", static_cast<bool Params::*>(&Params::project))
         .doc("Moves the vertices of the interface onto the surface of the shapes, for every rule; "

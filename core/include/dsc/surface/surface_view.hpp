@@ -26,8 +26,8 @@ struct SurfaceView {
     std::vector<std::uint32_t> births;
     /// Positions of the vertices. [V x 3; n]
     std::vector<Vec3> positions;
-    /// Unit normals, out of the larger label: means of the unit normals of the faces round the
-    /// vertices; zero if they cancel. [V x 3; -]
+    /// Unit normals that point out of the larger label: means of the unit normals of the faces
+    /// round the vertices; zero if they cancel. [V x 3; -]
     std::vector<Vec3> normals;
     /// 1 if the kernel moves the vertex, 0 on the box and where three labels or more meet. [V; -]
     std::vector<std::uint8_t> movable;
@@ -35,13 +35,13 @@ struct SurfaceView {
     std::vector<std::array<std::uint32_t, 3>> faces;
     /// The tet with the larger label behind each face. [F; id]
     std::vector<mesh::TetId> face_tets;
-    /// Unit normals of the faces, out of the larger label; zero for a face without area.
-    /// [F x 3; -]
+    /// Unit normals of the faces, which point out of the larger label; zero for a face without
+    /// area. [F x 3; -]
     std::vector<Vec3> face_normals;
     /// Areas of the faces. [F; n^2]
     std::vector<double> face_areas;
-    /// The faces round vertex i are the entries from face_offsets[i] up to, and without,
-    /// face_offsets[i+1] of vertex_faces. [V+1; index]
+    /// The faces round vertex i are the entries of vertex_faces from number face_offsets[i] to
+    /// number face_offsets[i+1] - 1. [V+1; index]
     std::vector<std::uint32_t> face_offsets;
     /// Faces round the vertices, ascending for each vertex; see faces_of(). [3 F; index]
     std::vector<std::uint32_t> vertex_faces;
@@ -53,14 +53,14 @@ struct SurfaceView {
     std::vector<std::array<mesh::Label, 2>> face_labels;
 
     /// Position of each vertex at the start of the last step. positions - previous_positions is the
-    /// motion since then, that of a refinement after the step included. It is the vertex' own
-    /// position before the first step, and if the vertex was not on the interface at that time.
-    /// [V x 3; n]
+    /// motion since then, including the motion of a refinement after the step. Before the first
+    /// step, and for a vertex that was not on the interface at the start of the last step, it is
+    /// the present position. [V x 3; n]
     std::vector<Vec3> previous_positions;
     /// 1 if the vertex reached its destination in the last step, 0 if the kernel dropped a part of
-    /// its motion. 1 also for vertices that had no destination: those made since, those without a
-    /// displacement, and those that were not movable. The kernel moves a destination outside the
-    /// box shrunk by 2 L to the border of this box first. [V; -]
+    /// its motion. It is also 1 for vertices that had no destination: those made since, those
+    /// without a displacement, and those that were not movable. If a destination is outside the box
+    /// shrunk by 2 L, the kernel first moves it to the border of the shrunk box. [V; -]
     std::vector<std::uint8_t> arrived;
     /// Number of steps completed since the vertex was made: 0 for a vertex that the last step or a
     /// refinement after it made. The vertices of the initial mesh are made before step 1. [V;
@@ -76,7 +76,7 @@ struct SurfaceView {
         return std::span(vertex_faces)
             .subspan(face_offsets[vertex], face_offsets[vertex + 1] - face_offsets[vertex]);
     }
-    /// Positions of the corners of a face, in its order, from one of its vertices on.
+    /// Positions of the corners of a face, in its order, beginning with the given vertex.
     /// [3 x 3; n]
     std::array<Vec3, 3> corners_from(std::size_t vertex, std::uint32_t face) const {
         const auto& f = faces[face];
