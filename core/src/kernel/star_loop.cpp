@@ -1,113 +1,90 @@
-// Splits a long list of vertices into blocks of space and runs the blocks in parallel (method.md,
-// section 10).
+// Divides a list of vertices into blocks of space, and chooses the block that a thread continues
+// with (method.md, section 10).
 #include "kernel/star_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace dsc::kernel {
 namespace {
 
-constexpr unsigned cell_bits = 5;  // per axis
-constexpr std::uint32_t cells_an_axis = 1U << cell_bits;
-
-// Spreads five bits to every third position.
-std::uint32_t spread(std::uint32_t x) {
-    std::uint32_t out = 0;
-    for (unsigned bit = 0; bit < cell_bits; ++bit) out |= (x >> bit & 1U) << (3 * bit);
-    return out;
-}
-
-// Number of a grid cell along the Z-order [Morton1966].
-std::uint16_t z_order(const Vec3& p, const Vec3& low, const Vec3& scale) {
-    std::uint32_t code = 0;
-    for (unsigned axis = 0; axis < 3; ++axis) {
-        const double x = (p[axis] - low[axis]) * scale[axis];
-        const auto cell =
-            static_cast<std::uint32_t>(std::clamp(x, 0.0, static_cast<double>(cells_an_axis - 1)));
-        code |= spread(cell) << axis;
-    }
-    return static_cast<std::uint16_t>(code);
-}
+constexpr std::size_t least_block = 256;  // items, on average
+constexpr std::size_t most_samples = 1024;
 
 }  // namespace
 
-void StarLoop::split(std::span<const mesh::VertexId> vertices) {
-    const std::size_t n = vertices.size();
-    block_count_ = std::min(most_blocks, n / least_block);
-    Vec3 low = complex_.position(vertices.front());
-    Vec3 high = low;
-    for (const mesh::VertexId v : vertices) {
-        low = low.cwiseMin(complex_.position(v));
-        high = high.cwiseMax(complex_.position(v));
+// The planes below a node of the tree: each halves the samples across their longest extent.
+void StarLoop::split(unsigned node, unsigned level, std::span<Vec3> samples) {
+    if (level == levels_) return;
+    Vec3 low = samples.front(), high = samples.front();
+    for (const Vec3& p : samples) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
     }
-    // One scale for all axes: cells are cubes.
-    const double edge = std::max((high - low).maxCoeff(), 1e-300) / cells_an_axis;
-    const Vec3 scale = Vec3::Constant(1.0 / edge);
-    cells_.resize(n);
-    cell_sizes_.assign(cells_an_axis * cells_an_axis * cells_an_axis, 0);
-    for (std::size_t i = 0; i < n; ++i) {
-        cells_[i] = z_order(complex_.position(vertices[i]), low, scale);
-        ++cell_sizes_[cells_[i]];
-    }
-    // Consecutive cells form a block until it has its share; then cell_sizes_ becomes the block of
-    // each cell.
-    std::size_t passed = 0;
-    begins_.fill(0);
-    for (std::uint32_t& size : cell_sizes_) {
-        const std::size_t block = std::min(passed * block_count_ / n, block_count_ - 1);
-        passed += size;
-        begins_[block + 1] += size;
-        size = static_cast<std::uint32_t>(block);
-    }
-    for (std::size_t b = 0; b < block_count_; ++b) begins_[b + 1] += begins_[b];
-    block_of_.resize(std::max(block_of_.size(), complex_.vertex_slots()), no_block);
-    order_.resize(n);
-    auto next = begins_;
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const std::uint32_t block = cell_sizes_[cells_[i]];
-        order_[next[block]++] = i;
-        block_of_[vertices[i]] = static_cast<std::uint8_t>(block);
-    }
+    Plane& plane = planes_[node];
+    (high - low).maxCoeff(&plane.axis);
+    const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
+    std::nth_element(samples.begin(), middle, samples.end(),
+                     [&](const Vec3& x, const Vec3& y) { return x[plane.axis] < y[plane.axis]; });
+    plane.at = (*middle)[plane.axis];
+    split(2 * node, level + 1, samples.first(samples.size() / 2));
+    split(2 * node + 1, level + 1, samples.subspan(samples.size() / 2));
 }
 
-// Gives the moves of a wave the dates that they would have in serial order.
-void StarLoop::date_wave(std::size_t count, Workers* workers) {
-    std::uint32_t clock = complex_.clock();
-    for (std::size_t b = 0; b < count; ++b) {
-        blocks_[b].clock = clock;
-        clock += blocks_[b].moved;
+std::uint32_t StarLoop::block_at(const Vec3& place) const {
+    unsigned node = 1;
+    for (unsigned level = 0; level < levels_; ++level) {
+        const Plane& plane = planes_[node];
+        node = 2 * node + (place[plane.axis] < plane.at ? 0 : 1);
     }
-    for_blocks(workers, count, 1, [this](std::size_t begin, std::size_t end) {
-        for (std::size_t b = begin; b < end; ++b) {
-            Block& block = blocks_[b];
-            block.changed.clear();
-            std::uint32_t date = block.clock;
-            std::size_t at = 0;
-            for (const Entry& entry : block.entries) {
-                if (entry.star_size == 0) continue;
-                complex_.date_star(entry.vertex,
-                                   std::span(block.stars).subspan(at, entry.star_size), ++date,
-                                   block.changed);
-                at += entry.star_size;
-            }
-        }
-    });
-    for (std::size_t b = 0; b < count; ++b)
-        complex_.note_changes(blocks_[b].clock + blocks_[b].moved, blocks_[b].changed);
+    return node - (1U << levels_);
 }
 
-void StarLoop::join(std::span<const mesh::VertexId> vertices) {
-    for (const mesh::VertexId v : vertices) block_of_[v] = no_block;
-    waiting_.clear();
+// False if the items cannot be divided.
+bool StarLoop::divide(std::span<const mesh::VertexId> vertices) {
+    if (vertices.size() < least_split || vertices.size() >> (32 - most_levels) != 0) return false;
+    levels_ = 1;
+    while (levels_ < most_levels && vertices.size() >> (levels_ + 1) >= least_block) ++levels_;
+    const std::size_t stride = (vertices.size() + most_samples - 1) / most_samples;
+    samples_.clear();
+    for (std::size_t turn = 0; turn < vertices.size(); turn += stride)
+        samples_.push_back(complex_.position(vertices[turn]));
+    split(1, 0, samples_);
     for (Block& block : blocks_) {
-        waiting_.insert(waiting_.end(), block.waiting.begin(), block.waiting.end());
-        block.waiting.clear();
+        block.turns.clear();
+        block.next = 0;
+        block.prepared = false;
     }
-    std::sort(waiting_.begin(), waiting_.end());
+    codes_.resize(std::max(codes_.size(), complex_.vertex_slots()), no_code);
+    for (std::uint32_t turn = 0; turn < vertices.size(); ++turn) {
+        const mesh::VertexId v = vertices[turn];
+        if (codes_[v] != no_code) {  // It occurs twice, so it has two turns.
+            for (const mesh::VertexId w : vertices) codes_[w] = no_code;
+            return false;
+        }
+        const std::uint32_t block = block_at(complex_.position(v));
+        codes_[v] = turn << most_levels | block;
+        blocks_[block].turns.push_back(turn);
+    }
+    for (Block& block : blocks_) block.turn = block.turns.empty() ? no_code : block.turns.front();
+    marks_.assign(vertices.size(), 0);
+    return true;
 }
 
-bool StarLoop::meets_another(std::span<const mesh::VertexId> neighbours, std::uint8_t block) const {
-    return std::any_of(neighbours.begin(), neighbours.end(), [&](mesh::VertexId w) {
-        return block_of_[w] != block && block_of_[w] != no_block;
-    });
+StarLoop::Offer StarLoop::farthest_behind(std::uint32_t refused) const {
+    Offer offer;
+    std::uint32_t least = no_code;
+    for (std::size_t b = 0; b < most_blocks; ++b) {
+        const std::uint32_t turn = blocks_[b].turn.load(std::memory_order_acquire);
+        if (turn == no_code) continue;
+        offer.finished = false;
+        if (turn >= least || (refused >> b & 1U) != 0 ||
+            blocks_[b].taken.load(std::memory_order_relaxed))
+            continue;
+        least = turn;
+        offer.block = b;
+    }
+    return offer;
 }
 
 }  // namespace dsc::kernel

@@ -1,18 +1,19 @@
 #pragma once
-// Performs an action at many vertices, each on its own star. Stars that cannot meet are processed
-// in parallel; the result depends only on the complex and the list, never on the number of threads
-// (method.md, section 10).
+// Performs an action at many vertices, each on its own star, on several threads, and with exactly
+// the result of one thread that processes them in the order of the list (method.md, section 10).
 //
-// Long lists are split into blocks of space, along the Z-order of a coarse grid. Blocks run at the
-// same time; each processes its own vertices in the order of the list. A vertex whose star contains
-// a vertex of another block waits and runs after all blocks, in the order of the list. So no two
-// threads write to the same tet, and no thread reads what another one writes. Short lists run in
-// their order without blocks.
+// The vertices are divided into blocks of space. A thread processes the vertices of a block in the
+// order of the list, until it comes to a vertex with a neighbour in another block that is earlier
+// in the list and has not been processed. Then the thread continues with the block that is farthest
+// behind. So each vertex sees the star that it would see in serial order, and no two threads use
+// the same tet at the same time. What depends on the number of earlier moves, which is their dates
+// and the action's books, follows in the order of the list.
 
-#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <span>
+#include <thread>
 #include <vector>
 
 #include <dsc/base/workers.hpp>
@@ -31,65 +32,85 @@ struct StarScratch {
 
 class StarLoop {
 public:
-    /// Shorter lists are not split.
-    static constexpr std::size_t least_split = 16384;
+    /// Shorter lists run on one thread.
+    static constexpr std::size_t least_split = 512;
 
     explicit StarLoop(mesh::Complex& complex) : complex_(complex) {}
 
     /// For each vertices[i], which must be alive:
-    /// - action.ready(i): false if there is nothing to try; reads nothing that Complex::place()
-    ///   writes [parallel]
+    /// - action.ready(i): false if there is nothing to try [parallel]
     /// - action.attempt(i, scratch): scratch.star is filled; true if the vertex moves to
     ///   scratch.place, with scratch.qualities [parallel]
-    /// - action.settle(i, attempted, date): once, after all of these; date is the change clock at
+    /// - action.settle(i, attempted, date): in the order of the list; date is the change clock at
     ///   its turn [step]
+    /// ready() and attempt() may read the star and the date of their vertex, and everything that
+    /// neither place() nor settle() of other vertices writes.
     template <class Action>
     void run(std::span<const mesh::VertexId> vertices, Workers* workers, Action& action) {
-        if (vertices.size() < least_split) {
+        if (workers == nullptr || workers->threads() < 2 || !divide(vertices)) {
             for (std::uint32_t i = 0; i < vertices.size(); ++i) run_one(vertices[i], i, action);
             return;
         }
-        split(vertices);
-        for (wave_ = 0; wave_ < block_count_; wave_ += blocks_.size()) {
-            const std::size_t count = std::min(blocks_.size(), block_count_ - wave_);
-            struct Job {
-                std::span<const mesh::VertexId> vertices;
-                Action& action;
-            } const job{vertices, action};
-            const auto body = [this, &job](std::size_t begin, std::size_t end) {
-                for (std::size_t b = begin; b < end; ++b) run_block(b, job.vertices, job.action);
-            };
-            for_blocks(workers, count, 1, body);
-            settle_wave(count, workers, action);
+        struct Forget {
+            StarLoop& loop;
+            std::span<const mesh::VertexId> vertices;
+            ~Forget() {
+                for (const mesh::VertexId v : vertices) loop.codes_[v] = no_code;
+            }
+        } const forget{*this, vertices};
+        const auto body = [&](std::size_t, std::size_t) { work(vertices, action); };
+        for_blocks(workers, workers->threads(), 1, body);
+        for (std::uint32_t turn = 0; turn < vertices.size(); ++turn) {
+            if (turn + far < vertices.size()) complex_.prefetch_star(vertices[turn + far]);
+            if (turn + near < vertices.size() && (marks_[turn + near] & moved) != 0)
+                complex_.prefetch_dates(vertices[turn + near]);
+            if ((marks_[turn] & moved) != 0) complex_.note_move(vertices[turn]);
+            action.settle(turn, (marks_[turn] & attempted) != 0, complex_.clock());
         }
-        join(vertices);
-        for (const std::uint32_t i : waiting_) run_one(vertices[i], i, action);
     }
 
 private:
-    static constexpr std::size_t most_blocks = 64;
-    static constexpr std::size_t least_block = 2048;  // vertices
-    static constexpr std::uint8_t no_block = 0xff;
+    static constexpr unsigned most_levels = 4;  // of the tree that divides space
+    static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
+    static constexpr std::uint32_t no_code = 0xffffffffU;
+    static constexpr std::uint8_t attempted = 1, moved = 2;
+    static constexpr std::size_t near = 3, far = 8;  // how far ahead the memory is asked for data
 
-    struct Entry {
-        std::uint32_t i;
-        mesh::VertexId vertex;
-        std::uint32_t star_size;  // 0: not moved
-        bool attempted;
-    };
-    struct Block {
+    // On cache lines of its own.
+    struct alignas(64) Block {
+        std::atomic<std::uint32_t> turn{0};  // of the next item; no_code after the last one
+        std::atomic<bool> taken{false};
+        std::size_t next = 0;
+        bool prepared = false;             // scratch has the star and the neighbours of the next
+        std::vector<std::uint32_t> turns;  // of the items, ascending
         StarScratch scratch;
-        std::vector<Entry> entries;
-        std::vector<mesh::TetId> stars;  // stars of the moved vertices, one after the other
-        std::uint32_t moved = 0;
-        std::uint32_t clock = 0;  // before the first of these moves
-        std::vector<mesh::TetId> changed;
-        std::vector<std::uint32_t> waiting;
+
+        bool take() { return !taken.exchange(true, std::memory_order_acquire); }
+        void give_back() { taken.store(false, std::memory_order_release); }
     };
 
-    void split(std::span<const mesh::VertexId> vertices);
-    void join(std::span<const mesh::VertexId> vertices);
-    bool meets_another(std::span<const mesh::VertexId> neighbours, std::uint8_t block) const;
+    // What a thread that looks for work finds.
+    struct Offer {
+        std::size_t block = most_blocks;  // most_blocks: none that is not taken or refused
+        bool finished = true;             // all items have been processed
+    };
+
+    bool divide(std::span<const mesh::VertexId> vertices);
+    void split(unsigned node, unsigned level, std::span<Vec3> samples);
+    std::uint32_t block_at(const Vec3& place) const;
+    Offer farthest_behind(std::uint32_t refused) const;
+
+    // Whether the neighbours that come earlier have been processed.
+    bool is_free(const Block& block, std::uint32_t turn) const {
+        const auto own = static_cast<std::uint32_t>(&block - blocks_.data());
+        for (const mesh::VertexId w : block.scratch.neighbours) {
+            const std::uint32_t code = codes_[w], other = code % most_blocks;
+            if (code >> most_levels < turn && other != own &&
+                blocks_[other].turn.load(std::memory_order_acquire) <= code >> most_levels)
+                return false;
+        }
+        return true;
+    }
 
     template <class Action>
     void run_one(mesh::VertexId v, std::uint32_t i, Action& action) {
@@ -103,60 +124,79 @@ private:
         action.settle(i, ready, complex_.clock());
     }
 
+    // Until all items have been processed. The earliest of the items that are left can always be
+    // processed, so threads do not wait for each other without end, and one thread is enough.
     template <class Action>
-    void run_block(std::size_t slot, std::span<const mesh::VertexId> vertices, Action& action) {
-        Block& block = blocks_[slot];
-        const std::size_t b = wave_ + slot;
-        StarScratch& scratch = block.scratch;
-        block.entries.clear();
-        block.stars.clear();
-        block.moved = 0;
-        for (std::size_t at = begins_[b]; at < begins_[b + 1]; ++at) {
-            const std::uint32_t i = order_[at];
-            const mesh::VertexId v = vertices[i];
-            Entry entry{i, v, 0, action.ready(i)};
-            if (entry.attempted) {
+    void work(std::span<const mesh::VertexId> vertices, Action& action) {
+        std::uint32_t refused = 0;  // bits of the blocks that were not free
+        for (Offer offer = farthest_behind(0); !offer.finished; offer = farthest_behind(refused)) {
+            if (offer.block == most_blocks) {
+                refused = 0;
+                std::this_thread::yield();
+                continue;
+            }
+            Block& block = blocks_[offer.block];
+            if (!block.take()) continue;
+            const bool some = run_block(block, vertices, action);
+            refused = some ? 0 : refused | 1U << offer.block;
+        }
+    }
+
+    // Runs a taken block as far as it goes and gives it back; false if no item was free.
+    template <class Action>
+    bool run_block(Block& block, std::span<const mesh::VertexId> vertices, Action& action) {
+        // An exception ends the block, so that nobody waits for it.
+        struct Guard {
+            Block& block;
+            bool normal = false;
+            ~Guard() {
+                if (!normal) block.turn.store(no_code, std::memory_order_release);
+                block.give_back();
+            }
+        } guard{block};
+        const std::size_t first = block.next;
+        while (block.turn.load(std::memory_order_relaxed) != no_code) {
+            const std::uint32_t turn = block.turns[block.next];
+            const mesh::VertexId v = vertices[turn];
+            StarScratch& scratch = block.scratch;
+            if (!block.prepared) {
                 complex_.cached_star(v, scratch.star, scratch.walk);
                 complex_.cached_neighbours(v, scratch.star, scratch.neighbours, scratch.walk);
-                if (meets_another(scratch.neighbours, static_cast<std::uint8_t>(b))) {
-                    block.waiting.push_back(i);
-                    continue;
-                }
-                if (action.attempt(i, scratch)) {
-                    complex_.place(v, scratch.place, scratch.star, scratch.qualities);
-                    block.stars.insert(block.stars.end(), scratch.star.begin(), scratch.star.end());
-                    entry.star_size = static_cast<std::uint32_t>(scratch.star.size());
-                    ++block.moved;
-                }
+                block.prepared = true;
             }
-            block.entries.push_back(entry);
+            if (!is_free(block, turn)) break;
+            block.prepared = false;
+            marks_[turn] = run_next(block, v, turn, action);
+            ++block.next;
+            block.turn.store(block.next < block.turns.size() ? block.turns[block.next] : no_code,
+                             std::memory_order_release);
         }
+        guard.normal = true;
+        return block.next > first;
     }
 
     template <class Action>
-    void settle_wave(std::size_t count, Workers* workers, Action& action) {
-        date_wave(count, workers);
-        for (std::size_t b = 0; b < count; ++b) {
-            std::uint32_t clock = blocks_[b].clock;
-            for (const Entry& entry : blocks_[b].entries) {
-                if (entry.star_size > 0) ++clock;
-                action.settle(entry.i, entry.attempted, clock);
-            }
-        }
+    std::uint8_t run_next(Block& block, mesh::VertexId v, std::uint32_t i, Action& action) {
+        StarScratch& scratch = block.scratch;
+        if (!action.ready(i)) return 0;
+        if (!action.attempt(i, scratch)) return attempted;
+        complex_.place(v, scratch.place, scratch.star, scratch.qualities);
+        complex_.date_ahead(scratch.neighbours);
+        return attempted | moved;
     }
-    void date_wave(std::size_t count, Workers* workers);
 
     mesh::Complex& complex_;
-    std::array<Block, 8> blocks_;  // one wave of blocks, so that few stars are stored at a time
-    std::size_t block_count_ = 0;
-    std::size_t wave_ = 0;                // first block of the wave
-    std::vector<std::uint8_t> block_of_;  // per vertex: its block; no_block if it is not in the
-                                          // list
-    std::vector<std::uint32_t> order_;    // the list by block
-    std::array<std::size_t, most_blocks + 1> begins_{};
-    std::vector<std::uint32_t> waiting_;
-    std::vector<std::uint16_t> cells_;  // per entry of the list
-    std::vector<std::uint32_t> cell_sizes_;
+    std::array<Block, most_blocks> blocks_;
+    unsigned levels_ = 0;
+    struct Plane {
+        unsigned axis = 0;
+        double at = 0.0;
+    };
+    std::array<Plane, most_blocks> planes_;  // of the tree; node i has the children 2 i and 2 i + 1
+    std::vector<Vec3> samples_;
+    std::vector<std::uint32_t> codes_;  // per vertex: its turn and its block; no_code if it is not
+                                        // in the list
+    std::vector<std::uint8_t> marks_;   // per item
 };
 
 }  // namespace dsc::kernel

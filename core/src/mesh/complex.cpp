@@ -137,34 +137,21 @@ void Complex::note_change(VertexId v, std::span<const TetId> star) {
     for (const VertexId w : neighbours) vertices_[w].date = clock_;
 }
 
-void Complex::date_star(VertexId v, std::span<const TetId> star, std::uint32_t clock,
-                        std::vector<TetId>& changed) {
-    // Two stars may share a vertex. It keeps the latest date, for any order of the stars.
-    const auto date_vertex = [this, clock](VertexId w) {
+// Several threads may date the same vertex: they write the same value.
+void Complex::date_ahead(std::span<const VertexId> neighbours) {
+    for (const VertexId w : neighbours) {
         const std::atomic_ref<std::uint32_t> date(vertices_[w].date);
-        std::uint32_t before = date.load(std::memory_order_relaxed);
-        while (before < clock &&
-               !date.compare_exchange_weak(before, clock, std::memory_order_relaxed)) {
-        }
-    };
-    for (const TetId t : star) {
-        if (dates_[t] <= taken_clock_) changed.push_back(t);
-        dates_[t] = clock;
+        date.store(clock_ + 1, std::memory_order_relaxed);
     }
-    const std::span<const VertexId> neighbours = stars_.neighbours(v);
-    if (neighbours.empty()) {
-        for (const TetId t : star) {
-            for (const VertexId w : tets_[t].v) date_vertex(w);
-        }
-        return;
-    }
-    date_vertex(v);
-    for (const VertexId w : neighbours) date_vertex(w);
 }
 
-void Complex::note_changes(std::uint32_t clock, std::span<const TetId> changed) {
-    clock_ = clock;
-    changes_.insert(changes_.end(), changed.begin(), changed.end());
+void Complex::note_move(VertexId v) {
+    std::span<const TetId> star = stars_.tets(v);
+    if (star.empty()) {
+        walk_star(v, star_scratch_, places_);
+        star = star_scratch_;
+    }
+    note_change(v, star);
 }
 
 void Complex::relabel(std::span<const TetId> tets, Label label) {

@@ -2,6 +2,7 @@
 // as one thread gives them.
 #include <algorithm>
 #include <atomic>
+#include <stdexcept>
 
 #include <doctest/doctest.h>
 
@@ -83,9 +84,12 @@ struct Shaken {
     std::vector<TetId> changes;
 };
 
-Shaken shake(Workers* workers) {
+// `order` arranges the list.
+template <class Order>
+Shaken shake(Workers* workers, const Order& order) {
     Shaken out{cells(), {}, {}};
-    const std::vector<VertexId> vertices = inner_vertices(out.complex);
+    std::vector<VertexId> vertices = inner_vertices(out.complex);
+    order(vertices);
     REQUIRE(vertices.size() >= StarLoop::least_split);
     out.complex.take_changes(out.changes);
     std::vector<std::atomic<int>> busy(out.complex.tet_slots());
@@ -113,33 +117,125 @@ Shaken shake(Workers* workers) {
 
 }  // namespace
 
-TEST_CASE("star loop: every vertex once, no tet held by two, the same bits and dates for 1, 2 and "
-          "4 threads") {
-    const Shaken one = shake(nullptr);
-    // A vertex' date is that of the last move in its neighbourhood, and what moved is on the change
-    // list once.
-    std::vector<TetId> sorted = one.changes;
-    std::sort(sorted.begin(), sorted.end());
-    CHECK(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
-    CHECK(sorted.size() > one.complex.tet_count() / 2);
-    std::vector<TetId> star;
-    for (const VertexId v : inner_vertices(one.complex)) {
-        one.complex.star(v, star);
-        std::uint32_t latest = 0;
-        for (const TetId t : star) latest = std::max(latest, one.complex.date(t));
-        REQUIRE(one.complex.vertex_date(v) == latest);
+TEST_CASE("star loop: every vertex once, no tet held by two, the bits and dates of one thread") {
+    using List = std::vector<VertexId>;
+    const auto as_it_is = [](List&) {};
+    const auto shuffled = [](List& list) {
+        RandomStream random(RandomKey{5, 1, 0, 0});
+        for (std::size_t i = list.size(); i > 1; --i) std::swap(list[i - 1], list[random.index(i)]);
+    };
+    const auto short_list = [](List& list) { list.resize(StarLoop::least_split); };
+    const auto check = [](const auto& order) {
+        const Shaken one = shake(nullptr, order);
+        // A vertex' date is that of the last move in its neighbourhood, and what moved is on the
+        // change list once.
+        std::vector<TetId> sorted = one.changes;
+        std::sort(sorted.begin(), sorted.end());
+        CHECK(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
+        std::vector<TetId> star;
+        for (const VertexId v : inner_vertices(one.complex)) {
+            one.complex.star(v, star);
+            std::uint32_t latest = 0;
+            for (const TetId t : star) latest = std::max(latest, one.complex.date(t));
+            REQUIRE(one.complex.vertex_date(v) == latest);
+        }
+        for (const unsigned threads : {2U, 4U}) {
+            CAPTURE(threads);
+            Workers workers(threads);
+            const Shaken other = shake(&workers, order);
+            CHECK(other.dates == one.dates);
+            CHECK(other.changes == one.changes);
+            for (VertexId v = 0; v < one.complex.vertex_slots(); ++v) {
+                REQUIRE((one.complex.position(v) == other.complex.position(v)));
+                REQUIRE(one.complex.vertex_date(v) == other.complex.vertex_date(v));
+            }
+        }
+        return sorted.size() > one.complex.tet_count() / 2;
+    };
+    SUBCASE("in order of birth") { CHECK(check(as_it_is)); }
+    SUBCASE("shuffled") { CHECK(check(shuffled)); }
+    SUBCASE("the shortest list that is divided") { check(short_list); }
+}
+
+namespace {
+
+// Whether a vertex is tried depends on its date, as with remembered refusals.
+struct AfterNeighbours {
+    const mesh::Complex& complex;
+    std::span<const VertexId> vertices;
+    std::vector<std::uint32_t> known;  // per vertex: the clock at its last turn
+    std::vector<std::uint8_t> tried;
+
+    bool ready(std::size_t i) const {
+        return i % 7 == 0 || complex.vertex_date(vertices[i]) > known[vertices[i]];
     }
-    for (const unsigned threads : {2U, 4U}) {
-        CAPTURE(threads);
-        Workers workers(threads);
-        const Shaken other = shake(&workers);
-        CHECK(other.dates == one.dates);
-        CHECK(other.changes == one.changes);
-        for (VertexId v = 0; v < one.complex.vertex_slots(); ++v) {
-            REQUIRE((one.complex.position(v) == other.complex.position(v)));
-            REQUIRE(one.complex.vertex_date(v) == other.complex.vertex_date(v));
+    bool attempt(std::size_t i, StarScratch& scratch) {
+        ++tried[i];
+        complex.cached_neighbours(vertices[i], scratch.star, scratch.neighbours, scratch.walk);
+        scratch.place = 0.9 * complex.position(vertices[i]) +
+                        0.1 * complex.position(scratch.neighbours.front());
+        scratch.qualities.assign(scratch.star.size(), 0.5F);
+        return i % 4 == 3;
+    }
+    void settle(std::size_t i, bool, std::uint32_t date) { known[vertices[i]] = date; }
+};
+
+std::pair<std::vector<std::uint8_t>, std::vector<std::uint32_t>> after_neighbours(Workers* workers,
+                                                                                  bool twice) {
+    mesh::Complex c = cells();
+    std::vector<VertexId> vertices = inner_vertices(c);
+    if (twice) vertices.insert(vertices.end(), vertices.begin(), vertices.begin() + 1000);
+    AfterNeighbours action{c, vertices, std::vector<std::uint32_t>(c.vertex_slots(), c.clock()),
+                           std::vector<std::uint8_t>(vertices.size(), 0)};
+    StarLoop loop(c);
+    for (int pass = 0; pass < 3; ++pass) loop.run(vertices, workers, action);
+    std::vector<std::uint32_t> dates;
+    for (const VertexId v : vertices) dates.push_back(c.vertex_date(v));
+    return {action.tried, dates};
+}
+
+}  // namespace
+
+TEST_CASE("star loop: a vertex sees the dates of its neighbours' moves as with one thread, also in "
+          "a list that has vertices twice") {
+    for (const bool twice : {false, true}) {
+        CAPTURE(twice);
+        const auto one = after_neighbours(nullptr, twice);
+        const auto tried = static_cast<std::size_t>(
+            std::count_if(one.first.begin(), one.first.end(), [](int n) { return n > 0; }));
+        CHECK(tried > one.first.size() / 4);
+        CHECK(std::count(one.first.begin(), one.first.end(), 3) <
+              static_cast<std::ptrdiff_t>(one.first.size()));
+        for (const unsigned threads : {2U, 5U}) {
+            Workers workers(threads);
+            const auto other = after_neighbours(&workers, twice);
+            CHECK(other.first == one.first);
+            CHECK(other.second == one.second);
         }
     }
+}
+
+TEST_CASE("star loop: an exception of one vertex ends the loop, and the next loop works") {
+    mesh::Complex c = cells();
+    const std::vector<VertexId> vertices = inner_vertices(c);
+    struct Throws {
+        std::size_t at;
+        std::vector<int> settled;
+        bool ready(std::size_t i) const {
+            if (i == at) throw std::runtime_error("at its turn");
+            return false;
+        }
+        bool attempt(std::size_t, StarScratch&) const { return false; }
+        void settle(std::size_t i, bool, std::uint32_t) { ++settled[i]; }
+    };
+    Workers workers(3);
+    StarLoop loop(c);
+    Throws bad{vertices.size() / 2, std::vector<int>(vertices.size(), 0)};
+    CHECK_THROWS_WITH(loop.run(vertices, &workers, bad), "at its turn");
+    Throws good{vertices.size(), std::vector<int>(vertices.size(), 0)};
+    loop.run(vertices, &workers, good);
+    CHECK(std::count(good.settled.begin(), good.settled.end(), 1) ==
+          static_cast<std::ptrdiff_t>(vertices.size()));
 }
 
 TEST_CASE(

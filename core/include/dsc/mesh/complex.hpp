@@ -165,6 +165,13 @@ public:
         }
     }
 
+    /// The same for the stored star of a vertex, and then for the dates of its tets and neighbours.
+    void prefetch_star(VertexId v) const { __builtin_prefetch(stars_.tets(v).data()); }
+    void prefetch_dates(VertexId v) const {
+        for (const TetId t : stars_.tets(v)) __builtin_prefetch(&dates_[t]);
+        for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w].date);
+    }
+
     // ---- walks ----------------------------------------------------------------------------------
     /// All tets that contain v, the seed first; `places` maps a tet to its place in `out`.
     /// [parallel]
@@ -210,16 +217,13 @@ public:
         place(v, position, star, qualities);
         note_change(v, star);
     }
-    /// The parts of move(), for many vertices without common tets. First place the vertices, which
-    /// may run in parallel [parallel]. Then date their stars, also in parallel: each with a value
-    /// of the clock that is later than now; tets that are not yet in the change list go to
-    /// `changed` [parallel]. Finally note_changes() sets the clock and takes the lists, one after
-    /// the other [step].
+    /// The parts of move(), for several vertices. place() may run in parallel if no other thread
+    /// uses the star meanwhile, and date_ahead() gives the neighbours a date that is later than all
+    /// before [parallel]. Then note_move() does the rest, in the order of the moves [step].
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
-    void date_star(VertexId v, std::span<const TetId> star, std::uint32_t clock,
-                   std::vector<TetId>& changed);
-    void note_changes(std::uint32_t clock, std::span<const TetId> changed);
+    void date_ahead(std::span<const VertexId> neighbours);
+    void note_move(VertexId v);
     /// Gives tets another label. [step]
     void relabel(std::span<const TetId> tets, Label label);
 
