@@ -11,6 +11,11 @@
 #include <dsc/base/state.hpp>
 
 namespace dsc::kernel {
+namespace {
+
+constexpr std::size_t judged = 2048;  // tets that a thread judges at a time
+
+}  // namespace
 
 bool RepairQueues::lost() {
     if (drop_ == 0) return false;
@@ -28,16 +33,30 @@ bool RepairQueues::awake(VertexId v, std::uint32_t blocked_at) {
     return changed && !lost();
 }
 
-std::span<const TetId> RepairQueues::next_round() {
+RepairQueues::Verdict RepairQueues::judge(const Failure& failure,
+                                          std::uint32_t previous_clock) const {
+    if (!complex_.tet_alive(failure.tet) || complex_.birth_date(failure.tet) != failure.birth_date)
+        return Verdict::drop;
+    // Tets that changed since the last round are already in the list.
+    if (complex_.date(failure.tet) > previous_clock) return Verdict::drop;
+    return out_of_date(failure.tet, failure.date) ? Verdict::wake : Verdict::keep;
+}
+
+std::span<const TetId> RepairQueues::next_round(Workers* workers) {
     const std::uint32_t previous_clock = last_clock_;
     last_clock_ = complex_.clock();
     complex_.take_changes(dirty_);
+    alive_.resize(dirty_.size());
+    for_blocks(workers, dirty_.size(), judged, [this](std::size_t begin, std::size_t end) {
+        constexpr std::size_t ahead = 16;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i + ahead < end) complex_.prefetch(dirty_[i + ahead]);
+            alive_[i] = complex_.tet_alive(dirty_[i]) ? 1 : 0;
+        }
+    });
     std::size_t offered = 0;
-    constexpr std::size_t ahead = 16;
     for (std::size_t i = 0; i < dirty_.size(); ++i) {
-        if (i + ahead < dirty_.size()) complex_.prefetch(dirty_[i + ahead]);
-        const TetId t = dirty_[i];
-        if (complex_.tet_alive(t) && !lost()) dirty_[offered++] = t;
+        if (alive_[i] != 0 && !lost()) dirty_[offered++] = dirty_[i];
     }
     dirty_.resize(offered);
     // Of several failures of a slot in a round, the first one counts.
@@ -47,17 +66,22 @@ std::span<const TetId> RepairQueues::next_round() {
     }
     failed_now_.clear();
     seen_.clear();
+    verdicts_.resize(failed_.size());
+    struct Job {
+        RepairQueues& queues;
+        std::uint32_t previous_clock;
+    } const job{*this, previous_clock};
+    for_blocks(workers, failed_.size(), judged, [&job](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            job.queues.verdicts_[i] = job.queues.judge(job.queues.failed_[i], job.previous_clock);
+        }
+    });
     std::size_t kept = 0;
-    for (const Failure& failure : failed_) {
-        if (!complex_.tet_alive(failure.tet) ||
-            complex_.birth_date(failure.tet) != failure.birth_date)
-            continue;
-        // Tets that changed since the last round are already in the list.
-        if (complex_.date(failure.tet) > previous_clock) continue;
-        if (!out_of_date(failure.tet, failure.date)) {
-            failed_[kept++] = failure;
-        } else if (seen_.insert(failure.tet) && !lost()) {
-            dirty_.push_back(failure.tet);
+    for (std::size_t i = 0; i < failed_.size(); ++i) {
+        if (verdicts_[i] == Verdict::keep) {
+            failed_[kept++] = failed_[i];
+        } else if (verdicts_[i] == Verdict::wake && seen_.insert(failed_[i].tet) && !lost()) {
+            dirty_.push_back(failed_[i].tet);
         }
     }
     failed_.resize(kept);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <dsc/base/workers.hpp>
 #include <dsc/mesh/complex.hpp>
 
 namespace dsc::kernel {
@@ -22,8 +23,9 @@ public:
         : complex_(complex), audit_(audit), drop_(drop_wake_up) {}
 
     /// Collects the tets of the round: first those that changed since the last call, then tets
-    /// whose failure is out of date. Throws GeometryError if the audit finds a missed tet. [step]
-    std::span<const TetId> next_round();
+    /// whose failure is out of date. Throws GeometryError if the audit finds a missed tet.
+    /// `workers`: null for one thread. [step]
+    std::span<const TetId> next_round(Workers* workers);
     /// Remembers that a request on this tet was refused in this round, when the change clock was
     /// `date`.
     void fail(TetId t, std::uint32_t date);
@@ -42,6 +44,9 @@ private:
         std::uint32_t birth_date;
         std::uint32_t date;
     };
+    enum class Verdict : std::uint8_t { drop, keep, wake };
+    Verdict judge(const Failure& failure, std::uint32_t previous_clock) const;
+
     bool lost();
     bool out_of_date(TetId t, std::uint32_t date) const;
     void check(std::uint32_t previous_clock);
@@ -53,8 +58,10 @@ private:
     std::vector<Failure> failed_;
     std::vector<Failure> failed_now_;
     mesh::TetIndex seen_;
-    std::vector<Failure> memory_;  // audit only, per tet: its last failure, independent of the
-                                   // queues
+    std::vector<std::uint8_t> alive_;  // per changed tet
+    std::vector<Verdict> verdicts_;    // per failure
+    std::vector<Failure> memory_;      // audit only, per tet: its last failure, independent of the
+                                       // queues
     std::uint32_t last_clock_ = 0;
 };
 

@@ -104,7 +104,7 @@ std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) 
 
 void Deformer::State::repair(const RepairPolicy& policy, unsigned round, bool settled,
                              StepReport& report) {
-    const auto dirty = queues.next_round();
+    const auto dirty = queues.next_round(workers);
     note_changes(dirty);
     requests.clear();
     policy.propose(

@@ -15,7 +15,7 @@ constexpr std::uint64_t rest_steps = 5;  // steps in which the vertices of an ev
 constexpr double longest_edge = 1.0;     // of a seed, in L
 constexpr double thickest_neck = 0.5;    // area of a neck's cross-section, in L^2
 constexpr double events_per_vertex = 0.02;   // per step
-constexpr std::size_t seed_block = 8192;     // changed tets per block of the parallel search
+constexpr std::size_t seed_block = 2048;     // changed tets per block of the parallel search
 constexpr std::size_t small_component = 64;  // largest number of tets that a flood visits
 
 // The label at an interface vertex that is not `own`; `own` if there is not exactly one such label.

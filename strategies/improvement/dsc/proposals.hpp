@@ -49,7 +49,7 @@ private:
     // The findings of look().
     static constexpr std::uint8_t small_volume = 1, interface_edges = 2, free_edges = 4,
                                   low_quality = 8, to_smooth = 16;
-    static constexpr std::size_t look_block = 8192;  // tets
+    static constexpr std::size_t look_block = 2048;  // tets
 
     void sort_out(const repair::RepairRound& round, Workers* workers);
     double small_volume_of(const repair::RepairRound& round, mesh::TetId t) const;
