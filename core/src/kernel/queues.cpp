@@ -89,9 +89,9 @@ std::span<const TetId> RepairQueues::next_round(Workers* workers) {
     return dirty_;
 }
 
-void RepairQueues::fail(TetId t, std::uint32_t date) {
+void RepairQueues::fail(TetId t, std::uint32_t birth_date, std::uint32_t date) {
     if (!failed_now_.empty() && failed_now_.back().tet == t) return;
-    const Failure failure = {t, complex_.birth_date(t), date};
+    const Failure failure = {t, birth_date, date};
     failed_now_.push_back(failure);
     if (!audit_) return;
     memory_.resize(std::max(memory_.size(), complex_.tet_slots()), Failure{mesh::none, 0, 0});

@@ -27,8 +27,8 @@ public:
     /// `workers`: null for one thread. [step]
     std::span<const TetId> next_round(Workers* workers);
     /// Remembers that a request on this tet was refused in this round, when the change clock was
-    /// `date`.
-    void fail(TetId t, std::uint32_t date);
+    /// `date`. `birth_date` is that of the tet.
+    void fail(TetId t, std::uint32_t birth_date, std::uint32_t date);
     /// Whether a blocked vertex may be tried again: its star has changed since `blocked_at`.
     bool awake(VertexId v, std::uint32_t blocked_at);
 

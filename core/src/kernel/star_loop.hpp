@@ -48,7 +48,10 @@ public:
     template <class Action>
     void run(std::span<const mesh::VertexId> vertices, Workers* workers, Action& action) {
         if (workers == nullptr || workers->threads() < 2 || !divide(vertices)) {
-            for (std::uint32_t i = 0; i < vertices.size(); ++i) run_one(vertices[i], i, action);
+            for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+                prefetch(i, vertices.size(), [&](std::size_t at) { return vertices[at]; });
+                run_one(vertices[i], i, action);
+            }
             return;
         }
         struct Forget {
@@ -61,9 +64,11 @@ public:
         const auto body = [&](std::size_t, std::size_t) { work(vertices, action); };
         for_blocks(workers, workers->threads(), 1, body);
         for (std::uint32_t turn = 0; turn < vertices.size(); ++turn) {
+            if (turn + farther < vertices.size())
+                complex_.prefetch_star_entry(vertices[turn + farther]);
             if (turn + far < vertices.size()) complex_.prefetch_star(vertices[turn + far]);
             if (turn + near < vertices.size() && (marks_[turn + near] & moved) != 0)
-                complex_.prefetch_dates(vertices[turn + near]);
+                complex_.prefetch_star_dates(vertices[turn + near]);
             if ((marks_[turn] & moved) != 0) complex_.note_move(vertices[turn]);
             action.settle(turn, (marks_[turn] & attempted) != 0, complex_.clock());
         }
@@ -74,7 +79,10 @@ private:
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_code = 0xffffffffU;
     static constexpr std::uint8_t attempted = 1, moved = 2;
-    static constexpr std::size_t near = 3, far = 8;  // how far ahead the memory is asked for data
+    // How far ahead the memory is asked for data, and the size of a complex from which on this
+    // pays: a smaller one lies in the caches.
+    static constexpr std::size_t near = 2, far = 6, farther = 12;
+    static constexpr std::size_t large = 400'000;  // tets
 
     // On cache lines of its own.
     struct alignas(64) Block {
@@ -110,6 +118,15 @@ private:
                 return false;
         }
         return true;
+    }
+
+    // `at(i)` is the i-th of `count` vertices.
+    template <class At>
+    void prefetch(std::size_t i, std::size_t count, const At& at) const {
+        if (complex_.tet_slots() < large) return;
+        if (i + farther < count) complex_.prefetch_star_entry(at(i + farther));
+        if (i + far < count) complex_.prefetch_star(at(i + far));
+        if (i + near < count) complex_.prefetch_star_tets(at(i + near));
     }
 
     template <class Action>
@@ -160,6 +177,8 @@ private:
             const mesh::VertexId v = vertices[turn];
             StarScratch& scratch = block.scratch;
             if (!block.prepared) {
+                prefetch(block.next, block.turns.size(),
+                         [&](std::size_t at) { return vertices[block.turns[at]]; });
                 complex_.cached_star(v, scratch.star, scratch.walk);
                 complex_.cached_neighbours(v, scratch.star, scratch.neighbours, scratch.walk);
                 block.prepared = true;

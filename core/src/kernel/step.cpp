@@ -51,7 +51,8 @@ void Deformer::State::record(std::uint32_t i, Outcome outcome, std::uint32_t dat
         .repair_classes[std::min<std::size_t>(request.repair_class, repair::repair_class_limit - 1)]
         .add(outcome);
     if (!outcome.refused()) return;
-    if (outcome != Refusal::stale && request.tet != mesh::none) queues.fail(request.tet, date);
+    if (outcome != Refusal::stale && request.tet != mesh::none)
+        queues.fail(request.tet, request.birth_date, date);
 }
 
 // Consecutive requests that smooth different vertices may run in parallel.
@@ -95,8 +96,14 @@ bool Deformer::State::plain_smoothing(const repair::Request& request) const {
 
 std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) {
     smoothed.clear();
-    for (std::size_t i = first; i < requests.size() && plain_smoothing(requests[i]); ++i)
+    constexpr std::size_t ahead = 16;
+    for (std::size_t i = first; i < requests.size() && plain_smoothing(requests[i]); ++i) {
+        if (i + ahead < requests.size() && requests[i + ahead].tet < complex.tet_slots()) {
+            complex.prefetch(requests[i + ahead].tet);
+            complex.prefetch_birth_date(requests[i + ahead].tet);
+        }
         smoothed.push_back(requests[i].vertices[0]);
+    }
     Smoothing action{*this, static_cast<std::uint32_t>(first), report};
     star_loop.run(smoothed, workers, action);
     return smoothed.size();

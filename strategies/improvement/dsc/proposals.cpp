@@ -78,7 +78,12 @@ std::uint8_t Proposals::look(const repair::RepairRound& round, mesh::TetId t) co
     std::uint8_t found = 0;
     const auto q = static_cast<double>(c.quality(t));
     if (q < limits_.min_tet_quality) found |= low_quality;
-    if (q < limits_.smooth_below) found |= to_smooth;
+    if (q < limits_.smooth_below) {
+        for (unsigned k = 0; k < 4; ++k) {
+            if (!c.on_interface(v[k]) && !c.on_box(v[k]))
+                found |= static_cast<std::uint8_t>(to_smooth << k);
+        }
+    }
     if (geometry::tet_volume(c.position(v[0]), c.position(v[1]), c.position(v[2]),
                              c.position(v[3])) < small_volume_of(round, t) &&
         may_thin_out(round, t))
@@ -170,19 +175,18 @@ void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
     for (std::size_t i = 0; i < round.dirty.size(); ++i) {
         constexpr std::size_t near = 4, far = 16;
         if (i + far < looks_.size() && looks_[i + far] != 0) c.prefetch(round.dirty[i + far]);
-        if (i + near < looks_.size() && looks_[i + near] != 0)
+        if (i + near < looks_.size() && (looks_[i + near] & all_but_smoothing) != 0)
             c.prefetch_vertices(round.dirty[i + near]);
         const mesh::TetId t = round.dirty[i];
         const std::uint8_t found = looks_[i];
         if ((found & low_quality) != 0)
             low_.push_back({quantised(static_cast<double>(c.quality(t))), t,
                             static_cast<std::uint32_t>(low_.size())});
-        if ((found & to_smooth) != 0) {
-            for (const mesh::VertexId v : c.tet(t).v) {
-                if (c.on_interface(v) || c.on_box(v) || !first_visit(v)) continue;
-                free_.push_back(v);
-                free_tets_.push_back(t);
-            }
+        for (unsigned k = 0; k < 4 && found >= to_smooth; ++k) {
+            const mesh::VertexId v = c.tet(t).v[k];
+            if ((found & to_smooth << k) == 0 || !first_visit(v)) continue;
+            free_.push_back(v);
+            free_tets_.push_back(t);
         }
         if ((found & small_volume) != 0)
             small_.push_back({quantised(c.volume(t) / small_volume_of(round, t)), t,
@@ -229,6 +233,8 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers,
     }
     // 1. Free vertices move to the mean of their neighbours.
     for (std::size_t i = 0; i < free_.size(); ++i) {
+        constexpr std::size_t ahead = 16;
+        if (i + ahead < free_.size()) c.prefetch_birth_date(free_tets_[i + ahead]);
         Request request = on_tet(c, free_tets_[i], Operation::smooth_laplacian, 2.0, 2.0);
         request.vertices[0] = free_[i];
         out.push_back(request);

@@ -46,9 +46,10 @@ private:
         std::int64_t key;
         std::uint32_t order;  // of discovery
     };
-    // The findings of look().
+    // The findings of look(); to_smooth << k means vertex k of the tet.
     static constexpr std::uint8_t small_volume = 1, interface_edges = 2, free_edges = 4,
                                   low_quality = 8, to_smooth = 16;
+    static constexpr std::uint8_t all_but_smoothing = to_smooth - 1;
     static constexpr std::size_t look_block = 2048;  // tets
 
     void sort_out(const repair::RepairRound& round, Workers* workers);

@@ -165,9 +165,17 @@ public:
         }
     }
 
-    /// The same for the stored star of a vertex, and then for the dates of its tets and neighbours.
+    void prefetch_birth_date(TetId t) const { __builtin_prefetch(&birth_dates_[t]); }
+    /// The same for a star: first where it is stored, then its ids, then its tets and neighbours as
+    /// far as they are stored, or only their dates. Each call needs what the one before has
+    /// fetched.
+    void prefetch_star_entry(VertexId v) const { stars_.prefetch(v); }
     void prefetch_star(VertexId v) const { __builtin_prefetch(stars_.tets(v).data()); }
-    void prefetch_dates(VertexId v) const {
+    void prefetch_star_tets(VertexId v) const {
+        for (const TetId t : stars_.tets(v)) prefetch(t);
+        for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w]);
+    }
+    void prefetch_star_dates(VertexId v) const {
         for (const TetId t : stars_.tets(v)) __builtin_prefetch(&dates_[t]);
         for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w].date);
     }

@@ -30,6 +30,9 @@ public:
         if (entries_.size() < slots) entries_.resize(slots);
     }
 
+    /// Asks the memory for the entry of a vertex that will be read soon.
+    void prefetch(std::uint32_t v) const { __builtin_prefetch(&entries_[v]); }
+
     /// The tets of the star in the order of the walk; empty if they are not known.
     std::span<const std::uint32_t> tets(std::uint32_t v) const {
         const Entry& entry = entries_[v];
