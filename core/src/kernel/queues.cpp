@@ -22,41 +22,44 @@ bool RepairQueues::lost() {
     return --drop_ == 0;
 }
 
-bool RepairQueues::out_of_date(TetId t, std::uint32_t date) const {
-    const auto& v = complex_.tet(t).v;
-    return std::any_of(v.begin(), v.end(),
-                       [&](VertexId x) { return complex_.vertex_date(x) > date; });
-}
-
 bool RepairQueues::awake(VertexId v, std::uint32_t blocked_at) {
     const bool changed = complex_.vertex_date(v) > blocked_at;
     return changed && !lost();
 }
 
-RepairQueues::Verdict RepairQueues::judge(const Failure& failure,
-                                          std::uint32_t previous_clock) const {
-    if (!complex_.tet_alive(failure.tet) || complex_.birth_date(failure.tet) != failure.birth_date)
-        return Verdict::drop;
-    // Tets that changed since the last round are already in the list.
-    if (complex_.date(failure.tet) > previous_clock) return Verdict::drop;
-    return out_of_date(failure.tet, failure.date) ? Verdict::wake : Verdict::keep;
-}
-
-std::span<const TetId> RepairQueues::next_round(Workers* workers) {
-    const std::uint32_t previous_clock = last_clock_;
-    last_clock_ = complex_.clock();
-    complex_.take_changes(dirty_);
+void RepairQueues::find_alive(Workers& workers) {
     alive_.resize(dirty_.size());
-    for_blocks(workers, dirty_.size(), judged, [this](std::size_t begin, std::size_t end) {
+    workers.for_blocks(dirty_.size(), judged, [this](std::size_t begin, std::size_t end) {
         constexpr std::size_t ahead = 16;
         for (std::size_t i = begin; i < end; ++i) {
             if (i + ahead < end) complex_.prefetch(dirty_[i + ahead]);
             alive_[i] = complex_.tet_alive(dirty_[i]) ? 1 : 0;
         }
     });
+}
+
+void RepairQueues::judge_all(std::uint32_t previous_clock, Workers& workers) {
+    verdicts_.resize(failed_.size());
+    workers.for_blocks(failed_.size(), judged,
+                       [this, previous_clock](std::size_t begin, std::size_t end) {
+                           for (std::size_t i = begin; i < end; ++i)
+                               verdicts_[i] = judge(failed_[i], previous_clock);
+                       });
+}
+
+std::span<const TetId> RepairQueues::next_round(Workers* workers) {
+    const std::uint32_t previous_clock = last_clock_;
+    last_clock_ = complex_.clock();
+    complex_.take_changes(dirty_);
+    // Several threads look at the tets in advance; one thread looks at each when it comes to it.
+    const bool in_advance = workers != nullptr;
+    if (in_advance) find_alive(*workers);
     std::size_t offered = 0;
+    constexpr std::size_t ahead = 16;
     for (std::size_t i = 0; i < dirty_.size(); ++i) {
-        if (alive_[i] != 0 && !lost()) dirty_[offered++] = dirty_[i];
+        if (!in_advance && i + ahead < dirty_.size()) complex_.prefetch(dirty_[i + ahead]);
+        const bool alive = in_advance ? alive_[i] != 0 : complex_.tet_alive(dirty_[i]);
+        if (alive && !lost()) dirty_[offered++] = dirty_[i];
     }
     dirty_.resize(offered);
     // Of several failures of a slot in a round, the first one counts.
@@ -66,21 +69,13 @@ std::span<const TetId> RepairQueues::next_round(Workers* workers) {
     }
     failed_now_.clear();
     seen_.clear();
-    verdicts_.resize(failed_.size());
-    struct Job {
-        RepairQueues& queues;
-        std::uint32_t previous_clock;
-    } const job{*this, previous_clock};
-    for_blocks(workers, failed_.size(), judged, [&job](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            job.queues.verdicts_[i] = job.queues.judge(job.queues.failed_[i], job.previous_clock);
-        }
-    });
+    if (in_advance) judge_all(previous_clock, *workers);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < failed_.size(); ++i) {
-        if (verdicts_[i] == Verdict::keep) {
+        const Verdict verdict = in_advance ? verdicts_[i] : judge(failed_[i], previous_clock);
+        if (verdict == Verdict::keep) {
             failed_[kept++] = failed_[i];
-        } else if (verdicts_[i] == Verdict::wake && seen_.insert(failed_[i].tet) && !lost()) {
+        } else if (verdict == Verdict::wake && seen_.insert(failed_[i].tet) && !lost()) {
             dirty_.push_back(failed_[i].tet);
         }
     }

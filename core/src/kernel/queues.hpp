@@ -2,6 +2,7 @@
 // The tets that a repair round must look at, and the audit that proves that none is missed
 // (method.md, section 6.2).
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -45,10 +46,23 @@ private:
         std::uint32_t date;
     };
     enum class Verdict : std::uint8_t { drop, keep, wake };
-    Verdict judge(const Failure& failure, std::uint32_t previous_clock) const;
+    Verdict judge(const Failure& failure, std::uint32_t previous_clock) const {
+        const TetId t = failure.tet;
+        if (!complex_.tet_alive(t) || complex_.birth_date(t) != failure.birth_date)
+            return Verdict::drop;
+        // Tets that changed since the last round are already in the list.
+        if (complex_.date(t) > previous_clock) return Verdict::drop;
+        return out_of_date(t, failure.date) ? Verdict::wake : Verdict::keep;
+    }
+    void find_alive(Workers& workers);
+    void judge_all(std::uint32_t previous_clock, Workers& workers);
 
     bool lost();
-    bool out_of_date(TetId t, std::uint32_t date) const;
+    bool out_of_date(TetId t, std::uint32_t date) const {
+        const auto& v = complex_.tet(t).v;
+        return std::any_of(v.begin(), v.end(),
+                           [&](VertexId x) { return complex_.vertex_date(x) > date; });
+    }
     void check(std::uint32_t previous_clock);
 
     mesh::Complex& complex_;
@@ -58,8 +72,8 @@ private:
     std::vector<Failure> failed_;
     std::vector<Failure> failed_now_;
     mesh::TetIndex seen_;
-    std::vector<std::uint8_t> alive_;  // per changed tet
-    std::vector<Verdict> verdicts_;    // per failure
+    std::vector<std::uint8_t> alive_;  // per changed tet, and
+    std::vector<Verdict> verdicts_;    // per failure; for several threads
     std::vector<Failure> memory_;      // audit only, per tet: its last failure, independent of the
                                        // queues
     std::uint32_t last_clock_ = 0;

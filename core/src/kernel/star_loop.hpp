@@ -34,6 +34,9 @@ class StarLoop {
 public:
     /// Shorter lists run on one thread.
     static constexpr std::size_t least_split = 512;
+    /// Number of tets from which on it pays to ask the memory for data ahead: smaller complexes lie
+    /// in the caches.
+    static constexpr std::size_t large = 400'000;
 
     explicit StarLoop(mesh::Complex& complex) : complex_(complex) {}
 
@@ -79,10 +82,8 @@ private:
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_code = 0xffffffffU;
     static constexpr std::uint8_t attempted = 1, moved = 2;
-    // How far ahead the memory is asked for data, and the size of a complex from which on this
-    // pays: a smaller one lies in the caches.
-    static constexpr std::size_t near = 2, far = 6, farther = 12;
-    static constexpr std::size_t large = 400'000;  // tets
+    static constexpr std::size_t near = 2, far = 6, farther = 12;  // how far ahead the memory is
+                                                                   // asked for data
 
     // On cache lines of its own.
     struct alignas(64) Block {

@@ -97,8 +97,9 @@ bool Deformer::State::plain_smoothing(const repair::Request& request) const {
 std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) {
     smoothed.clear();
     constexpr std::size_t ahead = 16;
+    const bool large = complex.tet_slots() >= StarLoop::large;
     for (std::size_t i = first; i < requests.size() && plain_smoothing(requests[i]); ++i) {
-        if (i + ahead < requests.size() && requests[i + ahead].tet < complex.tet_slots()) {
+        if (large && i + ahead < requests.size() && requests[i + ahead].tet < complex.tet_slots()) {
             complex.prefetch(requests[i + ahead].tet);
             complex.prefetch_birth_date(requests[i + ahead].tet);
         }

@@ -144,9 +144,10 @@ void TopologyStage::collect_seeds(std::uint64_t step, std::span<const TetId> cha
         std::span<const TetId> changed;
         std::uint64_t step;
     } const job{*this, changed, step};
-    seed_blocks_.resize(
-        std::max(seed_blocks_.size(), (changed.size() + seed_block - 1) / seed_block));
-    for (SeedBlock& block : seed_blocks_) block.seeds.clear();
+    const std::size_t count = (changed.size() + seed_block - 1) / seed_block;
+    seed_blocks_.resize(std::max(seed_blocks_.size(), count));
+    const std::span<SeedBlock> blocks(seed_blocks_.data(), count);
+    for (SeedBlock& block : blocks) block.seeds.clear();
     const auto body = [&job](std::size_t begin, std::size_t end) {
         SeedBlock& block = job.stage.seed_blocks_[begin / seed_block];
         constexpr std::size_t near = 4, far = 16;  // how far ahead the memory is asked for data
@@ -160,7 +161,7 @@ void TopologyStage::collect_seeds(std::uint64_t step, std::span<const TetId> cha
     };
     for_blocks(workers, changed.size(), seed_block, body);
     seeds_.clear();
-    for (const SeedBlock& block : seed_blocks_)
+    for (const SeedBlock& block : blocks)
         seeds_.insert(seeds_.end(), block.seeds.begin(), block.seeds.end());
     std::sort(seeds_.begin(), seeds_.end(),
               [](const Seed& x, const Seed& y) { return x.births < y.births; });
