@@ -21,7 +21,7 @@
 
 namespace dsc::kernel {
 
-/// Arrays for the visit of one star; one per thread.
+/// Arrays for the visit of one star, for one thread at a time.
 struct StarScratch {
     std::vector<mesh::TetId> star;
     mesh::TetIndex walk;  // for cached_star() and cached_neighbours()

@@ -190,8 +190,9 @@ private:
     std::vector<std::array<VertexId, 3>> fan_;
     std::vector<Vec3> normals_;
 
-    // Refusals at a vertex, by kind of smoothing: the change clock and the reason. If another
-    // vertex takes the slot, its star is younger than the remembered clock.
+    // The last refusal at a vertex, for each kind of smoothing: its reason, and the change clock at
+    // that time. A new vertex in the same slot has a star with a later date, so the refusal does
+    // not count for it.
     struct Memory {
         std::array<std::uint32_t, 2> date = {0, 0};
         float accept_above = 0.0F;  // of the Laplacian; the other kind has no bound

@@ -70,7 +70,7 @@ void draw(const RunFolder& folder, const surface::TriangleMesh& surface, bool sa
 /// The end of the time budget, which begins now.
 std::optional<CancelToken::Clock::time_point> deadline_of(const RunOptions& options) {
     if (!options.time_budget) return std::nullopt;
-    // If the clock cannot count this time, there is no limit.
+    // A budget above `longest` would overflow the clock. It is reduced to `longest`, 31 years.
     constexpr double longest = 1e9;
     const std::chrono::duration<double> budget(std::min(*options.time_budget, longest));
     return CancelToken::Clock::now() +

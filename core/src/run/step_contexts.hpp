@@ -10,8 +10,8 @@
 
 namespace dsc::run {
 
-/// Refers to parts of a run; they must exist as long as this object. `planned`: number of steps in
-/// the schedule.
+/// This object refers to parts of a run. These parts must exist longer than the object. `planned`
+/// is the number of steps in the schedule.
 class StepContexts {
 public:
     StepContexts(StepData& data, const Strategies& strategies, const cloud::TargetCloud* cloud,

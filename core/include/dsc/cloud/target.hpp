@@ -14,8 +14,8 @@
 namespace dsc::cloud {
 
 /// The points and the values measured from them, in normalised units. A target cloud does not
-/// change during a run, so pointers to it stay valid; copies share the points and the tree. All
-/// methods may be called from several threads at once.
+/// change during a run, so pointers to it remain valid. Copies share the points and the tree.
+/// Several threads may call all methods at once.
 class TargetCloud {
 public:
     /// Builds the search tree. Attributes that do not have one entry per point are left out. Throws

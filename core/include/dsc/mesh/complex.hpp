@@ -216,7 +216,8 @@ public:
     /// Commits a linked edit; its tets must be positive. Returns the id of the created vertex, or
     /// none. [step]
     VertexId replace(Edit& edit);
-    /// Moves a vertex; `star` are its tets, which must all be positive at the new position. [step]
+    /// Moves a vertex. `star` contains its tets. Each of them must be positive after the move.
+    /// [step]
     void move(VertexId v, const Vec3& position, std::span<const TetId> star);
     /// The same with known qualities of the tets at the new position, in the order of the star.
     /// [step]

@@ -76,8 +76,8 @@ struct SurfaceView {
         return std::span(vertex_faces)
             .subspan(face_offsets[vertex], face_offsets[vertex + 1] - face_offsets[vertex]);
     }
-    /// Positions of the corners of a face, in its order, beginning with the given vertex.
-    /// [3 x 3; n]
+    /// Positions of the three corners of a face, counter-clockwise as in `faces`. The first one is
+    /// the position of the given vertex. [3 x 3; n]
     std::array<Vec3, 3> corners_from(std::size_t vertex, std::uint32_t face) const {
         const auto& f = faces[face];
         const std::size_t k = f[0] == vertex ? 0 : f[1] == vertex ? 1 : 2;
