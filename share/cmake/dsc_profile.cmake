@@ -11,9 +11,10 @@ endfunction()
 # Reconstruction, the steps of the thesis, and changes of topology; on the built-in shapes, because others are not at hand.
 function(_dsc_train program folder)
   set(configs ${PROJECT_SOURCE_DIR}/configs)
+  file(MAKE_DIRECTORY ${folder})
   _dsc_execute(${program} sample teapot -n 1200 -o ${folder}/teapot.obj)
   _dsc_execute(${program} run ${configs}/quickstart.yaml -o ${folder}/quickstart --progress never)
-  _dsc_execute(${program} run ${configs}/thesis/teapot.yaml input.cloud.file=${folder}/teapot.obj -o ${folder}/thesis
+  _dsc_execute(${CMAKE_COMMAND} -E env DSC_DATA=${folder} ${program} run ${configs}/thesis/teapot.yaml -o ${folder}/thesis
     --progress never)
   foreach(demo IN ITEMS merge_spheres split_dumbbell)
     _dsc_execute(${program} run ${configs}/demos/${demo}.yaml -o ${folder}/${demo} --progress never)

@@ -30,7 +30,7 @@ constexpr std::array<std::pair<std::string_view, View>, 7> view_names = {{{"fron
                                                                           {"iso", View::iso}}};
 constexpr int largest_size = 16384;
 constexpr float margin = 0.05F;         // of the frame, on each side
-constexpr unsigned occlusion_rays = 4;  // per pixel; 4 x 4 pixels share theirs
+constexpr unsigned occlusion_rays = 2;  // per pixel; 4 x 4 pixels share theirs
 
 /// Rows: right, up, towards the viewer, in the mesh's coordinates.
 Eigen::Matrix3d view_axes(View view, UpAxis up) {
@@ -127,14 +127,18 @@ std::vector<float> ramp_parts(std::span<const double> values) {
 }
 
 Colour shade(const Vec3f& normal, const Colour& material, float open) {
-    const Vec3f key = Vec3f(-0.45F, 0.62F, 0.64F).normalized();
-    const Vec3f half = (key + Vec3f(0, 0, 1)).normalized();
+    static const Vec3f key = Vec3f(-0.45F, 0.62F, 0.64F).normalized();
+    static const Vec3f half = (key + Vec3f(0, 0, 1)).normalized();
     const float lit = std::max(0.0F, (normal.dot(key) + 0.12F) / 1.12F);
     const Colour ambient = ground_light + (0.5F + 0.5F * normal.y()) * (sky_light - ground_light);
     // Crevices also get less of the key light; this partly replaces its soft shadow.
     const Colour light = open * ambient + (0.3F + 0.7F * open) * lit * key_light +
                          (0.4F + 0.6F * open) * std::max(0.0F, normal.z()) * head_light;
-    const float gloss = 0.10F * std::pow(std::max(0.0F, normal.dot(half)), 36.0F) * open;
+    // The 36th power of the cosine.
+    const float cosine = std::max(0.0F, normal.dot(half));
+    const float square = cosine * cosine, fourth = square * square, eighth = fourth * fourth;
+    const float sixteenth = eighth * eighth;
+    const float gloss = 0.10F * sixteenth * sixteenth * fourth * open;
     return material * light + gloss;
 }
 
@@ -148,6 +152,20 @@ float radical_inverse(unsigned i) {
     float value = 0.0F, digit = 0.5F;
     for (; i != 0; i >>= 1U, digit *= 0.5F) value += (i & 1U) != 0 ? digit : 0.0F;
     return value;
+}
+
+/// Directions round +z with the density of their cosine. A pixel uses every 16th of them; together
+/// the pixels of a tile use all.
+std::array<Vec3f, 16 * occlusion_rays> occlusion_directions() {
+    std::array<Vec3f, 16 * occlusion_rays> all;
+    for (unsigned number = 0; number < all.size(); ++number) {
+        const float share =
+            (static_cast<float>(number) + 0.5F) / static_cast<float>(all.size());
+        const float angle = 2.0F * std::numbers::pi_v<float> * radical_inverse(number);
+        const float radius = std::sqrt(share);
+        all[number] = {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1.0F - share)};
+    }
+    return all;
 }
 
 /// What a ray through one pixel hits.
@@ -199,9 +217,16 @@ public:
         constexpr std::array<std::array<float, 2>, 4> offsets = {
             {{0.375F, 0.125F}, {0.875F, 0.375F}, {0.125F, 0.625F}, {0.625F, 0.875F}}};
         auto out = image.pixels.begin() + 3 * static_cast<std::ptrdiff_t>(y) * image.width;
+        const Colour sky = background_at(frame_y(static_cast<float>(y) + 0.5F));
+        const std::array<std::uint8_t, 3> plain = {to_srgb(sky[0]), to_srgb(sky[1]),
+                                                   to_srgb(sky[2])};
         for (int x = 0; x < image.width; ++x) {
             Colour mean = Colour::Zero();
             if (smooth_at(x, y)) {
+                if (!centres_[index(x, y)].hit) {
+                    out = std::copy(plain.begin(), plain.end(), out);
+                    continue;
+                }
                 mean = colour_of(centres_[index(x, y)], x, y, 0.5F, 0.5F).min(1.0F);
             } else {
                 // Clamped before the mean, so that an edge against the light background stays
@@ -219,6 +244,10 @@ private:
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(options_.width) +
                static_cast<std::size_t>(x);
+    }
+
+    Colour background_at(float y) const {
+        return background(0.5F + y / static_cast<float>(options_.height));
     }
 
     /// 4 x 4 neighbouring pixels have 16 different numbers, distributed so that neighbours differ
@@ -276,7 +305,7 @@ private:
     Colour colour_of(Surfel seen, int px, int py, float dx, float dy) const {
         const float x = frame_x(static_cast<float>(px) + dx),
                     y = frame_y(static_cast<float>(py) + dy);
-        if (!seen.hit) return background(0.5F + y / static_cast<float>(options_.height));
+        if (!seen.hit) return background_at(y);
         if (options_.ambient_occlusion) seen.open = gathered(seen, px, py);
         const Colour outside = std::isfinite(seen.part) ? ramp(seen.part) : front_colour;
         const Colour colour = shade(seen.normal, seen.front ? outside : back_colour, seen.open);
@@ -316,15 +345,8 @@ private:
         const float reach = 0.3F * diagonal_;
         unsigned cast = 0, free = 0;
         for (unsigned i = 0; i < occlusion_rays; ++i) {
-            const unsigned number = i * 16 + tile;  // of 16 times as many directions, distributed
-                                                    // over the tile
-            const float share =
-                (static_cast<float>(number) + 0.5F) / static_cast<float>(16 * occlusion_rays);
-            const float angle = 2.0F * std::numbers::pi_v<float> * radical_inverse(number);
-            const float radius = std::sqrt(share);
-            const Vec3f direction = radius * std::cos(angle) * side +
-                                    radius * std::sin(angle) * other +
-                                    std::sqrt(1.0F - share) * normal;
+            const Vec3f& local = directions_[i * 16 + tile];
+            const Vec3f direction = local.x() * side + local.y() * other + local.z() * normal;
             // Rays below the flat face are artefacts of the smooth normal.
             if (direction.dot(at.flat) <= 0.01F) continue;
             ++cast;
@@ -361,6 +383,7 @@ private:
     std::vector<float> parts_;  ///< position of the points on the scale; empty: one colour
     std::unique_ptr<RayScene> scene_;
     float diagonal_ = 0.0F;
+    const std::array<Vec3f, 16 * occlusion_rays> directions_ = occlusion_directions();
     std::vector<Surfel> centres_;  ///< one per pixel
 };
 

@@ -54,8 +54,6 @@ public:
         c_.star(b_, own_.b.star);
     }
 
-    std::span<const TetId> star_a() const { return own_.a.star; }
-    std::span<const TetId> star_b() const { return own_.b.star; }
     float least_quality_of_stars() const {
         float least = 1.0F;
         for (const TetId t : own_.a.star) least = std::min(least, c_.quality(t));
@@ -237,13 +235,13 @@ Outcome collapse_edge(Workbench& bench, TetId t, VertexId a, VertexId b, Collaps
     const bool a_goes = collapse.removable(a), b_goes = collapse.removable(b);
     if (!a_goes && !b_goes)
         return c.on_box(a) || c.on_box(b) ? Refusal::box : Refusal::not_applicable;
-    collapse.walk();
     // In safe mode the interface may be edited only if it is flat round the vertex that leaves its
     // place.
     const bool shape_matters = interface_edge && mode == CollapseMode::safe;
-    const bool a_moves = a_goes && (!shape_matters || bench.flat(a, collapse.star_a()));
-    const bool b_moves = b_goes && (!shape_matters || bench.flat(b, collapse.star_b()));
+    const bool a_moves = a_goes && (!shape_matters || bench.flat(a));
+    const bool b_moves = b_goes && (!shape_matters || bench.flat(b));
     if (!a_moves && !b_moves) return Refusal::bound;
+    collapse.walk();
 
     const float old = collapse.least_quality_of_stars();
     const float must_exceed = std::min(old, accept_above);

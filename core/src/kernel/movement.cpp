@@ -1,7 +1,7 @@
 // Moves one vertex towards its destination without inverting a tet (method.md, section 5.2).
 #include "kernel/movement.hpp"
 
-#include <dsc/mesh/star_quality.hpp>
+#include <dsc/mesh/star_trial.hpp>
 
 namespace dsc::kernel {
 
@@ -33,30 +33,6 @@ double first_inversion(const mesh::Complex& c, std::span<const TetId> star, Vert
     return first;
 }
 
-// Whether v may move to `place`; on success `qualities` contains the tets' qualities there. The tet
-// that refused this vertex last time is asked first.
-bool acceptable(const mesh::Complex& c, std::span<const TetId> star, VertexId v, const Vec3& place,
-                float floor, std::vector<float>& qualities) {
-    const auto too_low = [&](TetId t, float q) { return !(q >= std::min(floor, c.quality(t))); };
-    if (const std::size_t suspect = c.suspect(v); suspect < star.size()) {
-        const TetId t = star[suspect];
-        if (too_low(t, static_cast<float>(mesh::quality_of(mesh::corners_at(c, t, v, place)))))
-            return false;
-    }
-    qualities.clear();
-    for (std::size_t i = 0; i < star.size(); ++i) {
-        const TetId t = star[i];
-        const auto corners = mesh::corners_at(c, t, v, place);
-        const auto q = static_cast<float>(mesh::quality_of(corners));
-        if (too_low(t, q) || !mesh::exactly_positive(corners, q)) {
-            c.keep_suspect(v, i);
-            return false;
-        }
-        qualities.push_back(q);
-    }
-    return true;
-}
-
 }  // namespace
 
 bool has_arrived(const mesh::Complex& complex, const Limits& limits, VertexId v,
@@ -69,13 +45,20 @@ Motion plan_move(const mesh::Complex& complex, const Limits& limits, VertexId v,
     const Vec3 p = complex.position(v);
     const double length = (destination - p).norm();
     const double least_step = arrival * limits.length;
+    const auto floor = static_cast<float>(limits.quality_floor);
     double fraction =
         std::min(1.0, free_path * first_inversion(complex, scratch.star, v, p, destination));
+    mesh::StarTrial trial(complex, scratch.star, v, scratch.copy);
+    scratch.qualities.resize(scratch.star.size());
+    const auto good_enough = [&](std::size_t i, float q) {
+        scratch.qualities[i] = q;
+        return q >= std::min(floor, complex.quality(scratch.star[i]));
+    };
     for (int halving = 0; halving <= 8; ++halving, fraction *= 0.5) {
         if (fraction * length < least_step) break;
         scratch.place = fraction == 1.0 ? destination : Vec3(p + fraction * (destination - p));
-        if (!acceptable(complex, scratch.star, v, scratch.place,
-                        static_cast<float>(limits.quality_floor), scratch.qualities))
+        if (!trial.accepts(scratch.place, good_enough) ||
+            !trial.positive(scratch.place, scratch.qualities))
             continue;
         return (destination - scratch.place).norm() < least_step ? Motion::arrived : Motion::moved;
     }

@@ -27,7 +27,8 @@ struct RegionScratch {
         std::uint32_t face;
     };
     // Of the growth.
-    std::vector<VertexId> concerned;  // vertices of the region
+    std::vector<VertexId> concerned;  // vertices of the region,
+    std::vector<VertexId> checked;    // and those that are known to stay regular
     std::vector<std::size_t> group_size;
     std::vector<char> is_from, has_outside;
     std::vector<std::uint32_t> group, previous, distance, queue;
@@ -49,8 +50,8 @@ std::uint32_t root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
     return i;
 }
 
-bool contains(const std::vector<TetId>& list, TetId t) {
-    return std::find(list.begin(), list.end(), t) != list.end();
+bool contains(const std::vector<std::uint32_t>& list, std::uint32_t id) {
+    return std::find(list.begin(), list.end(), id) != list.end();
 }
 
 }  // namespace
@@ -164,6 +165,7 @@ RegionFault grow(Workbench& bench, Region& region) {
     mesh::LocalStar& star = bench.local_star();
     RegionScratch& own = bench.region.get();
     const std::vector<TetId>&group = own.addition_group, &chain = own.addition_chain;
+    own.checked.clear();
     for (int round = 0; round <= max_growth; ++round) {
         double volume = 0.0;
         for (const TetId t : region.tets) {
@@ -173,8 +175,11 @@ RegionFault grow(Workbench& bench, Region& region) {
         if (region.tets.size() > max_region || volume > volume_limit) return RegionFault::too_large;
         collect_vertices(c, region, own.concerned);
         const auto bad = std::find_if(own.concerned.begin(), own.concerned.end(), [&](VertexId v) {
+            if (contains(own.checked, v)) return false;
             star.build(v, region.tets, region.to);
-            return !star.regular();
+            if (!star.regular()) return true;
+            own.checked.push_back(v);
+            return false;
         });
         if (bad == own.concerned.end()) return RegionFault::none;
         // The star is still that of the vertex found.
@@ -184,7 +189,11 @@ RegionFault grow(Workbench& bench, Region& region) {
             chain.empty() || (!group.empty() && group.size() <= chain.size()) ? group : chain;
         if (addition.empty()) return RegionFault::irregular;
         for (const TetId t : addition) {
-            if (!contains(region.tets, t)) region.tets.push_back(t);
+            if (contains(region.tets, t)) continue;
+            region.tets.push_back(t);
+            const auto of_t = [&](VertexId v) { return mesh::has_vertex(c.tet(t), v); };
+            own.checked.erase(std::remove_if(own.checked.begin(), own.checked.end(), of_t),
+                              own.checked.end());
         }
     }
     return RegionFault::irregular;

@@ -18,6 +18,7 @@
 
 #include <dsc/base/workers.hpp>
 #include <dsc/mesh/complex.hpp>
+#include <dsc/mesh/star_trial.hpp>
 
 namespace dsc::kernel {
 
@@ -28,6 +29,7 @@ struct StarScratch {
     std::vector<mesh::VertexId> neighbours;
     Vec3 place = Vec3::Zero();     // the planned place of the vertex,
     std::vector<float> qualities;  // and the qualities of the star there, in its order
+    mesh::StarCopy copy;           // for the trial of places
 };
 
 class StarLoop {

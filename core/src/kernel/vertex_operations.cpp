@@ -2,7 +2,7 @@
 // sections 4.2, 4.6, 4.8).
 #include <cmath>
 
-#include <dsc/mesh/star_quality.hpp>
+#include <dsc/mesh/star_trial.hpp>
 #include <dsc/mesh/vertex_split.hpp>
 
 #include "kernel/creases.hpp"
@@ -15,6 +15,7 @@ struct SmoothScratch {
     // Of the optimising form; the qualities are those at the best and at the tried place.
     std::vector<TetId> star;
     std::vector<float> qualities, tried;
+    mesh::StarCopy copy;
 };
 
 struct VertexSplitScratch {
@@ -23,16 +24,6 @@ struct VertexSplitScratch {
 };
 
 namespace {
-
-// `qualities`: of the tets at this place.
-bool star_positive(const mesh::Complex& c, std::span<const TetId> star, VertexId v,
-                   const Vec3& place, std::span<const float> qualities) {
-    for (std::size_t i = 0; i < star.size(); ++i) {
-        if (!mesh::exactly_positive(mesh::corners_at(c, star[i], v, place), qualities[i]))
-            return false;
-    }
-    return true;
-}
 
 float star_old(const mesh::Complex& c, std::span<const TetId> star) {
     float least = 1.0F;
@@ -43,6 +34,19 @@ float star_old(const mesh::Complex& c, std::span<const TetId> star) {
 Outcome smoothable(const mesh::Complex& c, VertexId v) {
     if (c.on_box(v)) return Refusal::box;
     return c.on_interface(v) ? Refusal::not_applicable : success;
+}
+
+// The least quality of the star with its vertex at `place`, or -1 if a tet is not above `bound`.
+// `qualities` receives those of the tets, and must have their number.
+float least_above(float bound, mesh::StarTrial& trial, const Vec3& place,
+                  std::vector<float>& qualities) {
+    float least = 2.0F;
+    const bool all = trial.accepts(place, [&](std::size_t i, float q) {
+        qualities[i] = q;
+        least = std::min(least, q);
+        return q > bound;
+    });
+    return all ? least : -1.0F;
 }
 
 // Gradient of the signed quality of tet (v, b, c, d) by v; q = sqrt(2) det / m^(3/2), m the mean
@@ -77,10 +81,11 @@ Outcome plan_laplacian(const mesh::Complex& complex, const Limits& limits, Verte
     // A vertex that is already there is not moved: the move would only mark its star as changed.
     if ((mean - complex.position(v)).norm() < 0.02 * limits.length) return Refusal::no_gain;
     const float bound = std::min(star_old(complex, scratch.star), accept_above);
-    if (mesh::suspected_star_quality_above(bound, complex, scratch.star, v, mean,
-                                           &scratch.qualities) < 0.0F)
+    mesh::StarTrial trial(complex, scratch.star, v, scratch.copy);
+    scratch.qualities.resize(scratch.star.size());
+    if (least_above(bound, trial, mean, scratch.qualities) < 0.0F ||
+        !trial.positive(mean, scratch.qualities))
         return Refusal::quality;
-    if (!star_positive(complex, scratch.star, v, mean, scratch.qualities)) return Refusal::quality;
     scratch.place = mean;
     return success;
 }
@@ -101,8 +106,11 @@ Outcome smooth_optimise(Workbench& bench, VertexId v) {
     mesh::Complex& c = bench.complex;
     if (const Outcome o = smoothable(c, v); o.refused()) return o;
     if (const auto known = bench.known_refusal(v, smoother, 0.0F)) return *known;
-    auto& [laplacian, star, qualities, tried] = bench.smooth.get();
+    auto& [laplacian, star, qualities, tried, copy] = bench.smooth.get();
     c.star(v, star);
+    mesh::StarTrial trial(c, star, v, copy);
+    qualities.resize(star.size());
+    tried.resize(star.size());
     const float old = star_old(c, star);
     float best = old;
     Vec3 place = c.position(v);
@@ -133,7 +141,7 @@ Outcome smooth_optimise(Workbench& bench, VertexId v) {
         bool better = false;
         for (int halving = 0; halving < 6 && !better; ++halving, step *= 0.5) {
             const Vec3 there = place + (step / slope) * uphill;
-            const float least = mesh::suspected_star_quality_above(best, c, star, v, there, &tried);
+            const float least = least_above(best, trial, there, tried);
             if (least < 0.0F) continue;
             std::swap(qualities, tried);
             best = least;
@@ -143,7 +151,7 @@ Outcome smooth_optimise(Workbench& bench, VertexId v) {
         if (!better) break;
     }
     if (!(best > old * 1.01F)) return bench.remember(v, smoother, 0.0F, Refusal::no_gain);
-    if (!star_positive(c, star, v, place, qualities))
+    if (!trial.positive(place, qualities))
         return bench.remember(v, smoother, 0.0F, Refusal::quality);
     c.move(v, place, star, qualities);
     return success;

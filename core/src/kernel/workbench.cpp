@@ -181,8 +181,19 @@ Refusal Workbench::remember(VertexId v, Smoother smoother, float accept_above, R
     return refusal;
 }
 
-bool Workbench::flat(VertexId v, std::span<const TetId> star) {
-    interface_fan(v, star, fan_);
+bool Workbench::flat(VertexId v) {
+    if (limits.flatness != flat_limit_) flat_memory_.clear();
+    flat_limit_ = limits.flatness;
+    if (flat_memory_.size() < complex.vertex_slots()) flat_memory_.resize(complex.vertex_slots());
+    Flatness& memory = flat_memory_[v];
+    const std::uint32_t date = complex.vertex_date(v);
+    if (!memory.known || memory.date != date) memory = {date, true, find_flat(v)};
+    return memory.flat;
+}
+
+bool Workbench::find_flat(VertexId v) {
+    complex.star(v, flat_star_);
+    interface_fan(v, flat_star_, fan_);
     normals_.clear();
     for (const auto& face : fan_) {
         normals_.push_back(geometry::triangle_normal(

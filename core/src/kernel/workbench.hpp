@@ -173,9 +173,9 @@ public:
     /// Forgets all refusals, because the limits have changed.
     void forget_refusals() { memory_.clear(); }
 
-    /// Whether the interface faces round v are flat to each other (signed normals). `star`: the
-    /// tets of v.
-    bool flat(VertexId v, std::span<const TetId> star);
+    /// Whether the interface faces round v are flat to each other (signed normals). The answer is
+    /// remembered until the star of v changes.
+    bool flat(VertexId v);
     /// Vertices of the star's interface faces as triangles with v first, counter-clockwise from the
     /// smaller label.
     void interface_fan(VertexId v, std::span<const TetId> star,
@@ -187,8 +187,20 @@ private:
     mesh::LocalStar star_;
     std::uint32_t new_vertex_epoch();
 
+    bool find_flat(VertexId v);
+
+    std::vector<TetId> flat_star_;
     std::vector<std::array<VertexId, 3>> fan_;
     std::vector<Vec3> normals_;
+
+    // The last answer of flat(), and the date of the vertex at that time. As with refusals, a new
+    // vertex in the same slot has a later date.
+    struct Flatness {
+        std::uint32_t date = 0;
+        bool known = false, flat = false;
+    };
+    std::vector<Flatness> flat_memory_;  // per vertex, for
+    double flat_limit_ = 0.0;            // this flatness
 
     // The last refusal at a vertex, for each kind of smoothing: its reason, and the change clock at
     // that time. A new vertex in the same slot has a star with a later date, so the refusal does

@@ -8,15 +8,24 @@
 namespace dsc::mesh {
 namespace {
 
-// Whether (i, j, k, l) is an even permutation of (0, 1, 2, 3).
-bool even_permutation(unsigned i, unsigned j, unsigned k, unsigned l) {
-    const std::array<unsigned, 4> p = {i, j, k, l};
-    unsigned inversions = 0;
-    for (unsigned a = 0; a < 4; ++a) {
-        for (unsigned b = a + 1; b < 4; ++b) inversions += p[a] > p[b] ? 1 : 0;
+// For each pair of different corners i and j of a tet, the two others k and l, so that (i, j, k, l)
+// is an even permutation of (0, 1, 2, 3). Tables, because branches that depend on the order of the
+// corners cannot be predicted.
+using CornerPairs = std::array<std::array<std::array<std::uint8_t, 2>, 4>, 4>;
+constexpr CornerPairs opposite_corners = {{{{{0, 0}, {2, 3}, {3, 1}, {1, 2}}},
+                                           {{{3, 2}, {0, 0}, {0, 3}, {2, 0}}},
+                                           {{{1, 3}, {3, 0}, {0, 0}, {0, 1}}},
+                                           {{{2, 1}, {0, 2}, {1, 0}, {0, 0}}}}};
+// The same two in ascending order.
+constexpr CornerPairs other_corners = [] {
+    CornerPairs all = opposite_corners;
+    for (auto& row : all) {
+        for (auto& pair : row) {
+            if (pair[0] > pair[1]) std::swap(pair[0], pair[1]);
+        }
     }
-    return inversions % 2 == 0;
-}
+    return all;
+}();
 
 VertexId fourth(const Tet& tet, VertexId a, VertexId b, VertexId c) {
     return tet.v[0] ^ tet.v[1] ^ tet.v[2] ^ tet.v[3] ^ a ^ b ^ c;
@@ -49,11 +58,7 @@ RingEnd walk_ring(const std::vector<Tet>& tets, TetId first, VertexId a, VertexI
 
 // The other two vertices p and q of a tet with the edge ab, so that orient3d(a, b, p, q) == 1.
 std::array<VertexId, 2> opposite_edge(const Tet& tet, VertexId a, VertexId b) {
-    const unsigned i = index_of(tet, a), j = index_of(tet, b);
-    unsigned k = 0;
-    while (k == i || k == j) ++k;
-    unsigned l = 6 - i - j - k;
-    if (!even_permutation(i, j, k, l)) std::swap(k, l);
+    const auto [k, l] = opposite_corners[index_of(tet, a)][index_of(tet, b)];
     return {tet.v[k], tet.v[l]};
 }
 
@@ -85,16 +90,30 @@ void Complex::cached_neighbours(VertexId v, std::span<const TetId> star, std::ve
         return;
     }
     scratch.clear();
-    scratch.insert(v);
     out.clear();
     for (const TetId t : star) {
         for (const VertexId w : tets_[t].v) {
-            if (scratch.insert(w)) out.push_back(w);
+            if (w != v && scratch.insert(w)) out.push_back(w);
         }
     }
-    std::sort(out.begin(), out.end(),
-              [this](VertexId x, VertexId y) { return birth(x) < birth(y); });
+    sort_by_birth(out);
     stars_.keep_neighbours(v, star, out);
+}
+
+// Nearly all lists are short; then the births are read once each and not in every comparison.
+void Complex::sort_by_birth(std::vector<VertexId>& list) const {
+    std::array<std::uint64_t, 64> keys;
+    if (list.size() > keys.size()) {
+        std::sort(list.begin(), list.end(),
+                  [this](VertexId x, VertexId y) { return birth(x) < birth(y); });
+        return;
+    }
+    const auto end = std::transform(list.begin(), list.end(), keys.begin(), [this](VertexId v) {
+        return std::uint64_t{birth(v)} << 32U | v;
+    });
+    std::sort(keys.begin(), end);
+    std::transform(keys.begin(), end, list.begin(),
+                   [](std::uint64_t key) { return static_cast<VertexId>(key); });
 }
 
 void Complex::walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const {
@@ -105,17 +124,22 @@ void Complex::walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) c
     const TetId first = vertices_[v].seed;
     places.insert(first);
     // Until the end `out` contains codes: the tet, and the face through which it was reached,
-    // because nothing new lies behind that face.
-    out.push_back(4 * first + index_of(tets[first], v));
-    for (std::size_t i = 0; i < out.size(); ++i) {
+    // because nothing new lies behind that face. The first tet was reached through no face at v, so
+    // it has the face opposite v.
+    const auto visit = [&](std::uint32_t code) {
+        if (code == none || !places.insert(neighbour_tet(code))) return;
+        __builtin_prefetch(tets + neighbour_tet(code));  // its turn comes soon
+        out.push_back(code);
+    };
+    const unsigned own = index_of(tets[first], v);
+    out.push_back(4 * first + own);
+    for (unsigned f = 0; f < 4; ++f) {
+        if (f != own) visit(tets[first].n[f]);
+    }
+    for (std::size_t i = 1; i < out.size(); ++i) {
         const Tet& tet = tets[neighbour_tet(out[i])];
-        const unsigned entry = neighbour_face(out[i]);
-        for (unsigned f = 0; f < 4; ++f) {
-            if (f == entry || tet.v[f] == v || tet.n[f] == none) continue;
-            if (!places.insert(neighbour_tet(tet.n[f]))) continue;
-            __builtin_prefetch(tets + neighbour_tet(tet.n[f]));  // its turn comes soon
-            out.push_back(tet.n[f]);
-        }
+        for (const unsigned f : other_corners[index_of(tet, v)][neighbour_face(out[i])])
+            visit(tet.n[f]);
     }
     for (TetId& t : out) t = neighbour_tet(t);
 }

@@ -40,13 +40,6 @@ bool edge_is_flat(const mesh::Complex& c, const mesh::EdgeRing& ring, mesh::Vert
 
 }  // namespace
 
-bool Proposals::first_visit(mesh::VertexId v) {
-    if (v >= visited_.size()) visited_.resize(std::max<std::size_t>(v + 1, 2 * visited_.size()), 0);
-    if (visited_[v] == visit_) return false;
-    visited_[v] = visit_;
-    return true;
-}
-
 // The volume below which a tet is collapsed.
 double Proposals::small_volume_of(const repair::RepairRound& round, mesh::TetId t) const {
     const double length = round.lengths.empty() ? round.target_length : round.length_of(t);
@@ -158,6 +151,7 @@ void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
     free_.clear();
     free_tets_.clear();
     ++visit_;
+    if (visited_.size() < c.vertex_slots()) visited_.resize(c.vertex_slots(), 0);
     looks_.resize(round.dirty.size());
     struct Job {
         Proposals& proposals;

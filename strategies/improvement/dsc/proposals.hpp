@@ -59,7 +59,11 @@ private:
     std::uint8_t look(const repair::RepairRound& round, mesh::TetId t) const;
     void note_edges(const repair::RepairRound& round, mesh::TetId t);
     void note_free_edges(const repair::RepairRound& round, mesh::TetId t);
-    bool first_visit(mesh::VertexId v);
+    bool first_visit(mesh::VertexId v) {
+        const bool first = visited_[v] != visit_;
+        visited_[v] = visit_;
+        return first;
+    }
 
     Thresholds limits_;
     ShapeProposals shapes_;

@@ -8,6 +8,7 @@
 // complex: replace(), move() and relabel(). Each keeps it valid.
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -51,10 +52,9 @@ inline unsigned neighbour_face(std::uint32_t code) { return code & 3U; }
 
 /// Local index of v in the tet; 4 if the tet does not contain v.
 inline unsigned index_of(const Tet& tet, VertexId v) {
-    for (unsigned i = 0; i < 4; ++i) {
-        if (tet.v[i] == v) return i;
-    }
-    return 4;
+    // Without branches, because the processor cannot guess where v is.
+    const auto bit = [&](unsigned i) { return static_cast<unsigned>(tet.v[i] == v) << i; };
+    return static_cast<unsigned>(std::countr_zero(bit(0) | bit(1) | bit(2) | bit(3) | 16U));
 }
 inline bool has_vertex(const Tet& tet, VertexId v) { return index_of(tet, v) < 4; }
 
@@ -283,6 +283,7 @@ private:
     void refresh_phases(VertexId v);
     void set_phases(VertexId v, unsigned phases);
     void walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const;
+    void sort_by_birth(std::vector<VertexId>& list) const;
 
     std::vector<Vertex> vertices_;
     std::vector<Tet> tets_;

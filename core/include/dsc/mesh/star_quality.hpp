@@ -77,28 +77,4 @@ inline float star_quality_above(float bound, const Complex& complex, std::span<c
                               [](TetId) { return true; });
 }
 
-/// The same for all tets of v's whole star, but it asks first the tet that refused this vertex last
-/// time; often it refuses again. [parallel] if no two threads ask for the same vertex.
-inline float suspected_star_quality_above(float bound, const Complex& complex,
-                                          std::span<const TetId> star, VertexId v,
-                                          const Vec3& place, std::vector<float>* qualities) {
-    const auto quality = [&](TetId t) {
-        return static_cast<float>(quality_of(corners_at(complex, t, v, place)));
-    };
-    const std::size_t suspect = complex.suspect(v);
-    if (suspect < star.size() && !(quality(star[suspect]) > bound)) return -1.0F;
-    float least = 2.0F;
-    if (qualities != nullptr) qualities->clear();
-    for (std::size_t i = 0; i < star.size(); ++i) {
-        const float q = quality(star[i]);
-        if (!(q > bound)) {
-            complex.keep_suspect(v, i);
-            return -1.0F;
-        }
-        if (qualities != nullptr) qualities->push_back(q);
-        least = std::min(least, q);
-    }
-    return least;
-}
-
 }  // namespace dsc::mesh
