@@ -88,15 +88,20 @@ public:
     template <class Accept>
     bool accepts(const Vec3& place, const Accept& accept) {
         const std::size_t suspect = complex_.suspect(v_);
-        if (suspect < star_.size() && !accept(suspect, quality(suspect, place))) return false;
-        if (!gathered_) copy_.gather(complex_, star_, v_);
-        gathered_ = true;
-        copy_.move(place);
-        return copy_.qualities([&](std::size_t i, float q) {
+        if (suspect < star_.size() && !accept(suspect, quality_of_tet(suspect, place)))
+            return false;
+        const auto keep = [&](std::size_t i, float q) {
             if (accept(i, q)) return true;
             complex_.keep_suspect(v_, i);
             return false;
-        });
+        };
+        // A copy does not pay for a single place.
+        if (++places_ == 1) return qualities(place, keep);
+        if (places_ == 2) copy_.gather(complex_, star_, v_);
+        copy_.move(place);
+        if (!copy_.qualities(keep)) return false;
+        least_square_ = copy_.least_mean_square();
+        return true;
     }
 
     /// Whether all tets are exactly positive at the place that was accepted last. `qualities` are
@@ -104,7 +109,7 @@ public:
     bool positive(const Vec3& place, std::span<const float> qualities) const {
         constexpr float clear = 1e-9F;
         constexpr double no_underflow = 1e-120;
-        if (copy_.least_mean_square() > no_underflow &&
+        if (least_square_ > no_underflow &&
             std::all_of(qualities.begin(), qualities.end(), [](float q) { return q > clear; }))
             return true;
         return std::all_of(star_.begin(), star_.end(), [&](TetId t) {
@@ -113,15 +118,31 @@ public:
     }
 
 private:
-    float quality(std::size_t i, const Vec3& place) const {
-        return static_cast<float>(quality_of(corners_at(complex_, star_[i], v_, place)));
+    geometry::TetShape shape(std::size_t i, const Vec3& place) const {
+        const auto p = corners_at(complex_, star_[i], v_, place);
+        return geometry::tet_shape(*p[0], *p[1], *p[2], *p[3]);
+    }
+    float quality_of_tet(std::size_t i, const Vec3& place) const {
+        return static_cast<float>(shape(i, place).quality);
+    }
+    template <class Accept>
+    bool qualities(const Vec3& place, const Accept& accept) {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < star_.size(); ++i) {
+            const geometry::TetShape tet = shape(i, place);
+            if (!accept(i, static_cast<float>(tet.quality))) return false;
+            least = std::min(least, tet.mean_square);
+        }
+        least_square_ = least;
+        return true;
     }
 
     const Complex& complex_;
     std::span<const TetId> star_;
     VertexId v_;
     StarCopy& copy_;
-    bool gathered_ = false;
+    unsigned places_ = 0;        // that passed the first test
+    double least_square_ = 0.0;  // of the mean squared edges at the last accepted place
 };
 
 }  // namespace dsc::mesh
