@@ -159,8 +159,7 @@ float radical_inverse(unsigned i) {
 std::array<Vec3f, 16 * occlusion_rays> occlusion_directions() {
     std::array<Vec3f, 16 * occlusion_rays> all;
     for (unsigned number = 0; number < all.size(); ++number) {
-        const float share =
-            (static_cast<float>(number) + 0.5F) / static_cast<float>(all.size());
+        const float share = (static_cast<float>(number) + 0.5F) / static_cast<float>(all.size());
         const float angle = 2.0F * std::numbers::pi_v<float> * radical_inverse(number);
         const float radius = std::sqrt(share);
         all[number] = {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1.0F - share)};

@@ -52,7 +52,7 @@ std::span<const TetId> RepairQueues::next_round(Workers* workers) {
     last_clock_ = complex_.clock();
     complex_.take_changes(dirty_);
     // Several threads look at the tets in advance; one thread looks at each when it comes to it.
-    const bool in_advance = workers != nullptr;
+    const bool in_advance = workers != nullptr && workers->threads() > 1;
     if (in_advance) find_alive(*workers);
     std::size_t offered = 0;
     constexpr std::size_t ahead = 16;

@@ -54,6 +54,8 @@ bool StarLoop::divide(std::span<const mesh::VertexId> vertices) {
         block.turns.clear();
         block.next = 0;
         block.prepared = false;
+        block.notes.clear();
+        block.settled = 0;
     }
     codes_.resize(std::max(codes_.size(), complex_.vertex_slots()), no_code);
     for (std::uint32_t turn = 0; turn < vertices.size(); ++turn) {

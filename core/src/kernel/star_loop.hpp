@@ -6,8 +6,8 @@
 // order of the list, until it comes to a vertex with a neighbour in another block that is earlier
 // in the list and has not been processed. Then the thread continues with the block that is farthest
 // behind. So each vertex sees the star that it would see in serial order, and no two threads use
-// the same tet at the same time. What depends on the number of earlier moves, which is their dates
-// and the action's books, follows in the order of the list.
+// the same tet at the same time. What depends on the number of earlier moves follows: the final
+// dates on all threads, the list of changes and the action's books in the order of the list.
 
 #include <array>
 #include <atomic>
@@ -68,15 +68,7 @@ public:
         } const forget{*this, vertices};
         const auto body = [&](std::size_t, std::size_t) { work(vertices, action); };
         for_blocks(workers, workers->threads(), 1, body);
-        for (std::uint32_t turn = 0; turn < vertices.size(); ++turn) {
-            if (turn + farther < vertices.size())
-                complex_.prefetch_star_entry(vertices[turn + farther]);
-            if (turn + far < vertices.size()) complex_.prefetch_star(vertices[turn + far]);
-            if (turn + near < vertices.size() && (marks_[turn + near] & moved) != 0)
-                complex_.prefetch_star_dates(vertices[turn + near]);
-            if ((marks_[turn] & moved) != 0) complex_.note_move(vertices[turn]);
-            action.settle(turn, (marks_[turn] & attempted) != 0, complex_.clock());
-        }
+        settle(vertices, *workers, action);
     }
 
 private:
@@ -95,7 +87,14 @@ private:
         bool prepared = false;             // scratch has the star and the neighbours of the next
         std::vector<std::uint32_t> turns;  // of the items, ascending
         StarScratch scratch;
+        mesh::Complex::MoveNotes notes;
+        std::size_t settled = 0;  // moves whose changes have been listed
 
+        // What the block's n-th move adds to the change list.
+        std::span<const mesh::TetId> changes_of(std::size_t n) const {
+            const std::size_t begin = n == 0 ? 0 : notes.ends[n - 1];
+            return std::span(notes.changed).subspan(begin, notes.ends[n] - begin);
+        }
         bool take() { return !taken.exchange(true, std::memory_order_acquire); }
         void give_back() { taken.store(false, std::memory_order_release); }
     };
@@ -197,13 +196,36 @@ private:
         return block.next > first;
     }
 
+    // What follows in the order of the list.
+    template <class Action>
+    void settle(std::span<const mesh::VertexId> vertices, Workers& workers, Action& action) {
+        numbers_.resize(vertices.size());
+        std::uint32_t moves = 0;
+        for (std::size_t turn = 0; turn < vertices.size(); ++turn) {
+            if ((marks_[turn] & moved) != 0) ++moves;
+            numbers_[turn] = moves;
+        }
+        workers.for_blocks(most_blocks, 1, [this](std::size_t block, std::size_t) {
+            complex_.settle_dates(blocks_[block].notes, numbers_);
+        });
+        const std::uint32_t clock = complex_.clock();
+        complex_.advance_clock(moves);
+        for (std::uint32_t turn = 0; turn < vertices.size(); ++turn) {
+            if ((marks_[turn] & moved) != 0) {
+                Block& block = blocks_[codes_[vertices[turn]] % most_blocks];
+                complex_.append_changes(block.changes_of(block.settled++));
+            }
+            action.settle(turn, (marks_[turn] & attempted) != 0, clock + numbers_[turn]);
+        }
+    }
+
     template <class Action>
     std::uint8_t run_next(Block& block, mesh::VertexId v, std::uint32_t i, Action& action) {
         StarScratch& scratch = block.scratch;
         if (!action.ready(i)) return 0;
         if (!action.attempt(i, scratch)) return attempted;
         complex_.place(v, scratch.place, scratch.star, scratch.qualities);
-        complex_.date_ahead(scratch.neighbours);
+        complex_.note_ahead(v, scratch.star, scratch.neighbours, i, block.notes);
         return attempted | moved;
     }
 
@@ -219,6 +241,7 @@ private:
     std::vector<std::uint32_t> codes_;  // per vertex: its turn and its block; no_code if it is not
                                         // in the list
     std::vector<std::uint8_t> marks_;   // per item
+    std::vector<std::uint32_t> numbers_;  // per item: the number of moves up to it
 };
 
 }  // namespace dsc::kernel

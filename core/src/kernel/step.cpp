@@ -99,10 +99,8 @@ std::size_t Deformer::State::smooth_from(std::size_t first, StepReport& report) 
     constexpr std::size_t ahead = 16;
     const bool large = complex.tet_slots() >= StarLoop::large;
     for (std::size_t i = first; i < requests.size() && plain_smoothing(requests[i]); ++i) {
-        if (large && i + ahead < requests.size() && requests[i + ahead].tet < complex.tet_slots()) {
+        if (large && i + ahead < requests.size() && requests[i + ahead].tet < complex.tet_slots())
             complex.prefetch(requests[i + ahead].tet);
-            complex.prefetch_birth_date(requests[i + ahead].tet);
-        }
         smoothed.push_back(requests[i].vertices[0]);
     }
     Smoothing action{*this, static_cast<std::uint32_t>(first), report};

@@ -21,7 +21,7 @@ double Complex::volume(TetId t) const {
 
 float Complex::least_quality() const {
     float least = no_quality;
-    for (const float q : qualities_) least = q < least ? q : least;
+    for (const TetData& tet : data_) least = tet.quality < least ? tet.quality : least;
     return least;
 }
 
@@ -48,16 +48,13 @@ TetId Complex::allocate_tet() {
     }
     const auto t = static_cast<TetId>(tets_.size());
     tets_.emplace_back();
-    labels_.push_back(0);
-    qualities_.push_back(0);
-    dates_.push_back(0);
-    birth_dates_.push_back(0);
+    data_.emplace_back();
     return t;
 }
 
 void Complex::touch(TetId t) {
-    if (dates_[t] <= taken_clock_) changes_.push_back(t);
-    dates_[t] = clock_;
+    if (data_[t].date <= taken_clock_) changes_.push_back(t);
+    data_[t].date = clock_;
     for (const VertexId v : tets_[t].v) vertices_[v].date = clock_;
 }
 
@@ -92,7 +89,7 @@ unsigned Complex::count_phases(VertexId v, std::span<const TetId> star) const {
             seen[count++] = label;
         }
     };
-    for (const TetId t : star) note(labels_[t]);
+    for (const TetId t : star) note(data_[t].label);
     if (on_box(v)) note(0);
     return count;
 }
@@ -107,7 +104,7 @@ void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star
     vertices_[v].position = position;
     for (const TetId t : star) {
         const auto& x = tets_[t].v;
-        qualities_[t] =
+        data_[t].quality =
             static_cast<float>(geometry::tet_quality(this->position(x[0]), this->position(x[1]),
                                                      this->position(x[2]), this->position(x[3])));
         touch(t);
@@ -117,7 +114,7 @@ void Complex::move(VertexId v, const Vec3& position, std::span<const TetId> star
 void Complex::place(VertexId v, const Vec3& position, std::span<const TetId> star,
                     std::span<const float> qualities) {
     vertices_[v].position = position;
-    for (std::size_t i = 0; i < star.size(); ++i) qualities_[star[i]] = qualities[i];
+    for (std::size_t i = 0; i < star.size(); ++i) data_[star[i]].quality = qualities[i];
 }
 
 // The vertices of a star are v and its neighbours. If the neighbours are known, each is dated once
@@ -130,28 +127,44 @@ void Complex::note_change(VertexId v, std::span<const TetId> star) {
         return;
     }
     for (const TetId t : star) {
-        if (dates_[t] <= taken_clock_) changes_.push_back(t);
-        dates_[t] = clock_;
+        if (data_[t].date <= taken_clock_) changes_.push_back(t);
+        data_[t].date = clock_;
     }
     vertices_[v].date = clock_;
     for (const VertexId w : neighbours) vertices_[w].date = clock_;
 }
 
-// Several threads may date the same vertex: they write the same value.
-void Complex::date_ahead(std::span<const VertexId> neighbours) {
-    for (const VertexId w : neighbours) {
-        const std::atomic_ref<std::uint32_t> date(vertices_[w].date);
-        date.store(clock_ + 1, std::memory_order_relaxed);
+void Complex::date_ahead(VertexId v, std::uint32_t date, MoveNotes& notes) {
+    // Moves at a distance of two edges may date the same vertex at the same time; the latest
+    // counts.
+    const std::atomic_ref<std::uint32_t> place(vertices_[v].date);
+    std::uint32_t before = place.load(std::memory_order_relaxed);
+    while (before < date) {
+        if (!place.compare_exchange_weak(before, date, std::memory_order_relaxed)) continue;
+        if (before <= clock_) notes.vertices.push_back(v);
+        return;
     }
 }
 
-void Complex::note_move(VertexId v) {
-    std::span<const TetId> star = stars_.tets(v);
-    if (star.empty()) {
-        walk_star(v, star_scratch_, places_);
-        star = star_scratch_;
+void Complex::note_ahead(VertexId v, std::span<const TetId> star,
+                         std::span<const VertexId> neighbours, std::uint32_t turn,
+                         MoveNotes& notes) {
+    const std::uint32_t date = clock_ + 1 + turn;
+    for (const TetId t : star) {
+        TetData& tet = data_[t];
+        if (tet.date <= clock_) notes.tets.push_back(t);
+        if (tet.date <= taken_clock_) notes.changed.push_back(t);
+        tet.date = date;
     }
-    note_change(v, star);
+    notes.ends.push_back(notes.changed.size());
+    date_ahead(v, date, notes);
+    for (const VertexId w : neighbours) date_ahead(w, date, notes);
+}
+
+void Complex::settle_dates(const MoveNotes& notes, std::span<const std::uint32_t> numbers) {
+    const auto settled = [&](std::uint32_t date) { return clock_ + numbers[date - clock_ - 1]; };
+    for (const TetId t : notes.tets) data_[t].date = settled(data_[t].date);
+    for (const VertexId v : notes.vertices) vertices_[v].date = settled(vertices_[v].date);
 }
 
 void Complex::relabel(std::span<const TetId> tets, Label label) {
@@ -159,7 +172,7 @@ void Complex::relabel(std::span<const TetId> tets, Label label) {
     places_.clear();
     relabelled_.clear();
     for (const TetId t : tets) {
-        labels_[t] = label;
+        data_[t].label = label;
         touch(t);
         for (const VertexId v : tets_[t].v) {
             if (places_.insert(v)) relabelled_.push_back(v);
@@ -179,7 +192,7 @@ bool Complex::find_relabelled(const Edit& edit) {
     const Label first = edit.added.empty() ? 0 : edit.added.front().label;
     const auto same = [first](Label label) { return label == first; };
     if (std::all_of(edit.removed.begin(), edit.removed.end(),
-                    [&](TetId t) { return same(labels_[t]); }) &&
+                    [&](TetId t) { return same(data_[t].label); }) &&
         std::all_of(edit.added.begin(), edit.added.end(),
                     [&](const NewTet& t) { return same(t.label); })) {
         return false;
@@ -199,8 +212,8 @@ bool Complex::find_relabelled(const Edit& edit) {
     const auto small = [](Label label) { return label >= 0 && label < 64; };
     bool exact = true;
     for (const TetId t : edit.removed) {
-        exact = exact && small(labels_[t]);
-        for (const VertexId v : tets_[t].v) note(v, labels_[t], 0);
+        exact = exact && small(data_[t].label);
+        for (const VertexId v : tets_[t].v) note(v, data_[t].label, 0);
     }
     for (const NewTet& tet : edit.added) {
         exact = exact && small(tet.label);
@@ -245,8 +258,8 @@ VertexId Complex::replace(Edit& edit) {
                 tets_[neighbour_tet(code)].n[neighbour_face(code)] = 4 * t + f;
             }
         }
-        labels_[t] = edit.added[i].label;
-        birth_dates_[t] = clock_;
+        data_[t].label = edit.added[i].label;
+        data_[t].birth_date = clock_;
         for (const VertexId v : tet.v) {
             vertices_[v].seed = t;
             shape_dates_[v] = clock_;
@@ -257,17 +270,17 @@ VertexId Complex::replace(Edit& edit) {
     for (std::size_t i = 0; i < edit.added.size(); ++i) {
         const TetId t = last_added_[i];
         const auto& x = tets_[t].v;
-        qualities_[t] = have_qualities
-                            ? edit.qualities[i]
-                            : static_cast<float>(geometry::tet_quality(
-                                  position(x[0]), position(x[1]), position(x[2]), position(x[3])));
+        data_[t].quality =
+            have_qualities ? edit.qualities[i]
+                           : static_cast<float>(geometry::tet_quality(
+                                 position(x[0]), position(x[1]), position(x[2]), position(x[3])));
         touch(t);
     }
     for (std::size_t i = edit.added.size(); i < edit.removed.size(); ++i) {
         const TetId t = edit.removed[i];
         tets_[t].v[0] = none;
-        qualities_[t] = no_quality;
-        birth_dates_[t] = clock_;
+        data_[t].quality = no_quality;
+        data_[t].birth_date = clock_;
         free_tets_.push_back(t);
     }
     if (edit.deleted != none) {
@@ -293,18 +306,16 @@ Complex Complex::assemble(std::vector<Vec3> points, std::vector<Tet> tets,
     c.shape_dates_.assign(c.vertices_.size(), 1);
     c.stars_.grow(c.vertices_.size());
     c.tets_ = std::move(tets);
-    c.labels_.assign(labels.begin(), labels.end());
     const std::size_t n = c.tets_.size();
-    c.qualities_.resize(n);
+    c.data_.resize(n);
     c.changes_.reserve(n);
-    c.dates_.assign(n, 0);
-    c.birth_dates_.assign(n, 1);
     c.clock_ = 1;
-    for_blocks(workers, n, assembled_tets, [&c](std::size_t begin, std::size_t end) {
+    for_blocks(workers, n, assembled_tets, [&c, labels](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
             const auto& v = c.tets_[t].v;
-            c.qualities_[t] = static_cast<float>(geometry::tet_quality(
-                c.position(v[0]), c.position(v[1]), c.position(v[2]), c.position(v[3])));
+            const double quality = geometry::tet_quality(c.position(v[0]), c.position(v[1]),
+                                                         c.position(v[2]), c.position(v[3]));
+            c.data_[t] = {static_cast<float>(quality), 0, 1, labels[t]};
         }
     });
     for (TetId t = 0; t < n; ++t) {
@@ -377,7 +388,7 @@ TetMesh Complex::to_mesh(std::vector<VertexId>* ids) const {
             }
         }
         if (odd) std::swap(v[2], v[3]);
-        rows.push_back({v, labels_[t]});
+        rows.push_back({v, data_[t].label});
     }
     std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
         auto x = a.v, y = b.v;

@@ -90,12 +90,17 @@ void Complex::cached_neighbours(VertexId v, std::span<const TetId> star, std::ve
         return;
     }
     scratch.clear();
-    out.clear();
+    scratch.insert(v);
+    // As in walk_star().
+    std::size_t count = 0;
     for (const TetId t : star) {
+        if (out.size() < count + 4) out.resize(2 * count + 64);
         for (const VertexId w : tets_[t].v) {
-            if (w != v && scratch.insert(w)) out.push_back(w);
+            out[count] = w;
+            count += scratch.insert(w) ? 1 : 0;
         }
     }
+    out.resize(count);
     sort_by_birth(out);
     stars_.keep_neighbours(v, star, out);
 }
@@ -117,7 +122,6 @@ void Complex::sort_by_birth(std::vector<VertexId>& list) const {
 }
 
 void Complex::walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) const {
-    out.clear();
     places.clear();
     // Kept in a register: the compiler cannot know that writing to the table does not change it.
     const Tet* const tets = tets_.data();
@@ -125,22 +129,28 @@ void Complex::walk_star(VertexId v, std::vector<TetId>& out, TetIndex& places) c
     places.insert(first);
     // Until the end `out` contains codes: the tet, and the face through which it was reached,
     // because nothing new lies behind that face. The first tet was reached through no face at v, so
-    // it has the face opposite v.
+    // it has the face opposite v. A code is written, and counts if its tet is new: a branch could
+    // not be predicted.
+    if (out.size() < 64) out.resize(64);
+    std::size_t count = 0;
     const auto visit = [&](std::uint32_t code) {
-        if (code == none || !places.insert(neighbour_tet(code))) return;
+        if (code == none) return;
         __builtin_prefetch(tets + neighbour_tet(code));  // its turn comes soon
-        out.push_back(code);
+        out[count] = code;
+        count += places.insert(neighbour_tet(code)) ? 1 : 0;
     };
     const unsigned own = index_of(tets[first], v);
-    out.push_back(4 * first + own);
+    out[count++] = 4 * first + own;
     for (unsigned f = 0; f < 4; ++f) {
         if (f != own) visit(tets[first].n[f]);
     }
-    for (std::size_t i = 1; i < out.size(); ++i) {
+    for (std::size_t i = 1; i < count; ++i) {
+        if (out.size() < count + 2) out.resize(2 * count);
         const Tet& tet = tets[neighbour_tet(out[i])];
         for (const unsigned f : other_corners[index_of(tet, v)][neighbour_face(out[i])])
             visit(tet.n[f]);
     }
+    out.resize(count);
     for (TetId& t : out) t = neighbour_tet(t);
 }
 
@@ -170,7 +180,9 @@ bool Complex::inner_ring(TetId t, VertexId a, VertexId b, std::size_t most, Edge
     out.tets.clear();
     out.link.clear();
     const auto [p, q] = opposite_edge(tets_[t], a, b);
-    const auto fits = [&](TetId r) { return out.tets.size() < most && labels_[r] == labels_[t]; };
+    const auto fits = [&](TetId r) {
+        return out.tets.size() < most && data_[r].label == data_[t].label;
+    };
     out.closed = walk_ring(tets_, t, a, b, p, q, out, fits) == RingEnd::closed;
     return out.closed;
 }

@@ -1,6 +1,8 @@
 #include "proposals.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <iterator>
 
 #include <dsc/geometry/quality.hpp>
 
@@ -72,10 +74,8 @@ std::uint8_t Proposals::look(const repair::RepairRound& round, mesh::TetId t) co
     const auto q = static_cast<double>(c.quality(t));
     if (q < limits_.min_tet_quality) found |= low_quality;
     if (q < limits_.smooth_below) {
-        for (unsigned k = 0; k < 4; ++k) {
-            if (!c.on_interface(v[k]) && !c.on_box(v[k]))
-                found |= static_cast<std::uint8_t>(to_smooth << k);
-        }
+        for (unsigned k = 0; k < 4; ++k)
+            found |= static_cast<std::uint8_t>((c.interior(v[k]) ? to_smooth : 0U) << k);
     }
     if (geometry::tet_volume(c.position(v[0]), c.position(v[1]), c.position(v[2]),
                              c.position(v[3])) < small_volume_of(round, t) &&
@@ -107,7 +107,7 @@ std::uint8_t Proposals::look(const repair::RepairRound& round, mesh::TetId t) co
     return found;
 }
 
-void Proposals::note_edges(const repair::RepairRound& round, mesh::TetId t) {
+void Proposals::note_edges(const repair::RepairRound& round, mesh::TetId t, Findings& out) const {
     const mesh::Complex& c = round.complex;
     for (unsigned f = 0; f < 4; ++f) {
         // Of the two tets at an interface face, the one with the larger label handles its edges.
@@ -120,14 +120,14 @@ void Proposals::note_edges(const repair::RepairRound& round, mesh::TetId t) {
             const double shortest = limits_.min_edge_length * target;
             if (length >= shortest && length <= limits_.max_edge_length * target) continue;
             if (c.birth(a) > c.birth(b)) std::swap(a, b);
-            auto& edges = length < shortest ? short_ : long_;
-            edges.push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / target),
-                             static_cast<std::uint32_t>(edges.size())});
+            auto& edges = length < shortest ? out.short_edges : out.long_edges;
+            edges.push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / target), 0});
         }
     }
 }
 
-void Proposals::note_free_edges(const repair::RepairRound& round, mesh::TetId t) {
+void Proposals::note_free_edges(const repair::RepairRound& round, mesh::TetId t,
+                                Findings& out) const {
     const mesh::Complex& c = round.complex;
     for (const auto& ends : mesh::edge_vertices) {
         mesh::VertexId a = c.tet(t).v[ends[0]], b = c.tet(t).v[ends[1]];
@@ -136,23 +136,54 @@ void Proposals::note_free_edges(const repair::RepairRound& round, mesh::TetId t)
         const double target = free_length(round, a, b);
         if (length <= limits_.max_free_edge * target) continue;
         if (c.birth(a) > c.birth(b)) std::swap(a, b);
-        free_long_.push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / target),
-                              static_cast<std::uint32_t>(free_long_.size())});
+        out.free_edges.push_back({c.birth(a), c.birth(b), a, b, t, quantised(length / target), 0});
     }
 }
 
-void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
+void Proposals::Findings::clear() {
+    low.clear();
+    small.clear();
+    short_edges.clear();
+    long_edges.clear();
+    free_edges.clear();
+    free.clear();
+}
+
+// Whether no tet earlier in the list is known to ask for this vertex; threads may ask together.
+bool Proposals::come_first(mesh::VertexId v, std::uint32_t place) {
+    const std::uint64_t own = visit_of(place);
+    const std::atomic_ref<std::uint64_t> first(first_[v]);
+    std::uint64_t known = first.load(std::memory_order_relaxed);
+    while (own < known) {
+        if (first.compare_exchange_weak(known, own, std::memory_order_relaxed)) return true;
+    }
+    return false;
+}
+
+void Proposals::find_in(const repair::RepairRound& round, std::uint32_t place, Findings& out) {
     const mesh::Complex& c = round.complex;
-    low_.clear();
-    small_.clear();
-    short_.clear();
-    long_.clear();
-    free_long_.clear();
-    free_.clear();
-    free_tets_.clear();
+    const mesh::TetId t = round.dirty[place];
+    const std::uint8_t found = look(round, t);
+    if ((found & low_quality) != 0)
+        out.low.push_back({quantised(static_cast<double>(c.quality(t))), t, 0});
+    for (unsigned k = 0; k < 4 && found >= to_smooth; ++k) {
+        const mesh::VertexId v = c.tet(t).v[k];
+        if ((found & to_smooth << k) != 0 && come_first(v, place))
+            out.free.push_back({v, t, place});
+    }
+    if ((found & small_volume) != 0)
+        out.small.push_back({quantised(c.volume(t) / small_volume_of(round, t)), t, 0});
+    if ((found & interface_edges) != 0) note_edges(round, t, out);
+    if ((found & free_edges) != 0) note_free_edges(round, t, out);
+}
+
+// Looks at the dirty tets in blocks, and joins what it finds in their order.
+void Proposals::find(const repair::RepairRound& round, Workers* workers) {
+    const std::size_t blocks = (round.dirty.size() + look_block - 1) / look_block;
+    if (blocks_.size() < blocks) blocks_.resize(blocks);
+    if (first_.size() < round.complex.vertex_slots())
+        first_.resize(round.complex.vertex_slots(), UINT64_MAX);
     ++visit_;
-    if (visited_.size() < c.vertex_slots()) visited_.resize(c.vertex_slots(), 0);
-    looks_.resize(round.dirty.size());
     struct Job {
         Proposals& proposals;
         const repair::RepairRound& round;
@@ -160,53 +191,60 @@ void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
     for_blocks(workers, round.dirty.size(), look_block, [&job](std::size_t begin, std::size_t end) {
         constexpr std::size_t near = 4, far = 16;  // how far ahead the memory is asked for data
         const std::span<const mesh::TetId> dirty = job.round.dirty;
+        Findings& found = job.proposals.blocks_[begin / look_block];
+        found.clear();
         for (std::size_t i = begin; i < end; ++i) {
             if (i + far < end) job.round.complex.prefetch(dirty[i + far]);
             if (i + near < end) job.round.complex.prefetch_vertices(dirty[i + near]);
-            job.proposals.looks_[i] = job.proposals.look(job.round, dirty[i]);
+            job.proposals.find_in(job.round, static_cast<std::uint32_t>(i), found);
         }
     });
-    for (std::size_t i = 0; i < round.dirty.size(); ++i) {
-        constexpr std::size_t near = 4, far = 16;
-        if (i + far < looks_.size() && looks_[i + far] != 0) c.prefetch(round.dirty[i + far]);
-        if (i + near < looks_.size() && (looks_[i + near] & all_but_smoothing) != 0)
-            c.prefetch_vertices(round.dirty[i + near]);
-        const mesh::TetId t = round.dirty[i];
-        const std::uint8_t found = looks_[i];
-        if ((found & low_quality) != 0)
-            low_.push_back({quantised(static_cast<double>(c.quality(t))), t,
-                            static_cast<std::uint32_t>(low_.size())});
-        for (unsigned k = 0; k < 4 && found >= to_smooth; ++k) {
-            const mesh::VertexId v = c.tet(t).v[k];
-            if ((found & to_smooth << k) == 0 || !first_visit(v)) continue;
-            free_.push_back(v);
-            free_tets_.push_back(t);
+    join(blocks);
+}
+
+void Proposals::join(std::size_t blocks) {
+    all_.clear();
+    const auto append = [](auto& to, const auto& from) {
+        for (auto entry : from) {
+            entry.order = static_cast<std::uint32_t>(to.size());
+            to.push_back(entry);
         }
-        if ((found & small_volume) != 0)
-            small_.push_back({quantised(c.volume(t) / small_volume_of(round, t)), t,
-                              static_cast<std::uint32_t>(small_.size())});
-        if ((found & interface_edges) != 0) note_edges(round, t);
-        if ((found & free_edges) != 0) note_free_edges(round, t);
+    };
+    for (const Findings& found : std::span(blocks_).first(blocks)) {
+        append(all_.low, found.low);
+        append(all_.small, found.small);
+        append(all_.short_edges, found.short_edges);
+        append(all_.long_edges, found.long_edges);
+        append(all_.free_edges, found.free_edges);
+        // A tet of an earlier block may have asked for the vertex afterwards.
+        std::copy_if(found.free.begin(), found.free.end(), std::back_inserter(all_.free),
+                     [this](const FreeEntry& entry) {
+                         return first_[entry.vertex] == visit_of(entry.place);
+                     });
     }
+}
+
+void Proposals::sort_out(const repair::RepairRound& round, Workers* workers) {
+    find(round, workers);
     // Total orders, so that a stable sort with its buffer is not needed.
     const auto by_key = [](const Entry& x, const Entry& y) {
         return x.key != y.key ? x.key < y.key : x.order < y.order;
     };
-    std::sort(low_.begin(), low_.end(), by_key);
-    std::sort(small_.begin(), small_.end(), by_key);
+    std::sort(all_.low.begin(), all_.low.end(), by_key);
+    std::sort(all_.small.begin(), all_.small.end(), by_key);
     const auto by_births = [](const EdgeEntry& x, const EdgeEntry& y) {
         return x.low != y.low     ? x.low < y.low
                : x.high != y.high ? x.high < y.high
                                   : x.order < y.order;
     };
-    for (auto* edges : {&short_, &long_, &free_long_}) {
+    for (auto* edges : {&all_.short_edges, &all_.long_edges, &all_.free_edges}) {
         std::sort(edges->begin(), edges->end(), by_births);
         edges->erase(std::unique(edges->begin(), edges->end(),
                                  [](const EdgeEntry& x, const EdgeEntry& y) {
                                      return x.low == y.low && x.high == y.high;
                                  }),
                      edges->end());
-        const bool ascending = edges == &short_;
+        const bool ascending = edges == &all_.short_edges;
         std::sort(edges->begin(), edges->end(), [&](const EdgeEntry& x, const EdgeEntry& y) {
             if (x.key != y.key) return ascending ? x.key < y.key : x.key > y.key;
             return by_births(x, y);
@@ -220,22 +258,26 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers,
     sort_out(round, workers);
     const double low = limits_.min_tet_quality, degenerate = limits_.degenerate_tet_quality;
     // 0. Long edges ahead of the interface, longest first: the next stages smooth the new vertices.
-    for (const EdgeEntry& edge : free_long_) {
+    for (const EdgeEntry& edge : all_.free_edges) {
         Request request = on_tet(c, edge.tet, Operation::edge_split, 2.0, 2.0);
         request.vertices = {edge.a, edge.b, mesh::none};
         out.push_back(request);
     }
     // 1. Free vertices move to the mean of their neighbours.
-    for (std::size_t i = 0; i < free_.size(); ++i) {
+    const std::size_t first = out.size();
+    out.resize(first + all_.free.size());
+    for_blocks(workers, all_.free.size(), look_block, [&](std::size_t begin, std::size_t end) {
         constexpr std::size_t ahead = 16;
-        if (i + ahead < free_.size()) c.prefetch_birth_date(free_tets_[i + ahead]);
-        Request request = on_tet(c, free_tets_[i], Operation::smooth_laplacian, 2.0, 2.0);
-        request.vertices[0] = free_[i];
-        out.push_back(request);
-    }
+        for (std::size_t i = begin; i < end; ++i) {
+            if (i + ahead < end) c.prefetch(all_.free[i + ahead].tet);
+            Request& request = out[first + i];
+            request = on_tet(c, all_.free[i].tet, Operation::smooth_laplacian, 2.0, 2.0);
+            request.vertices[0] = all_.free[i].vertex;
+        }
+    });
     // 2. Bad tets, worst first: edges, interface diagonals, faces, then their free vertices one by
     // one.
-    for (const Entry& entry : low_) {
+    for (const Entry& entry : all_.low) {
         out.push_back(on_tet(c, entry.tet, Operation::edge_removal, low, 2.0));
         out.push_back(on_tet(c, entry.tet, Operation::interface_flip, low, 2.0));
         out.push_back(on_tet(c, entry.tet, Operation::face_removal, low, 2.0));
@@ -248,7 +290,7 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers,
     }
     // 3. Tets that are still degenerate: collapse without loss, by shape, within the bounds; split
     // long edges.
-    for (const Entry& entry : low_) {
+    for (const Entry& entry : all_.low) {
         if (static_cast<double>(c.quality(entry.tet)) >= degenerate) break;
         out.push_back(on_tet(c, entry.tet, Operation::edge_collapse, degenerate, low));
         out.push_back(on_tet(c, entry.tet, Operation::compound, degenerate, degenerate));
@@ -258,20 +300,20 @@ void Proposals::write(const repair::RepairRound& round, Workers* workers,
         out.push_back(on_tet(c, entry.tet, Operation::relabel, degenerate, degenerate));
     }
     // 4. Sizes: short interface edges, long ones that are not flat, small tets.
-    for (const EdgeEntry& edge : short_) {
+    for (const EdgeEntry& edge : all_.short_edges) {
         Request request = on_tet(c, edge.tet, Operation::edge_collapse, 2.0, degenerate);
         request.vertices = {edge.a, edge.b, mesh::none};
         request.mode = CollapseMode::bounded;
         out.push_back(request);
     }
-    for (const EdgeEntry& edge : long_) {
+    for (const EdgeEntry& edge : all_.long_edges) {
         c.ring(edge.tet, edge.a, edge.b, ring_);
         if (!ring_.closed || edge_is_flat(c, ring_, edge.a, edge.b, round.flatness)) continue;
         Request request = on_tet(c, edge.tet, Operation::edge_split, 2.0, 2.0);
         request.vertices = {edge.a, edge.b, mesh::none};
         out.push_back(request);
     }
-    for (const Entry& entry : small_)
+    for (const Entry& entry : all_.small)
         out.push_back(on_tet(c, entry.tet, Operation::edge_collapse, 2.0, low));
     // 5. Shapes and sizes of single edges, faces and tets, if their thresholds are set.
     shapes_.write(round, {static_cast<float>(degenerate), static_cast<float>(low)}, out);

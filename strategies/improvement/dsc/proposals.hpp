@@ -49,31 +49,45 @@ private:
     // The findings of look(); to_smooth << k means vertex k of the tet.
     static constexpr std::uint8_t small_volume = 1, interface_edges = 2, free_edges = 4,
                                   low_quality = 8, to_smooth = 16;
-    static constexpr std::uint8_t all_but_smoothing = to_smooth - 1;
     static constexpr std::size_t look_block = 2048;  // tets
 
+    // A free vertex and the first dirty tet that asks for its smoothing.
+    struct FreeEntry {
+        mesh::VertexId vertex;
+        mesh::TetId tet;
+        std::uint32_t place;  // of the tet in the list of dirty tets
+    };
+    // What is found in some of the dirty tets, in their order.
+    struct Findings {
+        std::vector<Entry> low, small;
+        std::vector<EdgeEntry> short_edges, long_edges, free_edges;
+        std::vector<FreeEntry> free;
+        void clear();
+    };
+
+    void find(const repair::RepairRound& round, Workers* workers);
+    void find_in(const repair::RepairRound& round, std::uint32_t place, Findings& out);
+    void join(std::size_t blocks);
     void sort_out(const repair::RepairRound& round, Workers* workers);
     double small_volume_of(const repair::RepairRound& round, mesh::TetId t) const;
     static bool may_thin_out(const repair::RepairRound& round, mesh::TetId t);
     static double free_length(const repair::RepairRound& round, mesh::VertexId a, mesh::VertexId b);
     std::uint8_t look(const repair::RepairRound& round, mesh::TetId t) const;
-    void note_edges(const repair::RepairRound& round, mesh::TetId t);
-    void note_free_edges(const repair::RepairRound& round, mesh::TetId t);
-    bool first_visit(mesh::VertexId v) {
-        const bool first = visited_[v] != visit_;
-        visited_[v] = visit_;
-        return first;
+    void note_edges(const repair::RepairRound& round, mesh::TetId t, Findings& out) const;
+    void note_free_edges(const repair::RepairRound& round, mesh::TetId t, Findings& out) const;
+    bool come_first(mesh::VertexId v, std::uint32_t place);
+    std::uint64_t visit_of(std::uint32_t place) const {
+        return std::uint64_t{~visit_} << 32U | place;
     }
 
     Thresholds limits_;
     ShapeProposals shapes_;
-    std::vector<std::uint8_t> looks_;  // one per dirty tet
-    std::vector<Entry> low_, small_;
-    std::vector<EdgeEntry> short_, long_, free_long_;
-    std::vector<mesh::VertexId> free_;
-    std::vector<mesh::TetId> free_tets_;
+    std::vector<Findings> blocks_;
+    Findings all_;
     mesh::EdgeRing ring_;
-    std::vector<std::uint32_t> visited_;
+    // Per vertex: the first dirty tet of the last round that asks for its smoothing. The number of
+    // the round is complemented, so that any tet of a later round comes before those of this one.
+    std::vector<std::uint64_t> first_;
     std::uint32_t visit_ = 0;
 };
 

@@ -111,16 +111,16 @@ public:
 
     const Vec3& position(VertexId v) const { return vertices_[v].position; }
     const Tet& tet(TetId t) const { return tets_[t]; }
-    Label label(TetId t) const { return labels_[t]; }
+    Label label(TetId t) const { return data_[t].label; }
     /// Volume-length quality in (0, 1], cached.
-    float quality(TetId t) const { return qualities_[t]; }
-    /// Least quality of all tets; 2 if there is no tet. Reads 4 bytes per tet.
+    float quality(TetId t) const { return data_[t].quality; }
+    /// Least quality of all tets; 2 if there is no tet. Reads 16 bytes per tet.
     float least_quality() const;
     /// Value of the change clock when the tet was last made, moved or relabelled.
-    std::uint32_t date(TetId t) const { return dates_[t]; }
+    std::uint32_t date(TetId t) const { return data_[t].date; }
     /// Value of the change clock when the tet's slot was last filled; it differs if another tet
     /// took the slot.
-    std::uint32_t birth_date(TetId t) const { return birth_dates_[t]; }
+    std::uint32_t birth_date(TetId t) const { return data_[t].birth_date; }
     /// Value of the change clock when a tet of the vertex' star last changed.
     std::uint32_t vertex_date(VertexId v) const { return vertices_[v].date; }
     /// Value of the change clock when a tet of the vertex' star was last made, removed or
@@ -140,24 +140,29 @@ public:
     unsigned phases(VertexId v) const { return vertices_[v].phases; }
     bool on_interface(VertexId v) const { return vertices_[v].phases > 1; }
     /// On the interface, not on the box, exactly two labels.
-    bool movable(VertexId v) const { return vertices_[v].phases == 2 && vertices_[v].on_box == 0; }
+    bool movable(VertexId v) const {
+        return ((vertices_[v].phases ^ 2U) | vertices_[v].on_box) == 0;
+    }
+    /// Neither on the interface nor on the box.
+    bool interior(VertexId v) const {
+        return ((vertices_[v].phases & 2U) | vertices_[v].on_box) == 0;
+    }
     /// All interface vertices, in unspecified order (sort by birth).
     std::span<const VertexId> interface_vertices() const { return interface_; }
     /// Label on the other side of face i: that of the neighbour, or 0 outside the box.
     Label label_across(TetId t, unsigned face) const {
         const std::uint32_t code = tets_[t].n[face];
-        return code == none ? 0 : labels_[neighbour_tet(code)];
+        return code == none ? 0 : data_[neighbour_tet(code)].label;
     }
     bool interface_face(TetId t, unsigned face) const {
-        return labels_[t] != label_across(t, face);
+        return data_[t].label != label_across(t, face);
     }
     double volume(TetId t) const;
     /// Asks the memory for a tet that will be read soon, or for the vertices of one that is there
     /// already. A loop over many tets in no order of memory otherwise waits for each of them.
     void prefetch(TetId t) const {
         __builtin_prefetch(&tets_[t]);
-        __builtin_prefetch(&labels_[t]);
-        __builtin_prefetch(&qualities_[t]);
+        __builtin_prefetch(&data_[t]);
     }
     void prefetch_vertices(TetId t) const {
         for (const VertexId v : tets_[t].v) {
@@ -165,19 +170,13 @@ public:
         }
     }
 
-    void prefetch_birth_date(TetId t) const { __builtin_prefetch(&birth_dates_[t]); }
     /// The same for a star: first where it is stored, then its ids, then its tets and neighbours as
-    /// far as they are stored, or only their dates. Each call needs what the one before has
-    /// fetched.
+    /// far as they are stored. Each call needs what the one before has fetched.
     void prefetch_star_entry(VertexId v) const { stars_.prefetch(v); }
     void prefetch_star(VertexId v) const { __builtin_prefetch(stars_.tets(v).data()); }
     void prefetch_star_tets(VertexId v) const {
         for (const TetId t : stars_.tets(v)) prefetch(t);
         for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w]);
-    }
-    void prefetch_star_dates(VertexId v) const {
-        for (const TetId t : stars_.tets(v)) __builtin_prefetch(&dates_[t]);
-        for (const VertexId w : stars_.neighbours(v)) __builtin_prefetch(&vertices_[w].date);
     }
 
     // ---- walks ----------------------------------------------------------------------------------
@@ -226,13 +225,39 @@ public:
         place(v, position, star, qualities);
         note_change(v, star);
     }
-    /// The parts of move(), for several vertices. place() may run in parallel if no other thread
-    /// uses the star meanwhile, and date_ahead() gives the neighbours a date that is later than all
-    /// before [parallel]. Then note_move() does the rest, in the order of the moves [step].
+
+    // The parts of move(), for several vertices at the same time. The moves have numbers in an
+    // order, the turns; those that share a tet must be made in this order. The result is that of
+    // move() for each, in this order.
+    /// What the moves of one block have changed, in the order of their turns.
+    struct MoveNotes {
+        std::vector<TetId> tets;         // with provisional dates that this block gave first
+        std::vector<VertexId> vertices;  // the same
+        std::vector<TetId> changed;      // for the change list
+        std::vector<std::size_t> ends;   // per move: the size of `changed` after it
+        void clear() {
+            tets.clear();
+            vertices.clear();
+            changed.clear();
+            ends.clear();
+        }
+    };
+    /// Places the vertex. [parallel] if no other thread uses the star meanwhile.
     void place(VertexId v, const Vec3& position, std::span<const TetId> star,
                std::span<const float> qualities);
-    void date_ahead(std::span<const VertexId> neighbours);
-    void note_move(VertexId v);
+    /// Notes that it was moved: gives its star provisional dates above the change clock, in the
+    /// order of the turns. [parallel] as place(), with one object of notes per thread.
+    void note_ahead(VertexId v, std::span<const TetId> star, std::span<const VertexId> neighbours,
+                    std::uint32_t turn, MoveNotes& notes);
+    /// After all moves: replaces the provisional dates. `numbers` has one entry per turn: the
+    /// number of moves up to it. [parallel] for different notes.
+    void settle_dates(const MoveNotes& notes, std::span<const std::uint32_t> numbers);
+    /// Then: advances the clock by the number of moves. [step]
+    void advance_clock(std::uint32_t moves) { clock_ += moves; }
+    /// Continues the change list, in the order of the turns. [step]
+    void append_changes(std::span<const TetId> changed) {
+        changes_.insert(changes_.end(), changed.begin(), changed.end());
+    }
     /// Gives tets another label. [step]
     void relabel(std::span<const TetId> tets, Label label);
 
@@ -274,9 +299,19 @@ private:
     static_assert(sizeof(Vertex) == 40);
     static constexpr std::uint32_t no_slot = (1U << 29U) - 1;
 
+    // Together, because what reads one of them nearly always reads or writes another.
+    struct alignas(16) TetData {
+        float quality = 0.0F;
+        std::uint32_t date = 0;
+        std::uint32_t birth_date = 0;
+        Label label = 0;
+    };
+    static_assert(sizeof(TetData) == 16);
+
     VertexId allocate_vertex(const Vec3& position);
     TetId allocate_tet();
     void note_change(VertexId v, std::span<const TetId> star);
+    void date_ahead(VertexId v, std::uint32_t date, MoveNotes& notes);
     void touch(TetId t);
     bool find_relabelled(const Edit& edit);
     unsigned count_phases(VertexId v, std::span<const TetId> star) const;
@@ -287,10 +322,7 @@ private:
 
     std::vector<Vertex> vertices_;
     std::vector<Tet> tets_;
-    std::vector<Label> labels_;
-    std::vector<float> qualities_;
-    std::vector<std::uint32_t> dates_;
-    std::vector<std::uint32_t> birth_dates_;
+    std::vector<TetData> data_;               // per tet
     std::vector<std::uint32_t> shape_dates_;  // per vertex
     std::vector<VertexId> free_vertices_;
     std::vector<TetId> free_tets_;

@@ -64,8 +64,8 @@ private:
             (dot(ab, ab) + dot(ac, ac) + dot(ad, ad) + dot(bc, bc) + dot(bd, bd) + dot(cd, cd)) /
             6.0;
         least_square = least_square.min(mean_square);
-        const Two value = 1.4142135623730951 * dot(cross(ab, ac), ad) /
-                          (mean_square * mean_square.sqrt());
+        const Two value =
+            1.4142135623730951 * dot(cross(ab, ac), ad) / (mean_square * mean_square.sqrt());
         return (mean_square > 0.0).select(value, Two::Zero());
     }
 

@@ -27,12 +27,14 @@ public:
 
     /// Gives t the next place. False if t already has a place.
     bool insert(std::uint32_t t) {
+        // Without a branch on whether t is new, because the processor cannot guess that.
         const std::size_t at = slot_of(t);
-        if (keys_[at] == (stamp_ | t)) return false;
+        const bool is_new = keys_[at] != (stamp_ | t);
         keys_[at] = stamp_ | t;
-        places_[at] = size_++;
+        places_[at] = is_new ? size_ : places_[at];
+        size_ += is_new ? 1 : 0;
         if (2 * size_ > keys_.size()) grow();
-        return true;
+        return is_new;
     }
     /// Place of t; `absent` if it has none.
     std::uint32_t find(std::uint32_t t) const {
