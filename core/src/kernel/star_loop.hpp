@@ -76,6 +76,7 @@ private:
     static constexpr std::size_t most_blocks = std::size_t{1} << most_levels;
     static constexpr std::uint32_t no_code = 0xffffffffU;
     static constexpr std::uint8_t attempted = 1, moved = 2;
+    static constexpr std::size_t dated = 4096;  // tets that a thread dates at a time
     static constexpr std::size_t near = 2, far = 6, farther = 12;  // how far ahead the memory is
                                                                    // asked for data
 
@@ -205,18 +206,21 @@ private:
             if ((marks_[turn] & moved) != 0) ++moves;
             numbers_[turn] = moves;
         }
-        workers.for_blocks(most_blocks, 1, [this](std::size_t block, std::size_t) {
-            complex_.settle_dates(blocks_[block].notes, numbers_);
-        });
-        const std::uint32_t clock = complex_.clock();
-        complex_.advance_clock(moves);
         for (std::uint32_t turn = 0; turn < vertices.size(); ++turn) {
             if ((marks_[turn] & moved) != 0) {
                 Block& block = blocks_[codes_[vertices[turn]] % most_blocks];
                 complex_.append_changes(block.changes_of(block.settled++));
             }
-            action.settle(turn, (marks_[turn] & attempted) != 0, clock + numbers_[turn]);
+            action.settle(turn, (marks_[turn] & attempted) != 0, complex_.clock() + numbers_[turn]);
         }
+        workers.for_blocks(complex_.changes().size(), dated,
+                           [this](std::size_t begin, std::size_t end) {
+                               complex_.settle_tet_dates(begin, end, numbers_);
+                           });
+        workers.for_blocks(most_blocks, 1, [this](std::size_t block, std::size_t) {
+            complex_.settle_vertex_dates(blocks_[block].notes, numbers_);
+        });
+        complex_.advance_clock(moves);
     }
 
     template <class Action>

@@ -152,19 +152,29 @@ void Complex::note_ahead(VertexId v, std::span<const TetId> star,
     const std::uint32_t date = clock_ + 1 + turn;
     for (const TetId t : star) {
         TetData& tet = data_[t];
-        if (tet.date <= clock_) notes.tets.push_back(t);
         if (tet.date <= taken_clock_) notes.changed.push_back(t);
         tet.date = date;
     }
-    notes.ends.push_back(notes.changed.size());
+    notes.ends.push_back(static_cast<std::uint32_t>(notes.changed.size()));
     date_ahead(v, date, notes);
     for (const VertexId w : neighbours) date_ahead(w, date, notes);
 }
 
-void Complex::settle_dates(const MoveNotes& notes, std::span<const std::uint32_t> numbers) {
-    const auto settled = [&](std::uint32_t date) { return clock_ + numbers[date - clock_ - 1]; };
-    for (const TetId t : notes.tets) data_[t].date = settled(data_[t].date);
-    for (const VertexId v : notes.vertices) vertices_[v].date = settled(vertices_[v].date);
+void Complex::settle_tet_dates(std::size_t begin, std::size_t end,
+                               std::span<const std::uint32_t> numbers) {
+    constexpr std::size_t ahead = 16;
+    for (std::size_t i = begin; i < end; ++i) {
+        if (i + ahead < end) __builtin_prefetch(&data_[changes_[i + ahead]]);
+        std::uint32_t& date = data_[changes_[i]].date;
+        if (date > clock_) date = clock_ + numbers[date - clock_ - 1];
+    }
+}
+
+void Complex::settle_vertex_dates(const MoveNotes& notes, std::span<const std::uint32_t> numbers) {
+    for (const VertexId v : notes.vertices) {
+        std::uint32_t& date = vertices_[v].date;
+        date = clock_ + numbers[date - clock_ - 1];
+    }
 }
 
 void Complex::relabel(std::span<const TetId> tets, Label label) {

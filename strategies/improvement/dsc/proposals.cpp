@@ -177,33 +177,43 @@ void Proposals::find_in(const repair::RepairRound& round, std::uint32_t place, F
     if ((found & free_edges) != 0) note_free_edges(round, t, out);
 }
 
-// Looks at the dirty tets in blocks, and joins what it finds in their order.
+// Looks at the dirty tets in blocks, and joins what it finds in their order; at many blocks in
+// turn, so that their findings do not fill the memory.
 void Proposals::find(const repair::RepairRound& round, Workers* workers) {
-    const std::size_t blocks = (round.dirty.size() + look_block - 1) / look_block;
-    if (blocks_.size() < blocks) blocks_.resize(blocks);
     if (first_.size() < round.complex.vertex_slots())
         first_.resize(round.complex.vertex_slots(), UINT64_MAX);
     ++visit_;
+    all_.clear();
+    blocks_.resize(looked_blocks);
     struct Job {
         Proposals& proposals;
         const repair::RepairRound& round;
-    } const job{*this, round};
-    for_blocks(workers, round.dirty.size(), look_block, [&job](std::size_t begin, std::size_t end) {
-        constexpr std::size_t near = 4, far = 16;  // how far ahead the memory is asked for data
-        const std::span<const mesh::TetId> dirty = job.round.dirty;
-        Findings& found = job.proposals.blocks_[begin / look_block];
-        found.clear();
-        for (std::size_t i = begin; i < end; ++i) {
-            if (i + far < end) job.round.complex.prefetch(dirty[i + far]);
-            if (i + near < end) job.round.complex.prefetch_vertices(dirty[i + near]);
-            job.proposals.find_in(job.round, static_cast<std::uint32_t>(i), found);
-        }
-    });
-    join(blocks);
+        std::size_t start;
+    };
+    for (std::size_t start = 0; start < round.dirty.size(); start += looked_blocks * look_block) {
+        const std::size_t count = std::min(looked_blocks * look_block, round.dirty.size() - start);
+        const Job job{*this, round, start};
+        for_blocks(workers, count, look_block, [&job](std::size_t begin, std::size_t end) {
+            job.proposals.find_in_block(job.round, job.start + begin, job.start + end,
+                                        job.proposals.blocks_[begin / look_block]);
+        });
+        join((count + look_block - 1) / look_block);
+    }
 }
 
+void Proposals::find_in_block(const repair::RepairRound& round, std::size_t begin, std::size_t end,
+                              Findings& found) {
+    constexpr std::size_t near = 4, far = 16;  // how far ahead the memory is asked for data
+    found.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+        if (i + far < end) round.complex.prefetch(round.dirty[i + far]);
+        if (i + near < end) round.complex.prefetch_vertices(round.dirty[i + near]);
+        find_in(round, static_cast<std::uint32_t>(i), found);
+    }
+}
+
+// Appends what is in the first blocks.
 void Proposals::join(std::size_t blocks) {
-    all_.clear();
     const auto append = [](auto& to, const auto& from) {
         for (auto entry : from) {
             entry.order = static_cast<std::uint32_t>(to.size());

@@ -49,7 +49,8 @@ private:
     // The findings of look(); to_smooth << k means vertex k of the tet.
     static constexpr std::uint8_t small_volume = 1, interface_edges = 2, free_edges = 4,
                                   low_quality = 8, to_smooth = 16;
-    static constexpr std::size_t look_block = 2048;  // tets
+    static constexpr std::size_t look_block = 2048;    // tets
+    static constexpr std::size_t looked_blocks = 128;  // before their findings are joined
 
     // A free vertex and the first dirty tet that asks for its smoothing.
     struct FreeEntry {
@@ -67,6 +68,8 @@ private:
 
     void find(const repair::RepairRound& round, Workers* workers);
     void find_in(const repair::RepairRound& round, std::uint32_t place, Findings& out);
+    void find_in_block(const repair::RepairRound& round, std::size_t begin, std::size_t end,
+                       Findings& found);
     void join(std::size_t blocks);
     void sort_out(const repair::RepairRound& round, Workers* workers);
     double small_volume_of(const repair::RepairRound& round, mesh::TetId t) const;

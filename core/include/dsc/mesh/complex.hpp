@@ -231,12 +231,10 @@ public:
     // move() for each, in this order.
     /// What the moves of one block have changed, in the order of their turns.
     struct MoveNotes {
-        std::vector<TetId> tets;         // with provisional dates that this block gave first
-        std::vector<VertexId> vertices;  // the same
-        std::vector<TetId> changed;      // for the change list
-        std::vector<std::size_t> ends;   // per move: the size of `changed` after it
+        std::vector<VertexId> vertices;   // with provisional dates that this block gave first
+        std::vector<TetId> changed;       // for the change list
+        std::vector<std::uint32_t> ends;  // per move: the size of `changed` after it
         void clear() {
-            tets.clear();
             vertices.clear();
             changed.clear();
             ends.clear();
@@ -249,15 +247,18 @@ public:
     /// order of the turns. [parallel] as place(), with one object of notes per thread.
     void note_ahead(VertexId v, std::span<const TetId> star, std::span<const VertexId> neighbours,
                     std::uint32_t turn, MoveNotes& notes);
-    /// After all moves: replaces the provisional dates. `numbers` has one entry per turn: the
-    /// number of moves up to it. [parallel] for different notes.
-    void settle_dates(const MoveNotes& notes, std::span<const std::uint32_t> numbers);
-    /// Then: advances the clock by the number of moves. [step]
-    void advance_clock(std::uint32_t moves) { clock_ += moves; }
-    /// Continues the change list, in the order of the turns. [step]
+    /// After all moves: continues the change list, in the order of the turns. [step]
     void append_changes(std::span<const TetId> changed) {
         changes_.insert(changes_.end(), changed.begin(), changed.end());
     }
+    /// Then: replaces the provisional dates, those of the tets in a part of the change list and
+    /// those of the vertices. `numbers` has one entry per turn: the number of moves up to it.
+    /// [parallel] for different parts and notes.
+    void settle_tet_dates(std::size_t begin, std::size_t end,
+                          std::span<const std::uint32_t> numbers);
+    void settle_vertex_dates(const MoveNotes& notes, std::span<const std::uint32_t> numbers);
+    /// At last: advances the clock by the number of moves. [step]
+    void advance_clock(std::uint32_t moves) { clock_ += moves; }
     /// Gives tets another label. [step]
     void relabel(std::span<const TetId> tets, Label label);
 
